@@ -1,0 +1,13 @@
+#pragma once
+#include <cstdint>
+
+namespace gnomon {
+
+/// Draws mesh number `mesh` of the MeshLibrary that the systems were given.
+struct MeshRef {
+    std::uint32_t mesh = 0;
+    bool visible = true;             // false: not drawn for any camera; still casts if a ShadowCaster
+    bool receives_shadow = true;     // false: always fully lit by every light
+};
+
+}  // namespace gnomon

@@ -1,0 +1,119 @@
+#pragma once
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string>
+#include <vector>
+
+#include "engine/math/aabb.h"
+
+/// A scene as neutral data: what a file holds, before any entity exists.
+namespace gnomon::assets {
+
+inline constexpr std::int32_t kNone = -1;
+
+/// Matches the device's "mesh" vertex layout: 32 bytes.
+struct Vertex {
+    glm::vec3 position_ms{0.0f};
+    glm::vec3 normal_ms{0.0f};  // unit, or zero where none can be had (degenerate)
+    glm::vec2 uv{0.0f};         // glTF convention: v down
+    bool operator==(const Vertex&) const = default;
+};
+static_assert(sizeof(Vertex) == 32);
+
+struct Submesh {
+    std::uint32_t first_index = 0, index_count = 0;  // triangles
+    std::uint32_t material = 0;
+};
+
+/// What OpenMesh found, over positions welded by identical bits.
+struct Topology {
+    bool closed = false;              // no boundary edge, no non-manifold edge, at least one face, consistently oriented
+    std::uint32_t boundary_edges = 0;
+    std::uint32_t non_manifold_edges = 0;  // edges shared by more than two faces or with inconsistent winding
+    std::uint32_t degenerate_faces = 0;    // zero area or repeated (welded) vertices
+    std::uint32_t components = 0;
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;  // triangle list; every index < vertices.size()
+    std::vector<Submesh> submeshes;      // cover indices in order, without gaps
+    math::Aabb bounds_ms;                // recomputed, never the file's
+    Topology topology;
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    glm::vec4 base_colour{1.0f};          // linear
+    std::int32_t base_colour_texture = kNone;
+    glm::vec3 emissive{0.0f};
+    float metallic = 1.0f, roughness = 1.0f;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+};
+
+enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
+struct Texture {
+    std::string name;
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;       // sRGB colour, linear alpha; first row is v = 0 (top, as in the file)
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    bool linear_filter = true;
+};
+
+enum class CameraKind : std::uint8_t { perspective, orthographic };
+struct CameraData {
+    std::string name;
+    CameraKind kind = CameraKind::perspective;
+    double fov_y_rad = 0.9, half_height_m = 5.0, near_m = 0.05, far_m = 0.0;  // far 0: infinite
+};
+
+enum class LightType : std::uint8_t { directional, spot, point };
+struct LightData {
+    std::string name;
+    LightType type = LightType::point;
+    glm::vec3 colour{1.0f};
+    float intensity = 1.0f, range_m = 0.0f, inner_cone_rad = 0.0f, outer_cone_rad = 0.785398163f;
+    bool casts_shadow = true;             // extras.shadow of the light or its node
+};
+
+/// A node. Parents come before children.
+struct Node {
+    std::string name;
+    std::int32_t parent = kNone;
+    glm::dvec3 translation_m{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 scale{1.0};
+    std::int32_t mesh = kNone, camera = kNone, light = kNone;
+    bool casts_shadow = true;     // extras.castShadow
+    bool receives_shadow = true;  // extras.receiveShadow
+    bool visible = true;          // extras.visible
+    /// extras.motion: a moving caster or light, run by the sample game. kind "" is still.
+    /// "spin": turns about `axis` once per period_s. "swing": turns to and fro by amplitude (rad) about `axis`.
+    /// "slide": moves to and fro by amplitude (m) along `axis`.
+    struct Motion {
+        std::string kind;
+        glm::dvec3 axis{0.0, 1.0, 0.0};
+        double amplitude = 0.0, period_s = 1.0, phase = 0.0;  // phase in turns
+    } motion;
+};
+
+struct SceneData {
+    std::string name;
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;      // at least one; a mesh without material uses a default one
+    std::vector<Texture> textures;
+    std::vector<CameraData> cameras;
+    std::vector<LightData> lights;
+    std::vector<std::string> warnings;    // one line each: missing texture, unsupported mode, …
+};
+
+}  // namespace gnomon::assets

@@ -1,0 +1,233 @@
+#pragma once
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "engine/ecs/entity.h"
+
+/// A small entity registry: sparse sets, versioned ids, views, and change lists.
+namespace gnomon::ecs {
+
+enum class ChangeKind : std::uint8_t { added, changed, removed };
+
+/// One entry of a component type's log.
+struct Change {
+    Entity entity;
+    ChangeKind kind = ChangeKind::changed;
+    bool operator==(const Change&) const = default;
+};
+
+/// Where a reader stands in a component type's log. A default cursor has read nothing.
+struct ChangeCursor {
+    std::uint64_t next = 0;
+};
+
+/// What a reader gets: the entries since its cursor, or `complete == false` if some were discarded before it
+/// read them; it must then look at every component afresh.
+struct Changes {
+    std::span<const Change> entries;
+    bool complete = true;
+};
+
+namespace detail {
+
+class StorageBase {
+public:
+    virtual ~StorageBase() = default;
+    virtual void erase(Entity e) = 0;
+
+    bool contains(Entity e) const { return e.index < sparse_.size() && sparse_[e.index] != kAbsent && entities_[sparse_[e.index]] == e; }
+    const std::vector<Entity>& entities() const { return entities_; }
+
+    void log(Entity e, ChangeKind kind) { log_.push_back({e, kind}); }
+    Changes since(ChangeCursor& cursor) const {
+        const std::uint64_t end = first_ + log_.size();
+        const bool complete = cursor.next >= first_;
+        const std::uint64_t from = std::clamp(cursor.next, first_, end);
+        cursor.next = end;
+        return {std::span(log_).subspan(static_cast<std::size_t>(from - first_)), complete};
+    }
+    void discard_log() {
+        first_ += log_.size();
+        log_.clear();
+    }
+
+protected:
+    static constexpr std::uint32_t kAbsent = 0xffffffffu;
+    std::vector<std::uint32_t> sparse_;  // entity index -> dense position
+    std::vector<Entity> entities_;       // dense
+    std::vector<Change> log_;
+    std::uint64_t first_ = 0;            // sequence number of log_[0]
+};
+
+template <class T>
+class Storage final : public StorageBase {
+public:
+    T& emplace(Entity e, T value) {
+        if (contains(e)) {
+            T& old = values_[sparse_[e.index]];
+            old = std::move(value);
+            log(e, ChangeKind::changed);
+            return old;
+        }
+        if (e.index >= sparse_.size()) sparse_.resize(e.index + 1u, kAbsent);
+        sparse_[e.index] = static_cast<std::uint32_t>(entities_.size());
+        entities_.push_back(e);
+        values_.push_back(std::move(value));
+        log(e, ChangeKind::added);
+        return values_.back();
+    }
+    T& at(Entity e) { return values_[sparse_[e.index]]; }
+    const T& at(Entity e) const { return values_[sparse_[e.index]]; }
+
+    void erase(Entity e) override {
+        if (!contains(e)) return;
+        const std::uint32_t hole = sparse_[e.index];
+        const std::uint32_t last = static_cast<std::uint32_t>(entities_.size()) - 1u;
+        if (hole != last) {
+            entities_[hole] = entities_[last];
+            values_[hole] = std::move(values_[last]);
+            sparse_[entities_[hole].index] = hole;
+        }
+        entities_.pop_back();
+        values_.pop_back();
+        sparse_[e.index] = kAbsent;
+        log(e, ChangeKind::removed);
+    }
+
+private:
+    std::vector<T> values_;
+};
+
+inline std::uint32_t next_type_number() {
+    static std::uint32_t next = 0;  // numbers component types; not state of any registry
+    return next++;
+}
+template <class T>
+std::uint32_t type_number() {
+    static const std::uint32_t number = next_type_number();
+    return number;
+}
+
+}  // namespace detail
+
+/// Owns entities and their components. Not thread-safe. Component references stay valid until a component of the
+/// same type is added or removed. Entities that are null or dead: programmer error (assert), except where stated.
+class Registry {
+public:
+    Entity create() {
+        if (!free_.empty()) {
+            const std::uint32_t index = free_.back();
+            free_.pop_back();
+            return {index, versions_[index]};
+        }
+        versions_.push_back(0);
+        return {static_cast<std::uint32_t>(versions_.size()) - 1u, 0};
+    }
+
+    /// Removes every component (each logged as removed). A dead entity: nothing happens.
+    void destroy(Entity e) {
+        if (!alive(e)) return;
+        for (auto& storage : storages_)
+            if (storage) storage->erase(e);
+        ++versions_[e.index];
+        free_.push_back(e.index);
+    }
+
+    bool alive(Entity e) const { return e.index < versions_.size() && versions_[e.index] == e.version; }
+    std::size_t alive_count() const { return versions_.size() - free_.size(); }
+
+    /// Adds the component, or replaces it (logged as changed).
+    template <class T>
+    T& emplace(Entity e, T value = {}) {
+        assert(alive(e));
+        return storage<T>().emplace(e, std::move(value));
+    }
+
+    template <class T>
+    bool has(Entity e) const {
+        const auto* s = find<T>();
+        return s && s->contains(e);
+    }
+
+    /// nullptr if the entity is dead or has no T. To write, use patch().
+    template <class T>
+    const T* get(Entity e) const {
+        const auto* s = find<T>();
+        return s && s->contains(e) ? &s->at(e) : nullptr;
+    }
+
+    /// Calls edit(T&) and logs a change. False if the entity has no T.
+    template <class T, class Edit>
+    bool patch(Entity e, Edit&& edit) {
+        auto& s = storage<T>();
+        if (!s.contains(e)) return false;
+        std::forward<Edit>(edit)(s.at(e));
+        s.log(e, ChangeKind::changed);
+        return true;
+    }
+
+    /// True if the entity had a T.
+    template <class T>
+    bool remove(Entity e) {
+        auto& s = storage<T>();
+        if (!s.contains(e)) return false;
+        s.erase(e);
+        return true;
+    }
+
+    /// Calls visit(Entity, const T&, const Rest&...) for each entity that has them all, in the order of T's storage.
+    /// `visit` must not add or remove components of these types.
+    template <class T, class... Rest, class Visit>
+    void each(Visit&& visit) const {
+        const auto* first = find<T>();
+        if (!first) return;
+        for (const Entity e : first->entities()) {
+            if ((has<Rest>(e) && ...)) visit(e, first->at(e), *get<Rest>(e)...);
+        }
+    }
+
+    /// Entities with a T, in storage order (order of addition, disturbed by removal).
+    template <class T>
+    std::span<const Entity> entities_with() const {
+        const auto* s = find<T>();
+        return s ? std::span<const Entity>(s->entities()) : std::span<const Entity>{};
+    }
+
+    /// Entries of T's log since `cursor`, which moves to the end. The span is valid until the next change of a T.
+    template <class T>
+    Changes changes(ChangeCursor& cursor) {
+        return storage<T>().since(cursor);
+    }
+
+    /// Drops all logs. Call once a frame, after every reader has read.
+    void discard_changes() {
+        for (auto& storage : storages_)
+            if (storage) storage->discard_log();
+    }
+
+private:
+    template <class T>
+    detail::Storage<T>& storage() {
+        const std::uint32_t n = detail::type_number<T>();
+        if (n >= storages_.size()) storages_.resize(n + 1u);
+        if (!storages_[n]) storages_[n] = std::make_unique<detail::Storage<T>>();
+        return static_cast<detail::Storage<T>&>(*storages_[n]);
+    }
+    template <class T>
+    const detail::Storage<T>* find() const {
+        const std::uint32_t n = detail::type_number<T>();
+        return n < storages_.size() ? static_cast<const detail::Storage<T>*>(storages_[n].get()) : nullptr;
+    }
+
+    std::vector<std::uint32_t> versions_;
+    std::vector<std::uint32_t> free_;
+    std::vector<std::unique_ptr<detail::StorageBase>> storages_;
+};
+
+}  // namespace gnomon::ecs

@@ -1,0 +1,168 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "engine/gl/handles.h"
+
+/// GPU work as comparable data. A frame is one CommandList; devices execute or record it.
+/// Every command is a plain value with ==, so a test compares two lists.
+namespace gnomon::gl {
+
+struct Rect {
+    std::int32_t x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Rect&) const = default;
+};
+
+enum class CullMode : std::uint8_t { none, back, front };
+enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal };
+enum class Blend : std::uint8_t { off, add, alpha };
+
+struct PipelineState {
+    ProgramHandle program{};
+    CullMode cull = CullMode::none;
+    bool front_is_clockwise = false;  // true for mirrored (negative determinant) instances
+    DepthTest depth_test = DepthTest::off;
+    bool depth_write = false;
+    bool depth_clamp = false;
+    Blend blend = Blend::off;
+    bool operator==(const PipelineState&) const = default;
+};
+
+/// Labels a span of the frame (KHR_debug group). Groups nest and must close.
+struct BeginGroup {
+    std::string label;
+    bool operator==(const BeginGroup&) const = default;
+};
+struct EndGroup {
+    bool operator==(const EndGroup&) const = default;
+};
+
+/// Begins drawing into a target. Passes do not nest. clear_depth/clear_colour apply to the viewport's target whole.
+struct BeginPass {
+    TargetHandle target{};
+    Rect viewport{};
+    bool clear_depth = false;
+    float depth = 0.0f;
+    bool clear_colour = false;  // every colour attachment
+    std::array<float, 4> colour{};
+    bool operator==(const BeginPass&) const = default;
+};
+struct EndPass {
+    bool operator==(const EndPass&) const = default;
+};
+
+struct SetScissor {  // width 0: scissor off. BeginPass switches it off.
+    Rect rect{};
+    bool operator==(const SetScissor&) const = default;
+};
+struct SetPipeline {
+    PipelineState state{};
+    bool operator==(const SetPipeline&) const = default;
+};
+struct BindTexture {
+    std::uint32_t unit = 0;
+    TextureHandle texture{};
+    SamplerHandle sampler{};
+    bool operator==(const BindTexture&) const = default;
+};
+struct BindUniforms {  // offset a multiple of DeviceInfo::uniform_alignment
+    std::uint32_t binding = 0;
+    BufferHandle buffer{};
+    std::uint32_t offset = 0, size = 0;
+    bool operator==(const BindUniforms&) const = default;
+};
+struct BindStorage {  // whole buffer
+    std::uint32_t binding = 0;
+    BufferHandle buffer{};
+    bool operator==(const BindStorage&) const = default;
+};
+
+/// Copies list.bytes[first, first+size) to the buffer at offset. Allowed outside passes only.
+struct UpdateBuffer {
+    BufferHandle buffer{};
+    std::uint64_t offset = 0;
+    std::uint32_t first = 0, size = 0;
+    bool operator==(const UpdateBuffer&) const = default;
+};
+
+/// Vertex layout "mesh": vertices = {vec3 position, vec3 normal, vec2 uv} (32 bytes), attribute locations 0,1,2;
+/// indices uint32; `draw_items` = uvec2 {instance, first_triangle} per instance, attribute location 3, divisor 1.
+struct BindMeshes {
+    BufferHandle vertices{}, indices{}, draw_items{};
+    bool operator==(const BindMeshes&) const = default;
+};
+struct DrawMeshes {  // triangles
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t base_vertex = 0;
+    std::uint32_t first_item = 0, item_count = 0;  // instances, from draw_items
+    bool operator==(const DrawMeshes&) const = default;
+};
+struct DrawTriangle {  // one full-screen triangle, vertex_count = 3, no attributes
+    bool operator==(const DrawTriangle&) const = default;
+};
+struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage buffers
+    std::uint32_t vertex_count = 0;
+    bool operator==(const DrawLines&) const = default;
+};
+
+struct GenerateMips {
+    TextureHandle texture{};
+    bool operator==(const GenerateMips&) const = default;
+};
+struct Blit {  // colour, source -> destination rectangles, nearest; destination {0} is the window
+    TargetHandle source{}, destination{};
+    Rect from{}, to{};
+    bool operator==(const Blit&) const = default;
+};
+
+/// Time of the commands between, reported by Device::take_timings under `id`. Timers do not nest.
+struct BeginTimer {
+    std::uint32_t id = 0;
+    bool operator==(const BeginTimer&) const = default;
+};
+struct EndTimer {
+    std::uint32_t id = 0;
+    bool operator==(const EndTimer&) const = default;
+};
+
+using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture, BindUniforms,
+                             BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines, GenerateMips,
+                             Blit, BeginTimer, EndTimer>;
+
+struct CommandList {
+    std::vector<Command> commands;
+    std::vector<std::byte> bytes;  // payload of UpdateBuffer
+
+    void add(Command c) { commands.push_back(std::move(c)); }
+
+    /// Adds an UpdateBuffer of the object representation of `values`.
+    template <class T>
+    void update(BufferHandle buffer, std::uint64_t offset, std::span<const T> values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const auto first = static_cast<std::uint32_t>(bytes.size());
+        const auto size = static_cast<std::uint32_t>(values.size_bytes());
+        if (size == 0) return;
+        bytes.resize(bytes.size() + size);
+        std::memcpy(bytes.data() + first, values.data(), size);
+        add(UpdateBuffer{buffer, offset, first, size});
+    }
+
+    void clear() {
+        commands.clear();
+        bytes.clear();
+    }
+    bool operator==(const CommandList&) const = default;
+};
+
+/// One line per command, for test failures and captures.
+std::string to_text(const Command& command);
+std::string to_text(const CommandList& list);
+
+}  // namespace gnomon::gl

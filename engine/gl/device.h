@@ -1,0 +1,147 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/gl/commands.h"
+#include "engine/gl/handles.h"
+
+namespace gnomon::gl {
+
+enum class TextureKind : std::uint8_t { flat, array, cube };
+enum class Format : std::uint8_t { r8, rgba8, srgb8_a8, rgba16_snorm, rgba16f, r32f, rg32f, d16, d24, d32f };
+enum class BufferUse : std::uint8_t { fixed, updated };  // fixed: contents given at creation, never changed
+
+/// Bytes of one texel in `format` as Gnomon accounts them (D24 counts 4).
+std::uint32_t texel_bytes(Format format);
+bool is_depth(Format format);
+
+struct TextureDesc {
+    std::string label;
+    TextureKind kind = TextureKind::flat;
+    Format format = Format::rgba8;
+    std::uint32_t width = 1, height = 1;
+    std::uint32_t layers = 1;   // array layers; cubes have 6 whatever is said here
+    std::uint32_t mips = 1;     // 0: a full chain
+    bool operator==(const TextureDesc&) const = default;
+};
+/// Bytes of all layers and mips.
+std::uint64_t byte_size(const TextureDesc& desc);
+
+enum class Wrap : std::uint8_t { repeat, mirror, clamp, border };  // border is 0,0,0,0
+struct SamplerDesc {
+    std::string label;
+    bool linear = false;              // min and mag
+    bool mipmaps = false;             // linear between mips
+    bool compare = false;             // depth compare, passes where reference >= stored
+    Wrap wrap_u = Wrap::clamp, wrap_v = Wrap::clamp;
+    bool operator==(const SamplerDesc&) const = default;
+};
+
+struct BufferDesc {
+    std::string label;
+    std::uint64_t size = 0;  // > 0
+    BufferUse use = BufferUse::updated;
+    bool operator==(const BufferDesc&) const = default;
+};
+
+/// Sources are complete GLSL (includes already resolved, #version first).
+struct ProgramDesc {
+    std::string label;
+    std::string vertex;
+    std::string fragment;
+    bool operator==(const ProgramDesc&) const = default;
+};
+
+struct Attachment {
+    TextureHandle texture{};
+    std::int32_t layer = -1;  // array layer or cube face 0..5; -1: the whole texture (flat)
+    bool operator==(const Attachment&) const = default;
+};
+struct TargetDesc {
+    std::string label;
+    std::vector<Attachment> colours;
+    Attachment depth{};  // texture {0}: none
+    bool operator==(const TargetDesc&) const = default;
+};
+
+enum class Failure : std::uint8_t {
+    none, out_of_memory, invalid_value, incomplete_target, compile_failed, link_failed, map_failed, context_lost
+};
+const char* to_text(Failure failure);
+
+/// A new object, or why there is none. Nothing is left behind by a failed creation.
+template <class H>
+struct Created {
+    H handle{};
+    Failure failure = Failure::none;
+    std::string log = {};  // compiler or driver text, may be empty
+    explicit operator bool() const { return failure == Failure::none; }
+};
+
+struct DeviceInfo {
+    std::string name;            // renderer and version
+    bool is_software = false;    // GPU time is then measured by finishing around each timer
+    std::uint32_t max_texture_px = 0;
+    std::uint32_t max_cube_px = 0;
+    std::uint32_t max_layers = 0;
+    std::uint32_t uniform_alignment = 256;
+};
+
+/// off: timers cost nothing. finish: each timer is bracketed by a full finish (exact on software devices).
+/// query: GL_TIME_ELAPSED, results arrive some frames later.
+enum class TimingMode : std::uint8_t { off, finish, query };
+
+struct Timing {
+    std::uint32_t id = 0;
+    std::uint64_t submission = 0;  // the how-manieth submit() of the device, from 0
+    double gpu_us = 0.0;
+};
+
+/// What submit() found. A failed submission has drawn what it could; the frame goes on.
+struct SubmitResult {
+    Failure failure = Failure::none;
+    std::uint64_t submission = 0;
+};
+
+/// The only door to the GPU. Creation happens outside submit(); nothing throws.
+/// Implementations: Gl45Device (executor), RecordingDevice (tests), gmock (tests).
+class Device {
+public:
+    virtual ~Device() = default;
+
+    virtual const DeviceInfo& info() const = 0;
+
+    /// `pixels`: empty, or tightly packed rows (bottom row first) of mip 0 of every layer; mips are then generated.
+    virtual Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) = 0;
+    virtual Created<SamplerHandle> create_sampler(const SamplerDesc& desc) = 0;
+    /// `bytes`: empty, or exactly desc.size bytes. A `fixed` buffer must be given its bytes.
+    virtual Created<BufferHandle> create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) = 0;
+    virtual Created<ProgramHandle> create_program(const ProgramDesc& desc) = 0;
+    /// Checks completeness. A target must be destroyed before the textures it names.
+    virtual Created<TargetHandle> create_target(const TargetDesc& desc) = 0;
+
+    /// Destroying {0} does nothing.
+    virtual void destroy(TextureHandle) = 0;
+    virtual void destroy(SamplerHandle) = 0;
+    virtual void destroy(BufferHandle) = 0;
+    virtual void destroy(ProgramHandle) = 0;
+    virtual void destroy(TargetHandle) = 0;
+
+    virtual SubmitResult submit(const CommandList& list) = 0;
+
+    /// Reads mip 0 of one layer (face) as tightly packed rows, bottom first, in the texture's own format
+    /// (depth formats: one float per texel). Waits for the GPU. False: wrong size or failed.
+    virtual bool read_texture(TextureHandle texture, std::uint32_t layer, std::span<std::byte> out) = 0;
+
+    virtual void set_timing(TimingMode mode) = 0;
+    /// Timings that became available since the last call, oldest first.
+    virtual std::vector<Timing> take_timings() = 0;
+
+    /// Blocks until all submitted work is done.
+    virtual void finish() = 0;
+};
+
+}  // namespace gnomon::gl

@@ -1,0 +1,23 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "engine/core/result.h"
+#include "engine/gl/device.h"
+
+namespace gnomon::gl {
+
+/// Severity and text of a KHR_debug message; called during the GL call that caused it (synchronous).
+enum class MessageSeverity : std::uint8_t { notification, low, medium, high };
+using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
+
+/// Makes the OpenGL 4.5 executor for the context that is current on this thread. It sets glClipControl and
+/// other fixed state, and owns every object it makes: the destructor deletes them (context must be current).
+/// Error if the context is below 4.5 core (rule "gl.version").
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink);
+
+/// GL objects this device currently owns (leak checks).
+std::size_t live_objects(const Device& gl45_device);
+
+}  // namespace gnomon::gl

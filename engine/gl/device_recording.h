@@ -1,0 +1,93 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/gl/device.h"
+
+namespace gnomon::gl {
+
+/// What the recording device found wrong with a call. Tests assert which.
+enum class Misuse : std::uint8_t {
+    unknown_handle,            // never created, or already destroyed
+    draw_outside_pass, nested_pass, unbalanced_pass, unbalanced_group, unbalanced_timer, nested_timer,
+    draw_without_pipeline, draw_without_meshes, draw_out_of_range,   // indices, vertices or items beyond the buffer
+    update_inside_pass, update_out_of_range, update_of_fixed_buffer,
+    uniform_misaligned, uniform_out_of_range,
+    viewport_out_of_target, incomplete_target, feedback_loop,        // sampling a texture that the pass draws into
+    destroyed_while_attached,  // texture destroyed before a target naming it
+    bad_description,           // zero size, non-square cube, over the limit
+    leak                       // reported by check_leaks()
+};
+const char* to_text(Misuse misuse);
+
+struct Finding {
+    Misuse misuse;
+    std::string detail;
+};
+
+/// One resource call, in order of arrival.
+struct ResourceCall {
+    enum class Kind : std::uint8_t {
+        create_texture, create_sampler, create_buffer, create_program, create_target,
+        destroy_texture, destroy_sampler, destroy_buffer, destroy_program, destroy_target, submit
+    };
+    Kind kind;
+    std::uint32_t id = 0;      // of the object; submission number for submit
+    std::string label;
+    std::uint64_t bytes = 0;
+    bool failed = false;
+    bool operator==(const ResourceCall&) const = default;
+};
+
+/// A device without a GPU: hands out fake handles, keeps every list, validates lifetimes and use,
+/// counts live objects and bytes, and can fail the nth resource call.
+class RecordingDevice final : public Device {
+public:
+    explicit RecordingDevice(DeviceInfo info = default_info());
+    static DeviceInfo default_info();  // "recording", limits as llvmpipe: 16384 px, 2048 layers
+
+    /// Fails the call whose number (counted over all create_* and submit calls from construction, first is 0) is `index`.
+    void fail_call(std::uint64_t index, Failure failure);
+    /// Fails every create_texture (or create_target, create_program) whose label contains `text`.
+    void fail_label(std::string text, Failure failure);
+    void stop_failing();
+    std::uint64_t calls() const;  // create_* and submit calls so far
+
+    const std::vector<ResourceCall>& resource_calls() const;
+    const std::vector<CommandList>& submissions() const;
+    const std::vector<Finding>& findings() const;   // misuse so far; empty is right
+    void forget();                                   // drops kept lists, calls, and findings, not live objects
+
+    std::size_t live_count() const;
+    std::uint64_t live_bytes() const;                // textures and buffers
+    std::vector<std::string> live_labels() const;    // sorted
+    const TextureDesc* texture(TextureHandle) const; // nullptr if not alive
+    const TargetDesc* target(TargetHandle) const;
+    const BufferDesc* buffer(BufferHandle) const;
+    const ProgramDesc* program(ProgramHandle) const;
+    std::span<const std::byte> buffer_bytes(BufferHandle) const;  // current contents, updates applied
+    void check_leaks();                              // adds a finding per live object
+
+    // Device
+    const DeviceInfo& info() const override;
+    Created<TextureHandle> create_texture(const TextureDesc&, std::span<const std::byte>) override;
+    Created<SamplerHandle> create_sampler(const SamplerDesc&) override;
+    Created<BufferHandle> create_buffer(const BufferDesc&, std::span<const std::byte>) override;
+    Created<ProgramHandle> create_program(const ProgramDesc&) override;
+    Created<TargetHandle> create_target(const TargetDesc&) override;
+    void destroy(TextureHandle) override;
+    void destroy(SamplerHandle) override;
+    void destroy(BufferHandle) override;
+    void destroy(ProgramHandle) override;
+    void destroy(TargetHandle) override;
+    SubmitResult submit(const CommandList&) override;
+    bool read_texture(TextureHandle, std::uint32_t layer, std::span<std::byte> out) override;  // zeros
+    void set_timing(TimingMode) override;
+    std::vector<Timing> take_timings() override;     // 0 us for each timer when timing is on
+    void finish() override;
+};
+
+}  // namespace gnomon::gl

@@ -1,0 +1,23 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace gnomon::gl {
+
+/// One GLSL file, embedded at build time. `path` is relative to shaders/, e.g. "shadow/filters/hard.glsl".
+struct ShaderFile {
+    std::string_view path;
+    std::string_view text;
+};
+
+/// Expands `path`: prepends "#version 450 core", then one #define per entry of `defines` ("NAME value"),
+/// and replaces each line  #include "x.glsl"  by that file, once per expansion, with #line directives.
+/// Errors: missing file, include cycle (rules "shader.missing", "shader.cycle").
+Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string_view path,
+                                  std::span<const std::string> defines);
+
+}  // namespace gnomon::gl

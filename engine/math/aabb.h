@@ -1,0 +1,44 @@
+#pragma once
+#include <array>
+#include <glm/common.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace gnomon::math {
+
+/// Axis-aligned box in double. A default box is empty (min > max) and the neutral element of merge.
+struct Aabb {
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+    bool operator==(const Aabb&) const = default;
+};
+
+/// True if the box holds no point; NaN counts as empty.
+inline bool is_empty(const Aabb& b) {
+    return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z);
+}
+
+/// True if all six numbers are finite.
+bool is_finite(const Aabb& b);
+
+inline glm::dvec3 centre(const Aabb& b) { return 0.5 * (b.min + b.max); }
+inline glm::dvec3 half_extent(const Aabb& b) { return 0.5 * (b.max - b.min); }
+
+Aabb merged(const Aabb& a, const Aabb& b);
+Aabb extended(const Aabb& a, const glm::dvec3& point);
+
+/// Closed boxes: touching counts as overlap. An empty box overlaps nothing.
+bool overlaps(const Aabb& a, const Aabb& b);
+
+/// Box of the image of `b` under p -> basis * p + translation (exact up to rounding, Arvo 1990).
+Aabb transformed(const Aabb& b, const glm::dmat3& basis, const glm::dvec3& translation);
+
+/// Corner i: bit 0 chooses max x, bit 1 max y, bit 2 max z.
+std::array<glm::dvec3, 8> corners(const Aabb& b);
+
+/// Distance from a point to the box (0 inside) and to its farthest corner.
+double distance(const Aabb& b, const glm::dvec3& point);
+double farthest_distance(const Aabb& b, const glm::dvec3& point);
+
+}  // namespace gnomon::math

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/math/aabb.h"
+
+namespace gnomon::math {
+
+/// Half-space dot(normal, p) + offset >= 0. The normal points inside; it need not be unit length.
+struct Plane {
+    glm::dvec3 normal{0.0, 1.0, 0.0};
+    double offset = 0.0;
+};
+
+/// A camera or light volume as planes and, for a bounded or unbounded perspective, its apex.
+/// Convex. At most 6 planes: left, right, bottom, top, near, far (far absent when infinite).
+struct Frustum {
+    Plane planes[6];
+    std::uint32_t plane_count = 0;
+};
+
+/// Orientation whose columns are right, up, back: looking along -Z of the result.
+/// `back` must be non-zero and finite; it is normalised. Branchless for every direction
+/// (Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017): continuous except at back.z = 0-.
+glm::dmat3 basis_from_back(const glm::dvec3& back);
+
+/// Volume of a perspective view at `position` whose columns of `rotation` are right, up, back.
+/// tan_half: tangents of the half angles (x, y), > 0. far_m may be infinity (then 5 planes).
+Frustum perspective_frustum(const glm::dvec3& position, const glm::dmat3& rotation, double tan_half_x,
+                            double tan_half_y, double near_m, double far_m);
+Frustum orthographic_frustum(const glm::dvec3& position, const glm::dmat3& rotation, double half_width,
+                             double half_height, double near_m, double far_m);
+
+/// False only if the box lies wholly outside one plane (conservative). Empty boxes: false.
+bool may_overlap(const Frustum& f, const Aabb& box);
+
+/// Corner points of box ∩ frustum, by clipping the box's faces and adding the frustum edges' hits
+/// with the box through the clip of the box as a convex polytope. Appends to `out`; returns the number added;
+/// 0 if the intersection is empty. Scale-free: no absolute epsilon.
+/// `scratch` is reused storage.
+std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out);
+
+}  // namespace gnomon::math

@@ -1,0 +1,29 @@
+#pragma once
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace gnomon::math {
+
+/// All projections here are for glClipControl(LOWER_LEFT, ZERO_TO_ONE) with reversed depth:
+/// near maps to 1, far to 0. View space looks along -Z.
+
+/// Orthographic box: x in [left,right], y in [bottom,top], distance -z in [near,far]. near may be negative.
+glm::dmat4 reversed_orthographic(double left, double right, double bottom, double top, double near_m, double far_m);
+
+/// Off-centre perspective given by tangents: x/-z in [left,right], y/-z in [bottom,top]. 0 < near < far;
+/// far may be infinity.
+glm::dmat4 reversed_perspective(double left, double right, double bottom, double top, double near_m, double far_m);
+
+/// clip [-1,1]x[-1,1]x[0,1] -> texture [0,1]^3.
+glm::dmat4 texture_from_clip();
+
+/// A double split into two floats with high + low == value to 2^-48 relative.
+struct TwoFloat3 {
+    glm::vec3 high{0.0f};
+    glm::vec3 low{0.0f};
+    bool operator==(const TwoFloat3&) const = default;
+};
+TwoFloat3 split(const glm::dvec3& value);
+
+}  // namespace gnomon::math
