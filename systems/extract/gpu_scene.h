@@ -1,0 +1,87 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/assets/mesh_library.h"
+#include "engine/core/result.h"
+#include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
+
+namespace gnomon {
+
+/// Matches InstanceRecord in shaders/shared/instances.glsl. 64 bytes.
+/// w components hold the high part of the translation; `low` its low part and the receive flag.
+struct InstanceRecord {
+    float basis_x_high_x[4], basis_y_high_y[4], basis_z_high_z[4];
+    float low_receives[4];
+};
+static_assert(sizeof(InstanceRecord) == 64);
+
+/// Matches MaterialBlock in shaders/shared/material.glsl (std140).
+struct MaterialRecord {
+    float base_colour[4];
+    float emissive[4];                       // rgb
+    float metallic, roughness, alpha_cutoff; // alpha_cutoff < 0: not masked
+    float has_texture;
+};
+static_assert(sizeof(MaterialRecord) == 48);
+
+/// Meshes, materials, textures and instance records on the device. Owns what it makes.
+class GpuScene {
+public:
+    /// Error (rule "gpu.scene") if the device cannot hold the library; nothing is left behind then.
+    static Result<GpuScene> create(gl::Device& device, const assets::MeshLibrary& library);
+    GpuScene(GpuScene&&) noexcept;
+    GpuScene& operator=(GpuScene&&) noexcept;
+    ~GpuScene();
+
+    /// Records the upload of changed instance records; grows the instance buffer when needed.
+    /// False if it could not grow: instances beyond its size must not be drawn (see capacity()).
+    bool update(const SceneSnapshot& snapshot, gl::CommandList& list);
+    std::uint32_t capacity() const { return instance_capacity_; }
+
+    struct MeshRange {
+        std::int32_t base_vertex = 0;
+        std::uint32_t first_index = 0;       // of the mesh in the common index buffer
+        std::uint32_t first_submesh = 0, submesh_count = 0;
+        std::uint64_t triangles = 0;
+    };
+    struct SubmeshRange {
+        std::uint32_t first_index = 0, index_count = 0;
+        std::uint32_t material = 0;
+    };
+    struct MaterialInfo {
+        gl::TextureHandle texture{};         // a white texel if the material has none
+        gl::SamplerHandle sampler{};
+        std::uint32_t uniform_offset = 0;
+        assets::AlphaMode alpha_mode = assets::AlphaMode::opaque;
+        bool double_sided = false;
+    };
+
+    const MeshRange& mesh(std::uint32_t index) const { return meshes_[index]; }
+    const SubmeshRange& submesh(std::uint32_t index) const { return submeshes_[index]; }
+    const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
+    std::size_t mesh_count() const { return meshes_.size(); }
+
+    gl::BufferHandle vertices() const { return vertices_; }
+    gl::BufferHandle indices() const { return indices_; }
+    gl::BufferHandle instances() const { return instances_; }
+    gl::BufferHandle triangle_normals() const { return triangle_normals_; }  // vec4 per triangle of `indices`, model space
+    gl::BufferHandle material_uniforms() const { return material_uniforms_; }
+
+private:
+    GpuScene() = default;
+    void release();
+
+    gl::Device* device_ = nullptr;
+    gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
+    std::uint32_t instance_capacity_ = 0;
+    std::vector<InstanceRecord> records_;
+    std::vector<gl::TextureHandle> textures_;
+    std::vector<gl::SamplerHandle> samplers_;
+    std::vector<MeshRange> meshes_;
+    std::vector<SubmeshRange> submeshes_;
+    std::vector<MaterialInfo> materials_;
+};
+
+}  // namespace gnomon
