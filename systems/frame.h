@@ -1,0 +1,73 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/assets/mesh_library.h"
+#include "engine/core/result.h"
+#include "engine/ecs/registry.h"
+#include "engine/gl/device.h"
+#include "systems/extract/extract.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/report.h"
+#include "systems/transform/transform_system.h"
+
+namespace gnomon {
+
+namespace shadow {
+class ShadowSystem;
+}
+namespace lighting {
+class LightingSystem;
+}
+
+struct FrameSettings {
+    glm::uvec2 viewport_px{1280, 720};
+    std::optional<float> exposure_ev;   // EV100; empty: automatic
+    bool shadows = true;                // false: every light is treated as if its LightShadow were disabled
+    bool present = false;               // copy the picture to the window at the end
+};
+
+/// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.
+/// Write your own instead if your engine has its own order: it is frame.cpp's run(), and nothing else hides here.
+class Frame {
+public:
+    /// `device` and `library` must outlive the frame. Errors: "gpu.scene".
+    static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library);
+    ~Frame();
+
+    /// Runs one frame of `world` for its first active camera. Never throws; failures are in report().
+    void run(ecs::Registry& world, const FrameSettings& settings);
+
+    const SceneSnapshot& snapshot() const { return snapshot_; }
+    const FrameReport& report() const { return report_; }
+    const gl::CommandList& commands() const { return commands_; }  // of the last frame
+
+    /// The last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. False: nothing to read.
+    bool read_picture(std::vector<std::uint8_t>& rgba);
+
+    /// Visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats, bottom row first,
+    /// with the meaning of --visibility in the README. False: nothing to read.
+    bool read_visibility(std::uint32_t light, std::vector<float>& values);
+
+private:
+    Frame(gl::Device& device, const assets::MeshLibrary& library, GpuScene scene);
+    void collect_timings();
+
+    gl::Device& device_;
+    const assets::MeshLibrary& library_;
+    TransformSystem transforms_;
+    Extractor extractor_;
+    GpuScene gpu_scene_;
+    SceneSnapshot snapshot_;
+    std::unique_ptr<shadow::ShadowSystem> shadows_;
+    std::unique_ptr<lighting::LightingSystem> lighting_;
+    FrameReport report_;
+    gl::CommandList commands_;
+};
+
+}  // namespace gnomon
