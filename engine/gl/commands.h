@@ -66,7 +66,7 @@ struct SetPipeline {
     PipelineState state{};
     bool operator==(const SetPipeline&) const = default;
 };
-struct BindTexture {
+struct BindTexture {  // texture {0} unbinds. Bindings last until changed or the list ends.
     std::uint32_t unit = 0;
     TextureHandle texture{};
     SamplerHandle sampler{};

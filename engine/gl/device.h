@@ -16,7 +16,10 @@ enum class BufferUse : std::uint8_t { fixed, updated };  // fixed: contents give
 
 /// Bytes of one texel in `format` as Gnomon accounts them (D24 counts 4).
 std::uint32_t texel_bytes(Format format);
+/// Bytes of one texel as it is uploaded and read back: depth formats travel as one float.
+std::uint32_t transfer_bytes(Format format);
 bool is_depth(Format format);
+const char* to_text(Format format);
 
 struct TextureDesc {
     std::string label;
@@ -27,6 +30,10 @@ struct TextureDesc {
     std::uint32_t mips = 1;     // 0: a full chain
     bool operator==(const TextureDesc&) const = default;
 };
+/// 6 for a cube, 1 for a flat texture.
+std::uint32_t layer_count(const TextureDesc& desc);
+/// Levels, the full chain counted out.
+std::uint32_t mip_count(const TextureDesc& desc);
 /// Bytes of all layers and mips.
 std::uint64_t byte_size(const TextureDesc& desc);
 
@@ -48,6 +55,7 @@ struct BufferDesc {
 };
 
 /// Sources are complete GLSL (includes already resolved, #version first).
+/// An empty fragment source makes a program without fragment stage (depth only).
 struct ProgramDesc {
     std::string label;
     std::string vertex;

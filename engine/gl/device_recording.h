@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
-#include <unordered_map>
+#include <string_view>
 #include <vector>
 
 #include "engine/gl/device.h"
@@ -11,14 +13,16 @@ namespace gnomon::gl {
 
 /// What the recording device found wrong with a call. Tests assert which.
 enum class Misuse : std::uint8_t {
-    unknown_handle,            // never created, or already destroyed
+    unknown_handle,            // never created, or already destroyed; {0} where an object is needed
     draw_outside_pass, nested_pass, unbalanced_pass, unbalanced_group, unbalanced_timer, nested_timer,
     draw_without_pipeline, draw_without_meshes, draw_out_of_range,   // indices, vertices or items beyond the buffer
     update_inside_pass, update_out_of_range, update_of_fixed_buffer,
     uniform_misaligned, uniform_out_of_range,
-    viewport_out_of_target, incomplete_target, feedback_loop,        // sampling a texture that the pass draws into
+    viewport_out_of_target,    // or blit rectangle out of it; a scissor of negative size
+    incomplete_target,         // no attachments, a wrong layer, colour given as depth or depth as colour
+    feedback_loop,             // a texture that the pass draws into is bound, mipped or blitted meanwhile
     destroyed_while_attached,  // texture destroyed before a target naming it
-    bad_description,           // zero size, non-square cube, over the limit
+    bad_description,           // zero size, non-square cube, over the limit, wrong amount of bytes
     leak                       // reported by check_leaks()
 };
 const char* to_text(Misuse misuse);
@@ -42,6 +46,24 @@ struct ResourceCall {
     bool operator==(const ResourceCall&) const = default;
 };
 
+/// What a recording device holds, by id.
+struct RecordedBuffer {
+    BufferDesc desc;
+    std::vector<std::byte> bytes;
+};
+struct RecordedObjects {
+    std::map<std::uint32_t, TextureDesc> textures;
+    std::map<std::uint32_t, SamplerDesc> samplers;
+    std::map<std::uint32_t, RecordedBuffer> buffers;
+    std::map<std::uint32_t, ProgramDesc> programs;
+    std::map<std::uint32_t, TargetDesc> targets;
+};
+
+/// Walks the list as a device would: appends what is wrong with it to `findings`, applies its buffer updates to
+/// `objects`, and returns the ids of its timers in order.
+std::vector<std::uint32_t> check_list(const CommandList& list, const DeviceInfo& info, RecordedObjects& objects,
+                                      std::vector<Finding>& findings);
+
 /// A device without a GPU: hands out fake handles, keeps every list, validates lifetimes and use,
 /// counts live objects and bytes, and can fail the nth resource call.
 class RecordingDevice final : public Device {
@@ -51,7 +73,7 @@ public:
 
     /// Fails the call whose number (counted over all create_* and submit calls from construction, first is 0) is `index`.
     void fail_call(std::uint64_t index, Failure failure);
-    /// Fails every create_texture (or create_target, create_program) whose label contains `text`.
+    /// Fails every create_texture, create_target and create_program whose label contains `text`.
     void fail_label(std::string text, Failure failure);
     void stop_failing();
     std::uint64_t calls() const;  // create_* and submit calls so far
@@ -88,6 +110,30 @@ public:
     void set_timing(TimingMode) override;
     std::vector<Timing> take_timings() override;     // 0 us for each timer when timing is on
     void finish() override;
+
+private:
+    std::optional<Failure> injected(const std::string* label);
+    void find(Misuse misuse, std::string detail);
+    void log(ResourceCall::Kind kind, std::uint32_t id, std::string label, std::uint64_t bytes, bool failed);
+    template <class H, class Map, class Value>
+    Created<H> admit(ResourceCall::Kind kind, Map& map, std::string label, Value value, std::uint64_t bytes);
+    template <class H>
+    Created<H> refuse(ResourceCall::Kind kind, const std::string& label, std::uint64_t bytes, Failure failure);
+    template <class Map>
+    void remove(ResourceCall::Kind kind, Map& map, std::uint32_t id);
+
+    DeviceInfo info_;
+    RecordedObjects objects_;
+    std::uint32_t next_id_ = 1;  // one row of ids for all kinds: a handle cast to another kind is unknown
+    std::uint64_t calls_ = 0;
+    std::uint64_t submitted_ = 0;
+    std::map<std::uint64_t, Failure> failing_calls_;
+    std::vector<std::pair<std::string, Failure>> failing_labels_;
+    std::vector<ResourceCall> log_;
+    std::vector<CommandList> lists_;
+    std::vector<Finding> findings_;
+    TimingMode timing_ = TimingMode::off;
+    std::vector<Timing> timings_;
 };
 
 }  // namespace gnomon::gl

@@ -15,7 +15,8 @@ struct ShaderFile {
 };
 
 /// Expands `path`: prepends "#version 450 core", then one #define per entry of `defines` ("NAME value"),
-/// and replaces each line  #include "x.glsl"  by that file, once per expansion, with #line directives.
+/// and replaces each line  #include "x.glsl"  by that file, once per expansion, with #line directives whose second
+/// number is the file's index in `files`. Includes are expanded whatever #if they stand under.
 /// Errors: missing file, include cycle (rules "shader.missing", "shader.cycle").
 Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string_view path,
                                   std::span<const std::string> defines);

@@ -1,0 +1,131 @@
+#include "engine/gl/commands.h"
+
+#include <cstdio>
+
+namespace gnomon::gl {
+
+namespace {
+
+std::string number(float value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", static_cast<double>(value));
+    return text;
+}
+
+template <class T>
+std::string number(T value) {
+    return std::to_string(value);
+}
+
+template <class Tag>
+std::string number(Handle<Tag> handle) {
+    return '#' + std::to_string(handle.id);
+}
+
+std::string number(const Rect& r) {
+    return number(r.x) + ',' + number(r.y) + ' ' + number(r.width) + 'x' + number(r.height);
+}
+
+template <class T>
+std::string field(const char* name, const T& value) {
+    return std::string{" "} + name + '=' + number(value);
+}
+
+const char* name(CullMode mode) {
+    switch (mode) {
+        case CullMode::none: return "none";
+        case CullMode::back: return "back";
+        case CullMode::front: return "front";
+    }
+    return "?";
+}
+
+const char* name(DepthTest test) {
+    switch (test) {
+        case DepthTest::off: return "off";
+        case DepthTest::greater_equal: return "greater_equal";
+        case DepthTest::greater: return "greater";
+        case DepthTest::equal: return "equal";
+    }
+    return "?";
+}
+
+const char* name(Blend blend) {
+    switch (blend) {
+        case Blend::off: return "off";
+        case Blend::add: return "add";
+        case Blend::alpha: return "alpha";
+    }
+    return "?";
+}
+
+struct Writer {
+    std::string operator()(const BeginGroup& c) const { return "BeginGroup \"" + c.label + '"'; }
+    std::string operator()(const EndGroup&) const { return "EndGroup"; }
+    std::string operator()(const BeginPass& c) const {
+        std::string text = "BeginPass" + field("target", c.target) + field("viewport", c.viewport);
+        if (c.clear_depth) text += field("depth", c.depth);
+        if (c.clear_colour) {
+            text += " colour=" + number(c.colour[0]) + ',' + number(c.colour[1]) + ',' + number(c.colour[2]) + ',' +
+                    number(c.colour[3]);
+        }
+        return text;
+    }
+    std::string operator()(const EndPass&) const { return "EndPass"; }
+    std::string operator()(const SetScissor& c) const {
+        return c.rect.width == 0 ? std::string{"SetScissor off"} : "SetScissor" + field("rect", c.rect);
+    }
+    std::string operator()(const SetPipeline& c) const {
+        const PipelineState& s = c.state;
+        std::string text = "SetPipeline" + field("program", s.program) + " cull=" + name(s.cull) +
+                           " depth_test=" + name(s.depth_test) + " blend=" + name(s.blend);
+        if (s.front_is_clockwise) text += " front_is_clockwise";
+        if (s.depth_write) text += " depth_write";
+        if (s.depth_clamp) text += " depth_clamp";
+        return text;
+    }
+    std::string operator()(const BindTexture& c) const {
+        return "BindTexture" + field("unit", c.unit) + field("texture", c.texture) + field("sampler", c.sampler);
+    }
+    std::string operator()(const BindUniforms& c) const {
+        return "BindUniforms" + field("binding", c.binding) + field("buffer", c.buffer) + field("offset", c.offset) +
+               field("size", c.size);
+    }
+    std::string operator()(const BindStorage& c) const {
+        return "BindStorage" + field("binding", c.binding) + field("buffer", c.buffer);
+    }
+    std::string operator()(const UpdateBuffer& c) const {
+        return "UpdateBuffer" + field("buffer", c.buffer) + field("offset", c.offset) + field("first", c.first) +
+               field("size", c.size);
+    }
+    std::string operator()(const BindMeshes& c) const {
+        return "BindMeshes" + field("vertices", c.vertices) + field("indices", c.indices) +
+               field("draw_items", c.draw_items);
+    }
+    std::string operator()(const DrawMeshes& c) const {
+        return "DrawMeshes" + field("first_index", c.first_index) + field("index_count", c.index_count) +
+               field("base_vertex", c.base_vertex) + field("first_item", c.first_item) +
+               field("item_count", c.item_count);
+    }
+    std::string operator()(const DrawTriangle&) const { return "DrawTriangle"; }
+    std::string operator()(const DrawLines& c) const { return "DrawLines" + field("vertex_count", c.vertex_count); }
+    std::string operator()(const GenerateMips& c) const { return "GenerateMips" + field("texture", c.texture); }
+    std::string operator()(const Blit& c) const {
+        return "Blit" + field("source", c.source) + field("destination", c.destination) + field("from", c.from) +
+               field("to", c.to);
+    }
+    std::string operator()(const BeginTimer& c) const { return "BeginTimer" + field("id", c.id); }
+    std::string operator()(const EndTimer& c) const { return "EndTimer" + field("id", c.id); }
+};
+
+}  // namespace
+
+std::string to_text(const Command& command) { return std::visit(Writer{}, command); }
+
+std::string to_text(const CommandList& list) {
+    std::string text;
+    for (const Command& command : list.commands) text += to_text(command) + '\n';
+    return text;
+}
+
+}  // namespace gnomon::gl

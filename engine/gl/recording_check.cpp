@@ -1,0 +1,228 @@
+#include <algorithm>
+#include <limits>
+
+#include "engine/gl/device_recording.h"
+#include "engine/gl/validate.h"
+
+namespace gnomon::gl {
+
+namespace {
+
+constexpr std::uint64_t kVertexBytes = 32;  // the "mesh" layout of BindMeshes
+constexpr std::uint64_t kIndexBytes = sizeof(std::uint32_t);
+constexpr std::uint64_t kItemBytes = 2 * sizeof(std::uint32_t);
+
+struct Size {
+    std::uint32_t width = 0, height = 0;
+};
+
+/// State of a list while it is walked, one operator() per command.
+class ListChecker {
+public:
+    ListChecker(const CommandList& list, const DeviceInfo& info, RecordedObjects& objects,
+                std::vector<Finding>& findings)
+        : list_(list), info_(info), objects_(objects), findings_(findings) {}
+
+    std::vector<std::uint32_t> run() {
+        for (index_ = 0; index_ < list_.commands.size(); ++index_) std::visit(*this, list_.commands[index_]);
+        if (in_pass_) find(Misuse::unbalanced_pass, "list ends inside a pass");
+        if (open_groups_ != 0) find(Misuse::unbalanced_group, "list ends inside a group");
+        if (timer_) find(Misuse::unbalanced_timer, "list ends inside a timer");
+        return std::move(timers_);
+    }
+
+    void operator()(const BeginGroup&) { ++open_groups_; }
+    void operator()(const EndGroup&) {
+        if (open_groups_ == 0) return find(Misuse::unbalanced_group, "no group is open");
+        --open_groups_;
+    }
+
+    void operator()(const BeginPass& c) {
+        if (in_pass_) find(Misuse::nested_pass, "a pass is open");
+        in_pass_ = true;
+        target_ = c.target;
+        if (known_target(c.target)) check_rect(c.target, c.viewport);
+    }
+    void operator()(const EndPass&) {
+        if (!in_pass_) find(Misuse::unbalanced_pass, "no pass is open");
+        in_pass_ = false;
+    }
+
+    void operator()(const SetScissor& c) {
+        if (c.rect.width < 0 || c.rect.height < 0) find(Misuse::viewport_out_of_target, "negative size");
+    }
+    void operator()(const SetPipeline& c) {
+        has_pipeline_ = known(objects_.programs, c.state.program.id, "program");
+    }
+    void operator()(const BindTexture& c) {
+        textures_.erase(c.unit);
+        if (!c.texture) return;  // unbinds
+        if (known(objects_.textures, c.texture.id, "texture")) textures_[c.unit] = c.texture;
+        if (c.sampler) known(objects_.samplers, c.sampler.id, "sampler");
+    }
+    void operator()(const BindUniforms& c) {
+        if (!known(objects_.buffers, c.buffer.id, "buffer")) return;
+        if (info_.uniform_alignment != 0 && c.offset % info_.uniform_alignment != 0) {
+            find(Misuse::uniform_misaligned, "offset " + std::to_string(c.offset));
+        }
+        if (c.size == 0 || !in_range(c.offset, c.size, objects_.buffers.at(c.buffer.id).desc.size)) {
+            find(Misuse::uniform_out_of_range, "the buffer is smaller, or size is 0");
+        }
+    }
+    void operator()(const BindStorage& c) { known(objects_.buffers, c.buffer.id, "buffer"); }
+
+    void operator()(const UpdateBuffer& c) {
+        if (in_pass_) find(Misuse::update_inside_pass, "a pass is open");
+        if (!known(objects_.buffers, c.buffer.id, "buffer")) return;
+        RecordedBuffer& buffer = objects_.buffers.at(c.buffer.id);
+        if (buffer.desc.use == BufferUse::fixed) return find(Misuse::update_of_fixed_buffer, buffer.desc.label);
+        if (!in_range(c.offset, c.size, buffer.bytes.size()) || !in_range(c.first, c.size, list_.bytes.size())) {
+            return find(Misuse::update_out_of_range, buffer.desc.label);
+        }
+        std::copy_n(list_.bytes.begin() + static_cast<std::ptrdiff_t>(c.first), c.size,
+                    buffer.bytes.begin() + static_cast<std::ptrdiff_t>(c.offset));
+    }
+
+    void operator()(const BindMeshes& c) {
+        const bool vertices = known(objects_.buffers, c.vertices.id, "vertices");
+        const bool indices = known(objects_.buffers, c.indices.id, "indices");
+        const bool items = known(objects_.buffers, c.draw_items.id, "draw_items");
+        has_meshes_ = vertices && indices && items;
+        meshes_ = c;
+    }
+    void operator()(const DrawMeshes& c) {
+        check_draw();
+        if (!has_meshes_) return find(Misuse::draw_without_meshes, "BindMeshes comes first");
+        const RecordedBuffer& indices = objects_.buffers.at(meshes_.indices.id);
+        if (!in_range(c.first_index, c.index_count, indices.bytes.size() / kIndexBytes)) {
+            find(Misuse::draw_out_of_range, "indices beyond \"" + indices.desc.label + '"');
+        } else {
+            check_vertices(c, indices);
+        }
+        const RecordedBuffer& items = objects_.buffers.at(meshes_.draw_items.id);
+        if (!in_range(c.first_item, c.item_count, items.bytes.size() / kItemBytes)) {
+            find(Misuse::draw_out_of_range, "items beyond \"" + items.desc.label + '"');
+        }
+    }
+    void operator()(const DrawTriangle&) { check_draw(); }
+    void operator()(const DrawLines&) { check_draw(); }
+
+    void operator()(const GenerateMips& c) {
+        if (!known(objects_.textures, c.texture.id, "texture")) return;
+        if (in_pass_ && attached(target_, c.texture)) find(Misuse::feedback_loop, "mips of the pass's target");
+    }
+    void operator()(const Blit& c) {
+        if (!known_target(c.source) || !known_target(c.destination)) return;
+        check_rect(c.source, c.from);
+        check_rect(c.destination, c.to);
+        if (!has_colour(c.source) || !has_colour(c.destination)) {
+            find(Misuse::incomplete_target, "a blit needs colour on both sides");
+        }
+        if (c.source == c.destination) find(Misuse::feedback_loop, "blit of a target onto itself");
+        if (in_pass_ && (c.source == target_ || c.destination == target_)) {
+            find(Misuse::feedback_loop, "blit of the open pass's target");
+        }
+    }
+
+    void operator()(const BeginTimer& c) {
+        if (timer_) find(Misuse::nested_timer, "timer " + std::to_string(*timer_) + " runs");
+        timer_ = c.id;
+    }
+    void operator()(const EndTimer& c) {
+        if (timer_ == c.id) {
+            timers_.push_back(c.id);
+        } else {
+            find(Misuse::unbalanced_timer, "timer " + std::to_string(c.id) + " does not run");
+        }
+        timer_.reset();
+    }
+
+private:
+    void find(Misuse misuse, const std::string& detail) {
+        std::string where;
+        if (index_ < list_.commands.size()) {
+            where = " (command " + std::to_string(index_) + ": " + to_text(list_.commands[index_]) + ')';
+        }
+        findings_.push_back({misuse, detail + where});
+    }
+
+    template <class Map>
+    bool known(const Map& map, std::uint32_t id, const char* what) {
+        if (map.count(id) != 0) return true;
+        find(Misuse::unknown_handle, std::string{what} + " #" + std::to_string(id));
+        return false;
+    }
+    bool known_target(TargetHandle target) {
+        return !target || known(objects_.targets, target.id, "target");  // {0} is the window
+    }
+
+    /// The area all attachments share. A texture destroyed under its target was already found.
+    Size size_of(TargetHandle handle) const {
+        const TargetDesc& target = objects_.targets.at(handle.id);
+        Size size{std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
+        const auto shrink = [&](const Attachment& attachment) {
+            const auto at = objects_.textures.find(attachment.texture.id);
+            if (at == objects_.textures.end()) return;
+            size = {std::min(size.width, at->second.width), std::min(size.height, at->second.height)};
+        };
+        for (const Attachment& colour : target.colours) shrink(colour);
+        shrink(target.depth);
+        return size;
+    }
+    void check_rect(TargetHandle target, const Rect& rect) {
+        if (target && objects_.targets.count(target.id) == 0) return;  // already found unknown
+        constexpr std::uint32_t any = std::numeric_limits<std::int32_t>::max();
+        const Size size = target ? size_of(target) : Size{any, any};  // the window's size is not known here
+        if (!in_target(rect, size.width, size.height)) find(Misuse::viewport_out_of_target, "rectangle");
+    }
+    bool has_colour(TargetHandle target) const { return !target || !objects_.targets.at(target.id).colours.empty(); }
+
+    bool attached(TargetHandle handle, TextureHandle texture) const {
+        const auto at = objects_.targets.find(handle.id);
+        if (at == objects_.targets.end()) return false;
+        const auto names = [texture](const Attachment& a) { return a.texture == texture; };
+        return names(at->second.depth) || std::any_of(at->second.colours.begin(), at->second.colours.end(), names);
+    }
+    void check_draw() {
+        if (!in_pass_) return find(Misuse::draw_outside_pass, "BeginPass comes first");
+        if (!has_pipeline_) find(Misuse::draw_without_pipeline, "SetPipeline comes first");
+        for (const auto& [unit, texture] : textures_) {
+            if (attached(target_, texture)) find(Misuse::feedback_loop, "unit " + std::to_string(unit));
+        }
+    }
+    void check_vertices(const DrawMeshes& c, const RecordedBuffer& indices) {
+        const RecordedBuffer& vertices = objects_.buffers.at(meshes_.vertices.id);
+        const auto count = static_cast<std::int64_t>(vertices.bytes.size() / kVertexBytes);
+        for (std::uint32_t i = 0; i < c.index_count; ++i) {
+            std::uint32_t index = 0;
+            std::memcpy(&index, indices.bytes.data() + (std::uint64_t{c.first_index} + i) * kIndexBytes, kIndexBytes);
+            const std::int64_t vertex = std::int64_t{index} + c.base_vertex;
+            if (vertex < 0 || vertex >= count) {
+                return find(Misuse::draw_out_of_range, "vertex beyond \"" + vertices.desc.label + '"');
+            }
+        }
+    }
+
+    const CommandList& list_;
+    const DeviceInfo& info_;
+    RecordedObjects& objects_;
+    std::vector<Finding>& findings_;
+    std::size_t index_ = 0;
+
+    std::size_t open_groups_ = 0;
+    bool in_pass_ = false, has_pipeline_ = false, has_meshes_ = false;
+    TargetHandle target_{};
+    std::map<std::uint32_t, TextureHandle> textures_;  // by unit
+    BindMeshes meshes_{};
+    std::optional<std::uint32_t> timer_;
+    std::vector<std::uint32_t> timers_;
+};
+
+}  // namespace
+
+std::vector<std::uint32_t> check_list(const CommandList& list, const DeviceInfo& info, RecordedObjects& objects,
+                                      std::vector<Finding>& findings) {
+    return ListChecker(list, info, objects, findings).run();
+}
+
+}  // namespace gnomon::gl
