@@ -25,6 +25,7 @@ bool is_finite(const Aabb& b);
 inline glm::dvec3 centre(const Aabb& b) { return 0.5 * (b.min + b.max); }
 inline glm::dvec3 half_extent(const Aabb& b) { return 0.5 * (b.max - b.min); }
 
+/// Smallest box around both; an empty (or NaN) box adds nothing, nor does a point with a NaN.
 Aabb merged(const Aabb& a, const Aabb& b);
 Aabb extended(const Aabb& a, const glm::dvec3& point);
 
@@ -32,12 +33,14 @@ Aabb extended(const Aabb& a, const glm::dvec3& point);
 bool overlaps(const Aabb& a, const Aabb& b);
 
 /// Box of the image of `b` under p -> basis * p + translation (exact up to rounding, Arvo 1990).
+/// Empty stays empty; NaN in the basis or translation gives an empty box.
 Aabb transformed(const Aabb& b, const glm::dmat3& basis, const glm::dvec3& translation);
 
 /// Corner i: bit 0 chooses max x, bit 1 max y, bit 2 max z.
 std::array<glm::dvec3, 8> corners(const Aabb& b);
 
-/// Distance from a point to the box (0 inside) and to its farthest corner.
+/// Distance from a point to the box (0 inside) and to its farthest corner. An empty box: infinity and 0.
+/// A point with a NaN: NaN.
 double distance(const Aabb& b, const glm::dvec3& point);
 double farthest_distance(const Aabb& b, const glm::dvec3& point);
 

@@ -15,8 +15,7 @@ struct Plane {
     double offset = 0.0;
 };
 
-/// A camera or light volume as planes and, for a bounded or unbounded perspective, its apex.
-/// Convex. At most 6 planes: left, right, bottom, top, near, far (far absent when infinite).
+/// A camera or light volume as planes. Convex. At most 6 planes: left, right, bottom, top, near, far (far absent when infinite).
 struct Frustum {
     Plane planes[6];
     std::uint32_t plane_count = 0;
@@ -28,19 +27,21 @@ struct Frustum {
 glm::dmat3 basis_from_back(const glm::dvec3& back);
 
 /// Volume of a perspective view at `position` whose columns of `rotation` are right, up, back.
-/// tan_half: tangents of the half angles (x, y), > 0. far_m may be infinity (then 5 planes).
+/// tan_half: tangents of the half angles (x, y), > 0. An infinite far_m leaves 5 planes.
 Frustum perspective_frustum(const glm::dvec3& position, const glm::dmat3& rotation, double tan_half_x,
                             double tan_half_y, double near_m, double far_m);
 Frustum orthographic_frustum(const glm::dvec3& position, const glm::dmat3& rotation, double half_width,
                              double half_height, double near_m, double far_m);
 
-/// False only if the box lies wholly outside one plane (conservative). Empty boxes: false.
+/// False only if the box lies wholly outside one plane (conservative, also against rounding and NaN planes).
+/// Empty boxes: false.
 bool may_overlap(const Frustum& f, const Aabb& box);
 
-/// Corner points of box ∩ frustum, by clipping the box's faces and adding the frustum edges' hits
-/// with the box through the clip of the box as a convex polytope. Appends to `out`; returns the number added;
-/// 0 if the intersection is empty. Scale-free: no absolute epsilon.
-/// `scratch` is reused storage.
+/// Vertices of the convex polytope box ∩ frustum, some of them possibly more than once, in no particular order.
+/// Appends to `out` and returns the number added; 0 if the intersection is empty, or the box or a plane is not finite.
+/// Holds for flat boxes, boxes around the whole frustum, and frusta without a far plane. Scale-free: scaling box and
+/// offsets by a power of two scales the result exactly. Points lie in the box, and inside each plane up to 2^-48 of
+/// the size of the plane equation's terms.
 std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out);
 
 }  // namespace gnomon::math
