@@ -15,9 +15,7 @@ struct Aabb {
 };
 
 /// True if the box holds no point; NaN counts as empty.
-inline bool is_empty(const Aabb& b) {
-    return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z);
-}
+inline bool is_empty(const Aabb& b) { return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z); }
 
 /// True if all six numbers are finite.
 bool is_finite(const Aabb& b);

@@ -15,7 +15,8 @@ struct Plane {
     double offset = 0.0;
 };
 
-/// A camera or light volume as planes. Convex. At most 6 planes: left, right, bottom, top, near, far (far absent when infinite).
+/// A camera or light volume as planes, convex.
+/// At most 6: left, right, bottom, top, near, far (far is absent when infinite).
 struct Frustum {
     Plane planes[6];
     std::uint32_t plane_count = 0;

@@ -1,0 +1,2 @@
+gnomon_tests(NAME unit_math LABEL unit SOURCES
+  math/aabb_test.cpp math/frustum_test.cpp math/clip_box_test.cpp math/projection_test.cpp)
