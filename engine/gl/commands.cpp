@@ -33,28 +33,38 @@ std::string field(const char* name, const T& value) {
 
 const char* name(CullMode mode) {
     switch (mode) {
-        case CullMode::none: return "none";
-        case CullMode::back: return "back";
-        case CullMode::front: return "front";
+        case CullMode::none:
+            return "none";
+        case CullMode::back:
+            return "back";
+        case CullMode::front:
+            return "front";
     }
     return "?";
 }
 
 const char* name(DepthTest test) {
     switch (test) {
-        case DepthTest::off: return "off";
-        case DepthTest::greater_equal: return "greater_equal";
-        case DepthTest::greater: return "greater";
-        case DepthTest::equal: return "equal";
+        case DepthTest::off:
+            return "off";
+        case DepthTest::greater_equal:
+            return "greater_equal";
+        case DepthTest::greater:
+            return "greater";
+        case DepthTest::equal:
+            return "equal";
     }
     return "?";
 }
 
 const char* name(Blend blend) {
     switch (blend) {
-        case Blend::off: return "off";
-        case Blend::add: return "add";
-        case Blend::alpha: return "alpha";
+        case Blend::off:
+            return "off";
+        case Blend::add:
+            return "add";
+        case Blend::alpha:
+            return "alpha";
     }
     return "?";
 }

@@ -44,7 +44,8 @@ struct EndGroup {
     bool operator==(const EndGroup&) const = default;
 };
 
-/// Begins drawing into a target. Passes do not nest. clear_depth/clear_colour apply to the viewport's target whole.
+/// Begins drawing into a target. What shaders write to srgb8_a8 is encoded; what they write to the window is not.
+/// Passes do not nest. clear_depth/clear_colour apply to the viewport's target whole.
 struct BeginPass {
     TargetHandle target{};
     Rect viewport{};
@@ -116,7 +117,9 @@ struct GenerateMips {
     TextureHandle texture{};
     bool operator==(const GenerateMips&) const = default;
 };
-struct Blit {  // colour, source -> destination rectangles, nearest; destination {0} is the window
+/// Colour, source -> destination rectangles, nearest; destination {0} is the window. Stored values are copied as they
+/// are: srgb8_a8 reaches a window still encoded, as a display wants it.
+struct Blit {
     TargetHandle source{}, destination{};
     Rect from{}, to{};
     bool operator==(const Blit&) const = default;
@@ -132,9 +135,9 @@ struct EndTimer {
     bool operator==(const EndTimer&) const = default;
 };
 
-using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture, BindUniforms,
-                             BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines, GenerateMips,
-                             Blit, BeginTimer, EndTimer>;
+using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
+                             BindUniforms, BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
+                             GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;

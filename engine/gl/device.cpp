@@ -14,16 +14,20 @@ constexpr std::uint32_t kDepthTransferBytes = sizeof(float);
 
 std::uint32_t texel_bytes(Format format) {
     switch (format) {
-        case Format::r8: return 1;
-        case Format::d16: return 2;
+        case Format::r8:
+            return 1;
+        case Format::d16:
+            return 2;
         case Format::rgba8:
         case Format::srgb8_a8:
         case Format::r32f:
         case Format::d24:
-        case Format::d32f: return 4;
+        case Format::d32f:
+            return 4;
         case Format::rgba16_snorm:
         case Format::rgba16f:
-        case Format::rg32f: return 8;
+        case Format::rg32f:
+            return 8;
     }
     return 0;
 }
@@ -51,30 +55,48 @@ std::uint64_t byte_size(const TextureDesc& desc) {
 
 const char* to_text(Format format) {
     switch (format) {
-        case Format::r8: return "r8";
-        case Format::rgba8: return "rgba8";
-        case Format::srgb8_a8: return "srgb8_a8";
-        case Format::rgba16_snorm: return "rgba16_snorm";
-        case Format::rgba16f: return "rgba16f";
-        case Format::r32f: return "r32f";
-        case Format::rg32f: return "rg32f";
-        case Format::d16: return "d16";
-        case Format::d24: return "d24";
-        case Format::d32f: return "d32f";
+        case Format::r8:
+            return "r8";
+        case Format::rgba8:
+            return "rgba8";
+        case Format::srgb8_a8:
+            return "srgb8_a8";
+        case Format::rgba16_snorm:
+            return "rgba16_snorm";
+        case Format::rgba16f:
+            return "rgba16f";
+        case Format::r32f:
+            return "r32f";
+        case Format::rg32f:
+            return "rg32f";
+        case Format::d16:
+            return "d16";
+        case Format::d24:
+            return "d24";
+        case Format::d32f:
+            return "d32f";
     }
     return "?";
 }
 
 const char* to_text(Failure failure) {
     switch (failure) {
-        case Failure::none: return "none";
-        case Failure::out_of_memory: return "out_of_memory";
-        case Failure::invalid_value: return "invalid_value";
-        case Failure::incomplete_target: return "incomplete_target";
-        case Failure::compile_failed: return "compile_failed";
-        case Failure::link_failed: return "link_failed";
-        case Failure::map_failed: return "map_failed";
-        case Failure::context_lost: return "context_lost";
+        case Failure::none:
+            return "none";
+        case Failure::out_of_memory:
+            return "out_of_memory";
+        case Failure::invalid_value:
+            return "invalid_value";
+        case Failure::incomplete_target:
+            return "incomplete_target";
+        case Failure::compile_failed:
+            return "compile_failed";
+        case Failure::link_failed:
+            return "link_failed";
+        case Failure::map_failed:
+            return "map_failed";
+        case Failure::context_lost:
+            return "context_lost";
     }
     return "?";
 }

@@ -26,8 +26,8 @@ struct TextureDesc {
     TextureKind kind = TextureKind::flat;
     Format format = Format::rgba8;
     std::uint32_t width = 1, height = 1;
-    std::uint32_t layers = 1;   // array layers; cubes have 6 whatever is said here
-    std::uint32_t mips = 1;     // 0: a full chain
+    std::uint32_t layers = 1;  // array layers; cubes have 6 whatever is said here
+    std::uint32_t mips = 1;    // 0: a full chain
     bool operator==(const TextureDesc&) const = default;
 };
 /// 6 for a cube, 1 for a flat texture.
@@ -40,9 +40,9 @@ std::uint64_t byte_size(const TextureDesc& desc);
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, border };  // border is 0,0,0,0
 struct SamplerDesc {
     std::string label;
-    bool linear = false;              // min and mag
-    bool mipmaps = false;             // linear between mips
-    bool compare = false;             // depth compare, passes where reference >= stored
+    bool linear = false;   // min and mag
+    bool mipmaps = false;  // linear between mips
+    bool compare = false;  // depth compare, passes where reference >= stored
     Wrap wrap_u = Wrap::clamp, wrap_v = Wrap::clamp;
     bool operator==(const SamplerDesc&) const = default;
 };
@@ -68,6 +68,7 @@ struct Attachment {
     std::int32_t layer = -1;  // array layer or cube face 0..5; -1: the whole texture (flat)
     bool operator==(const Attachment&) const = default;
 };
+constexpr std::size_t kMaxColourAttachments = 8;  // what OpenGL guarantees
 struct TargetDesc {
     std::string label;
     std::vector<Attachment> colours;
@@ -76,7 +77,14 @@ struct TargetDesc {
 };
 
 enum class Failure : std::uint8_t {
-    none, out_of_memory, invalid_value, incomplete_target, compile_failed, link_failed, map_failed, context_lost
+    none,
+    out_of_memory,
+    invalid_value,
+    incomplete_target,
+    compile_failed,
+    link_failed,
+    map_failed,
+    context_lost
 };
 const char* to_text(Failure failure);
 
@@ -90,8 +98,8 @@ struct Created {
 };
 
 struct DeviceInfo {
-    std::string name;            // renderer and version
-    bool is_software = false;    // GPU time is then measured by finishing around each timer
+    std::string name;          // renderer and version
+    bool is_software = false;  // GPU time is then measured by finishing around each timer
     std::uint32_t max_texture_px = 0;
     std::uint32_t max_cube_px = 0;
     std::uint32_t max_layers = 0;
@@ -122,7 +130,8 @@ public:
 
     virtual const DeviceInfo& info() const = 0;
 
-    /// `pixels`: empty, or tightly packed rows (bottom row first) of mip 0 of every layer; mips are then generated.
+    /// `pixels`: empty (contents undefined), or tightly packed rows (bottom row first) of mip 0 of every layer; mips
+    /// are then generated.
     virtual Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) = 0;
     virtual Created<SamplerHandle> create_sampler(const SamplerDesc& desc) = 0;
     /// `bytes`: empty, or exactly desc.size bytes. A `fixed` buffer must be given its bytes.

@@ -50,27 +50,48 @@ void for_each_kind(const RecordedObjects& objects, Visit visit) {
 
 const char* to_text(Misuse misuse) {
     switch (misuse) {
-        case Misuse::unknown_handle: return "unknown_handle";
-        case Misuse::draw_outside_pass: return "draw_outside_pass";
-        case Misuse::nested_pass: return "nested_pass";
-        case Misuse::unbalanced_pass: return "unbalanced_pass";
-        case Misuse::unbalanced_group: return "unbalanced_group";
-        case Misuse::unbalanced_timer: return "unbalanced_timer";
-        case Misuse::nested_timer: return "nested_timer";
-        case Misuse::draw_without_pipeline: return "draw_without_pipeline";
-        case Misuse::draw_without_meshes: return "draw_without_meshes";
-        case Misuse::draw_out_of_range: return "draw_out_of_range";
-        case Misuse::update_inside_pass: return "update_inside_pass";
-        case Misuse::update_out_of_range: return "update_out_of_range";
-        case Misuse::update_of_fixed_buffer: return "update_of_fixed_buffer";
-        case Misuse::uniform_misaligned: return "uniform_misaligned";
-        case Misuse::uniform_out_of_range: return "uniform_out_of_range";
-        case Misuse::viewport_out_of_target: return "viewport_out_of_target";
-        case Misuse::incomplete_target: return "incomplete_target";
-        case Misuse::feedback_loop: return "feedback_loop";
-        case Misuse::destroyed_while_attached: return "destroyed_while_attached";
-        case Misuse::bad_description: return "bad_description";
-        case Misuse::leak: return "leak";
+        case Misuse::unknown_handle:
+            return "unknown_handle";
+        case Misuse::draw_outside_pass:
+            return "draw_outside_pass";
+        case Misuse::nested_pass:
+            return "nested_pass";
+        case Misuse::unbalanced_pass:
+            return "unbalanced_pass";
+        case Misuse::unbalanced_group:
+            return "unbalanced_group";
+        case Misuse::unbalanced_timer:
+            return "unbalanced_timer";
+        case Misuse::nested_timer:
+            return "nested_timer";
+        case Misuse::draw_without_pipeline:
+            return "draw_without_pipeline";
+        case Misuse::draw_without_meshes:
+            return "draw_without_meshes";
+        case Misuse::draw_out_of_range:
+            return "draw_out_of_range";
+        case Misuse::update_inside_pass:
+            return "update_inside_pass";
+        case Misuse::update_out_of_range:
+            return "update_out_of_range";
+        case Misuse::update_of_fixed_buffer:
+            return "update_of_fixed_buffer";
+        case Misuse::uniform_misaligned:
+            return "uniform_misaligned";
+        case Misuse::uniform_out_of_range:
+            return "uniform_out_of_range";
+        case Misuse::viewport_out_of_target:
+            return "viewport_out_of_target";
+        case Misuse::incomplete_target:
+            return "incomplete_target";
+        case Misuse::feedback_loop:
+            return "feedback_loop";
+        case Misuse::destroyed_while_attached:
+            return "destroyed_while_attached";
+        case Misuse::bad_description:
+            return "bad_description";
+        case Misuse::leak:
+            return "leak";
     }
     return "?";
 }
@@ -243,6 +264,10 @@ Created<TargetHandle> RecordingDevice::create_target(const TargetDesc& desc) {
     if (desc.colours.empty() && !desc.depth.texture) {
         find(Misuse::incomplete_target, quoted(desc.label, "no attachments"));
         checked = Failure::incomplete_target;
+    }
+    if (desc.colours.size() > kMaxColourAttachments) {
+        find(Misuse::bad_description, quoted(desc.label, "too many colours"));
+        checked = Failure::invalid_value;
     }
     if (failure || checked != Failure::none) {
         return refuse<TargetHandle>(kind, desc.label, 0, failure.value_or(checked));

@@ -13,11 +13,21 @@ namespace gnomon::gl {
 
 /// What the recording device found wrong with a call. Tests assert which.
 enum class Misuse : std::uint8_t {
-    unknown_handle,            // never created, or already destroyed; {0} where an object is needed
-    draw_outside_pass, nested_pass, unbalanced_pass, unbalanced_group, unbalanced_timer, nested_timer,
-    draw_without_pipeline, draw_without_meshes, draw_out_of_range,   // indices, vertices or items beyond the buffer
-    update_inside_pass, update_out_of_range, update_of_fixed_buffer,
-    uniform_misaligned, uniform_out_of_range,
+    unknown_handle,  // never created, or already destroyed; {0} where an object is needed
+    draw_outside_pass,
+    nested_pass,
+    unbalanced_pass,
+    unbalanced_group,
+    unbalanced_timer,
+    nested_timer,
+    draw_without_pipeline,
+    draw_without_meshes,
+    draw_out_of_range,  // indices, vertices or items beyond the buffer
+    update_inside_pass,
+    update_out_of_range,
+    update_of_fixed_buffer,
+    uniform_misaligned,
+    uniform_out_of_range,
     viewport_out_of_target,    // or blit rectangle out of it; a scissor of negative size
     incomplete_target,         // no attachments, a wrong layer, colour given as depth or depth as colour
     feedback_loop,             // a texture that the pass draws into is bound, mipped or blitted meanwhile
@@ -35,11 +45,20 @@ struct Finding {
 /// One resource call, in order of arrival.
 struct ResourceCall {
     enum class Kind : std::uint8_t {
-        create_texture, create_sampler, create_buffer, create_program, create_target,
-        destroy_texture, destroy_sampler, destroy_buffer, destroy_program, destroy_target, submit
+        create_texture,
+        create_sampler,
+        create_buffer,
+        create_program,
+        create_target,
+        destroy_texture,
+        destroy_sampler,
+        destroy_buffer,
+        destroy_program,
+        destroy_target,
+        submit
     };
     Kind kind;
-    std::uint32_t id = 0;      // of the object; submission number for submit
+    std::uint32_t id = 0;  // of the object; submission number for submit
     std::string label;
     std::uint64_t bytes = 0;
     bool failed = false;
@@ -71,7 +90,8 @@ public:
     explicit RecordingDevice(DeviceInfo info = default_info());
     static DeviceInfo default_info();  // "recording", limits as llvmpipe: 16384 px, 2048 layers
 
-    /// Fails the call whose number (counted over all create_* and submit calls from construction, first is 0) is `index`.
+    /// Fails the call whose number (counted over all create_* and submit calls from construction, first is 0) is
+    /// `index`.
     void fail_call(std::uint64_t index, Failure failure);
     /// Fails every create_texture, create_target and create_program whose label contains `text`.
     void fail_label(std::string text, Failure failure);
@@ -80,18 +100,18 @@ public:
 
     const std::vector<ResourceCall>& resource_calls() const;
     const std::vector<CommandList>& submissions() const;
-    const std::vector<Finding>& findings() const;   // misuse so far; empty is right
-    void forget();                                   // drops kept lists, calls, and findings, not live objects
+    const std::vector<Finding>& findings() const;  // misuse so far; empty is right
+    void forget();                                 // drops kept lists, calls, and findings, not live objects
 
     std::size_t live_count() const;
-    std::uint64_t live_bytes() const;                // textures and buffers
-    std::vector<std::string> live_labels() const;    // sorted
-    const TextureDesc* texture(TextureHandle) const; // nullptr if not alive
+    std::uint64_t live_bytes() const;                 // textures and buffers
+    std::vector<std::string> live_labels() const;     // sorted
+    const TextureDesc* texture(TextureHandle) const;  // nullptr if not alive
     const TargetDesc* target(TargetHandle) const;
     const BufferDesc* buffer(BufferHandle) const;
     const ProgramDesc* program(ProgramHandle) const;
     std::span<const std::byte> buffer_bytes(BufferHandle) const;  // current contents, updates applied
-    void check_leaks();                              // adds a finding per live object
+    void check_leaks();                                           // adds a finding per live object
 
     // Device
     const DeviceInfo& info() const override;
@@ -108,7 +128,7 @@ public:
     SubmitResult submit(const CommandList&) override;
     bool read_texture(TextureHandle, std::uint32_t layer, std::span<std::byte> out) override;  // zeros
     void set_timing(TimingMode) override;
-    std::vector<Timing> take_timings() override;     // 0 us for each timer when timing is on
+    std::vector<Timing> take_timings() override;  // 0 us for each timer when timing is on
     void finish() override;
 
 private:

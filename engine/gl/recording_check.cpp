@@ -51,9 +51,7 @@ public:
     void operator()(const SetScissor& c) {
         if (c.rect.width < 0 || c.rect.height < 0) find(Misuse::viewport_out_of_target, "negative size");
     }
-    void operator()(const SetPipeline& c) {
-        has_pipeline_ = known(objects_.programs, c.state.program.id, "program");
-    }
+    void operator()(const SetPipeline& c) { has_pipeline_ = known(objects_.programs, c.state.program.id, "program"); }
     void operator()(const BindTexture& c) {
         textures_.erase(c.unit);
         if (!c.texture) return;  // unbinds

@@ -38,7 +38,8 @@ public:
     explicit Expansion(std::span<const ShaderFile> files) : files_(files), states_(files.size(), State::unseen) {}
 
     std::optional<Error> add(std::string_view path, std::string_view from, std::size_t from_line) {
-        const auto file = std::find_if(files_.begin(), files_.end(), [&](const ShaderFile& f) { return f.path == path; });
+        const auto file =
+            std::find_if(files_.begin(), files_.end(), [&](const ShaderFile& f) { return f.path == path; });
         if (file == files_.end()) return missing(path, from, from_line);
         const auto number = static_cast<std::size_t>(file - files_.begin());
         if (states_[number] == State::open) return cycle(path, from, from_line);
@@ -80,12 +81,12 @@ private:
         return from.empty() ? std::string{} : " (included at line " + std::to_string(line) + ")";
     }
     static Error missing(std::string_view path, std::string_view from, std::size_t line) {
-        return {"no shader file \"" + std::string{path} + '"' + where(from, line), std::string{from}, {},
-                "shader.missing"};
+        return {
+            "no shader file \"" + std::string{path} + '"' + where(from, line), std::string{from}, {}, "shader.missing"};
     }
     static Error cycle(std::string_view path, std::string_view from, std::size_t line) {
-        return {"\"" + std::string{path} + "\" includes itself" + where(from, line), std::string{from}, {},
-                "shader.cycle"};
+        return {
+            "\"" + std::string{path} + "\" includes itself" + where(from, line), std::string{from}, {}, "shader.cycle"};
     }
 
     std::span<const ShaderFile> files_;

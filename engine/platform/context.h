@@ -15,12 +15,44 @@ public:
     virtual ~Context() = default;
 };
 
-/// Headless context: EGL surfaceless (Mesa or a GPU driver), no display needed. A robust context
-/// (LOSE_CONTEXT_ON_RESET) where the driver has it. Errors: rules "egl.display", "egl.context".
+/// Headless context: EGL on the first hardware device, else surfaceless, else the default display; no window system
+/// needed. LIBGL_ALWAYS_SOFTWARE=1 passes over hardware. A robust context (LOSE_CONTEXT_ON_RESET) where the driver
+/// has it. Errors: rules "egl.display", "egl.context".
 Result<std::unique_ptr<Context>> make_headless_context(bool debug);
 
-enum class Key : std::uint8_t { w, a, s, d, q, e, space, shift, escape, p, r, t, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10,
-                                f11, f12, left, right, up, down, tab, enter, count };
+enum class Key : std::uint8_t {
+    w,
+    a,
+    s,
+    d,
+    q,
+    e,
+    space,
+    shift,
+    escape,
+    p,
+    r,
+    t,
+    f1,
+    f2,
+    f3,
+    f4,
+    f5,
+    f6,
+    f7,
+    f8,
+    f9,
+    f10,
+    f11,
+    f12,
+    left,
+    right,
+    up,
+    down,
+    tab,
+    enter,
+    count
+};
 
 /// Input since the last poll. Positions in pixels, y down.
 struct Input {
@@ -28,20 +60,22 @@ struct Input {
     bool pressed[static_cast<std::size_t>(Key::count)] = {};  // went down since the last poll
     double mouse_dx = 0.0, mouse_dy = 0.0;
     double mouse_x = 0.0, mouse_y = 0.0;
-    bool mouse_button = false;
+    bool mouse_button = false;  // any button is down
     bool close_requested = false;
     std::uint32_t framebuffer_width = 0, framebuffer_height = 0;
 };
 
-/// A window with its context. Errors: rules "glfw.init", "glfw.window" (no display, no GL 4.5).
+/// A window with its context; one at a time, made and used on the main thread. Errors: rules "glfw.init", "glfw.window"
+/// (no display, no GL 4.5).
 class Window : public Context {
 public:
-    virtual const Input& poll() = 0;   // processes events
-    virtual void present() = 0;        // swaps
+    virtual const Input& poll() = 0;  // processes events
+    virtual void present() = 0;       // swaps
     virtual void capture_mouse(bool on) = 0;
     virtual void set_title(std::string_view title) = 0;
     virtual void* native_handle() = 0;  // GLFWwindow*
 };
-Result<std::unique_ptr<Window>> make_window(std::uint32_t width, std::uint32_t height, std::string_view title, bool debug);
+Result<std::unique_ptr<Window>> make_window(std::uint32_t width, std::uint32_t height, std::string_view title,
+                                            bool debug);
 
 }  // namespace gnomon::platform

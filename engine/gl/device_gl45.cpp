@@ -1,0 +1,218 @@
+#include "engine/gl/device_gl45.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "engine/gl/gl45_execute.h"
+#include "engine/gl/gl45_objects.h"
+#include "engine/gl/gl45_timers.h"
+#include "engine/gl/validate.h"
+
+namespace gnomon::gl {
+
+namespace {
+
+constexpr int kNeededVersion = 45;  // as epoxy counts: 10 * major + minor
+
+std::uint32_t get_unsigned(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return static_cast<std::uint32_t>(std::max(value, 0));
+}
+
+std::string get_string(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? std::string{} : reinterpret_cast<const char*>(text);
+}
+
+bool is_software_renderer(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    constexpr std::array names = {"llvmpipe", "softpipe", "swrast", "swiftshader", "software rasterizer"};
+    return std::any_of(names.begin(), names.end(), [&](const char* n) { return name.find(n) != std::string::npos; });
+}
+
+DeviceInfo read_info() {
+    DeviceInfo info;
+    const std::string renderer = get_string(GL_RENDERER);
+    info.name = renderer + ", OpenGL " + get_string(GL_VERSION);
+    info.is_software = is_software_renderer(renderer);
+    std::array<GLint, 2> viewport{};
+    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+    const auto drawable = static_cast<std::uint32_t>(std::max(std::min(viewport[0], viewport[1]), 0));
+    info.max_texture_px = std::min(get_unsigned(GL_MAX_TEXTURE_SIZE), drawable);
+    info.max_cube_px = std::min(get_unsigned(GL_MAX_CUBE_MAP_TEXTURE_SIZE), drawable);
+    info.max_layers = get_unsigned(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    info.uniform_alignment = get_unsigned(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+    return info;
+}
+
+MessageSeverity severity_of(GLenum severity) {
+    switch (severity) {
+        case GL_DEBUG_SEVERITY_HIGH:
+            return MessageSeverity::high;
+        case GL_DEBUG_SEVERITY_MEDIUM:
+            return MessageSeverity::medium;
+        case GL_DEBUG_SEVERITY_LOW:
+            return MessageSeverity::low;
+        default:
+            return MessageSeverity::notification;
+    }
+}
+
+class Gl45Device final : public Device {
+public:
+    explicit Gl45Device(MessageSink sink) : sink_(std::move(sink)), info_(read_info()) {
+        if (sink_) {
+            glEnable(GL_DEBUG_OUTPUT);
+            glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+            glDebugMessageCallback(&Gl45Device::on_message, this);
+        }
+        robust_ = get_unsigned(GL_RESET_NOTIFICATION_STRATEGY) == GL_LOSE_CONTEXT_ON_RESET;
+        fixtures_ = make_fixtures();
+    }
+    Gl45Device(const Gl45Device&) = delete;
+    Gl45Device& operator=(const Gl45Device&) = delete;
+    ~Gl45Device() override {
+        for (const auto& [id, target] : objects_.targets) glDeleteFramebuffers(1, &target.name);
+        for (const auto& [id, texture] : objects_.textures) glDeleteTextures(1, &texture.name);
+        for (const auto& [id, sampler] : objects_.samplers) glDeleteSamplers(1, &sampler);
+        for (const auto& [id, buffer] : objects_.buffers) glDeleteBuffers(1, &buffer.name);
+        for (const auto& [id, program] : objects_.programs) glDeleteProgram(program);
+        delete_fixtures(fixtures_);
+        if (sink_) glDebugMessageCallback(nullptr, nullptr);
+    }
+
+    const DeviceInfo& info() const override { return info_; }
+    std::size_t live_objects() const { return objects_.count(); }
+
+    Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) override {
+        const Failure checked = check_texture(desc, info_, pixels.size());
+        if (checked != Failure::none) return refused<TextureHandle>(checked, desc.label);
+        if (lost()) return refused<TextureHandle>(Failure::context_lost, desc.label);
+        return keep<TextureHandle>(objects_.textures, make_texture(desc, pixels));
+    }
+    Created<SamplerHandle> create_sampler(const SamplerDesc& desc) override {
+        if (lost()) return refused<SamplerHandle>(Failure::context_lost, desc.label);
+        return keep<SamplerHandle>(objects_.samplers, make_sampler(desc));
+    }
+    Created<BufferHandle> create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) override {
+        const Failure checked = check_buffer(desc, bytes.size());
+        if (checked != Failure::none) return refused<BufferHandle>(checked, desc.label);
+        if (lost()) return refused<BufferHandle>(Failure::context_lost, desc.label);
+        return keep<BufferHandle>(objects_.buffers, make_buffer(desc, bytes));
+    }
+    Created<ProgramHandle> create_program(const ProgramDesc& desc) override {
+        if (lost()) return refused<ProgramHandle>(Failure::context_lost, desc.label);
+        return keep<ProgramHandle>(objects_.programs, make_program(desc));
+    }
+    Created<TargetHandle> create_target(const TargetDesc& desc) override {
+        if (lost()) return refused<TargetHandle>(Failure::context_lost, desc.label);
+        return keep<TargetHandle>(objects_.targets, make_target(desc, objects_));
+    }
+
+    void destroy(TextureHandle h) override {
+        remove(objects_.textures, h.id, [](const GlTexture& texture) { glDeleteTextures(1, &texture.name); });
+    }
+    void destroy(SamplerHandle h) override {
+        remove(objects_.samplers, h.id, [](GLuint name) { glDeleteSamplers(1, &name); });
+    }
+    void destroy(BufferHandle h) override {
+        remove(objects_.buffers, h.id, [](const GlBuffer& buffer) { glDeleteBuffers(1, &buffer.name); });
+    }
+    void destroy(ProgramHandle h) override {
+        remove(objects_.programs, h.id, [](GLuint name) { glDeleteProgram(name); });
+    }
+    void destroy(TargetHandle h) override {
+        remove(objects_.targets, h.id, [](const GlTarget& target) { glDeleteFramebuffers(1, &target.name); });
+    }
+
+    SubmitResult submit(const CommandList& list) override {
+        const std::uint64_t submission = submissions_++;
+        if (lost()) return {Failure::context_lost, submission};
+        drop_gl_errors();
+        const Failure misuse = execute(list, submission, objects_, fixtures_, timers_);
+        const Failure error = take_gl_error();
+        if (lost()) return {Failure::context_lost, submission};
+        return {error == Failure::none ? misuse : error, submission};
+    }
+
+    bool read_texture(TextureHandle handle, std::uint32_t layer, std::span<std::byte> out) override {
+        const GlTexture* texture = find_object(objects_.textures, handle.id);
+        if (texture == nullptr || layer >= layer_count(texture->desc)) return false;
+        const TextureDesc& desc = texture->desc;
+        const std::uint64_t needed = std::uint64_t{desc.width} * desc.height * transfer_bytes(desc.format);
+        if (out.size() != needed || needed > std::numeric_limits<GLsizei>::max() || lost()) return false;
+        const GlFormat format = gl_format(desc.format);
+        drop_gl_errors();
+        reset_pixel_transfer();
+        glGetTextureSubImage(texture->name, 0, 0, 0, static_cast<GLint>(layer), static_cast<GLsizei>(desc.width),
+                             static_cast<GLsizei>(desc.height), 1, format.layout, format.type,
+                             static_cast<GLsizei>(out.size()), out.data());
+        return take_gl_error() == Failure::none;
+    }
+
+    void set_timing(TimingMode mode) override { timers_.set_mode(mode); }
+    std::vector<Timing> take_timings() override { return timers_.take(); }
+    void finish() override { glFinish(); }
+
+private:
+    static void on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
+                           const void* self) {
+        if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP) return;  // our own labels
+        static_cast<const Gl45Device*>(self)->sink_(severity_of(severity),
+                                                    {text, static_cast<std::size_t>(std::max(length, 0))});
+    }
+
+    /// Asked before each call that draws or creates; once lost, a context stays so.
+    bool lost() {
+        if (!lost_ && robust_) lost_ = glGetGraphicsResetStatus() != GL_NO_ERROR;
+        return lost_;
+    }
+
+    template <class H>
+    static Created<H> refused(Failure failure, const std::string& label) {
+        return {H{}, failure, '"' + label + "\": " + to_text(failure)};
+    }
+    template <class H, class Map, class Object>
+    Created<H> keep(Map& map, Made<Object> made) {
+        if (made.failure != Failure::none) return {H{}, made.failure, std::move(made.log)};
+        map.emplace(next_id_, std::move(made.object));
+        return {H{next_id_++}};
+    }
+    template <class Map, class Delete>
+    void remove(Map& map, std::uint32_t id, Delete delete_object) {
+        const auto at = map.find(id);
+        if (at == map.end()) return;
+        delete_object(at->second);
+        map.erase(at);
+    }
+
+    MessageSink sink_;
+    DeviceInfo info_;
+    GlFixtures fixtures_;
+    GlObjects objects_;
+    GlTimers timers_;
+    std::uint32_t next_id_ = 1;
+    std::uint64_t submissions_ = 0;
+    bool robust_ = false, lost_ = false;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink) {
+    const int version = epoxy_is_desktop_gl() ? epoxy_gl_version() : 0;
+    if (version < kNeededVersion) {
+        return Error{"the current context is not OpenGL 4.5 but " + get_string(GL_VERSION), {}, {}, "gl.version"};
+    }
+    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink))};
+}
+
+std::size_t live_objects(const Device& gl45_device) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? 0 : device->live_objects();
+}
+
+}  // namespace gnomon::gl

@@ -1,0 +1,344 @@
+#include "engine/gl/gl45_execute.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/gl/validate.h"
+
+namespace gnomon::gl {
+
+namespace {
+
+constexpr GLuint kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kItemAttribute = 3;
+constexpr GLuint kVertexSlot = 0, kItemSlot = 1;
+constexpr GLuint kNormalOffset = 3 * sizeof(float), kUvOffset = 6 * sizeof(float);
+constexpr GLsizei kVertexBytes = 8 * sizeof(float), kItemBytes = 2 * sizeof(std::uint32_t);
+constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // cleared before each list: what lists may use
+
+GLint get_integer(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+/// Everything that decides what a draw does and that lists do not set: other users of the context may have
+/// changed it since the last list.
+void reset_state(const GlFixtures& fixtures) {
+    for (const GLenum capability : {GL_SCISSOR_TEST,
+                                    GL_STENCIL_TEST,
+                                    GL_DEPTH_TEST,
+                                    GL_DEPTH_CLAMP,
+                                    GL_CULL_FACE,
+                                    GL_BLEND,
+                                    GL_COLOR_LOGIC_OP,
+                                    GL_DITHER,
+                                    GL_POLYGON_OFFSET_FILL,
+                                    GL_POLYGON_OFFSET_LINE,
+                                    GL_POLYGON_OFFSET_POINT,
+                                    GL_POLYGON_SMOOTH,
+                                    GL_LINE_SMOOTH,
+                                    GL_PRIMITIVE_RESTART,
+                                    GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                                    GL_RASTERIZER_DISCARD,
+                                    GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                    GL_SAMPLE_ALPHA_TO_ONE,
+                                    GL_SAMPLE_COVERAGE,
+                                    GL_SAMPLE_MASK,
+                                    GL_FRAMEBUFFER_SRGB}) {
+        glDisable(capability);
+    }
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glDepthRange(0.0, 1.0);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glBlendEquation(GL_FUNC_ADD);
+    glUseProgram(0);
+    glBindVertexArray(0);
+    glBindTextures(0, fixtures.texture_units, nullptr);
+    glBindSamplers(0, fixtures.texture_units, nullptr);
+    glBindBuffersBase(GL_UNIFORM_BUFFER, 0, fixtures.uniform_bindings, nullptr);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, fixtures.storage_bindings, nullptr);
+}
+
+GLenum gl_depth_test(DepthTest test) {
+    switch (test) {
+        case DepthTest::off:
+            return GL_ALWAYS;
+        case DepthTest::greater_equal:
+            return GL_GEQUAL;
+        case DepthTest::greater:
+            return GL_GREATER;
+        case DepthTest::equal:
+            return GL_EQUAL;
+    }
+    return GL_ALWAYS;
+}
+
+void set_enabled(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
+
+void apply(const PipelineState& state, GLuint program) {
+    glUseProgram(program);
+    set_enabled(GL_CULL_FACE, state.cull != CullMode::none);
+    glCullFace(state.cull == CullMode::front ? GL_FRONT : GL_BACK);
+    glFrontFace(state.front_is_clockwise ? GL_CW : GL_CCW);
+    // OpenGL writes depth only while it tests it.
+    set_enabled(GL_DEPTH_TEST, state.depth_test != DepthTest::off || state.depth_write);
+    glDepthFunc(gl_depth_test(state.depth_test));
+    glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
+    set_enabled(GL_DEPTH_CLAMP, state.depth_clamp);
+    set_enabled(GL_BLEND, state.blend != Blend::off);
+    if (state.blend == Blend::add) glBlendFunc(GL_ONE, GL_ONE);
+    if (state.blend == Blend::alpha) glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+/// One operator() per command; state of one list.
+class ListExecutor {
+public:
+    ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects,
+                 const GlFixtures& fixtures, GlTimers& timers)
+        : list_(list), submission_(submission), objects_(objects), fixtures_(fixtures), timers_(timers) {}
+
+    Failure run() {
+        reset_state(fixtures_);
+        for (const Command& command : list_.commands) std::visit(*this, command);
+        if (!timers_.abandon() || open_groups_ != 0 || in_pass_) note(Failure::invalid_value);
+        for (; open_groups_ > 0; --open_groups_) pop_group();
+        reset_state(fixtures_);
+        // A vertex array keeps deleted buffers alive.
+        glVertexArrayVertexBuffer(fixtures_.mesh_layout, kVertexSlot, 0, 0, kVertexBytes);
+        glVertexArrayVertexBuffer(fixtures_.mesh_layout, kItemSlot, 0, 0, kItemBytes);
+        glVertexArrayElementBuffer(fixtures_.mesh_layout, 0);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        return failure_;
+    }
+
+    void operator()(const BeginGroup& c) {
+        if (open_groups_++ >= fixtures_.group_depth) return;
+        const auto length = static_cast<GLsizei>(std::min(c.label.size(), fixtures_.message_bytes));
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, length, c.label.c_str());
+    }
+    void operator()(const EndGroup&) {
+        if (open_groups_ == 0) return note(Failure::invalid_value);
+        pop_group();
+        --open_groups_;
+    }
+
+    void operator()(const BeginPass& c) {
+        if (in_pass_) return note(Failure::invalid_value);
+        in_pass_ = true;
+        drawable_ = false;
+        const GlTarget* target = nullptr;
+        if (!usable(c.target, target)) return;
+        if (c.viewport.width <= 0 || c.viewport.height <= 0) return note(Failure::invalid_value);
+        drawable_ = true;
+        glBindFramebuffer(GL_FRAMEBUFFER, target == nullptr ? 0 : target->name);
+        set_enabled(GL_FRAMEBUFFER_SRGB, target != nullptr);
+        glViewport(c.viewport.x, c.viewport.y, c.viewport.width, c.viewport.height);
+        set_scissor({});
+        clear(c, target == nullptr ? 1 : target->colours);
+    }
+    void operator()(const EndPass&) {
+        if (!in_pass_) note(Failure::invalid_value);
+        in_pass_ = drawable_ = false;
+    }
+
+    void operator()(const SetScissor& c) {
+        if (c.rect.width < 0 || c.rect.height < 0) return note(Failure::invalid_value);
+        set_scissor(c.rect);
+    }
+    void operator()(const SetPipeline& c) {
+        if (pipeline_ == c.state) return;
+        pipeline_.reset();
+        const GLuint* program = find_object(objects_.programs, c.state.program.id);
+        if (program == nullptr) return note(Failure::invalid_value);
+        pipeline_ = c.state;
+        apply(c.state, *program);
+    }
+
+    void operator()(const BindTexture& c) {
+        if (c.unit >= static_cast<std::uint32_t>(fixtures_.texture_units)) return note(Failure::invalid_value);
+        const GlTexture* texture = find_object(objects_.textures, c.texture.id);
+        const GLuint* sampler = find_object(objects_.samplers, c.sampler.id);
+        if ((c.texture && texture == nullptr) || (c.sampler && sampler == nullptr)) note(Failure::invalid_value);
+        glBindTextureUnit(c.unit, texture == nullptr ? 0 : texture->name);
+        glBindSampler(c.unit, sampler == nullptr ? 0 : *sampler);
+    }
+    void operator()(const BindUniforms& c) {
+        const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
+        if (buffer == nullptr || c.binding >= static_cast<std::uint32_t>(fixtures_.uniform_bindings) || c.size == 0 ||
+            !in_range(c.offset, c.size, buffer->desc.size) || c.offset % fixtures_.uniform_alignment != 0) {
+            return note(Failure::invalid_value);
+        }
+        glBindBufferRange(GL_UNIFORM_BUFFER, c.binding, buffer->name, static_cast<GLintptr>(c.offset),
+                          static_cast<GLsizeiptr>(c.size));
+    }
+    void operator()(const BindStorage& c) {
+        const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
+        if (buffer == nullptr || c.binding >= static_cast<std::uint32_t>(fixtures_.storage_bindings)) {
+            return note(Failure::invalid_value);
+        }
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, c.binding, buffer->name);
+    }
+    void operator()(const UpdateBuffer& c) {
+        const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
+        if (in_pass_ || buffer == nullptr || buffer->desc.use == BufferUse::fixed ||
+            !in_range(c.offset, c.size, buffer->desc.size) || !in_range(c.first, c.size, list_.bytes.size())) {
+            return note(Failure::invalid_value);
+        }
+        glNamedBufferSubData(buffer->name, static_cast<GLintptr>(c.offset), static_cast<GLsizeiptr>(c.size),
+                             list_.bytes.data() + c.first);
+    }
+
+    void operator()(const BindMeshes& c) {
+        const GlBuffer* vertices = find_object(objects_.buffers, c.vertices.id);
+        indices_ = find_object(objects_.buffers, c.indices.id);
+        items_ = find_object(objects_.buffers, c.draw_items.id);
+        if (vertices == nullptr || indices_ == nullptr || items_ == nullptr) {
+            indices_ = items_ = nullptr;
+            return note(Failure::invalid_value);
+        }
+        const GLuint layout = fixtures_.mesh_layout;
+        glVertexArrayVertexBuffer(layout, kVertexSlot, vertices->name, 0, kVertexBytes);
+        glVertexArrayVertexBuffer(layout, kItemSlot, items_->name, 0, kItemBytes);
+        glVertexArrayElementBuffer(layout, indices_->name);
+    }
+    void operator()(const DrawMeshes& c) {
+        if (!can_draw(fixtures_.mesh_layout)) return;
+        if (indices_ == nullptr || !in_range(c.first_index, c.index_count, indices_->desc.size / sizeof(GLuint)) ||
+            !in_range(c.first_item, c.item_count, items_->desc.size / kItemBytes)) {
+            return note(Failure::invalid_value);
+        }
+        const auto offset = static_cast<std::uintptr_t>(c.first_index) * sizeof(GLuint);
+        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(c.index_count),
+                                                      GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                                                      static_cast<GLsizei>(c.item_count), c.base_vertex, c.first_item);
+    }
+    void operator()(const DrawTriangle&) {
+        constexpr GLsizei corners = 3;
+        if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_TRIANGLES, 0, corners);
+    }
+    void operator()(const DrawLines& c) {
+        if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));
+    }
+
+    void operator()(const GenerateMips& c) {
+        const GlTexture* texture = find_object(objects_.textures, c.texture.id);
+        if (texture == nullptr) return note(Failure::invalid_value);
+        glGenerateTextureMipmap(texture->name);
+    }
+    void operator()(const Blit& c) {
+        const GlTarget *source = nullptr, *destination = nullptr;
+        if (!usable(c.source, source) || !usable(c.destination, destination)) return;
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_FRAMEBUFFER_SRGB);
+        glBlitNamedFramebuffer(source == nullptr ? 0 : source->name, destination == nullptr ? 0 : destination->name,
+                               c.from.x, c.from.y, c.from.x + c.from.width, c.from.y + c.from.height, c.to.x, c.to.y,
+                               c.to.x + c.to.width, c.to.y + c.to.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        set_scissor(scissor_);
+        set_enabled(GL_FRAMEBUFFER_SRGB, in_target_);
+    }
+
+    void operator()(const BeginTimer& c) {
+        if (!timers_.begin(c.id, submission_)) note(Failure::invalid_value);
+    }
+    void operator()(const EndTimer& c) {
+        if (!timers_.end(c.id)) note(Failure::invalid_value);
+    }
+
+private:
+    void note(Failure failure) {
+        if (failure_ == Failure::none) failure_ = failure;
+    }
+    void pop_group() {
+        if (open_groups_ <= fixtures_.group_depth) glPopDebugGroup();
+    }
+
+    /// False, and noted: unknown, or the window of a context that has none. The window gives a null `target`.
+    bool usable(TargetHandle handle, const GlTarget*& target) {
+        if (handle) {
+            target = find_object(objects_.targets, handle.id);
+            if (target == nullptr) note(Failure::invalid_value);
+            return target != nullptr;
+        }
+        if (glCheckNamedFramebufferStatus(0, GL_DRAW_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE) return true;
+        note(Failure::incomplete_target);
+        return false;
+    }
+    void set_scissor(const Rect& rect) {
+        scissor_ = rect;
+        set_enabled(GL_SCISSOR_TEST, rect.width > 0);
+        if (rect.width > 0) glScissor(rect.x, rect.y, rect.width, rect.height);
+    }
+    void clear(const BeginPass& c, std::size_t colours) {
+        in_target_ = static_cast<bool>(c.target);
+        if (c.clear_depth) {
+            glDepthMask(GL_TRUE);  // clears obey the mask of the pipeline before
+            glClearBufferfv(GL_DEPTH, 0, &c.depth);
+            if (pipeline_) glDepthMask(pipeline_->depth_write ? GL_TRUE : GL_FALSE);
+        }
+        if (!c.clear_colour) return;
+        for (std::size_t i = 0; i < colours; ++i) {
+            glClearBufferfv(GL_COLOR, static_cast<GLint>(i), c.colour.data());
+        }
+    }
+    bool can_draw(GLuint layout) {
+        if (!in_pass_ || !pipeline_) note(Failure::invalid_value);
+        if (!drawable_ || !pipeline_) return false;  // why the pass cannot be drawn into has been noted
+        glBindVertexArray(layout);
+        return true;
+    }
+
+    const CommandList& list_;
+    std::uint64_t submission_;
+    const GlObjects& objects_;
+    const GlFixtures& fixtures_;
+    GlTimers& timers_;
+
+    Failure failure_ = Failure::none;
+    std::size_t open_groups_ = 0;
+    bool in_pass_ = false, drawable_ = false, in_target_ = false;
+    Rect scissor_{};
+    std::optional<PipelineState> pipeline_;
+    const GlBuffer* indices_ = nullptr;
+    const GlBuffer* items_ = nullptr;
+};
+
+}  // namespace
+
+GlFixtures make_fixtures() {
+    GlFixtures fixtures;
+    glCreateVertexArrays(1, &fixtures.empty_layout);
+    glCreateVertexArrays(1, &fixtures.mesh_layout);
+    const GLuint layout = fixtures.mesh_layout;
+    glVertexArrayAttribFormat(layout, kPositionAttribute, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribFormat(layout, kNormalAttribute, 3, GL_FLOAT, GL_FALSE, kNormalOffset);
+    glVertexArrayAttribFormat(layout, kUvAttribute, 2, GL_FLOAT, GL_FALSE, kUvOffset);
+    glVertexArrayAttribIFormat(layout, kItemAttribute, 2, GL_UNSIGNED_INT, 0);
+    for (const GLuint attribute : {kPositionAttribute, kNormalAttribute, kUvAttribute, kItemAttribute}) {
+        glEnableVertexArrayAttrib(layout, attribute);
+        glVertexArrayAttribBinding(layout, attribute, attribute == kItemAttribute ? kItemSlot : kVertexSlot);
+    }
+    glVertexArrayBindingDivisor(layout, kItemSlot, 1);
+    set_gl_label(GL_VERTEX_ARRAY, fixtures.mesh_layout, "mesh layout");
+    set_gl_label(GL_VERTEX_ARRAY, fixtures.empty_layout, "empty layout");
+    fixtures.texture_units = std::min(get_integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), kUsedTextureUnits);
+    fixtures.uniform_bindings = std::min(get_integer(GL_MAX_UNIFORM_BUFFER_BINDINGS), kUsedBindings);
+    fixtures.storage_bindings = std::min(get_integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS), kUsedBindings);
+    fixtures.group_depth = static_cast<std::size_t>(std::max(get_integer(GL_MAX_DEBUG_GROUP_STACK_DEPTH) - 1, 0));
+    fixtures.message_bytes = static_cast<std::size_t>(std::max(get_integer(GL_MAX_DEBUG_MESSAGE_LENGTH) - 1, 0));
+    fixtures.uniform_alignment = static_cast<std::uint32_t>(get_integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
+    return fixtures;
+}
+
+void delete_fixtures(const GlFixtures& fixtures) {
+    glDeleteVertexArrays(1, &fixtures.mesh_layout);
+    glDeleteVertexArrays(1, &fixtures.empty_layout);
+}
+
+Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, const GlFixtures& fixtures,
+                GlTimers& timers) {
+    return ListExecutor(list, submission, objects, fixtures, timers).run();
+}
+
+}  // namespace gnomon::gl

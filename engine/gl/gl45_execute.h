@@ -1,0 +1,23 @@
+#pragma once
+#include "engine/gl/gl45_objects.h"
+#include "engine/gl/gl45_timers.h"
+
+namespace gnomon::gl {
+
+/// Fixed objects and limits that lists are executed with. Private to the executor.
+struct GlFixtures {
+    GLuint mesh_layout = 0;                                                 // vertex array of BindMeshes
+    GLuint empty_layout = 0;                                                // vertex array of draws without attributes
+    GLsizei texture_units = 0, uniform_bindings = 0, storage_bindings = 0;  // those that lists may use
+    std::size_t group_depth = 0, message_bytes = 0;
+    std::uint32_t uniform_alignment = 0;
+};
+GlFixtures make_fixtures();
+void delete_fixtures(const GlFixtures& fixtures);
+
+/// Executes a list from a defined state, and leaves none of its own behind: no program, textures, buffers or
+/// target bound. Commands that are misuse are left out and make the result invalid_value.
+Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, const GlFixtures& fixtures,
+                GlTimers& timers);
+
+}  // namespace gnomon::gl

@@ -1,0 +1,49 @@
+#pragma once
+#include <epoxy/gl.h>
+
+#include <chrono>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "engine/gl/device.h"
+
+namespace gnomon::gl {
+
+/// Times spans of GPU work as the mode says. Private to the executor.
+class GlTimers {
+public:
+    GlTimers() = default;
+    GlTimers(const GlTimers&) = delete;
+    GlTimers& operator=(const GlTimers&) = delete;
+    ~GlTimers();
+
+    void set_mode(TimingMode mode) { mode_ = mode; }
+    /// False, and nothing is timed: a timer already runs, or another one than `id`.
+    bool begin(std::uint32_t id, std::uint64_t submission);
+    bool end(std::uint32_t id);
+    /// Ends a timer that a list left running; its time is dropped. False: one ran.
+    bool abandon();
+    std::vector<Timing> take();
+
+private:
+    struct Running {
+        Timing timing;
+        TimingMode mode = TimingMode::off;
+        GLuint query = 0;
+        std::chrono::steady_clock::time_point start;
+    };
+    struct Pending {
+        Timing timing;
+        GLuint query = 0;
+    };
+    GLuint take_query();
+
+    TimingMode mode_ = TimingMode::off;
+    std::optional<Running> running_;
+    std::deque<Pending> pending_;
+    std::vector<GLuint> free_queries_;
+    std::vector<Timing> done_;
+};
+
+}  // namespace gnomon::gl
