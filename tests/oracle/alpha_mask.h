@@ -1,0 +1,15 @@
+#pragma once
+#include <glm/vec2.hpp>
+
+#include "engine/assets/mesh_library.h"
+
+namespace gnomon::oracle {
+
+/// Alpha of a texture at `uv` (glTF: v down), 0…1, at its finest level: bilinear, or nearest if the texture says so.
+/// A texture without texels is opaque.
+double sample_alpha(const assets::Texture& texture, const glm::dvec2& uv);
+
+/// True if the material leaves the surface there at `uv`: not masked, or alpha * factor >= cutoff.
+bool passes_mask(const assets::MeshLibrary& library, const assets::Material& material, const glm::dvec2& uv);
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,175 @@
+#include "tests/oracle/reference_tracer.h"
+
+#include <array>
+#include <cmath>
+
+#include "tests/oracle/parallel_rows.h"
+#include "tests/oracle/traced_world.h"
+
+namespace gnomon::oracle {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct PixelRay {
+    ExactRay ray;
+    double t_min = 0.0, t_max = kInfinity;
+};
+
+PixelRay pixel_ray(const ConsumerItem& consumer, const glm::dvec3& camera_rel_m, std::uint32_t x, std::uint32_t y) {
+    const glm::dvec2 size(consumer.viewport_px);
+    const glm::dvec2 ndc = 2.0 * (glm::dvec2(x, y) + 0.5) / size - 1.0;
+    const double half_height = consumer.projection == CameraProjection::perspective ? std::tan(0.5 * consumer.fov_y_rad)
+                                                                                    : consumer.half_height_m;
+    const glm::dvec3 across = consumer.rotation_ws[0] * (ndc.x * half_height * size.x / size.y) +
+                              consumer.rotation_ws[1] * (ndc.y * half_height);
+    const glm::dvec3 forward = -consumer.rotation_ws[2];
+    if (consumer.projection == CameraProjection::perspective)
+        return {make_ray(camera_rel_m, across + forward), consumer.near_m, consumer.far_m};
+    // From the near plane on, which may lie behind an orthographic camera.
+    return {make_ray(camera_rel_m + across + forward * consumer.near_m, forward), 0.0,
+            consumer.far_m - consumer.near_m};
+}
+
+// Direction to the light and how far along it the light is; false outside its range or cone.
+bool reach(const LightItem& light, const glm::dvec3& light_rel_m, const glm::dvec3& point_rel_m, glm::dvec3& to_light,
+           double& t_max) {
+    if (light.kind == LightKind::directional) {
+        to_light = light.rotation_ws[2];
+        t_max = kInfinity;
+        return true;
+    }
+    to_light = light_rel_m - point_rel_m;
+    t_max = 1.0;
+    const double distance_m = glm::length(to_light);
+    if (!(distance_m > 0.0)) return false;
+    if (light.range_m > 0.0 && distance_m > light.range_m) return false;
+    if (light.kind == LightKind::point) return true;
+    const double cosine = glm::dot(to_light, light.rotation_ws[2]) / (distance_m * glm::length(light.rotation_ws[2]));
+    return cosine >= std::cos(light.outer_cone_rad);
+}
+
+double cosine_between(const glm::dvec3& unit_normal, const glm::dvec3& to_light) {
+    return glm::dot(unit_normal, to_light) / glm::length(to_light);
+}
+
+// Two axes in the plane of a unit normal.
+std::array<glm::dvec3, 2> tangents(const glm::dvec3& n) {
+    const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 first = glm::normalize(glm::cross(n, helper));
+    return {first, glm::cross(n, first)};
+}
+
+// One light over one picture.
+struct LightTracer {
+    const TracedWorld& world;
+    const PrimaryHits& hits;
+    const LightItem& light;
+    glm::dvec3 light_rel_m;
+
+    float trace(const glm::dvec3& point, std::uint32_t triangle, std::uint32_t& hint) const {
+        glm::dvec3 to_light;
+        double t_max = 0.0;
+        if (!reach(light, light_rel_m, point, to_light, t_max)) return 0.0f;
+        if (!world.triangles()[triangle].receives) return 1.0f;
+        const std::uint32_t found = world.occluder(make_ray(point, to_light), t_max, triangle, hint);
+        if (found == kNoTriangle) return 1.0f;
+        hint = found;
+        return 0.0f;
+    }
+
+    // The jitter stays in the surface: off it, P would be inside its own solid and grazing rays would meet neighbours.
+    bool flips(std::size_t pixel, float answer, std::uint32_t hint) const {
+        const glm::dvec3& point = hits.position_rel_m[pixel];
+        const double step_m = kJitter * glm::length(point - hits.camera_rel_m);
+        for (const glm::dvec3& axis : tangents(hits.normal_ws[pixel]))
+            for (const double sign : {-1.0, 1.0})
+                if (trace(point + axis * (sign * step_m), hits.triangle[pixel], hint) != answer) return true;
+        return false;
+    }
+
+    void trace_pixel(std::size_t pixel, bool with_ambiguous, std::uint32_t& hint, LightTruth& truth) const {
+        if (hits.triangle[pixel] == kNoTriangle) return;
+        truth.visibility[pixel] = 0.0f;
+        const glm::dvec3& point = hits.position_rel_m[pixel];
+        glm::dvec3 to_light;
+        double t_max = 0.0;
+        const bool reached = reach(light, light_rel_m, point, to_light, t_max);
+        const double cosine = glm::length(to_light) > 0.0 ? cosine_between(hits.normal_ws[pixel], to_light) : 0.0;
+        if (!(cosine > 0.0)) return;
+        if (reached) truth.visibility[pixel] = trace(point, hits.triangle[pixel], hint);
+        truth.scored[pixel] = reached && cosine > kMinCosine;
+        if (with_ambiguous && truth.scored[pixel]) truth.ambiguous[pixel] = flips(pixel, truth.visibility[pixel], hint);
+    }
+};
+
+}  // namespace
+
+struct ReferenceTracer::World {
+    TracedWorld traced;
+    unsigned threads;
+};
+
+ReferenceTracer::ReferenceTracer(const SceneSnapshot& snapshot, const assets::MeshLibrary& library,
+                                 const glm::dvec3& origin_ws_m, unsigned threads)
+    : world_(new World{{snapshot, library, origin_ws_m}, threads}) {}
+
+ReferenceTracer::~ReferenceTracer() = default;
+
+std::size_t ReferenceTracer::triangle_count() const { return world_->traced.triangles().size(); }
+
+std::uint32_t ReferenceTracer::instance_of(std::uint32_t triangle) const {
+    return world_->traced.triangles()[triangle].instance;
+}
+
+PrimaryHits ReferenceTracer::trace_primary(const ConsumerItem& consumer) const {
+    const TracedWorld& world = world_->traced;
+    const std::size_t count = std::size_t{consumer.viewport_px.x} * consumer.viewport_px.y;
+    PrimaryHits hits;
+    hits.size_px = consumer.viewport_px;
+    hits.camera_rel_m = consumer.position_ws_m - world.origin_ws_m();
+    hits.triangle.assign(count, kNoTriangle);
+    hits.position_rel_m.assign(count, glm::dvec3(0.0));
+    hits.normal_ws.assign(count, glm::dvec3(0.0));
+    parallel_rows(hits.size_px.y, world_->threads, [&](std::uint32_t row) {
+        for (std::uint32_t x = 0; x < hits.size_px.x; ++x) {
+            const PixelRay pixel = pixel_ray(consumer, hits.camera_rel_m, x, row);
+            const SurfaceHit hit = world.nearest_surface(pixel.ray, pixel.t_min, pixel.t_max);
+            if (hit.triangle == kNoTriangle) continue;
+            const WorldTriangle& triangle = world.triangles()[hit.triangle];
+            const glm::dvec3 normal = glm::normalize(front_normal(triangle));
+            const double side = glm::dot(normal, pixel.ray.direction);
+            const glm::dvec3 point = pixel.ray.origin + pixel.ray.direction * hit.t;
+            const std::size_t i = std::size_t{row} * hits.size_px.x + x;
+            hits.triangle[i] = hit.triangle;
+            hits.normal_ws[i] = side > 0.0 ? -normal : normal;
+            // One Newton step puts the point on the plane to the last bits also where the ray grazes it.
+            hits.position_rel_m[i] = point - normal * glm::dot(normal, point - triangle.a);
+        }
+    });
+    return hits;
+}
+
+LightTruth ReferenceTracer::trace_light(const PrimaryHits& hits, const LightItem& light, bool with_ambiguous) const {
+    const LightTracer tracer{world_->traced, hits, light, light.position_ws_m - world_->traced.origin_ws_m()};
+    LightTruth truth;
+    truth.visibility.assign(hits.count(), -1.0f);
+    truth.scored.assign(hits.count(), 0);
+    truth.ambiguous.assign(hits.count(), 0);
+    parallel_rows(hits.size_px.y, world_->threads, [&](std::uint32_t row) {
+        std::uint32_t hint = kNoTriangle;
+        const std::size_t first = std::size_t{row} * hits.size_px.x;
+        for (std::uint32_t x = 0; x < hits.size_px.x; ++x) tracer.trace_pixel(first + x, with_ambiguous, hint, truth);
+    });
+    return truth;
+}
+
+std::vector<float> ReferenceTracer::visibility(const PrimaryHits& hits, const LightItem& light) const {
+    return trace_light(hits, light, false).visibility;
+}
+
+std::vector<std::uint8_t> ReferenceTracer::ambiguous(const PrimaryHits& hits, const LightItem& light) const {
+    return trace_light(hits, light, true).ambiguous;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,3 @@
+gnomon_tests(NAME unit_oracle LABEL unit
+  SOURCES oracle/alpha_mask_test.cpp oracle/metrics_test.cpp oracle/tracer_test.cpp oracle/triangle_test_test.cpp
+  LIBRARIES gnomon_oracle)
