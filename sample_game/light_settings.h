@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "components/light_shadow.h"
+#include "engine/core/result.h"
+
+/// The fields of LightShadow by name: one row per key, for --set, --list and anything else that edits them.
+namespace gnomon::game {
+
+struct LightSetting {
+    const char* key;
+    const char* values;   // what may be written, for people
+    const char* meaning;  // one line
+    /// False, and nothing changed, if `text` is no value of this key.
+    bool (*set)(LightShadow& shadow, std::string_view text);
+    std::string (*get)(const LightShadow& shadow);  // a text that `set` reads back to the same value
+};
+std::span<const LightSetting> light_settings();
+
+struct FilterName {
+    ShadowFilter filter;
+    const char* name;
+    const char* meaning;
+};
+std::span<const FilterName> filter_names();  // one per ShadowFilter, in its order
+
+/// Applies "KEY=VALUE". Errors: rules "set.syntax", "set.key", "set.value"; `shadow` is then unchanged.
+std::optional<Error> apply_setting(LightShadow& shadow, std::string_view key_value);
+
+/// What --list prints.
+std::string list_settings();
+
+}  // namespace gnomon::game

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/core/result.h"
+
+namespace gnomon::game {
+
+/// Picture of width x height, 4 bytes per pixel, top row first. Empty if width or height is 0 or the sizes disagree.
+std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
+
+/// Errors of the writers: rule "output.write", naming the file.
+std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+                               std::span<const std::uint8_t> rgba);
+
+/// Greyscale float32 PFM, little-endian. `values` and the file: bottom row first.
+std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
+                               std::span<const float> values);
+
+std::optional<Error> write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
+
+/// Whether `file` could be written, without changing it: a file that was not there is not there afterwards.
+std::optional<Error> check_writable(const std::filesystem::path& file);
+
+/// Makes `folder` (and those above it) and checks that a file can be made in it. Error: rule "output.folder".
+std::optional<Error> make_writable_folder(const std::filesystem::path& folder);
+
+}  // namespace gnomon::game
