@@ -1,0 +1,81 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/assets/gltf_error.h"
+#include "engine/assets/gltf_limits.h"
+#include "engine/assets/gltf_nodes.h"
+
+namespace gnomon::assets::gltf {
+namespace {
+
+glm::dvec3 any_perpendicular(const glm::dvec3& axis) {
+    const glm::dvec3 size = glm::abs(axis);
+    const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1.0, 0.0, 0.0)
+                             : size.y <= size.z                   ? glm::dvec3(0.0, 1.0, 0.0)
+                                                                  : glm::dvec3(0.0, 0.0, 1.0);
+    return glm::normalize(glm::cross(axis, other));
+}
+
+/// Replaces columns that a zero scale has emptied, so that the three are a right-handed orthonormal basis.
+void complete_basis(glm::dmat3& basis, const glm::dvec3& scale) {
+    const bool has[3] = {scale.x != 0.0, scale.y != 0.0, scale.z != 0.0};
+    const int count = int{has[0]} + int{has[1]} + int{has[2]};
+    if (count == 3) return;
+    if (count == 0) {
+        basis = glm::dmat3(1.0);
+        return;
+    }
+    if (count == 1) {
+        const int kept = has[0] ? 0 : has[1] ? 1 : 2;
+        basis[(kept + 1) % 3] = any_perpendicular(basis[kept]);
+        basis[(kept + 2) % 3] = glm::cross(basis[kept], basis[(kept + 1) % 3]);
+        return;
+    }
+    const int lost = !has[0] ? 0 : !has[1] ? 1 : 2;
+    basis[lost] = glm::cross(basis[(lost + 1) % 3], basis[(lost + 2) % 3]);
+}
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+}  // namespace
+
+glm::dmat4 matrix_of(const Trs& trs) {
+    const glm::dmat3 rotation = glm::mat3_cast(trs.rotation);
+    return {glm::dvec4(rotation[0] * trs.scale.x, 0.0), glm::dvec4(rotation[1] * trs.scale.y, 0.0),
+            glm::dvec4(rotation[2] * trs.scale.z, 0.0), glm::dvec4(trs.translation_m, 1.0)};
+}
+
+Trs decompose(const glm::dmat4& matrix, const std::string& pointer) {
+    const glm::dvec4 last_row(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    if (last_row != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
+        fail("node.matrix_not_affine", pointer, "its last row must be 0 0 0 1");
+    }
+    Trs trs;
+    trs.translation_m = glm::dvec3(matrix[3]);
+    glm::dmat3 basis(matrix);
+    for (int i = 0; i < 3; ++i) {
+        trs.scale[i] = glm::length(basis[i]);
+        if (!std::isfinite(trs.scale[i])) fail("node.not_finite", pointer, "its columns are too long");
+        if (trs.scale[i] > 0.0) basis[i] /= trs.scale[i];
+    }
+    complete_basis(basis, trs.scale);
+    if (glm::determinant(basis) < 0.0) {
+        trs.scale.x = -trs.scale.x;
+        basis[0] = -basis[0];
+    }
+    trs.rotation = glm::normalize(glm::quat_cast(basis));
+
+    const glm::dmat4 again = matrix_of(trs);
+    const double size = largest(trs.scale);
+    for (int i = 0; i < 3; ++i) {
+        const double off = largest(glm::dvec3(again[i]) - glm::dvec3(matrix[i]));
+        if (!(off <= kMatrixTolerance * size)) {
+            fail("node.matrix_not_decomposable", pointer, "it is no product of translation, rotation and scale");
+        }
+    }
+    return trs;
+}
+
+}  // namespace gnomon::assets::gltf

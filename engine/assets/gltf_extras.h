@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include "engine/assets/gltf_document.h"
+#include "engine/assets/scene_data.h"
+
+namespace gnomon::assets::gltf {
+
+/// Reads the project's own `extras`. Other people's extras may use the same names: a value that does not fit is
+/// ignored with a warning, never an error.
+class ExtrasReader {
+public:
+    /// `owner` is the JSON object that may hold "extras"; `pointer` names it.
+    ExtrasReader(Document& document, const nlohmann::json& owner, std::string pointer);
+
+    bool boolean(const char* key, bool fallback) const;
+    Node::Motion motion() const;
+
+private:
+    bool read_number(const nlohmann::json& object, const char* key, double& value) const;
+    void warn(const std::string& key, const std::string& reason) const;
+
+    Document& document_;
+    const nlohmann::json* extras_ = nullptr;
+    std::string pointer_;
+};
+
+}  // namespace gnomon::assets::gltf

@@ -1,0 +1,215 @@
+#include "engine/assets/gltf_materials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "engine/assets/gltf_accessor.h"
+#include "engine/assets/gltf_error.h"
+#include "engine/assets/gltf_image.h"
+#include "engine/assets/gltf_limits.h"
+
+namespace gnomon::assets::gltf {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kMaxUvSets = 16;
+
+float finite_float(double value, const std::string& pointer) {
+    const auto number = static_cast<float>(value);
+    if (!std::isfinite(number)) fail("material.range", pointer, "is beyond the range of a float");
+    return number;
+}
+
+float unit_float(Document& document, double value, const std::string& pointer) {
+    const float number = finite_float(value, pointer);
+    const float clamped = std::clamp(number, 0.0f, 1.0f);
+    if (clamped != number) document.warn(pointer + ": clamped to [0, 1]");
+    return clamped;
+}
+
+/// Bytes of an image. Throws Failure, which the caller turns into a warning.
+Bytes image_bytes(const Document& document, const json& image, const std::string& where) {
+    const auto uri = image.find("uri");
+    if (uri != image.end()) {
+        const auto& text = uri->get_ref<const std::string&>();
+        if (is_data_uri(text)) return decode_data_uri(text, where);
+        return read_file(resolve_uri(text, document.folder, where), kMaxFileBytes, where);
+    }
+    const auto view = image.find("bufferView");
+    if (view == image.end()) fail("image.no_source", where, "an image with neither uri nor bufferView");
+    const auto bytes = view_bytes(document, view->get<int>(), where);
+    return {bytes.begin(), bytes.end()};
+}
+
+TextureWrap wrap_of(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::clamp;
+    if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return TextureWrap::mirror;
+    return TextureWrap::repeat;
+}
+
+class TextureLoader {
+public:
+    TextureLoader(Document& document, SceneData& scene) : document_(document), scene_(scene) {}
+
+    /// Index into scene.textures, or kNone with a warning. Each glTF texture is decoded once.
+    std::int32_t load(int texture) {
+        const auto known = loaded_.find(texture);
+        if (known != loaded_.end()) return known->second;
+        const std::int32_t index = decode(texture);
+        loaded_.emplace(texture, index);
+        return index;
+    }
+
+private:
+    std::int32_t missing(const std::string& where, const std::string& reason) {
+        document_.warn(where + ": texture left out: " + printable(reason));
+        return kNone;
+    }
+
+    std::int32_t decode(int index) {
+        const tinygltf::Texture& source = document_.model.textures[static_cast<std::size_t>(index)];
+        if (source.source < 0) return missing(pointer("textures", index), "it has no image of a known format");
+        const std::string where = pointer("images", source.source);
+        const json& image = document_.json["images"][static_cast<std::size_t>(source.source)];
+        std::string reason;
+        try {
+            const Bytes bytes = image_bytes(document_, image, where);
+            const ImageSize size = image_size(bytes, reason);
+            if (size.width == 0) return missing(where, reason);
+            if (!document_.try_charge(std::size_t{size.width} * size.height * 4)) {
+                return missing(where, "the memory budget is spent");
+            }
+            DecodedImage decoded = decode_image(bytes, reason);
+            if (decoded.rgba.empty()) return missing(where, reason);
+            return append(index, image, std::move(decoded));
+        } catch (const Failure& failure) {
+            return missing(where, failure.error.message + " [" + failure.error.rule + "]");
+        }
+    }
+
+    std::int32_t append(int index, const json& image, DecodedImage decoded) {
+        const tinygltf::Texture& source = document_.model.textures[static_cast<std::size_t>(index)];
+        Texture texture;
+        const auto name = image.find("name");
+        if (name != image.end() && name->is_string()) texture.name = name->get<std::string>();
+        texture.width = decoded.width;
+        texture.height = decoded.height;
+        texture.rgba = std::move(decoded.rgba);
+        if (source.sampler >= 0) {
+            const auto& sampler = document_.model.samplers[static_cast<std::size_t>(source.sampler)];
+            texture.wrap_u = wrap_of(sampler.wrapS);
+            texture.wrap_v = wrap_of(sampler.wrapT);
+            texture.linear_filter = sampler.magFilter != TINYGLTF_TEXTURE_FILTER_NEAREST;
+        }
+        scene_.textures.push_back(std::move(texture));
+        return static_cast<std::int32_t>(scene_.textures.size()) - 1;
+    }
+
+    Document& document_;
+    SceneData& scene_;
+    std::map<int, std::int32_t> loaded_;
+};
+
+/// KHR_texture_transform of a texture info: uv' = translation * rotation * scale * uv.
+void read_uv_transform(const json& info, const std::string& where, UvSource& source) {
+    const auto extensions = info.find("extensions");
+    if (extensions == info.end() || !extensions->is_object()) return;
+    const auto found = extensions->find("KHR_texture_transform");
+    if (found == extensions->end() || !found->is_object()) return;
+    const auto pair = [&](const char* key, glm::dvec2 fallback) {
+        const auto value = found->find(key);
+        if (value == found->end()) return fallback;
+        const bool right = value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
+        if (!right) fail("property.type", where, std::string{key} + " must be two numbers");
+        return glm::dvec2((*value)[0].get<double>(), (*value)[1].get<double>());
+    };
+    const glm::dvec2 offset = pair("offset", glm::dvec2(0.0));
+    const glm::dvec2 scale = pair("scale", glm::dvec2(1.0));
+    const auto angle = found->find("rotation");
+    const double rotation_rad = angle != found->end() && angle->is_number() ? angle->get<double>() : 0.0;
+    const double c = std::cos(rotation_rad);
+    const double s = std::sin(rotation_rad);
+    // Columns; a positive angle turns counter-clockwise with v pointing down, as the extension defines it.
+    source.transform = glm::mat3x2(glm::vec2(c * scale.x, -s * scale.x), glm::vec2(s * scale.y, c * scale.y),
+                                   glm::vec2(offset));
+    for (int column = 0; column < 3; ++column) {
+        if (!std::isfinite(source.transform[column].x) || !std::isfinite(source.transform[column].y)) {
+            fail("material.range", where, "the texture transform is not finite");
+        }
+    }
+    const auto set = found->find("texCoord");
+    if (set != found->end() && set->is_number_unsigned() && set->get<std::uint64_t>() < kMaxUvSets) {
+        source.set = set->get<int>();
+    }
+}
+
+AlphaMode alpha_mode_of(const tinygltf::Material& source, const std::string& where) {
+    if (source.alphaMode == "OPAQUE" || source.alphaMode.empty()) return AlphaMode::opaque;
+    if (source.alphaMode == "MASK") return AlphaMode::mask;
+    if (source.alphaMode == "BLEND") return AlphaMode::blend;
+    fail("material.alpha_mode", where + "/alphaMode", "must be OPAQUE, MASK or BLEND");
+}
+
+glm::vec3 emissive_of(const tinygltf::Material& source, const json& raw, const std::string& where) {
+    double strength = 1.0;
+    const nlohmann::json::json_pointer path("/extensions/KHR_materials_emissive_strength/emissiveStrength");
+    if (raw.contains(path)) strength = raw.at(path).get<double>();
+    glm::vec3 emissive{0.0f};
+    for (int i = 0; i < 3; ++i) {
+        const double value = source.emissiveFactor[static_cast<std::size_t>(i)] * strength;
+        if (!(value >= 0.0)) fail("material.range", where + "/emissiveFactor", "must not be negative");
+        emissive[i] = finite_float(value, where + "/emissiveFactor");
+    }
+    return emissive;
+}
+
+Material load_material(Document& document, std::size_t index, TextureLoader& textures, UvSource& uv) {
+    const tinygltf::Material& source = document.model.materials[index];
+    const json& raw = document.json["materials"][index];
+    const std::string where = pointer("materials", index);
+    const auto& pbr = source.pbrMetallicRoughness;
+    const std::string pbr_where = where + "/pbrMetallicRoughness";
+    Material material;
+    material.name = source.name;
+    material.double_sided = source.doubleSided;
+    material.alpha_mode = alpha_mode_of(source, where);
+    material.alpha_cutoff = finite_float(source.alphaCutoff, where + "/alphaCutoff");
+    if (!(material.alpha_cutoff >= 0.0f)) fail("material.range", where + "/alphaCutoff", "must not be negative");
+    material.metallic = unit_float(document, pbr.metallicFactor, pbr_where + "/metallicFactor");
+    material.roughness = unit_float(document, pbr.roughnessFactor, pbr_where + "/roughnessFactor");
+    for (int i = 0; i < 4; ++i) {
+        material.base_colour[i] = unit_float(document, pbr.baseColorFactor[static_cast<std::size_t>(i)],
+                                             pbr_where + "/baseColorFactor");
+    }
+    material.emissive = emissive_of(source, raw, where);
+    if (pbr.baseColorTexture.index < 0) return material;
+
+    if (pbr.baseColorTexture.texCoord >= kMaxUvSets) {
+        fail("material.uv_set", pbr_where + "/baseColorTexture/texCoord", "names more sets than any file has");
+    }
+    uv.set = pbr.baseColorTexture.texCoord;
+    read_uv_transform(raw["pbrMetallicRoughness"]["baseColorTexture"], pbr_where + "/baseColorTexture", uv);
+    material.base_colour_texture = textures.load(pbr.baseColorTexture.index);
+    if (material.base_colour_texture == kNone && material.alpha_mode == AlphaMode::mask) {
+        material.alpha_mode = AlphaMode::opaque;
+        document.warn(where + ": its alpha mask is missing, so it is opaque");
+    }
+    return material;
+}
+
+}  // namespace
+
+std::vector<UvSource> load_materials(Document& document, SceneData& scene) {
+    TextureLoader textures(document, scene);
+    std::vector<UvSource> uv_sources(document.model.materials.size());
+    for (std::size_t i = 0; i < uv_sources.size(); ++i) {
+        scene.materials.push_back(load_material(document, i, textures, uv_sources[i]));
+    }
+    if (scene.materials.empty()) scene.materials.emplace_back();
+    return uv_sources;
+}
+
+}  // namespace gnomon::assets::gltf

@@ -1,0 +1,213 @@
+#include "engine/assets/gltf_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <initializer_list>
+
+#include "engine/assets/gltf_accessor.h"
+#include "engine/assets/gltf_error.h"
+#include "engine/assets/gltf_limits.h"
+#include "engine/assets/gltf_triangles.h"
+#include "engine/assets/mesh_topology.h"
+
+namespace gnomon::assets::gltf {
+namespace {
+
+/// Primitives that share all of this share their vertices.
+struct VertexSource {
+    int position = -1, normal = -1, uv = -1;
+    UvSource uv_source;
+    bool operator==(const VertexSource&) const = default;
+};
+
+struct VertexBlock {
+    VertexSource source;
+    std::uint32_t first = 0, count = 0;
+};
+
+int attribute_of(const tinygltf::Primitive& primitive, const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+/// glTF 2.0 table 3.7.2.1 and KHR_mesh_quantization table "extended attribute types".
+bool is_allowed(const tinygltf::Accessor& accessor, int type, std::initializer_list<int> core, bool quantized) {
+    if (accessor.type != type) return false;
+    if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return true;
+    if (std::find(core.begin(), core.end(), accessor.componentType) != core.end() && accessor.normalized) return true;
+    return quantized && accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+}
+
+class MeshLoader {
+public:
+    MeshLoader(Document& document, const std::vector<UvSource>& uv_sources, SceneData& scene)
+        : document_(document), uv_sources_(uv_sources), scene_(scene),
+          quantized_(document.uses_extension("KHR_mesh_quantization")) {}
+
+    void load_all() {
+        for (std::size_t i = 0; i < document_.model.meshes.size(); ++i) {
+            scene_.meshes.push_back(load(i));
+        }
+    }
+
+private:
+    Mesh load(std::size_t index) {
+        const tinygltf::Mesh& source = document_.model.meshes[index];
+        Mesh mesh;
+        mesh.name = source.name;
+        blocks_.clear();
+        missing_normals_.clear();
+        for (std::size_t p = 0; p < source.primitives.size(); ++p) {
+            where_ = pointer("meshes", index, "primitives", p);
+            append_primitive(source.primitives[p], mesh);
+        }
+        if (std::find(missing_normals_.begin(), missing_normals_.end(), true) != missing_normals_.end()) {
+            fill_normals(mesh, missing_normals_);
+        }
+        for (const std::uint32_t vertex : mesh.indices) {
+            const glm::dvec3 position{mesh.vertices[vertex].position_ms};
+            mesh.bounds_ms.min = glm::min(mesh.bounds_ms.min, position);
+            mesh.bounds_ms.max = glm::max(mesh.bounds_ms.max, position);
+        }
+        mesh.topology = analyse_topology(mesh);
+        return mesh;
+    }
+
+    void append_primitive(const tinygltf::Primitive& primitive, Mesh& mesh) {
+        if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) fail("primitive.mode", where_ + "/mode", "must lie between 0 and 6");
+        if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+            document_.warn(where_ + ": points and lines are left out");
+            return;
+        }
+        if (!primitive.targets.empty()) document_.warn("morph targets are ignored");
+        const VertexBlock block = vertices_of(primitive, mesh);
+        std::vector<std::uint32_t> corners;
+        if (primitive.indices >= 0) {
+            corners = read_indices(document_, primitive.indices);
+            for (const std::uint32_t corner : corners) {
+                if (corner >= block.count) {
+                    fail("index.out_of_range", where_ + "/indices",
+                         "index " + std::to_string(corner) + " of " + std::to_string(block.count) + " vertices");
+                }
+            }
+        }
+        const std::size_t corner_count = primitive.indices >= 0 ? corners.size() : block.count;
+        const std::size_t triangles = triangle_count(primitive.mode, corner_count);
+        triangles_ += triangles;
+        if (triangles_ > kMaxTriangles) fail("total.triangles", where_, "the scene has too many triangles");
+        document_.charge(triangles * 3 * sizeof(std::uint32_t), where_);
+        if (triangles == 0) {
+            document_.warn(where_ + ": has no triangle");
+            return;
+        }
+        Submesh submesh;
+        submesh.first_index = static_cast<std::uint32_t>(mesh.indices.size());
+        submesh.index_count = static_cast<std::uint32_t>(triangles * 3);
+        submesh.material = material_of(primitive);
+        append_triangles(primitive.mode, corners, corner_count, block.first, mesh.indices);
+        mesh.submeshes.push_back(submesh);
+    }
+
+    std::uint32_t material_of(const tinygltf::Primitive& primitive) {
+        if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
+        const std::size_t file_materials = document_.model.materials.size();
+        if (scene_.materials.size() == file_materials) scene_.materials.emplace_back();  // the default material
+        return static_cast<std::uint32_t>(file_materials);
+    }
+
+    VertexBlock vertices_of(const tinygltf::Primitive& primitive, Mesh& mesh) {
+        VertexSource source;
+        source.position = attribute_of(primitive, "POSITION");
+        source.normal = attribute_of(primitive, "NORMAL");
+        if (source.position < 0) fail("primitive.no_position", where_ + "/attributes", "POSITION is missing");
+        if (primitive.material >= 0) source.uv_source = uv_sources_[static_cast<std::size_t>(primitive.material)];
+        source.uv = attribute_of(primitive, "TEXCOORD_" + std::to_string(source.uv_source.set));
+        const auto known = std::find_if(blocks_.begin(), blocks_.end(),
+                                        [&](const VertexBlock& block) { return block.source == source; });
+        if (known != blocks_.end()) return *known;
+
+        VertexBlock block{source, static_cast<std::uint32_t>(mesh.vertices.size()), 0};
+        read_positions(source, mesh, block);
+        read_normals(source, mesh, block);
+        read_uvs(source, mesh, block);
+        blocks_.push_back(block);
+        return block;
+    }
+
+    const tinygltf::Accessor& attribute(int accessor, const char* name, int type, std::initializer_list<int> core) const {
+        const auto& found = document_.model.accessors[static_cast<std::size_t>(accessor)];
+        if (!is_allowed(found, type, core, quantized_)) {
+            fail("attribute.type", where_ + "/attributes/" + name, "its accessor has a type that glTF does not allow here");
+        }
+        return found;
+    }
+
+    std::vector<float> same_count_floats(int accessor, const char* name, std::size_t count) const {
+        if (document_.model.accessors[static_cast<std::size_t>(accessor)].count != count) {
+            fail("attribute.count", where_ + "/attributes/" + name, "holds another number of elements than POSITION");
+        }
+        return read_floats(document_, accessor);
+    }
+
+    void read_positions(const VertexSource& source, Mesh& mesh, VertexBlock& block) {
+        const auto& accessor = attribute(source.position, "POSITION", TINYGLTF_TYPE_VEC3, {});
+        document_.charge(accessor.count * sizeof(Vertex), where_ + "/attributes/POSITION");
+        block.count = static_cast<std::uint32_t>(accessor.count);
+        const std::vector<float> numbers = read_floats(document_, source.position);
+        mesh.vertices.resize(block.first + accessor.count);
+        for (std::size_t i = 0; i < accessor.count; ++i) {
+            const glm::vec3 position(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+            const glm::vec3 size = glm::abs(position);
+            if (std::max({size.x, size.y, size.z}) > kMaxPosition_ms) {
+                fail("position.too_large", where_ + "/attributes/POSITION", "a coordinate is beyond 1e6");
+            }
+            mesh.vertices[block.first + i].position_ms = position;
+        }
+    }
+
+    void read_normals(const VertexSource& source, Mesh& mesh, const VertexBlock& block) {
+        missing_normals_.resize(mesh.vertices.size(), source.normal < 0);
+        if (source.normal < 0) return;
+        attribute(source.normal, "NORMAL", TINYGLTF_TYPE_VEC3, {});
+        const std::vector<float> numbers = same_count_floats(source.normal, "NORMAL", block.count);
+        for (std::size_t i = 0; i < block.count; ++i) {
+            const glm::dvec3 normal(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+            const double length = glm::length(normal);
+            missing_normals_[block.first + i] = !(length > 0.0);
+            if (length > 0.0) mesh.vertices[block.first + i].normal_ms = glm::vec3(normal / length);
+        }
+    }
+
+    void read_uvs(const VertexSource& source, Mesh& mesh, const VertexBlock& block) {
+        if (source.uv < 0) return;
+        attribute(source.uv, "TEXCOORD", TINYGLTF_TYPE_VEC2,
+                  {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT});
+        const std::vector<float> numbers = same_count_floats(source.uv, "TEXCOORD", block.count);
+        for (std::size_t i = 0; i < block.count; ++i) {
+            const glm::vec2 uv = source.uv_source.transform * glm::vec3(numbers[2 * i], numbers[2 * i + 1], 1.0f);
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+                fail("accessor.not_finite", where_, "a texture coordinate is not finite after its transform");
+            }
+            mesh.vertices[block.first + i].uv = uv;
+        }
+    }
+
+    Document& document_;
+    const std::vector<UvSource>& uv_sources_;
+    SceneData& scene_;
+    bool quantized_;
+    std::size_t triangles_ = 0;
+    std::string where_;
+    std::vector<VertexBlock> blocks_;
+    std::vector<bool> missing_normals_;
+};
+
+}  // namespace
+
+void load_meshes(Document& document, const std::vector<UvSource>& uv_sources, SceneData& scene) {
+    MeshLoader(document, uv_sources, scene).load_all();
+}
+
+}  // namespace gnomon::assets::gltf

@@ -1,0 +1,280 @@
+#include "engine/assets/gltf_shape.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "engine/assets/gltf_error.h"
+#include "engine/assets/gltf_limits.h"
+
+namespace gnomon::assets::gltf {
+namespace {
+
+using nlohmann::json;
+
+enum class Kind : std::uint8_t { object, list, text, boolean, number, integer, numbers, reference };
+enum class Need : std::uint8_t { optional, required };
+
+/// One property. `path` is a JSON pointer in which * stands for every element or member.
+struct Row {
+    std::string_view path;
+    Kind kind;
+    Need need = Need::optional;
+    std::size_t size = 0;              // list: most elements; numbers: exact length; integer: largest value
+    std::string_view target = {};      // reference: the collection
+};
+
+constexpr std::size_t kMaxInt = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t kMaxSize = std::size_t{1} << 53;  // exact in a double
+constexpr auto kRequired = Need::required;
+constexpr auto kOptional = Need::optional;
+
+// Parents stand before their members, so that the first complaint is the plainest.
+constexpr Row kRows[] = {
+    {"/asset", Kind::object, kRequired},
+    {"/asset/version", Kind::text, kRequired},
+    {"/extensionsUsed", Kind::list, kOptional, kMaxItems},
+    {"/extensionsUsed/*", Kind::text},
+    {"/extensionsRequired", Kind::list, kOptional, kMaxItems},
+    {"/extensionsRequired/*", Kind::text},
+
+    {"/buffers", Kind::list, kOptional, kMaxItems},
+    {"/buffers/*", Kind::object},
+    {"/buffers/*/byteLength", Kind::integer, kRequired, kMaxSize},
+    {"/buffers/*/uri", Kind::text},
+    {"/bufferViews", Kind::list, kOptional, kMaxItems},
+    {"/bufferViews/*", Kind::object},
+    {"/bufferViews/*/buffer", Kind::reference, kRequired, 0, "buffers"},
+    {"/bufferViews/*/byteOffset", Kind::integer, kOptional, kMaxSize},
+    {"/bufferViews/*/byteLength", Kind::integer, kRequired, kMaxSize},
+    {"/bufferViews/*/byteStride", Kind::integer, kOptional, kMaxInt},
+    {"/accessors", Kind::list, kOptional, kMaxItems},
+    {"/accessors/*", Kind::object},
+    {"/accessors/*/bufferView", Kind::reference, kOptional, 0, "bufferViews"},
+    {"/accessors/*/byteOffset", Kind::integer, kOptional, kMaxSize},
+    {"/accessors/*/componentType", Kind::integer, kRequired, kMaxInt},
+    {"/accessors/*/count", Kind::integer, kRequired, kMaxSize},
+    {"/accessors/*/type", Kind::text, kRequired},
+    {"/accessors/*/normalized", Kind::boolean},
+    {"/accessors/*/sparse", Kind::object},
+    {"/accessors/*/sparse/count", Kind::integer, kRequired, kMaxInt},
+    {"/accessors/*/sparse/indices", Kind::object, kRequired},
+    {"/accessors/*/sparse/indices/bufferView", Kind::reference, kRequired, 0, "bufferViews"},
+    {"/accessors/*/sparse/indices/byteOffset", Kind::integer, kOptional, kMaxInt},
+    {"/accessors/*/sparse/indices/componentType", Kind::integer, kRequired, kMaxInt},
+    {"/accessors/*/sparse/values", Kind::object, kRequired},
+    {"/accessors/*/sparse/values/bufferView", Kind::reference, kRequired, 0, "bufferViews"},
+    {"/accessors/*/sparse/values/byteOffset", Kind::integer, kOptional, kMaxInt},
+
+    {"/images", Kind::list, kOptional, kMaxItems},
+    {"/images/*", Kind::object},
+    {"/images/*/uri", Kind::text},
+    {"/images/*/bufferView", Kind::reference, kOptional, 0, "bufferViews"},
+    {"/samplers", Kind::list, kOptional, kMaxItems},
+    {"/samplers/*", Kind::object},
+    {"/samplers/*/magFilter", Kind::integer, kOptional, kMaxInt},
+    {"/samplers/*/wrapS", Kind::integer, kOptional, kMaxInt},
+    {"/samplers/*/wrapT", Kind::integer, kOptional, kMaxInt},
+    {"/textures", Kind::list, kOptional, kMaxItems},
+    {"/textures/*", Kind::object},
+    {"/textures/*/source", Kind::reference, kOptional, 0, "images"},
+    {"/textures/*/sampler", Kind::reference, kOptional, 0, "samplers"},
+    {"/materials", Kind::list, kOptional, kMaxItems},
+    {"/materials/*", Kind::object},
+    {"/materials/*/name", Kind::text},
+    {"/materials/*/alphaMode", Kind::text},
+    {"/materials/*/alphaCutoff", Kind::number},
+    {"/materials/*/doubleSided", Kind::boolean},
+    {"/materials/*/emissiveFactor", Kind::numbers, kOptional, 3},
+    {"/materials/*/pbrMetallicRoughness", Kind::object},
+    {"/materials/*/pbrMetallicRoughness/baseColorFactor", Kind::numbers, kOptional, 4},
+    {"/materials/*/pbrMetallicRoughness/metallicFactor", Kind::number},
+    {"/materials/*/pbrMetallicRoughness/roughnessFactor", Kind::number},
+    {"/materials/*/pbrMetallicRoughness/baseColorTexture", Kind::object},
+    {"/materials/*/pbrMetallicRoughness/baseColorTexture/index", Kind::reference, kRequired, 0, "textures"},
+    {"/materials/*/pbrMetallicRoughness/baseColorTexture/texCoord", Kind::integer, kOptional, kMaxInt},
+    {"/materials/*/extensions", Kind::object},
+    {"/materials/*/extensions/KHR_materials_emissive_strength", Kind::object},
+    {"/materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
+
+    {"/meshes", Kind::list, kOptional, kMaxItems},
+    {"/meshes/*", Kind::object},
+    {"/meshes/*/name", Kind::text},
+    {"/meshes/*/primitives", Kind::list, kRequired, kMaxItems},
+    {"/meshes/*/primitives/*", Kind::object},
+    {"/meshes/*/primitives/*/attributes", Kind::object, kRequired},
+    {"/meshes/*/primitives/*/attributes/*", Kind::reference, kOptional, 0, "accessors"},
+    {"/meshes/*/primitives/*/indices", Kind::reference, kOptional, 0, "accessors"},
+    {"/meshes/*/primitives/*/material", Kind::reference, kOptional, 0, "materials"},
+    {"/meshes/*/primitives/*/mode", Kind::integer, kOptional, kMaxInt},
+
+    {"/cameras", Kind::list, kOptional, kMaxItems},
+    {"/cameras/*", Kind::object},
+    {"/cameras/*/type", Kind::text, kRequired},
+    {"/cameras/*/perspective", Kind::object},
+    {"/cameras/*/perspective/yfov", Kind::number, kRequired},
+    {"/cameras/*/perspective/znear", Kind::number, kRequired},
+    {"/cameras/*/perspective/zfar", Kind::number},
+    {"/cameras/*/orthographic", Kind::object},
+    {"/cameras/*/orthographic/xmag", Kind::number, kRequired},
+    {"/cameras/*/orthographic/ymag", Kind::number, kRequired},
+    {"/cameras/*/orthographic/zfar", Kind::number, kRequired},
+    {"/cameras/*/orthographic/znear", Kind::number, kRequired},
+
+    {"/extensions", Kind::object},
+    {"/extensions/KHR_lights_punctual", Kind::object},
+    {"/extensions/KHR_lights_punctual/lights", Kind::list, kRequired, kMaxItems},
+    {"/extensions/KHR_lights_punctual/lights/*", Kind::object},
+    {"/extensions/KHR_lights_punctual/lights/*/type", Kind::text, kRequired},
+    {"/extensions/KHR_lights_punctual/lights/*/color", Kind::numbers, kOptional, 3},
+    {"/extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
+    {"/extensions/KHR_lights_punctual/lights/*/range", Kind::number},
+    {"/extensions/KHR_lights_punctual/lights/*/spot", Kind::object},
+    {"/extensions/KHR_lights_punctual/lights/*/spot/innerConeAngle", Kind::number},
+    {"/extensions/KHR_lights_punctual/lights/*/spot/outerConeAngle", Kind::number},
+
+    {"/nodes", Kind::list, kOptional, kMaxNodes},
+    {"/nodes/*", Kind::object},
+    {"/nodes/*/name", Kind::text},
+    {"/nodes/*/mesh", Kind::reference, kOptional, 0, "meshes"},
+    {"/nodes/*/camera", Kind::reference, kOptional, 0, "cameras"},
+    {"/nodes/*/translation", Kind::numbers, kOptional, 3},
+    {"/nodes/*/rotation", Kind::numbers, kOptional, 4},
+    {"/nodes/*/scale", Kind::numbers, kOptional, 3},
+    {"/nodes/*/matrix", Kind::numbers, kOptional, 16},
+    {"/nodes/*/children", Kind::list, kOptional, kMaxNodes},
+    {"/nodes/*/children/*", Kind::reference, kOptional, 0, "nodes"},
+    {"/nodes/*/extensions", Kind::object},
+    {"/nodes/*/extensions/KHR_lights_punctual", Kind::object},
+    {"/nodes/*/extensions/KHR_lights_punctual/light", Kind::reference, kRequired, 0,
+     "/extensions/KHR_lights_punctual/lights"},
+    {"/scenes", Kind::list, kOptional, kMaxItems},
+    {"/scenes/*", Kind::object},
+    {"/scenes/*/nodes", Kind::list, kOptional, kMaxNodes},
+    {"/scenes/*/nodes/*", Kind::reference, kOptional, 0, "nodes"},
+    {"/scene", Kind::reference, kOptional, 0, "scenes"},
+};
+
+class ShapeChecker {
+public:
+    explicit ShapeChecker(json& document) : document_(document) {}
+
+    void check(const Row& row) {
+        row_ = &row;
+        target_size_ = row.kind == Kind::reference ? size_of(row.target) : 0;
+        pointer_.clear();
+        walk(document_, row.path);
+    }
+
+private:
+    std::size_t size_of(std::string_view target) const {
+        const json::json_pointer where(target.front() == '/' ? std::string{target} : "/" + std::string{target});
+        if (!document_.contains(where)) return 0;
+        const json& list = document_.at(where);
+        return list.is_array() ? list.size() : 0;
+    }
+
+    /// `rest` is empty or begins with '/'. Recursion ends with the row's path.
+    void walk(json& value, std::string_view rest) {
+        if (rest.empty()) return check_value(value);
+        const std::size_t end = std::min(rest.find('/', 1), rest.size());
+        const std::string key{rest.substr(1, end - 1)};
+        const std::string_view next = rest.substr(end);
+        if (key == "*") return walk_all(value, next);
+        if (!value.is_object()) return;  // its own row has complained, or nothing reads it
+        const auto member = value.find(key);
+        if (member != value.end()) return step(member.value(), key, next);
+        if (next.empty() && row_->need == Need::required) {
+            fail("property.missing", pointer_, "\"" + key + "\" is missing");
+        }
+    }
+
+    void walk_all(json& value, std::string_view next) {
+        if (value.is_array()) {
+            for (std::size_t i = 0; i < value.size(); ++i) step(value[i], std::to_string(i), next);
+        } else if (value.is_object()) {
+            for (auto member = value.begin(); member != value.end(); ++member) step(member.value(), member.key(), next);
+        }
+    }
+
+    void step(json& value, const std::string& key, std::string_view next) {
+        const std::size_t length = pointer_.size();
+        pointer_ += '/';
+        pointer_ += key;
+        walk(value, next);
+        pointer_.resize(length);
+    }
+
+    void check_value(json& value) {
+        switch (row_->kind) {
+            case Kind::object: return expect(value.is_object(), "an object");
+            case Kind::list: return check_list(value);
+            case Kind::text: return expect(value.is_string(), "a string");
+            case Kind::boolean: return expect(value.is_boolean(), "true or false");
+            case Kind::number: return expect(value.is_number(), "a number");
+            case Kind::integer: return check_integer(value, row_->size, "property.range");
+            case Kind::numbers: return check_numbers(value);
+            case Kind::reference: return check_reference(value);
+        }
+    }
+
+    void expect(bool right, std::string_view what) const {
+        if (!right) fail("property.type", pointer_, "must be " + std::string{what});
+    }
+
+    void check_list(const json& value) const {
+        expect(value.is_array(), "an array");
+        if (value.size() > row_->size) {
+            fail("collection.too_large", pointer_,
+                 std::to_string(value.size()) + " elements; at most " + std::to_string(row_->size) + " are read");
+        }
+    }
+
+    void check_numbers(const json& value) const {
+        expect(value.is_array(), "an array of numbers");
+        if (value.size() != row_->size) {
+            fail("property.length", pointer_, "must hold " + std::to_string(row_->size) + " numbers");
+        }
+        for (const json& number : value) expect(number.is_number(), "an array of numbers");
+    }
+
+    void check_integer(json& value, std::size_t largest, const char* rule) const {
+        if (value.is_number_float()) {
+            const double number = value.get<double>();
+            expect(number == std::floor(number), "a whole number");
+            if (!(number >= 0.0 && number <= static_cast<double>(largest))) {
+                fail(rule, pointer_, "must lie between 0 and " + std::to_string(largest));
+            }
+            value = static_cast<std::uint64_t>(number);
+        }
+        expect(value.is_number_integer(), "a whole number");
+        const bool negative = !value.is_number_unsigned() && value.get<std::int64_t>() < 0;
+        if (negative || value.get<std::uint64_t>() > largest) {
+            fail(rule, pointer_, "must lie between 0 and " + std::to_string(largest));
+        }
+    }
+
+    void check_reference(json& value) const {
+        expect(value.is_number(), "an index");
+        if (target_size_ == 0) fail("reference.unresolved", pointer_, "names an object that does not exist");
+        check_integer(value, target_size_ - 1, "reference.unresolved");
+    }
+
+    json& document_;
+    const Row* row_ = nullptr;
+    std::size_t target_size_ = 0;
+    std::string pointer_;
+};
+
+}  // namespace
+
+void check_shape(json& document) {
+    if (!document.is_object()) fail("json.root", "", "the root is not an object");
+    ShapeChecker checker(document);
+    for (const Row& row : kRows) checker.check(row);
+}
+
+}  // namespace gnomon::assets::gltf

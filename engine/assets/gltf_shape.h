@@ -1,0 +1,11 @@
+#pragma once
+#include <nlohmann/json_fwd.hpp>
+
+namespace gnomon::assets::gltf {
+
+/// Checks the type of every property that the loader reads, the length of number arrays, the size of collections,
+/// and that every index names an existing object. tinygltf passes over most of these in silence.
+/// Whole numbers written as 1.0 become integers, as glTF allows. Throws Failure.
+void check_shape(nlohmann::json& document);
+
+}  // namespace gnomon::assets::gltf

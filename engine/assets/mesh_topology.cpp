@@ -1,0 +1,170 @@
+#include "engine/assets/mesh_topology.h"
+
+#include <OpenMesh/Core/Mesh/TriConnectivity.hh>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "engine/assets/half_edges.h"
+#include "engine/assets/mesh_weld.h"
+
+namespace gnomon::assets {
+namespace {
+
+using OpenMesh::FaceHandle;
+using OpenMesh::HalfedgeHandle;
+using OpenMesh::VertexHandle;
+
+/// Union-find with path halving and union by index: near-linear, no recursion.
+class DisjointSets {
+public:
+    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+    std::uint32_t find(std::uint32_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void unite(std::uint32_t a, std::uint32_t b) {
+        a = find(a);
+        b = find(b);
+        if (a != b) parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::uint32_t> parent_;
+};
+
+/// The product of two floats is exact in double, so collinear corners on a common grid give exactly zero.
+bool has_area(const Mesh& mesh, std::size_t first_index) {
+    const glm::dvec3 a(mesh.vertices[mesh.indices[first_index]].position_ms);
+    const glm::dvec3 b(mesh.vertices[mesh.indices[first_index + 1]].position_ms);
+    const glm::dvec3 c(mesh.vertices[mesh.indices[first_index + 2]].position_ms);
+    return glm::cross(b - a, c - a) != glm::dvec3(0.0);
+}
+
+/// Faces with three different welded vertices. A sliver without area stays: it closes a gap that only rounding opened.
+std::vector<WeldedFace> proper_faces(const Mesh& mesh, const std::vector<std::uint32_t>& welded, Topology& topology) {
+    std::vector<WeldedFace> faces;
+    faces.reserve(mesh.indices.size() / 3);
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const WeldedFace face{welded[mesh.indices[i]], welded[mesh.indices[i + 1]], welded[mesh.indices[i + 2]]};
+        const bool proper = face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
+        if (!proper || !has_area(mesh, i)) ++topology.degenerate_faces;
+        if (proper) faces.push_back(face);
+    }
+    return faces;
+}
+
+/// The cut mesh as OpenMesh connectivity. OpenMesh's add_face refuses what is not manifold and searches around the
+/// vertices of each face, which takes quadratic time at a vertex of many faces; here the pairing is known, nothing is
+/// left to refuse, and linking is linear.
+class ManifoldBuilder {
+public:
+    ManifoldBuilder(std::size_t face_count, const EdgePairing& pairing)
+        : face_count_(static_cast<std::uint32_t>(face_count)), pairing_(pairing), handles_(face_count * 3) {}
+
+    OpenMesh::TriConnectivity build() {
+        add_vertices();
+        add_edges();
+        add_faces();
+        link_boundaries();
+        return std::move(mesh_);
+    }
+
+private:
+    /// One vertex for each set of corners that manifold edges join around a point: a disc or half a disc.
+    void add_vertices() {
+        DisjointSets corners(handles_.size());
+        for (std::uint32_t h = 0; h < handles_.size(); ++h) {
+            const std::uint32_t opposite = pairing_.opposite[h];
+            if (opposite != kNoHalfEdge) corners.unite(h, next_half_edge(opposite));
+        }
+        vertices_.resize(handles_.size());
+        for (std::uint32_t h = 0; h < handles_.size(); ++h) {
+            const std::uint32_t first = corners.find(h);  // the smallest of its set, so it has been seen
+            vertices_[h] = first == h ? mesh_.new_vertex() : vertices_[first];
+        }
+    }
+
+    void add_edges() {
+        for (std::uint32_t h = 0; h < handles_.size(); ++h) {
+            const std::uint32_t opposite = pairing_.opposite[h];
+            if (opposite < h) {
+                handles_[h] = mesh_.opposite_halfedge_handle(handles_[opposite]);
+            } else {
+                handles_[h] = mesh_.new_edge(vertices_[h], vertices_[next_half_edge(h)]);
+            }
+        }
+    }
+
+    void add_faces() {
+        for (std::uint32_t f = 0; f < face_count_; ++f) {
+            const FaceHandle face = mesh_.new_face();
+            mesh_.set_halfedge_handle(face, handles_[3 * f]);
+            for (std::uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
+                mesh_.set_face_handle(handles_[h], face);
+                mesh_.set_next_halfedge_handle(handles_[h], handles_[next_half_edge(h)]);
+                mesh_.set_halfedge_handle(vertices_[h], handles_[h]);
+            }
+        }
+    }
+
+    /// A half disc has exactly one outgoing boundary half-edge, which OpenMesh wants as the vertex's own.
+    void link_boundaries() {
+        for (std::uint32_t h = 0; h < handles_.size(); ++h) {
+            if (pairing_.opposite[h] != kNoHalfEdge) continue;
+            mesh_.set_halfedge_handle(vertices_[next_half_edge(h)], mesh_.opposite_halfedge_handle(handles_[h]));
+        }
+        for (std::uint32_t h = 0; h < handles_.size(); ++h) {
+            if (pairing_.opposite[h] != kNoHalfEdge) continue;
+            mesh_.set_next_halfedge_handle(mesh_.opposite_halfedge_handle(handles_[h]),
+                                           mesh_.halfedge_handle(vertices_[h]));
+        }
+    }
+
+    std::uint32_t face_count_;
+    const EdgePairing& pairing_;
+    OpenMesh::TriConnectivity mesh_;
+    std::vector<HalfedgeHandle> handles_;
+    std::vector<VertexHandle> vertices_;  // per half-edge: where it starts
+};
+
+std::uint32_t boundary_edges(const OpenMesh::TriConnectivity& mesh, const EdgePairing& pairing) {
+    std::uint32_t count = 0;
+    for (const auto edge : mesh.edges()) count += mesh.is_boundary(edge) ? 1U : 0U;
+    const auto cuts = static_cast<std::uint32_t>(std::count(pairing.cut.begin(), pairing.cut.end(), true));
+    return count - cuts;
+}
+
+/// Pieces that hang together by edges, non-manifold ones included.
+std::uint32_t components(const OpenMesh::TriConnectivity& mesh, const EdgePairing& pairing) {
+    DisjointSets faces(mesh.n_faces());
+    for (const auto edge : mesh.edges()) {
+        if (mesh.is_boundary(edge)) continue;
+        faces.unite(static_cast<std::uint32_t>(mesh.face_handle(mesh.halfedge_handle(edge, 0)).idx()),
+                    static_cast<std::uint32_t>(mesh.face_handle(mesh.halfedge_handle(edge, 1)).idx()));
+    }
+    for (const auto& [a, b] : pairing.cut_neighbours) faces.unite(a / 3, b / 3);
+    std::uint32_t count = 0;
+    for (std::uint32_t f = 0; f < mesh.n_faces(); ++f) count += faces.find(f) == f ? 1U : 0U;
+    return count;
+}
+
+}  // namespace
+
+Topology analyse_topology(const Mesh& mesh) {
+    Topology topology;
+    const std::vector<std::uint32_t> welded = weld_by_position(mesh.vertices);
+    const std::vector<WeldedFace> faces = proper_faces(mesh, welded, topology);
+    const std::uint32_t vertex_count = welded.empty() ? 0 : *std::max_element(welded.begin(), welded.end()) + 1;
+    const EdgePairing pairing = pair_half_edges(faces, vertex_count);
+    const OpenMesh::TriConnectivity manifold = ManifoldBuilder(faces.size(), pairing).build();
+    topology.non_manifold_edges = pairing.non_manifold_edges;
+    topology.boundary_edges = boundary_edges(manifold, pairing);
+    topology.components = components(manifold, pairing);
+    topology.closed = !faces.empty() && topology.boundary_edges == 0 && topology.non_manifold_edges == 0;
+    return topology;
+}
+
+}  // namespace gnomon::assets
