@@ -1,0 +1,22 @@
+#include "tests/unit/allocation_counter.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::size_t> allocations{0};
+}  // namespace
+
+namespace gnomon {
+std::size_t allocation_count() { return allocations; }
+}  // namespace gnomon
+
+// The array and nothrow forms of the library end in these.
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* p = std::malloc(size > 0 ? size : 1)) return p;
+    throw std::bad_alloc();
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
