@@ -68,6 +68,7 @@ private:
     std::unique_ptr<lighting::LightingSystem> lighting_;
     FrameReport report_;
     gl::CommandList commands_;
+    bool has_picture_ = false;
 };
 
 }  // namespace gnomon

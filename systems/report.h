@@ -6,6 +6,7 @@
 
 #include "components/light.h"
 #include "engine/ecs/entity.h"
+#include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
 
 /// What a frame did for each light, and why. Every stage writes it, none reads it.
@@ -58,12 +59,14 @@ struct FrameReport {
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
+    gl::Failure failure = gl::Failure::none;  // of the submission
     void clear() {
         lights.clear();
         dropped.clear();
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();
         shadow_gpu_us.reset();
+        failure = gl::Failure::none;
     }
 };
 

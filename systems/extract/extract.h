@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
@@ -15,8 +14,9 @@ namespace gnomon {
 /// SceneSnapshot. To use another ECS, fill the snapshot yourself and leave this out.
 class Extractor {
 public:
-    /// `viewport_px`: size of the picture, both > 0. `library` must outlive the call; meshes are named by index.
-    /// Cost is proportional to the number of changed components; an unchanged scene costs nothing.
+    /// `viewport_px`: size of the picture, both > 0. Meshes are named by their index in `library`.
+    /// Cost is proportional to what changed: moved entities are updated in place, added or removed ones make the
+    /// lists anew; an unchanged scene costs nothing.
     void update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
                 glm::uvec2 viewport_px, SceneSnapshot& snapshot);
 
@@ -24,15 +24,23 @@ private:
     struct Cursors {
         ecs::ChangeCursor world, mesh, caster, light, shadow, camera, name;
     };
-    bool collect_changes(ecs::Registry& registry);
-    void rebuild_instances(const ecs::Registry&, const assets::MeshLibrary&, SceneSnapshot&);
+    template <class T>
+    bool read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, bool structural);
+    void make_lists(const ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
+                    SceneSnapshot& snapshot);
+    void list_instance(const ecs::Registry& registry, const assets::MeshLibrary& library, ecs::Entity entity,
+                       SceneSnapshot& snapshot);
+    void assign_slots(SceneSnapshot& snapshot);
+    bool touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
     Cursors cursors_;
-    std::vector<ecs::Entity> changed_;
-    std::vector<std::uint32_t> free_slots_;
-    std::vector<ecs::Entity> slot_owner_;
+    std::vector<ecs::Entity> moved_;             // since the last frame, maybe repeated
+    std::vector<std::uint32_t> instance_of_;     // entity index -> index into snapshot.instances, kNone
+    std::vector<ecs::Entity> slot_owner_;        // gpu_slot -> entity
+    std::vector<std::uint32_t> slot_of_;         // entity index -> gpu_slot, kNone
+    std::vector<DroppedEntity> unusable_;        // found while making the lists
     glm::uvec2 viewport_px_{0, 0};
-    std::uint64_t next_version_ = 1;
+    bool started_ = false;
 };
 
 }  // namespace gnomon

@@ -60,7 +60,7 @@ struct InstanceItem {
     std::uint64_t version = 0;    // grows whenever any of the above changed
 };
 
-enum class DropReason : std::uint8_t { non_finite_transform, parent_missing, parent_cycle, unknown_mesh,
+enum class DropReason : std::uint8_t { non_finite_transform, zero_rotation, parent_missing, parent_cycle, unknown_mesh,
                                        zero_scale, absurd_light, absurd_camera };
 const char* reason_code(DropReason reason);
 
@@ -78,7 +78,7 @@ struct SceneSnapshot {
     std::vector<LightItem> lights;
     std::vector<InstanceItem> instances;
     std::vector<DroppedEntity> dropped;
-    std::vector<std::uint32_t> changed_slots;  // gpu_slots whose record must be uploaded this frame
+    std::vector<std::uint32_t> changed_instances;  // indices of those to upload this frame, by rising gpu_slot
     std::uint32_t gpu_slot_count = 0;          // upper bound of all gpu_slots
     std::uint64_t version = 0;                 // grows whenever anything changed
 };

@@ -1,0 +1,11 @@
+// Light from everywhere; never shadowed. Brighter from above, as under a sky.
+// C++ twin: AmbientRecord in systems/lighting/lighting_system.h.
+layout(std140, binding = 3) uniform AmbientBlock {
+    vec4 sky;      // rgb: lux from above
+    vec4 ground;   // rgb: lux from below
+} ambient;
+
+vec3 ambient_light(vec3 colour, vec3 normal) {
+    const float kInversePi = 0.318309886;
+    return colour * kInversePi * mix(ambient.ground.rgb, ambient.sky.rgb, 0.5 + 0.5 * normal.y);
+}

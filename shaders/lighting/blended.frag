@@ -1,0 +1,43 @@
+// A blended surface, drawn forward after all others: first what it lets through and its ambient light,
+// then one pass per light that adds. The same visibility include as the deferred passes.
+#include "shared/instances.glsl"
+#include "shared/camera_block.glsl"
+#include "shared/material.glsl"
+#include "shared/numerics.glsl"
+#include "lighting/surface_normals.glsl"
+#include "lighting/ambient.glsl"
+in vec3 fragment_position_ca;
+in vec3 fragment_normal;
+in vec2 fragment_uv;
+flat in uvec2 fragment_item;
+layout(location = 0) out vec4 colour_out;
+#ifdef LIGHT_PASS
+#include "row.glsl"
+#include "shadow/light_block.glsl"
+#include "shadow/visibility.glsl"
+#include "lighting/light_at.glsl"
+#include "lighting/brdf.glsl"
+#endif
+
+void main() {
+    vec4 colour = material_colour(fragment_uv);
+    InstanceRecord instance = instances[fragment_item.x];
+    vec3 geometric = geometric_normal(instance, fragment_item.y + uint(gl_PrimitiveID), fragment_position_ca);
+    vec3 shading = shading_normal(fragment_normal, geometric);
+#ifdef LIGHT_PASS
+    LightSample incoming = light_at(fragment_position_ca);
+    vec3 added = vec3(0.0);
+    if (incoming.reaches && dot(geometric, incoming.to_light) > 0.0) {
+        float visible = 1.0;
+        if (instance.low.w > 0.5)
+            visible = shadow_visibility(fragment_position_ca + light.anchor_from_camera.xyz, geometric,
+                                        kRebuiltRelative * length(fragment_position_ca));
+        added = visible * incoming.radiance *
+                brdf_times_cosine(colour.rgb, material.metallic, material.roughness, shading,
+                                  normalize(to_camera(fragment_position_ca)), incoming.to_light);
+    }
+    colour_out = vec4(added * colour.a, 0.0);
+#else
+    colour_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, colour.a);
+#endif
+}

@@ -1,0 +1,33 @@
+// One light over its screen rectangle: visibility times BRDF, added to the picture; or the visibility alone.
+#include "lighting/surface_targets.glsl"
+#include "row.glsl"
+#include "shadow/light_block.glsl"
+#include "shadow/visibility.glsl"
+#include "lighting/light_at.glsl"
+#include "lighting/brdf.glsl"
+#ifdef WRITE_VISIBILITY
+layout(location = 0) out float visibility_out;
+#else
+layout(location = 0) out vec4 colour_out;
+#endif
+
+void main() {
+    Surface surface = read_surface(ivec2(gl_FragCoord.xy));
+    if (!surface.exists) discard;
+    LightSample incoming = light_at(surface.position_ca);
+    float facing = dot(surface.geometric_normal, incoming.to_light);
+    float visible = 0.0;
+    if (incoming.reaches && facing > 0.0) {
+        visible = 1.0;
+        if (surface.receives)
+            visible = shadow_visibility(surface.position_ca + light.anchor_from_camera.xyz, surface.geometric_normal,
+                                        surface.error_m);
+    }
+#ifdef WRITE_VISIBILITY
+    visibility_out = visible;
+#else
+    vec3 reflected = brdf_times_cosine(surface.colour, surface.metallic, surface.roughness, surface.shading_normal,
+                                       surface.to_viewer, incoming.to_light);
+    colour_out = vec4(visible > 0.0 ? visible * incoming.radiance * reflected : vec3(0.0), 0.0);
+#endif
+}

@@ -1,0 +1,34 @@
+// Direction and strength of one light at a point, as KHR_lights_punctual defines them.
+struct LightSample {
+    vec3 to_light;     // unit
+    vec3 radiance;     // lux at a surface facing the light; 0 outside range and cone
+    bool reaches;
+};
+
+LightSample light_at(vec3 position_ca) {
+    LightSample s;
+#ifdef LIGHT_DIRECTIONAL
+    s.to_light = light.to_light.xyz;
+    s.radiance = light.radiance.rgb;
+    s.reaches = true;
+#else
+    vec3 offset = light.position.xyz - position_ca;
+    float distance_m = length(offset);
+    s.to_light = offset / max(distance_m, 1e-30);
+    float range_m = light.position.w;
+    s.reaches = distance_m > 0.0 && (range_m == 0.0 || distance_m <= range_m);
+    float falloff = 1.0 / max(distance_m * distance_m, 1e-30);
+    if (range_m > 0.0) {
+        float x = distance_m / range_m;
+        falloff *= clamp(1.0 - x * x * x * x, 0.0, 1.0);
+    }
+#ifdef LIGHT_SPOT
+    float cosine = dot(s.to_light, light.to_light.xyz);
+    float edge = clamp((cosine - light.cone.x) * light.cone.y, 0.0, 1.0);
+    s.reaches = s.reaches && cosine > light.cone.x;
+    falloff *= edge * edge;
+#endif
+    s.radiance = s.reaches ? light.radiance.rgb * falloff : vec3(0.0);
+#endif
+    return s;
+}

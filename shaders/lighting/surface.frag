@@ -1,0 +1,27 @@
+// Fills the surface buffers, and starts the picture with what needs no light pass: ambient and emitted light.
+#include "shared/instances.glsl"
+#include "shared/camera_block.glsl"
+#include "shared/material.glsl"
+#include "shared/octahedral.glsl"
+#include "lighting/surface_normals.glsl"
+#include "lighting/ambient.glsl"
+in vec3 fragment_position_ca;
+in vec3 fragment_normal;
+in vec2 fragment_uv;
+flat in uvec2 fragment_item;
+layout(location = 0) out vec4 colour_out;
+layout(location = 1) out vec4 normals_out;
+layout(location = 2) out vec4 material_out;
+layout(location = 3) out vec4 picture_out;
+
+void main() {
+    vec4 colour = material_colour(fragment_uv);
+    if (colour.a < material.alpha_cutoff) discard;
+    InstanceRecord instance = instances[fragment_item.x];
+    vec3 geometric = geometric_normal(instance, fragment_item.y + uint(gl_PrimitiveID), fragment_position_ca);
+    vec3 shading = shading_normal(fragment_normal, geometric);
+    colour_out = vec4(colour.rgb, 1.0);
+    normals_out = vec4(octahedral_from_unit(shading), octahedral_from_unit(geometric));
+    material_out = vec4(material.metallic, material.roughness, instance.low.w, 0.0);
+    picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
+}

@@ -1,0 +1,21 @@
+// Surfaces as the camera sees them.
+#include "shared/instances.glsl"
+#include "shared/camera_block.glsl"
+layout(location = 0) in vec3 position_ms;
+layout(location = 1) in vec3 normal_ms;
+layout(location = 2) in vec2 uv;
+layout(location = 3) in uvec2 draw_item;   // instance, first triangle
+out vec3 fragment_position_ca;
+out vec3 fragment_normal;
+out vec2 fragment_uv;
+flat out uvec2 fragment_item;
+
+void main() {
+    InstanceRecord instance = instances[draw_item.x];
+    vec3 position_ca = position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
+    fragment_position_ca = position_ca;
+    fragment_normal = normal_from_model(instance, normal_ms);
+    fragment_uv = uv;
+    fragment_item = draw_item;
+    gl_Position = camera.clip_from_anchor * vec4(position_ca, 1.0);
+}

@@ -1,0 +1,16 @@
+// The two normals of a fragment. The geometric one comes from the triangle's own plane, computed once on the
+// CPU in double: screen-space derivatives would be noisy on large triangles and the bias rests on it.
+layout(std430, binding = 1) readonly buffer TriangleNormalBuffer { vec4 triangle_normals[]; };
+
+vec3 to_camera(vec3 position_ca) { return camera.back.w > 0.5 ? camera.back.xyz : -position_ca; }
+
+vec3 geometric_normal(InstanceRecord instance, uint triangle, vec3 position_ca) {
+    vec3 n = normalize(normal_from_model(instance, triangle_normals[triangle].xyz));
+    return dot(n, to_camera(position_ca)) < 0.0 ? -n : n;
+}
+
+vec3 shading_normal(vec3 interpolated, vec3 geometric) {
+    float size = length(interpolated);
+    vec3 n = size > 0.0 ? interpolated / size : geometric;
+    return dot(n, geometric) < 0.0 ? -n : n;
+}

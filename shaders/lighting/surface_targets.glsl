@@ -1,0 +1,56 @@
+// The surface buffers as the light passes read them.
+#include "shared/camera_block.glsl"
+#include "shared/octahedral.glsl"
+#include "shared/numerics.glsl"
+layout(binding = 0) uniform sampler2D surface_depth;
+layout(binding = 1) uniform sampler2D surface_colour;
+layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
+layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, receives shadow
+
+struct Surface {
+    bool exists;
+    vec3 position_ca;     // from the camera's anchor
+    vec3 to_viewer;
+    vec3 shading_normal;
+    vec3 geometric_normal;
+    vec3 colour;
+    float metallic, roughness;
+    bool receives;
+    float error_m;        // how far position_ca may be off the true surface
+};
+
+// Depth d of a perspective view is (y / z) - x, of an orthographic one (x - z) / y.
+vec3 surface_position(ivec2 pixel, float depth) {
+    vec2 ndc = (vec2(pixel) + 0.5) / camera.unproject.zw * 2.0 - 1.0;
+    bool orthographic = camera.back.w > 0.5;
+    float z = orthographic ? camera.unproject.x - depth * camera.unproject.y
+                           : camera.unproject.y / (depth + camera.unproject.x);
+    vec3 lateral = camera.right.xyz * (ndc.x * camera.right.w) + camera.up.xyz * (ndc.y * camera.up.w);
+    return orthographic ? lateral - camera.back.xyz * z : (lateral - camera.back.xyz) * z;
+}
+
+// Rebuilding rounds; and the rasteriser may have moved the triangle by half a sub-pixel step (2^-9 pixel).
+float surface_error_m(vec3 position_ca) {
+    float distance_m = length(position_ca);
+    float pixel = 2.0 * camera.up.w / camera.unproject.w;
+    float pixel_m = camera.back.w > 0.5 ? pixel : pixel * distance_m;
+    return kRebuiltRelative * distance_m + pixel_m * (0.5 * kRasterSnap_texel);
+}
+
+Surface read_surface(ivec2 pixel) {
+    Surface s;
+    float depth = texelFetch(surface_depth, pixel, 0).r;
+    s.exists = depth > 0.0;
+    s.position_ca = surface_position(pixel, depth);
+    s.to_viewer = camera.back.w > 0.5 ? camera.back.xyz : -normalize(s.position_ca);
+    vec4 normals = texelFetch(surface_normals, pixel, 0);
+    s.shading_normal = unit_from_octahedral(normals.xy);
+    s.geometric_normal = unit_from_octahedral(normals.zw);
+    s.colour = texelFetch(surface_colour, pixel, 0).rgb;
+    vec4 m = texelFetch(surface_material, pixel, 0);
+    s.metallic = m.r;
+    s.roughness = m.g;
+    s.receives = m.b > 0.5;
+    s.error_m = surface_error_m(s.position_ca);
+    return s;
+}

@@ -1,0 +1,21 @@
+// Exposure and tone curve. The target encodes sRGB.
+layout(binding = 0) uniform sampler2D picture;
+layout(binding = 1) uniform sampler2D luminance_sum;
+layout(std140, binding = 4) uniform ExposureBlock {
+    vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum
+};
+layout(location = 0) out vec4 colour_out;
+
+void main() {
+    float scale = exposure.x;
+    if (scale < 0.0) {
+        vec2 sum = textureLod(luminance_sum, vec2(0.5), exposure.y).rg;
+        const float kMiddleGrey = 0.18;
+        scale = sum.g > 0.0 ? kMiddleGrey / exp2(sum.r / sum.g) : 1.0;
+    }
+    vec3 x = max(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb * scale, vec3(0.0));
+    // Rational curve through (0,0), slope 1 at 0, that reaches 1 at kWhite (Reinhard et al. 2002, eq. 4).
+    const float kWhite = 8.0;
+    vec3 mapped = x * (1.0 + x / (kWhite * kWhite)) / (1.0 + x);
+    colour_out = vec4(min(mapped, vec3(1.0)), 1.0);
+}

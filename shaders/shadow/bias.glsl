@@ -1,0 +1,46 @@
+// The smallest offset that keeps a plane from shadowing itself, in closed form, per projection.
+// Derivation and sources: docs/architecture.md, "Bias". Reversed depth: an offset toward the light adds.
+#include "shared/numerics.glsl"
+
+// Above this slope the offset moves the receiver along its normal instead of along the light: bounded where
+// the tangent is not. Both shift a plane equally; they differ at contacts (depth) and at silhouettes (normal).
+const float kSteepTangent = 4.0;
+
+struct Bias {
+    float along_normal_m;   // move the receiver by this much along its normal first
+    float depth;            // then add this to its reversed depth
+};
+
+// n_map: normal in the map's axes (u, v, toward the light). error_m: how far the receiver may be off its plane.
+Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float error_m) {
+    vec2 texel_m = vec2(view.axis_u.w, view.axis_v.w);
+    vec2 lateral = abs(n_map.xy) + kNormalError_rad;
+    float across_m = (reach_texel + kRasterSnap_texel) * dot(lateral, texel_m) + error_m;
+    float cosine = n_map.z - kNormalError_rad;
+    bool steep = !(length(lateral) <= kSteepTangent * cosine);
+    float range_m = view.axis_back.w;
+    Bias bias;
+    bias.along_normal_m = steep ? across_m : 0.0;
+    bias.depth = view.numeric.x + (steep ? 0.0 : across_m / (cosine * range_m));
+    return bias;
+}
+
+// Perspective depth d = alpha + beta / z is affine in the map's coordinates on any plane, so the slope term is exact.
+// position: from the light, in the map's axes (u, v, toward the light); its -z is the distance along the axis.
+Bias perspective_bias(ViewRecord view, vec3 n_map, vec3 position_map, float reach_texel, float error_m) {
+    vec2 texel_tan = vec2(view.axis_u.w, view.axis_v.w);
+    float z_m = -position_map.z;
+    vec2 lateral = abs(n_map.xy) + kNormalError_rad;
+    float spread = (reach_texel + kRasterSnap_texel) * dot(lateral, texel_tan);
+    float across_m = spread * z_m + error_m;
+    float distance_m = length(position_map);
+    float plane_m = -dot(n_map, position_map) - kNormalError_rad * distance_m;   // distance of the light from the plane
+    bool steep = !(sqrt(max(distance_m * distance_m - plane_m * plane_m, 0.0)) <= kSteepTangent * plane_m);
+    float beta = view.axis_back.w;
+    float depth = view.numeric.z + beta / z_m;
+    Bias bias;
+    bias.along_normal_m = steep ? across_m : 0.0;
+    bias.depth = view.numeric.x + 6.0 * kUnitRoundoff * depth +
+                 (steep ? 0.0 : beta * across_m / (z_m * plane_m));
+    return bias;
+}

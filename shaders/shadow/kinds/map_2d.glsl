@@ -1,0 +1,24 @@
+// What the kinds with flat maps share: one compare tap, `offset_texel` texels away from the receiver.
+layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
+
+struct ShadowPoint {
+    bool covered;       // false: no map holds this point, it is lit
+    vec3 map;           // u, v, biased reference depth
+    float layer;
+    vec2 texel_uv;
+};
+
+float shadow_tap(ShadowPoint point, vec2 offset_texel) {
+    return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, point.map.z));
+}
+
+// Beyond the far plane depth is negative; clamped to 0 it is lit unless something nearer is stored.
+ShadowPoint point_2d(int view, vec4 projected, float bias_depth) {
+    ShadowPoint point;
+    vec3 map = projected.xyz / projected.w;
+    point.covered = projected.w > 0.0 && all(greaterThanEqual(map.xy, vec2(0.0))) && all(lessThanEqual(map.xy, vec2(1.0)));
+    point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
+    point.layer = float(view);
+    point.texel_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
+    return point;
+}

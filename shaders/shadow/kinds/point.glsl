@@ -1,0 +1,51 @@
+// Point light: a cube of six perspective views with common near and far. A face stores projected depth of
+// its own axis, so the lookup needs only the largest coordinate, z.
+#include "shadow/light_block.glsl"
+#include "shadow/bias.glsl"
+layout(binding = 4) uniform samplerCubeShadow shadow_map;
+
+struct ShadowPoint {
+    bool covered;
+    vec3 position;        // from the light, after the bias moved it
+    vec3 step_u, step_v;  // one texel on the receiver's face, in metres at its distance
+    float bias_depth;
+};
+
+float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+
+// A tap that leaves the face is compared by the depth of the face it lands on.
+float shadow_tap(ShadowPoint point, vec2 offset_texel) {
+    vec3 direction = point.position + offset_texel.x * point.step_u + offset_texel.y * point.step_v;
+    ViewRecord view = light.views[0];
+    float depth = view.numeric.z + view.axis_back.w / largest(direction);
+    return texture(shadow_map, vec4(direction, clamp(depth + point.bias_depth, 0.0, 1.0)));
+}
+
+ShadowPoint shadow_point(vec3 position_la, vec3 normal, float error_m, float reach_texel) {
+    ViewRecord view = light.views[0];
+    vec3 size = abs(position_la);
+    bool x_major = size.x >= size.y && size.x >= size.z;
+    bool y_major = !x_major && size.y >= size.z;
+    vec3 axis_u = x_major ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
+    vec3 axis_v = x_major || y_major ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
+    vec3 axis_back = x_major ? vec3(-sign(position_la.x), 0.0, 0.0)
+                             : (y_major ? vec3(0.0, -sign(position_la.y), 0.0) : vec3(0.0, 0.0, -sign(position_la.z)));
+    mat3 map_axes = mat3(axis_u, axis_v, axis_back);
+    float rounding_m = error_m + view.numeric.y * length(position_la);
+    // Near a seam some taps land on the neighbour, whose axes see the plane's other tangents: take all three.
+    vec3 n_map = normal * map_axes;
+    float z_m = largest(position_la);
+    float second = max(abs(dot(position_la, axis_u)), abs(dot(position_la, axis_v)));
+    if (second > z_m * (1.0 - 2.0 * (reach_texel + 1.0) * view.axis_u.w)) n_map.xy = abs(n_map.xy) + abs(n_map.z);
+    Bias bias = perspective_bias(view, vec3(n_map.xy, dot(normal, axis_back)), position_la * map_axes, reach_texel,
+                                 rounding_m);
+    if (light.options.y != 0) bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
+    ShadowPoint point;
+    point.covered = z_m > 0.0;
+    point.position = position_la + normal * bias.along_normal_m;
+    float step_m = largest(point.position) * view.axis_u.w;
+    point.step_u = axis_u * step_m;
+    point.step_v = axis_v * step_m;
+    point.bias_depth = bias.depth;
+    return point;
+}

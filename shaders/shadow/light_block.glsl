@@ -1,0 +1,19 @@
+// C++ twins: LightRecord and ViewRecord in systems/shadow/types.h.
+const int kMaxViews = 8;
+struct ViewRecord {
+    mat4 map_from_anchor;   // texture coordinates and reversed depth, before division by w
+    vec4 axis_u;            // xyz: world direction of the map's u; w: texel edge, metres (orthographic) or tangent
+    vec4 axis_v;
+    vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta (see bias.glsl)
+    vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl)
+};
+layout(std140, binding = 1) uniform LightBlock {
+    vec4 position;             // xyz: from the camera's anchor (spot, point); w: range in metres, 0: unlimited
+    vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot)
+    vec4 radiance;             // rgb: lux (directional) or candela
+    vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer)
+    vec4 anchor_from_camera;   // xyz: camera anchor minus light anchor; add to go from camera-anchored to light-anchored
+    ivec4 options;             // x: views; y: 1 for constant bias; z: 1 if a map is bound
+    vec4 bias;                 // x: constant bias in metres
+    ViewRecord views[kMaxViews];
+} light;

@@ -1,0 +1,228 @@
+#include "systems/extract/gpu_scene.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "engine/math/projection.h"
+#include "systems/growing_buffer.h"
+
+namespace gnomon {
+namespace {
+
+/// Plane normals of all triangles, model space, in the order of the index buffer; zero for degenerate ones.
+/// In double: the cross product of float edges is exact enough that the normal is right to float rounding.
+std::vector<glm::vec4> plane_normals(const assets::MeshLibrary& library) {
+    std::vector<glm::vec4> normals;
+    for (const assets::Mesh& mesh : library.meshes) {
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const glm::dvec3 a(mesh.vertices[mesh.indices[i]].position_ms);
+            const glm::dvec3 b(mesh.vertices[mesh.indices[i + 1]].position_ms);
+            const glm::dvec3 c(mesh.vertices[mesh.indices[i + 2]].position_ms);
+            const glm::dvec3 n = glm::cross(b - a, c - a);
+            const double size = glm::length(n);
+            normals.emplace_back(size > 0.0 ? glm::vec3(n / size) : glm::vec3(0.0f), 0.0f);
+        }
+    }
+    return normals;
+}
+
+gl::Wrap wrap(assets::TextureWrap w) {
+    switch (w) {
+        case assets::TextureWrap::repeat: return gl::Wrap::repeat;
+        case assets::TextureWrap::mirror: return gl::Wrap::mirror;
+        case assets::TextureWrap::clamp: return gl::Wrap::clamp;
+    }
+    return gl::Wrap::repeat;
+}
+
+MaterialRecord material_record(const assets::Material& m) {
+    MaterialRecord r{};
+    for (int i = 0; i < 4; ++i) r.base_colour[i] = m.base_colour[i];
+    for (int i = 0; i < 3; ++i) r.emissive[i] = m.emissive[i];
+    r.metallic = m.metallic;
+    r.roughness = m.roughness;
+    r.alpha_cutoff = m.alpha_mode == assets::AlphaMode::mask ? m.alpha_cutoff : -1.0f;
+    r.has_texture = m.base_colour_texture != assets::kNone ? 1.0f : 0.0f;
+    return r;
+}
+
+InstanceRecord instance_record(const InstanceItem& item) {
+    const math::TwoFloat3 t = math::split(item.translation_ws_m);
+    const auto column = [&](int i, float (&out)[4]) {
+        for (int row = 0; row < 3; ++row) out[row] = static_cast<float>(item.basis[i][row]);
+        out[3] = t.high[i];
+    };
+    InstanceRecord r{};
+    column(0, r.basis_x_high_x);
+    column(1, r.basis_y_high_y);
+    column(2, r.basis_z_high_z);
+    for (int i = 0; i < 3; ++i) r.low_receives[i] = t.low[i];
+    r.low_receives[3] = item.receives ? 1.0f : 0.0f;
+    return r;
+}
+
+template <class T>
+gl::Created<gl::BufferHandle> fixed_buffer(gl::Device& device, const char* label, const std::vector<T>& values) {
+    static const T kNothing{};  // a buffer must have a size; an empty library draws nothing from it
+    const auto bytes = values.empty() ? std::as_bytes(std::span(&kNothing, 1)) : std::as_bytes(std::span(values));
+    return device.create_buffer({label, bytes.size(), gl::BufferUse::fixed}, bytes);
+}
+
+}  // namespace
+
+Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary& library) {
+    GpuScene scene;
+    scene.device_ = &device;
+    const auto failed = [](const char* what, gl::Failure failure) {
+        return Error{std::string("the GPU could not hold ") + what + " (" + gl::to_text(failure) + ")", {}, {}, "gpu.scene"};
+    };
+
+    std::vector<assets::Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    for (const assets::Mesh& mesh : library.meshes) {
+        MeshRange range;
+        range.base_vertex = static_cast<std::int32_t>(vertices.size());
+        range.first_index = static_cast<std::uint32_t>(indices.size());
+        range.first_submesh = static_cast<std::uint32_t>(scene.submeshes_.size());
+        range.submesh_count = static_cast<std::uint32_t>(mesh.submeshes.size());
+        range.triangles = mesh.indices.size() / 3;
+        for (const assets::Submesh& s : mesh.submeshes)
+            scene.submeshes_.push_back({range.first_index + s.first_index, s.index_count, s.material});
+        scene.meshes_.push_back(range);
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    }
+    const auto keep = [](auto& slot, auto created) {
+        slot = created.handle;
+        return created.failure;
+    };
+    gl::Failure f = keep(scene.vertices_, fixed_buffer(device, "scene vertices", vertices));
+    if (f == gl::Failure::none) f = keep(scene.indices_, fixed_buffer(device, "scene indices", indices));
+    if (f == gl::Failure::none) f = keep(scene.triangle_normals_, fixed_buffer(device, "triangle normals", plane_normals(library)));
+    if (f != gl::Failure::none) return failed("the scene's meshes", f);
+
+    const std::uint32_t stride = aligned(sizeof(MaterialRecord), device.info().uniform_alignment);
+    std::vector<std::byte> materials(std::max<std::size_t>(library.materials.size(), 1) * stride);
+    for (std::size_t m = 0; m < library.materials.size(); ++m) {
+        const MaterialRecord record = material_record(library.materials[m]);
+        std::memcpy(materials.data() + m * stride, &record, sizeof record);
+    }
+    f = keep(scene.material_uniforms_, fixed_buffer(device, "materials", materials));
+    if (f != gl::Failure::none) return failed("the scene's materials", f);
+
+    const std::uint8_t kWhite[4] = {255, 255, 255, 255};
+    const auto add_texture = [&](const gl::TextureDesc& desc, std::span<const std::uint8_t> pixels) {
+        const auto made = device.create_texture(desc, std::as_bytes(pixels));
+        if (made) scene.textures_.push_back(made.handle);
+        return made.failure;
+    };
+    f = add_texture({"white", gl::TextureKind::flat, gl::Format::srgb8_a8, 1, 1, 1, 1}, kWhite);
+    for (const assets::Texture& t : library.textures) {
+        if (f != gl::Failure::none) break;
+        f = add_texture({"texture " + t.name, gl::TextureKind::flat, gl::Format::srgb8_a8, t.width, t.height, 1, 0}, t.rgba);
+    }
+    if (f != gl::Failure::none) return failed("the scene's textures", f);
+
+    std::map<std::tuple<assets::TextureWrap, assets::TextureWrap, bool>, gl::SamplerHandle> samplers;
+    const auto sampler_for = [&](assets::TextureWrap u, assets::TextureWrap v, bool linear) {
+        auto& sampler = samplers[{u, v, linear}];
+        if (!sampler) {
+            const auto made = device.create_sampler({"scene texture", linear, linear, false, wrap(u), wrap(v)});
+            if (!made) f = made.failure;
+            sampler = made.handle;
+            scene.samplers_.push_back(sampler);
+        }
+        return sampler;
+    };
+    for (std::size_t m = 0; m < library.materials.size(); ++m) {
+        const assets::Material& material = library.materials[m];
+        MaterialInfo info;
+        info.uniform_offset = static_cast<std::uint32_t>(m) * stride;
+        info.alpha_mode = material.alpha_mode;
+        info.double_sided = material.double_sided;
+        const auto t = material.base_colour_texture;
+        info.texture = scene.textures_[t == assets::kNone ? 0 : static_cast<std::size_t>(t) + 1];
+        info.sampler = t == assets::kNone ? sampler_for(assets::TextureWrap::repeat, assets::TextureWrap::repeat, false)
+                                          : sampler_for(library.textures[t].wrap_u, library.textures[t].wrap_v,
+                                                        library.textures[t].linear_filter);
+        scene.materials_.push_back(info);
+    }
+    if (f != gl::Failure::none) return failed("the scene's samplers", f);
+    return scene;
+}
+
+GpuScene::GpuScene(GpuScene&& other) noexcept { *this = std::move(other); }
+
+GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
+    if (this == &other) return *this;
+    release();
+    device_ = std::exchange(other.device_, nullptr);
+    vertices_ = std::exchange(other.vertices_, {});
+    indices_ = std::exchange(other.indices_, {});
+    instances_ = std::exchange(other.instances_, {});
+    triangle_normals_ = std::exchange(other.triangle_normals_, {});
+    material_uniforms_ = std::exchange(other.material_uniforms_, {});
+    instance_capacity_ = std::exchange(other.instance_capacity_, 0);
+    records_ = std::move(other.records_);
+    textures_ = std::move(other.textures_);
+    samplers_ = std::move(other.samplers_);
+    meshes_ = std::move(other.meshes_);
+    submeshes_ = std::move(other.submeshes_);
+    materials_ = std::move(other.materials_);
+    other.textures_.clear();
+    other.samplers_.clear();
+    return *this;
+}
+
+GpuScene::~GpuScene() { release(); }
+
+void GpuScene::release() {
+    if (!device_) return;
+    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_}) device_->destroy(b);
+    for (const gl::TextureHandle t : textures_) device_->destroy(t);
+    for (const gl::SamplerHandle s : samplers_) device_->destroy(s);
+    device_ = nullptr;
+}
+
+bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
+    records_.resize(snapshot.gpu_slot_count);
+    bool upload_all = false;
+    if (snapshot.gpu_slot_count > instance_capacity_) {
+        const std::uint32_t wanted = std::bit_ceil(snapshot.gpu_slot_count);
+        const auto made = device_->create_buffer(
+            {"instances", std::uint64_t{wanted} * sizeof(InstanceRecord), gl::BufferUse::updated}, {});
+        if (made) {
+            device_->destroy(instances_);
+            instances_ = made.handle;
+            instance_capacity_ = wanted;
+            upload_all = true;
+        }
+    }
+    if (upload_all) {
+        for (const InstanceItem& item : snapshot.instances) records_[item.gpu_slot] = instance_record(item);
+        list.update(instances_, 0, std::span<const InstanceRecord>(records_));
+    } else {
+        // They come by rising slot; each run of neighbours is one copy.
+        const auto& changed = snapshot.changed_instances;
+        const auto slot = [&](std::size_t i) { return snapshot.instances[changed[i]].gpu_slot; };
+        for (std::size_t first = 0; first < changed.size();) {
+            std::size_t end = first;
+            do {
+                records_[slot(end)] = instance_record(snapshot.instances[changed[end]]);
+                ++end;
+            } while (end < changed.size() && slot(end) == slot(end - 1) + 1);
+            if (slot(end - 1) < instance_capacity_)
+                list.update(instances_, std::uint64_t{slot(first)} * sizeof(InstanceRecord),
+                            std::span<const InstanceRecord>(records_).subspan(slot(first), end - first));
+            first = end;
+        }
+    }
+    return snapshot.gpu_slot_count <= instance_capacity_;
+}
+
+}  // namespace gnomon

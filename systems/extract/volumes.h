@@ -1,0 +1,19 @@
+#pragma once
+#include "engine/math/frustum.h"
+#include "systems/extract/snapshot.h"
+
+namespace gnomon {
+
+/// Width over height of the consumer's picture.
+double aspect(const ConsumerItem& consumer);
+
+/// What the consumer sees, world space.
+math::Frustum consumer_frustum(const ConsumerItem& consumer);
+
+/// The pyramid around a spot's cone, cut at far_m (infinite: uncut). tan_half > 0.
+math::Frustum pyramid(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws, double tan_half, double far_m);
+
+/// Metres a pixel covers at distance 1 (perspective) or anywhere (orthographic).
+double pixel_footprint(const ConsumerItem& consumer);
+
+}  // namespace gnomon

@@ -1,0 +1,89 @@
+#include "systems/frame.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "systems/frame_timers.h"
+#include "systems/lighting/lighting_system.h"
+#include "systems/shadow/shadow_system.h"
+
+namespace gnomon {
+
+Result<std::unique_ptr<Frame>> Frame::create(gl::Device& device, const assets::MeshLibrary& library) {
+    auto scene = GpuScene::create(device, library);
+    if (!scene) return scene.error();
+    return std::unique_ptr<Frame>(new Frame(device, library, std::move(scene).value()));
+}
+
+Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, GpuScene scene)
+    : device_(device), library_(library), gpu_scene_(std::move(scene)),
+      shadows_(std::make_unique<shadow::ShadowSystem>(device)), lighting_(std::make_unique<lighting::LightingSystem>(device)) {}
+
+Frame::~Frame() = default;
+
+void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
+    const auto start = std::chrono::steady_clock::now();
+    commands_.clear();
+    report_.clear();
+
+    const TransformReport& transforms = transforms_.update(world);
+    extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_);
+    world.discard_changes();
+    report_.dropped = snapshot_.dropped;
+    gpu_scene_.update(snapshot_, commands_);
+    const shadow::ShadowFrame& shadows = shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
+    has_picture_ = !shadows.inputs.empty() &&
+                   lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_, {settings.exposure_ev}, commands_, report_);
+    if (has_picture_ && settings.present) {
+        const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x), static_cast<std::int32_t>(settings.viewport_px.y)};
+        commands_.add(gl::Blit{lighting_->picture_target(), {}, all, all});
+    }
+    report_.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+
+    const gl::SubmitResult result = device_.submit(commands_);
+    shadows_->commit(snapshot_, result.failure == gl::Failure::none);
+    report_.failure = result.failure;
+    collect_timings();
+}
+
+/// Sums what timers have come in. A device that answers late reports an earlier frame's times.
+void Frame::collect_timings() {
+    const std::vector<gl::Timing> timings = device_.take_timings();
+    if (timings.empty()) return;
+    const std::uint64_t last = timings.back().submission;
+    double all_us = 0.0, shadow_us = 0.0;
+    for (const gl::Timing& t : timings) {
+        if (t.submission != last) continue;
+        all_us += t.gpu_us;
+        if (t.id >= kSurfaceTimer) continue;
+        const std::uint32_t light = t.id / 2;
+        if (t.id % 2 == 0) shadow_us += t.gpu_us;
+        if (light < report_.lights.size()) report_.lights[light].gpu_us = report_.lights[light].gpu_us.value_or(0.0) + t.gpu_us;
+    }
+    report_.gpu_us = all_us;
+    report_.shadow_gpu_us = shadow_us;
+}
+
+bool Frame::read_picture(std::vector<std::uint8_t>& rgba) {
+    if (!has_picture_) return false;
+    const glm::uvec2 size = lighting_->size_px();
+    const std::size_t row = std::size_t{size.x} * 4;
+    std::vector<std::uint8_t> upward(row * size.y);
+    if (!device_.read_texture(lighting_->picture_texture(), 0, std::as_writable_bytes(std::span(upward)))) return false;
+    rgba.resize(upward.size());
+    for (std::size_t y = 0; y < size.y; ++y)
+        std::copy_n(upward.begin() + static_cast<std::ptrdiff_t>((size.y - 1 - y) * row), row,
+                    rgba.begin() + static_cast<std::ptrdiff_t>(y * row));
+    return true;
+}
+
+bool Frame::read_visibility(std::uint32_t light, std::vector<float>& values) {
+    if (!has_picture_) return false;
+    gl::CommandList list;
+    if (!lighting_->record_visibility(shadows_->frame().inputs.front(), light, list)) return false;
+    if (device_.submit(list).failure != gl::Failure::none) return false;
+    values.resize(std::size_t{lighting_->size_px().x} * lighting_->size_px().y);
+    return device_.read_texture(lighting_->visibility_texture(), 0, std::as_writable_bytes(std::span(values)));
+}
+
+}  // namespace gnomon

@@ -1,0 +1,48 @@
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "engine/gl/device.h"
+
+namespace gnomon {
+
+/// A device buffer that is replaced by a larger one when needed; contents are rewritten by its user every frame.
+/// Owns the buffer.
+class GrowingBuffer {
+public:
+    GrowingBuffer(gl::Device& device, std::string label) : device_(&device), label_(std::move(label)) {}
+    GrowingBuffer(const GrowingBuffer&) = delete;
+    GrowingBuffer& operator=(const GrowingBuffer&) = delete;
+    ~GrowingBuffer() { device_->destroy(buffer_); }
+
+    /// True if the buffer holds at least `bytes` now. Sizes are powers of two, so growth is rare.
+    /// On failure the old buffer stays.
+    bool reserve(std::uint64_t bytes) {
+        if (bytes <= size_) return true;
+        constexpr std::uint64_t kLeastBytes = 4096;  // one page
+        const std::uint64_t size = std::bit_ceil(std::max(bytes, kLeastBytes));
+        const auto made = device_->create_buffer({label_, size, gl::BufferUse::updated}, {});
+        if (!made) return false;
+        device_->destroy(buffer_);
+        buffer_ = made.handle;
+        size_ = size;
+        return true;
+    }
+    gl::BufferHandle handle() const { return buffer_; }
+
+private:
+    gl::Device* device_;
+    std::string label_;
+    gl::BufferHandle buffer_{};
+    std::uint64_t size_ = 0;
+};
+
+/// Rounds up to the device's uniform-offset alignment.
+inline std::uint32_t aligned(std::size_t bytes, std::uint32_t alignment) {
+    return static_cast<std::uint32_t>((bytes + alignment - 1) / alignment * alignment);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,288 @@
+#include "systems/lighting/lighting_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "engine/math/frustum.h"
+#include "systems/extract/instance_order.h"
+#include "systems/extract/volumes.h"
+#include "systems/frame_timers.h"
+
+namespace gnomon::lighting {
+namespace {
+
+void put(std::vector<std::byte>& bytes, std::uint32_t offset, const void* record, std::size_t size) {
+    if (bytes.size() < offset + size) bytes.resize(offset + size);
+    std::memcpy(bytes.data() + offset, record, size);
+}
+
+/// Saturation-based exposure of a camera at EV100: L_max = 1.2 * 2^EV (ISO 12232; Lagarde & de Rousiers 2014, 4.2).
+float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
+
+}  // namespace
+
+AmbientRecord ambient_for(const SceneSnapshot& scene) {
+    // A clear sky gives about a tenth of the sun's light, bluish; the ground returns a fifth of that.
+    constexpr float kSkyShare = 0.1f, kGroundShare = 0.2f;
+    // Local lights fill a room by bounces: the light at a few metres, times a room's mean reflectance to the second power.
+    constexpr float kBounceShare = 0.04f, kRoom_m = 4.0f;
+    glm::vec3 sky(0.0f), bounce(0.0f);
+    for (const LightItem& light : scene.lights) {
+        const glm::vec3 power = light.colour * light.intensity;
+        if (light.kind == LightKind::directional) sky += power * kSkyShare * glm::vec3(0.85f, 0.95f, 1.2f);
+        else bounce += power * (kBounceShare / (kRoom_m * kRoom_m));
+    }
+    return {glm::vec4(sky + bounce, 0.0f), glm::vec4(sky * kGroundShare + bounce, 0.0f)};
+}
+
+LightingSystem::LightingSystem(gl::Device& device)
+    : device_(device), programs_(device), targets_(device), items_(device, "surface draw items"), uniforms_(device, "lighting uniforms") {}
+
+LightingSystem::~LightingSystem() {
+    device_.destroy(point_sampler_);
+    device_.destroy(mip_sampler_);
+}
+
+gl::Rect LightingSystem::viewport() const {
+    return {0, 0, static_cast<std::int32_t>(size_px().x), static_cast<std::int32_t>(size_px().y)};
+}
+
+bool LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
+    if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return false;
+    if (!point_sampler_) point_sampler_ = device_.create_sampler({"surface", false, false, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
+    if (!mip_sampler_) mip_sampler_ = device_.create_sampler({"luminance", true, true, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
+    const std::uint32_t alignment = device_.info().uniform_alignment;
+    ambient_offset_ = aligned(sizeof(shadow::CameraRecord), alignment);
+    exposure_offset_ = ambient_offset_ + aligned(sizeof(AmbientRecord), alignment);
+    lights_offset_ = exposure_offset_ + aligned(sizeof(ExposureRecord), alignment);
+    light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
+    return point_sampler_ && mip_sampler_ && programs_.surface() && programs_.luminance() && programs_.tonemap() &&
+           items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
+           uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * inputs.lights.size());
+}
+
+void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
+                                  const ConsumerItem& consumer) {
+    const InstanceItem& head = scene.instances[visible_[first]];
+    const GpuScene::MeshRange& mesh = gpu.mesh(head.mesh);
+    for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
+        const GpuScene::SubmeshRange& submesh = gpu.submesh(mesh.first_submesh + s);
+        const bool blend = gpu.material(submesh.material).alpha_mode == assets::AlphaMode::blend;
+        // Blended instances are drawn one by one, sorted; others in one go.
+        const std::uint32_t step = blend ? 1 : count;
+        for (std::uint32_t i = 0; i < count; i += step) {
+            SurfaceDraw draw{submesh.material, submesh.first_index, submesh.index_count, mesh.base_vertex,
+                             static_cast<std::uint32_t>(draw_items_.size()), step, head.mirrored, 0.0};
+            for (std::uint32_t k = 0; k < step; ++k)
+                draw_items_.push_back({scene.instances[visible_[first + i + k]].gpu_slot, submesh.first_index / 3});
+            if (blend) {
+                draw.distance_m = glm::distance(math::centre(scene.instances[visible_[first + i]].bounds_ws), consumer.position_ws_m);
+                blended_.push_back(draw);
+            } else {
+                draws_.push_back(draw);
+            }
+        }
+    }
+}
+
+void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu) {
+    visible_.clear();
+    draw_items_.clear();
+    draws_.clear();
+    blended_.clear();
+    const math::Frustum frustum = consumer_frustum(consumer);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceItem& item = scene.instances[i];
+        if (item.visible && item.gpu_slot < gpu.capacity() && math::may_overlap(frustum, item.bounds_ws)) visible_.push_back(i);
+    }
+    const auto key = [&scene](std::uint32_t i) { return std::pair(scene.instances[i].mesh * 2 + (scene.instances[i].mirrored ? 1u : 0u), i); };
+    std::sort(visible_.begin(), visible_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+    for_each_mesh_run(scene, visible_, [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
+        // Mirrored instances of a mesh follow the others: their front faces wind the other way.
+        const auto begin = visible_.begin() + first;
+        const auto middle = std::find_if(begin, begin + count, [&](std::uint32_t i) { return scene.instances[i].mirrored; });
+        const auto plain = static_cast<std::uint32_t>(middle - begin);
+        if (plain > 0) add_mesh_run(scene, gpu, first, plain, consumer);
+        if (plain < count) add_mesh_run(scene, gpu, first + plain, count - plain, consumer);
+    });
+    std::stable_sort(draws_.begin(), draws_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) { return a.material < b.material; });
+    std::stable_sort(blended_.begin(), blended_.end(),
+                     [](const SurfaceDraw& a, const SurfaceDraw& b) { return a.distance_m > b.distance_m; });
+}
+
+void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const LightingSettings& settings,
+                            gl::CommandList& list) {
+    const AmbientRecord ambient = ambient_for(scene);
+    ExposureRecord exposure;
+    exposure.top_mip = static_cast<float>(kLuminanceTopMip);
+    if (settings.exposure_ev) exposure.scale = exposure_scale(*settings.exposure_ev);
+    uniform_scratch_.clear();
+    put(uniform_scratch_, 0, &inputs.camera, sizeof inputs.camera);
+    put(uniform_scratch_, ambient_offset_, &ambient, sizeof ambient);
+    put(uniform_scratch_, exposure_offset_, &exposure, sizeof exposure);
+    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
+        put(uniform_scratch_, lights_offset_ + i * light_stride_, &inputs.lights[i].record, sizeof(shadow::LightRecord));
+    list.update(items_.handle(), 0, std::span<const DrawItem>(draw_items_));
+    list.update(uniforms_.handle(), 0, std::span<const std::byte>(uniform_scratch_));
+}
+
+void LightingSystem::bind_scene(const GpuScene& gpu, gl::CommandList& list) const {
+    list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
+    list.add(gl::BindStorage{0, gpu.instances()});
+    list.add(gl::BindStorage{1, gpu.triangle_normals()});
+    list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
+}
+
+void LightingSystem::bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const {
+    const GpuScene::MaterialInfo& info = gpu.material(material);
+    list.add(gl::BindTexture{0, info.texture, info.sampler});
+    list.add(gl::BindUniforms{2, gpu.material_uniforms(), info.uniform_offset, sizeof(MaterialRecord)});
+}
+
+void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list) {
+    list.add(gl::BeginGroup{"surfaces"});
+    list.add(gl::BeginTimer{kSurfaceTimer});
+    list.add(gl::BeginPass{targets_.surface_target, viewport(), true, 0.0f, true, {}});
+    std::uint32_t bound = 0xffffffffu;
+    gl::PipelineState state{programs_.surface(), gl::CullMode::none, false, gl::DepthTest::greater, true, false, gl::Blend::off};
+    bool first = true;
+    for (const SurfaceDraw& draw : draws_) {
+        gl::PipelineState wanted = state;
+        wanted.cull = gpu.material(draw.material).double_sided ? gl::CullMode::none : gl::CullMode::back;
+        wanted.front_is_clockwise = draw.mirrored;
+        if (first || !(wanted == state)) list.add(gl::SetPipeline{wanted});
+        if (first) bind_scene(gpu, list);
+        state = wanted;
+        first = false;
+        if (draw.material != bound) bind_material(gpu, draw.material, list);
+        bound = draw.material;
+        list.add(gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
+    }
+    list.add(gl::EndPass{});
+    list.add(gl::EndTimer{});
+    list.add(gl::EndGroup{});
+}
+
+void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
+    list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindTexture{0, targets_.depth, point_sampler_});
+    list.add(gl::BindTexture{1, targets_.colour, point_sampler_});
+    list.add(gl::BindTexture{2, targets_.normals, point_sampler_});
+    list.add(gl::BindTexture{3, targets_.material, point_sampler_});
+}
+
+void LightingSystem::bind_light(const shadow::LightingLight& light, std::uint32_t index, gl::CommandList& list) const {
+    list.add(gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
+    if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
+}
+
+void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, gl::CommandList& list,
+                                   FrameReport& report) {
+    list.add(gl::BeginGroup{"lights"});
+    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
+        const shadow::LightingLight& light = inputs.lights[i];
+        if (light.screen.width <= 0) continue;
+        gl::ProgramHandle program = programs_.row(light.row, RowOutput::picture);
+        if (!program) {
+            report.lights[light.light].state = LightState::skipped;
+            report.lights[light.light].reason = Reason::lighting_program_failed;
+            shadow::ProgramRow unshadowed = light.row;
+            unshadowed.filter_file = {};
+            program = programs_.row(unshadowed, RowOutput::picture);
+            if (!program) continue;
+        }
+        list.add(gl::BeginGroup{scene.lights[light.light].name});
+        list.add(gl::BeginTimer{lighting_timer(light.light)});
+        list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
+        list.add(gl::SetScissor{light.screen});
+        list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
+        bind_surface_textures(list);
+        bind_light(light, i, list);
+        list.add(gl::DrawTriangle{});
+        list.add(gl::EndPass{});
+        list.add(gl::EndTimer{});
+        list.add(gl::EndGroup{});
+    }
+    list.add(gl::EndGroup{});
+}
+
+void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list) {
+    if (blended_.empty() || !programs_.blended_base()) return;
+    list.add(gl::BeginGroup{"blended"});
+    list.add(gl::BeginPass{targets_.blended_target, viewport(), false, 0.0f, false, {}});
+    for (const SurfaceDraw& draw : blended_) {
+        gl::PipelineState state{programs_.blended_base(), gpu.material(draw.material).double_sided ? gl::CullMode::none : gl::CullMode::back,
+                                draw.mirrored, gl::DepthTest::greater, false, false, gl::Blend::alpha};
+        list.add(gl::SetPipeline{state});
+        bind_scene(gpu, list);
+        bind_material(gpu, draw.material, list);
+        const gl::DrawMeshes meshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count};
+        list.add(meshes);
+        for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
+            state.program = programs_.row(inputs.lights[i].row, RowOutput::blended);
+            if (!state.program || inputs.lights[i].screen.width <= 0) continue;
+            state.blend = gl::Blend::add;
+            list.add(gl::SetPipeline{state});
+            bind_light(inputs.lights[i], i, list);
+            list.add(meshes);
+        }
+    }
+    list.add(gl::EndPass{});
+    list.add(gl::EndGroup{});
+}
+
+void LightingSystem::record_finish(gl::CommandList& list) {
+    const auto side = static_cast<std::int32_t>(kLuminanceSide_px);
+    list.add(gl::BeginGroup{"exposure"});
+    list.add(gl::BeginTimer{kFinishTimer});
+    list.add(gl::BeginPass{targets_.luminance_target, {0, 0, side, side}, false, 0.0f, false, {}});
+    list.add(gl::SetPipeline{{programs_.luminance(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(gl::BindTexture{0, targets_.depth, point_sampler_});
+    list.add(gl::BindTexture{1, targets_.light_sum, point_sampler_});
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    list.add(gl::GenerateMips{targets_.luminance});
+    list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});
+    list.add(gl::SetPipeline{{programs_.tonemap(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(gl::BindTexture{0, targets_.light_sum, point_sampler_});
+    list.add(gl::BindTexture{1, targets_.luminance, mip_sampler_});
+    list.add(gl::BindUniforms{4, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    list.add(gl::EndTimer{});
+    list.add(gl::EndGroup{});
+}
+
+bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
+                            const LightingSettings& settings, gl::CommandList& list, FrameReport& report) {
+    collect_draws(scene.consumers[inputs.consumer], scene, gpu);
+    if (!prepare(inputs, scene)) return false;
+    upload(inputs, scene, settings, list);
+    record_surfaces(gpu, list);
+    record_lights(inputs, scene, list, report);
+    record_blended(inputs, gpu, list);
+    record_finish(list);
+    return true;
+}
+
+bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list) {
+    if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
+    const shadow::LightingLight& item = inputs.lights[light];
+    const gl::ProgramHandle program = programs_.row(item.row, RowOutput::visibility);
+    if (!program) return false;
+    constexpr float kNoSurface = -1.0f;
+    list.add(gl::BeginGroup{"visibility"});
+    list.add(gl::BeginPass{targets_.visibility_target, viewport(), false, 0.0f, true, {kNoSurface, 0.0f, 0.0f, 0.0f}});
+    list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    bind_surface_textures(list);
+    bind_light(item, light, list);
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    list.add(gl::EndGroup{});
+    return true;
+}
+
+}  // namespace gnomon::lighting

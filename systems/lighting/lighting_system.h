@@ -1,0 +1,101 @@
+#pragma once
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/gl/device.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/growing_buffer.h"
+#include "systems/lighting/light_programs.h"
+#include "systems/lighting/lighting_targets.h"
+#include "systems/report.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::lighting {
+
+/// Matches AmbientBlock in shaders/lighting/ambient.glsl (std140).
+struct AmbientRecord {
+    glm::vec4 sky_lux{0.0f}, ground_lux{0.0f};
+};
+/// Matches ExposureBlock in shaders/lighting/tonemap.frag (std140).
+struct ExposureRecord {
+    float scale = -1.0f;  // below 0: automatic
+    float top_mip = 0.0f;
+    float unused[2] = {};
+};
+
+struct LightingSettings {
+    std::optional<float> exposure_ev;  // EV100; empty: from the picture's own logarithmic mean
+};
+
+/// Ambient light for a scene that brings none: a share of what its lights give, bluish from above.
+AmbientRecord ambient_for(const SceneSnapshot& scene);
+
+/// Deferred lighting: surfaces, one pass per light over its screen rectangle, blended surfaces, exposure.
+/// Reads of the shadow system only the LightingInputs it is handed. Owns its device objects.
+class LightingSystem {
+public:
+    explicit LightingSystem(gl::Device& device);
+    ~LightingSystem();
+    LightingSystem(const LightingSystem&) = delete;
+    LightingSystem& operator=(const LightingSystem&) = delete;
+
+    /// Records the picture of one consumer. Lights whose program fails are drawn unshadowed, or not at all, and reported.
+    /// False if the buffers for the picture could not be had: nothing was recorded then.
+    bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
+                const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
+
+    /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of the
+    /// last record() of the same inputs. False if it cannot be done.
+    bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list);
+
+    gl::TextureHandle picture_texture() const { return targets_.picture; }     // srgb8_a8
+    gl::TargetHandle picture_target() const { return targets_.picture_target; }
+    gl::TextureHandle visibility_texture() const { return targets_.visibility; }  // r32f
+    glm::uvec2 size_px() const { return targets_.size_px(); }
+
+private:
+    struct DrawItem {
+        std::uint32_t instance, first_triangle;
+    };
+    struct SurfaceDraw {
+        std::uint32_t material, first_index, index_count;
+        std::int32_t base_vertex;
+        std::uint32_t first_item, item_count;
+        bool mirrored;
+        double distance_m;  // blended ones: from the camera, for their order
+    };
+
+    bool prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
+    void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
+    void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
+                      const ConsumerItem& consumer);
+    void upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const LightingSettings& settings,
+                gl::CommandList& list);
+    void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
+    void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, gl::CommandList& list,
+                       FrameReport& report);
+    void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list);
+    void record_finish(gl::CommandList& list);
+    void bind_surface_textures(gl::CommandList& list) const;
+    void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
+    void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
+    void bind_light(const shadow::LightingLight& light, std::uint32_t index, gl::CommandList& list) const;
+    gl::Rect viewport() const;
+
+    gl::Device& device_;
+    LightPrograms programs_;
+    LightingTargets targets_;
+    GrowingBuffer items_, uniforms_;
+    gl::SamplerHandle point_sampler_{}, mip_sampler_{};
+    std::uint32_t light_stride_ = 0, lights_offset_ = 0, ambient_offset_ = 0, exposure_offset_ = 0;
+    std::vector<std::uint32_t> visible_;
+    std::vector<DrawItem> draw_items_;
+    std::vector<SurfaceDraw> draws_, blended_;
+    std::vector<std::byte> uniform_scratch_;
+};
+
+}  // namespace gnomon::lighting

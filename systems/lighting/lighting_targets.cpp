@@ -1,0 +1,65 @@
+#include "systems/lighting/lighting_targets.h"
+
+namespace gnomon::lighting {
+
+bool LightingTargets::make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width,
+                           std::uint32_t height, std::uint32_t mips) {
+    texture = device_.create_texture({label, gl::TextureKind::flat, format, width, height, 1, mips}, {}).handle;
+    return static_cast<bool>(texture);
+}
+
+bool LightingTargets::make(gl::TargetHandle& target, const char* label, std::initializer_list<gl::TextureHandle> colours,
+                           gl::TextureHandle depth_texture) {
+    gl::TargetDesc desc{label, {}, {depth_texture, -1}};
+    for (const gl::TextureHandle c : colours) desc.colours.push_back({c, -1});
+    target = device_.create_target(desc).handle;
+    return static_cast<bool>(target);
+}
+
+bool LightingTargets::resize(glm::uvec2 size) {
+    if (size == size_px_ && picture_target) return true;
+    release();
+    const bool made = make(depth, "surface depth", gl::Format::d32f, size.x, size.y) &&
+                      make(colour, "surface colour", gl::Format::srgb8_a8, size.x, size.y) &&
+                      make(normals, "surface normals", gl::Format::rgba16_snorm, size.x, size.y) &&
+                      make(material, "surface material", gl::Format::rgba8, size.x, size.y) &&
+                      make(light_sum, "light sum", gl::Format::rgba16f, size.x, size.y) &&
+                      make(luminance, "luminance", gl::Format::rg32f, kLuminanceSide_px, kLuminanceSide_px, 0) &&
+                      make(picture, "picture", gl::Format::srgb8_a8, size.x, size.y) &&
+                      make(surface_target, "surfaces", {colour, normals, material, light_sum}, depth) &&
+                      make(light_target, "light sum", {light_sum}, {}) &&
+                      make(blended_target, "blended", {light_sum}, depth) &&
+                      make(luminance_target, "luminance", {luminance}, {}) &&
+                      make(picture_target, "picture", {picture}, {});
+    if (!made) {
+        release();
+        return false;
+    }
+    size_px_ = size;
+    return true;
+}
+
+bool LightingTargets::ensure_visibility() {
+    if (visibility_target) return true;
+    if (!picture_target) return false;
+    if (make(visibility, "visibility", gl::Format::r32f, size_px_.x, size_px_.y) &&
+        make(visibility_target, "visibility", {visibility}, {}))
+        return true;
+    device_.destroy(visibility);
+    visibility = {};
+    return false;
+}
+
+void LightingTargets::release() {
+    for (gl::TargetHandle* t : {&surface_target, &light_target, &blended_target, &luminance_target, &picture_target, &visibility_target}) {
+        device_.destroy(*t);
+        *t = {};
+    }
+    for (gl::TextureHandle* t : {&depth, &colour, &normals, &material, &light_sum, &luminance, &picture, &visibility}) {
+        device_.destroy(*t);
+        *t = {};
+    }
+    size_px_ = {0, 0};
+}
+
+}  // namespace gnomon::lighting

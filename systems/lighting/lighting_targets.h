@@ -1,0 +1,40 @@
+#pragma once
+#include <glm/vec2.hpp>
+
+#include "engine/gl/device.h"
+
+namespace gnomon::lighting {
+
+/// Edge of the luminance target: 65536 samples settle an exposure. kSide in shaders/lighting/luminance.frag.
+inline constexpr std::uint32_t kLuminanceSide_px = 256;
+inline constexpr std::uint32_t kLuminanceTopMip = 8;  // log2 of the side
+
+/// Textures and framebuffers for one picture size. Owns them.
+class LightingTargets {
+public:
+    explicit LightingTargets(gl::Device& device) : device_(device) {}
+    ~LightingTargets() { release(); }
+    LightingTargets(const LightingTargets&) = delete;
+    LightingTargets& operator=(const LightingTargets&) = delete;
+
+    /// True if everything exists at this size. On failure the former size stays usable if it is the same; otherwise nothing.
+    bool resize(glm::uvec2 size_px);
+    /// Made when first asked for: nobody pays for a visibility picture that nobody reads.
+    bool ensure_visibility();
+    glm::uvec2 size_px() const { return size_px_; }
+
+    gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{};
+    gl::TargetHandle surface_target{}, light_target{}, blended_target{}, luminance_target{}, picture_target{}, visibility_target{};
+
+private:
+    void release();
+    bool make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width, std::uint32_t height,
+              std::uint32_t mips = 1);
+    bool make(gl::TargetHandle& target, const char* label, std::initializer_list<gl::TextureHandle> colours,
+              gl::TextureHandle depth_texture);
+
+    gl::Device& device_;
+    glm::uvec2 size_px_{0, 0};
+};
+
+}  // namespace gnomon::lighting

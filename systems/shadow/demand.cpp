@@ -1,0 +1,69 @@
+#include "systems/shadow/demand.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "systems/shadow/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Texels per pixel of the picture's larger side. A sun's map is stretched over everything seen, near and far alike,
+/// so it needs more than one; a cube face covers a quarter of the horizon. Measured in docs/accuracy.md.
+double texels_per_px(LightKind kind) {
+    switch (kind) {
+        case LightKind::directional: return 2.5;
+        case LightKind::spot: return 1.5;
+        case LightKind::point: return 0.75;
+    }
+    return 1.0;
+}
+
+constexpr std::uint32_t kLeastMap_px = 256;
+/// Below this no margin for the filter is left around the content.
+constexpr std::uint32_t kLeastRequested_px = 16;
+
+Reason wanted(const LightItem& light, bool shadows) {
+    if (!light.has_shadow) return Reason::no_light_shadow;
+    if (!shadows || !light.shadow.enabled) return Reason::shadows_off;
+    const float brightest = std::max({light.colour.r, light.colour.g, light.colour.b});
+    if (!(light.intensity * brightest > 0.0f)) return Reason::light_off;
+    return Reason::none;
+}
+
+}  // namespace
+
+std::uint32_t automatic_resolution(LightKind kind, glm::uvec2 viewport_px, std::uint32_t limit_px) {
+    const double side_px = std::max(viewport_px.x, viewport_px.y);
+    const double wish_px = std::min(std::ceil(side_px * texels_per_px(kind)), static_cast<double>(limit_px));
+    const std::uint32_t size_px = std::bit_ceil(std::max(static_cast<std::uint32_t>(wish_px), kLeastMap_px));
+    return std::min(size_px, limit_px);
+}
+
+void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows,
+                   std::vector<ShadowDemand>& demands) {
+    demands.clear();
+    glm::uvec2 viewport_px{1, 1};
+    for (const ConsumerItem& consumer : scene.consumers) viewport_px = glm::max(viewport_px, consumer.viewport_px);
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const LightItem& light = scene.lights[i];
+        ShadowDemand demand;
+        demand.light = i;
+        demand.skip = wanted(light, shadows);
+        demand.filter = light.shadow.filter;
+        const LightKindRow& kind = light_kind_row(light.kind);
+        demand.view_count = kind.layers;
+        const std::uint32_t limit_px = kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
+        if (light.shadow.resolution_px == 0) {
+            demand.resolution_px = automatic_resolution(light.kind, viewport_px, limit_px);
+        } else {
+            demand.resolution_px = std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
+            if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
+        }
+        if (light.kind == LightKind::spot && light.outer_cone_rad > kWidestMap_rad) demand.note = Reason::cone_clamped;
+        demands.push_back(demand);
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,64 @@
+#include "systems/shadow/kinds/rectangle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace gnomon::shadow {
+namespace {
+
+double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// Andrew's monotone chain (1979); collinear points are dropped.
+void convex_hull(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull) {
+    std::sort(points.begin(), points.end(),
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    hull.clear();
+    const auto extend = [&hull](const glm::dvec2& p, std::size_t floor) {
+        while (hull.size() >= floor + 2 && !(cross(hull[hull.size() - 2], hull.back(), p) > 0.0)) hull.pop_back();
+        hull.push_back(p);
+    };
+    for (const glm::dvec2& p : points) extend(p, 0);
+    const std::size_t lower = hull.size() - 1;
+    for (std::size_t i = points.size(); i-- > 0;) extend(points[i], lower);
+    if (hull.size() > 1) hull.pop_back();
+}
+
+Rectangle along(const glm::dvec2& axis_u, std::span<const glm::dvec2> points) {
+    Rectangle r;
+    r.axis_u = axis_u;
+    r.min = glm::dvec2(std::numeric_limits<double>::infinity());
+    r.max = -r.min;
+    for (const glm::dvec2& p : points) {
+        const glm::dvec2 q(glm::dot(axis_u, p), axis_u.x * p.y - axis_u.y * p.x);
+        r.min = glm::min(r.min, q);
+        r.max = glm::max(r.max, q);
+    }
+    return r;
+}
+
+}  // namespace
+
+Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch) {
+    if (points.empty()) return along({1.0, 0.0}, {});
+    convex_hull(points, hull_scratch);
+    Rectangle best = along({1.0, 0.0}, hull_scratch);
+    double best_area = (best.max.x - best.min.x) * (best.max.y - best.min.y);
+    for (std::size_t i = 0; i < hull_scratch.size(); ++i) {
+        const glm::dvec2 edge = hull_scratch[(i + 1) % hull_scratch.size()] - hull_scratch[i];
+        const double size = std::hypot(edge.x, edge.y);
+        if (!(size > 0.0)) continue;
+        const Rectangle r = along(edge / size, hull_scratch);
+        const double area = (r.max.x - r.min.x) * (r.max.y - r.min.y);
+        if (area < best_area) {
+            best = r;
+            best_area = area;
+        }
+    }
+    return best;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,28 @@
+#include "systems/shadow/light_kinds.h"
+
+#include <iterator>
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr LightKindRow kRows[] = {
+    {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/kinds/directional.glsl", gl::TextureKind::array, 1,
+     fit_directional},
+    {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot},
+    {LightKind::point, "point", "LIGHT_POINT", "shadow/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point},
+};
+
+constexpr bool rows_are_in_order() {
+    for (std::size_t i = 0; i < std::size(kRows); ++i)
+        if (static_cast<std::size_t>(kRows[i].kind) != i) return false;
+    return true;
+}
+static_assert(rows_are_in_order());
+
+}  // namespace
+
+std::span<const LightKindRow> light_kind_table() { return kRows; }
+
+const LightKindRow& light_kind_row(LightKind kind) { return kRows[static_cast<std::size_t>(kind)]; }
+
+}  // namespace gnomon::shadow

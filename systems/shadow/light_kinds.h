@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "components/light.h"
+#include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::shadow {
+
+/// What a kind's fit sees: its light, its demand, its sets. Points are the visible receivers' corners, world space.
+struct FitInput {
+    const LightItem& light;
+    const ShadowDemand& demand;
+    const SceneSnapshot& scene;
+    std::span<const std::uint32_t> receivers;        // indices into scene.instances
+    std::span<const std::uint32_t> casters;
+    std::span<const glm::dvec3> receiver_points_ws;  // not empty
+    float reach_texel = 0.5f;                        // the filter's E
+};
+
+/// Appends the light's views (without casters and predicted error). False if no finite volume exists.
+/// Pure: same input, same output; any finite input gives finite matrices.
+using FitFunction = bool (*)(const FitInput& input, std::vector<ShadowView>& views);
+
+struct LightKindRow {
+    LightKind kind;
+    std::string_view name;       // as in --stats
+    std::string_view define;     // for the shaders
+    std::string_view file;       // under shaders/
+    gl::TextureKind texture;
+    std::uint32_t layers;        // of the map
+    FitFunction fit;
+};
+
+/// In the order of LightKind. To add a kind: systems/shadow/kinds/x.cpp, shaders/shadow/kinds/x.glsl, a row here.
+std::span<const LightKindRow> light_kind_table();
+const LightKindRow& light_kind_row(LightKind kind);
+
+bool fit_directional(const FitInput& input, std::vector<ShadowView>& views);
+bool fit_spot(const FitInput& input, std::vector<ShadowView>& views);
+bool fit_point(const FitInput& input, std::vector<ShadowView>& views);
+
+/// Half angle a single perspective map can hold; a wider spot is clamped to it and reported (cone_clamped).
+/// At 80 degrees a texel at the rim is 1/cos^2 = 33 times stretched against the centre.
+inline constexpr double kWidestMap_rad = 1.3962634015954636;
+
+/// OpenGL's cube-map table (GL 4.5 core, table 8.19): where a face looks and how its texture axes lie.
+struct CubeFace {
+    glm::dvec3 axis_u, axis_v, axis_back;  // s and t grow along u and v; the face looks along -back
+};
+const CubeFace& cube_face(std::uint32_t face);
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,173 @@
+#include "systems/shadow/map_store.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "systems/shadow/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// FNV-1a, 64 bit, over 8-byte words.
+struct Signature {
+    std::uint64_t value = 14695981039346656037ull;
+    void add(std::uint64_t word) {
+        for (int i = 0; i < 8; ++i) value = (value ^ (word >> (8 * i) & 0xffu)) * 1099511628211ull;
+    }
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+    void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
+};
+
+}  // namespace
+
+std::uint64_t content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
+                                std::span<const std::uint32_t> casters) {
+    Signature s;
+    s.add(std::uint64_t{size_px});
+    for (int i = 0; i < 3; ++i) s.add(view.anchor_ws_m[i]);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) s.add(view.clip_from_anchor[column][row]);
+    for (const std::uint32_t i : casters) {
+        s.add(std::uint64_t{scene.instances[i].gpu_slot});
+        s.add(scene.instances[i].version);
+    }
+    return s.value == 0 ? 1 : s.value;
+}
+
+MapStore::~MapStore() {
+    for (LightHistory& history : lights_) release(history);
+}
+
+const LightHistory* MapStore::find(ecs::Entity light) const {
+    const auto it = std::find_if(lights_.begin(), lights_.end(), [&](const LightHistory& h) { return h.entity == light; });
+    return it == lights_.end() ? nullptr : &*it;
+}
+
+std::uint64_t MapStore::bytes() const {
+    std::uint64_t sum = 0;
+    for (const LightHistory& h : lights_)
+        if (h.texture) sum += gl::byte_size(h.desc);
+    return sum;
+}
+
+LightHistory& MapStore::entry(ecs::Entity light) {
+    for (LightHistory& history : lights_)
+        if (history.entity == light) return history;
+    lights_.emplace_back();
+    lights_.back().entity = light;
+    return lights_.back();
+}
+
+void MapStore::release(LightHistory& history) {
+    for (const gl::TargetHandle target : history.targets) device_.destroy(target);
+    device_.destroy(history.texture);
+    history.targets.clear();
+    history.content.clear();
+    history.texture = {};
+}
+
+Reason MapStore::try_create(const gl::TextureDesc& desc, LightHistory& history) {
+    const auto texture = device_.create_texture(desc, {});
+    if (!texture) return Reason::map_allocation_failed;
+    std::vector<gl::TargetHandle> targets;
+    const std::uint32_t layers = desc.kind == gl::TextureKind::cube ? 6u : desc.layers;
+    for (std::uint32_t layer = 0; layer < layers; ++layer) {
+        const auto target = device_.create_target({desc.label, {}, {texture.handle, static_cast<std::int32_t>(layer)}});
+        if (!target) {
+            for (const gl::TargetHandle made : targets) device_.destroy(made);
+            device_.destroy(texture.handle);
+            return Reason::target_incomplete;
+        }
+        targets.push_back(target.handle);
+    }
+    // The new map stands; only now does the old one go.
+    release(history);
+    history.desc = desc;
+    history.texture = texture.handle;
+    history.targets = std::move(targets);
+    history.content.assign(layers, 0);
+    return Reason::none;
+}
+
+bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
+    const LightKindRow& kind = light_kind_row(light.kind);
+    const bool fits = history.texture && history.desc.kind == kind.texture && history.wanted_px == demand.resolution_px;
+    if (fits && (history.failure == Reason::none || frame_ < history.retry_frame)) return true;
+    if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == demand.resolution_px)
+        return static_cast<bool>(history.texture);
+    gl::TextureDesc desc;
+    desc.label = "shadow map " + light.name;
+    desc.kind = kind.texture;
+    desc.format = gl::Format::d32f;
+    desc.layers = kind.texture == gl::TextureKind::cube ? 1u : demand.view_count;
+    history.wanted_px = demand.resolution_px;
+    history.failure = Reason::none;
+    for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
+        desc.width = desc.height = std::max(demand.resolution_px >> halving, 1u);
+        if (halving > 0 && fits && desc.width <= history.desc.width) break;  // what we hold is as good
+        const Reason reason = try_create(desc, history);
+        if (reason == Reason::none) {
+            if (halving > 0) history.failure = Reason::map_shrunk;
+            break;
+        }
+        history.failure = reason;
+        if (reason == Reason::target_incomplete) break;  // smaller would fail alike
+    }
+    if (history.failure != Reason::none) history.retry_frame = frame_ + kRetryFrames;
+    const bool usable = history.texture && history.desc.kind == kind.texture;
+    if (history.failure != Reason::none && usable) history.failure = Reason::map_shrunk;
+    return usable;
+}
+
+void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
+    ++frame_;
+    frame.slots.assign(frame.views.size(), {});
+    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+        PotentialSets& sets = frame.sets[d];
+        if (sets.skip != Reason::none) {
+            // Seen by nobody just now: the map is held for a while, in case the camera turns back.
+            if (frame.demands[d].skip == Reason::none && find(scene.lights[frame.demands[d].light].entity) == nullptr) continue;
+            if (frame.demands[d].skip != Reason::none) continue;
+            LightHistory& history = entry(scene.lights[frame.demands[d].light].entity);
+            if (frame_ - history.last_wanted_frame <= kHoldFrames) continue;
+            release(history);
+            continue;
+        }
+        const LightItem& light = scene.lights[frame.demands[d].light];
+        LightHistory& history = entry(light.entity);
+        history.last_wanted_frame = frame_;
+        if (!ensure_map(light, frame.demands[d], history)) sets.skip = history.failure;
+    }
+    std::erase_if(lights_, [&](LightHistory& history) {
+        for (const ShadowDemand& demand : frame.demands)
+            if (scene.lights[demand.light].entity == history.entity && demand.skip == Reason::none) return false;
+        release(history);
+        return true;
+    });
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        const ShadowView& view = frame.views[v];
+        if (frame.sets[view.demand].skip != Reason::none) continue;
+        const LightItem& light = scene.lights[frame.demands[view.demand].light];
+        const LightHistory& history = *find(light.entity);
+        ShadowSlot& slot = frame.slots[v];
+        slot.texture = history.texture;
+        slot.target = history.targets[view.layer];
+        slot.size_px = history.desc.width;
+        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+        slot.reuse = light.shadow.economy &&
+                     history.content[view.layer] == content_signature(view, slot.size_px, scene, casters);
+    }
+}
+
+void MapStore::commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn) {
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        const ShadowSlot& slot = frame.slots[v];
+        if (!slot.texture || slot.reuse) continue;
+        const ShadowView& view = frame.views[v];
+        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+        LightHistory& history = entry(scene.lights[frame.demands[view.demand].light].entity);
+        history.content[view.layer] = drawn ? content_signature(view, slot.size_px, scene, casters) : 0;
+    }
+}
+
+}  // namespace gnomon::shadow

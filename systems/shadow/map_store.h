@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/ecs/entity.h"
+#include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::shadow {
+
+/// What of one light outlives a frame: its map, the targets of its layers, what each layer last held, and when an
+/// allocation may be tried again.
+struct LightHistory {
+    ecs::Entity entity;
+    gl::TextureDesc desc;
+    gl::TextureHandle texture{};
+    std::vector<gl::TargetHandle> targets;       // one per layer
+    std::vector<std::uint64_t> content;          // per layer: signature of what was drawn, 0: nothing
+    std::uint32_t wanted_px = 0;                 // size asked for when the map was made
+    Reason failure = Reason::none;               // why there is no map, or a smaller one
+    std::uint64_t retry_frame = 0;
+    std::uint64_t last_wanted_frame = 0;
+};
+
+/// The maps of all lights: the only state of the shadow system that outlives a frame. Owns the device objects.
+class MapStore {
+public:
+    explicit MapStore(gl::Device& device) : device_(device) {}
+    ~MapStore();
+    MapStore(const MapStore&) = delete;
+    MapStore& operator=(const MapStore&) = delete;
+
+    /// Stage 5: gives every view its slot, allocating, keeping and freeing maps; fills frame.slots and sets
+    /// sets[i].skip where a light gets no map. A light without LightShadow, or disabled, loses its map at once;
+    /// one that nobody sees for kHoldFrames later. A failed allocation is tried at half the edge, kHalvings times,
+    /// then again after kRetryFrames; meanwhile the light is lit.
+    void assign_slots(const SceneSnapshot& scene, ShadowFrame& frame);
+
+    /// Remembers what the frame drew. `drawn` false forgets the layers (a failed submission).
+    void commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn);
+
+    const LightHistory* find(ecs::Entity light) const;
+    std::uint64_t bytes() const;
+
+    static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
+    static constexpr std::uint64_t kRetryFrames = 30;  // shadows are back within a second after memory is
+    static constexpr std::uint32_t kHalvings = 4;      // down to a sixteenth of the edge; below, a shadow says nothing
+
+private:
+    LightHistory& entry(ecs::Entity light);
+    void release(LightHistory& history);
+    bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
+    Reason try_create(const gl::TextureDesc& desc, LightHistory& history);
+
+    gl::Device& device_;
+    std::vector<LightHistory> lights_;
+    std::uint64_t frame_ = 0;
+};
+
+/// Everything that decides a view's depth picture, as one number: matrices, size, casters and their versions.
+/// Never 0. Two different pictures share a number with probability 2^-64.
+std::uint64_t content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
+                                std::span<const std::uint32_t> casters);
+
+}  // namespace gnomon::shadow

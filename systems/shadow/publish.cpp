@@ -1,0 +1,148 @@
+#include "systems/shadow/publish.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/math/projection.h"
+#include "systems/extract/volumes.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+// The rounding model of docs/architecture.md, "Bias". u = 2^-24.
+constexpr double kUnitRoundoff = 5.9604644775390625e-8;
+/// D32F in [0,1]: half a quantum (u/2) and the projection's own rounding (4u).
+constexpr double kDepthRounding = 4.5 * kUnitRoundoff;
+/// Metres of position rounding per metre of coordinate sum: subtraction, basis product, matrix row (8u), times 1.5 for
+/// the lateral part seen through the slope.
+constexpr double kPositionRounding = 12.0 * kUnitRoundoff;
+
+glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot) {
+    // A map that had to be shrunk has larger texels than the fit planned.
+    const double stretch = static_cast<double>(demand.resolution_px) / static_cast<double>(slot.size_px);
+    const bool orthographic = view.projection == ViewProjection::orthographic;
+    ViewRecord record;
+    record.map_from_anchor = view.map_from_anchor;
+    record.axis_u = with_w(view.axis_u, view.texel_u * stretch);
+    record.axis_v = with_w(view.axis_v, view.texel_v * stretch);
+    record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
+    const double projection_rounding = orthographic ? 0.0 : 2.0 * kUnitRoundoff * std::abs(view.depth_alpha);
+    record.numeric = {static_cast<float>(kDepthRounding + projection_rounding), static_cast<float>(kPositionRounding),
+                      static_cast<float>(view.depth_alpha), 0.0f};
+    return record;
+}
+
+/// What every light has, map or not.
+LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
+    LightRecord record;
+    record.position = with_w(light.position_ws_m - consumer.position_ws_m, light.range_m);
+    record.to_light = with_w(light.rotation_ws[2], 0.0);
+    record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
+    const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
+    // KHR_lights_punctual's own guard against inner == outer.
+    constexpr double kLeastConeWidth = 0.001;
+    record.cone = {static_cast<float>(cos_outer), static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)),
+                   0.0f, 0.0f};
+    return record;
+}
+
+}  // namespace
+
+CameraRecord camera_record(const ConsumerItem& c) {
+    const bool orthographic = c.projection == CameraProjection::orthographic;
+    const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+    const double half_x = half_y * aspect(c);
+    const glm::dmat4 projection =
+        orthographic ? math::reversed_orthographic(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m)
+                     : math::reversed_perspective(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m);
+    const math::TwoFloat3 anchor = math::split(c.position_ws_m);
+    CameraRecord record;
+    record.clip_from_anchor = glm::mat4(projection * glm::dmat4(glm::transpose(c.rotation_ws)));
+    record.anchor_high = glm::vec4(anchor.high, 0.0f);
+    record.anchor_low = glm::vec4(anchor.low, 0.0f);
+    record.right = with_w(c.rotation_ws[0], half_x);
+    record.up = with_w(c.rotation_ws[1], half_y);
+    record.back = with_w(c.rotation_ws[2], orthographic ? 1.0 : 0.0);
+    const double range_m = c.far_m - c.near_m;
+    const glm::dvec2 unproject =
+        orthographic ? glm::dvec2(c.far_m, range_m)
+                     : (std::isinf(c.far_m) ? glm::dvec2(0.0, c.near_m)
+                                            : glm::dvec2(c.near_m / range_m, c.near_m * c.far_m / range_m));
+    record.unproject = glm::vec4(glm::vec2(unproject), glm::vec2(c.viewport_px));
+    return record;
+}
+
+gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
+    const gl::Rect whole{0, 0, static_cast<std::int32_t>(c.viewport_px.x), static_cast<std::int32_t>(c.viewport_px.y)};
+    if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return whole;
+    const glm::dvec3 p = (light.position_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
+    const double r = light.range_m;
+    const bool orthographic = c.projection == CameraProjection::orthographic;
+    const double front_m = -p.z + r;   // farthest part of the sphere along the view
+    if (!(front_m > c.near_m)) return {};
+    if (!orthographic && !(-p.z - r > c.near_m)) return whole;  // the sphere reaches the near plane
+    const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+    const glm::dvec2 half(half_y * aspect(c), half_y);
+    glm::dvec2 low, high;
+    for (int axis = 0; axis < 2; ++axis) {
+        // Box around the sphere: its near and far side bound the projection from both sides.
+        const double z_near = orthographic ? 1.0 : -p.z - r, z_far = orthographic ? 1.0 : -p.z + r;
+        const double lowest = p[axis] - r, highest = p[axis] + r;
+        low[axis] = (lowest < 0.0 ? lowest / z_near : lowest / z_far) / half[axis];
+        high[axis] = (highest > 0.0 ? highest / z_near : highest / z_far) / half[axis];
+    }
+    const glm::dvec2 size(c.viewport_px);
+    const glm::dvec2 from = glm::clamp(glm::floor((low * 0.5 + 0.5) * size) - 1.0, glm::dvec2(0.0), size);
+    const glm::dvec2 to = glm::clamp(glm::ceil((high * 0.5 + 0.5) * size) + 1.0, glm::dvec2(0.0), size);
+    if (!(from.x < to.x && from.y < to.y)) return {};
+    return {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y), static_cast<std::int32_t>(to.x - from.x),
+            static_cast<std::int32_t>(to.y - from.y)};
+}
+
+void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers, ShadowFrame& frame) {
+    frame.inputs.resize(scene.consumers.size());
+    for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
+        const ConsumerItem& consumer = scene.consumers[c];
+        LightingInputs& inputs = frame.inputs[c];
+        inputs.consumer = c;
+        inputs.camera = camera_record(consumer);
+        inputs.lights.resize(scene.lights.size());
+        for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+            const LightItem& light = scene.lights[i];
+            const LightKindRow& kind = light_kind_row(light.kind);
+            LightingLight& out = inputs.lights[i];
+            out = {};
+            out.light = i;
+            out.row.kind_define = kind.define;
+            out.screen = screen_rectangle(light, consumer);
+            out.record = light_record(light, consumer);
+        }
+        for (std::size_t v = 0; v < frame.views.size(); ++v) {
+            const ShadowSlot& slot = frame.slots[v];
+            if (!slot.texture) continue;
+            const ShadowView& view = frame.views[v];
+            const ShadowDemand& demand = frame.demands[view.demand];
+            const LightItem& light = scene.lights[demand.light];
+            const LightKindRow& kind = light_kind_row(light.kind);
+            const FilterRow& filter = filter_row(demand.filter);
+            LightingLight& out = inputs.lights[demand.light];
+            out.row.kind_file = kind.file;
+            out.row.filter_file = filter.file;
+            out.row.reach_texel = filter.reach_texel;
+            out.map = slot.texture;
+            out.sampler = filter.linear_sampler ? samplers.linear : samplers.nearest;
+            out.record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, 0.0);
+            if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
+                out.record.views[out.record.options.x++] = view_record(view, demand, slot);
+            out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
+            out.record.bias.x = light.shadow.bias_m;
+        }
+    }
+}
+
+}  // namespace gnomon::shadow

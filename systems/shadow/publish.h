@@ -1,0 +1,24 @@
+#pragma once
+#include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::shadow {
+
+/// Compare samplers, one per way the filter table names.
+struct CompareSamplers {
+    gl::SamplerHandle nearest{}, linear{};
+};
+
+/// The consumer's camera as shaders see it.
+CameraRecord camera_record(const ConsumerItem& consumer);
+
+/// Pixels a light can reach in the consumer's picture: the whole viewport for a sun or an unlimited light,
+/// the bounding rectangle of the range sphere otherwise; empty if the sphere is behind the camera. Conservative.
+gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
+
+/// Stage 6: for each consumer, each light with its program row, record and textures. A light without a map is published
+/// unshadowed. Fills frame.inputs.
+void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers, ShadowFrame& frame);
+
+}  // namespace gnomon::shadow

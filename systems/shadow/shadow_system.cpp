@@ -1,0 +1,90 @@
+#include "systems/shadow/shadow_system.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "systems/shadow/demand.h"
+#include "systems/shadow/fit.h"
+#include "systems/shadow/sets.h"
+
+namespace gnomon::shadow {
+
+ShadowSystem::ShadowSystem(gl::Device& device) : device_(device), maps_(device), recorder_(device) {}
+
+ShadowSystem::~ShadowSystem() {
+    device_.destroy(samplers_.nearest);
+    device_.destroy(samplers_.linear);
+}
+
+bool ShadowSystem::samplers_ready() {
+    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear) {
+        if (sampler) return;
+        sampler = device_.create_sampler({label, linear, false, true, gl::Wrap::border, gl::Wrap::border}).handle;
+    };
+    ensure(samplers_.nearest, "shadow compare nearest", false);
+    ensure(samplers_.linear, "shadow compare linear", true);
+    return samplers_.nearest && samplers_.linear;
+}
+
+const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows, gl::CommandList& list,
+                                        FrameReport& report) {
+    const auto start = std::chrono::steady_clock::now();
+    report.lights.assign(scene.lights.size(), {});
+    decide_demand(scene, device_.info(), shadows, frame_.demands);
+    const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
+                                 [](const ShadowDemand& d) { return d.skip == Reason::none; });
+    if (any && !samplers_ready())
+        for (ShadowDemand& demand : frame_.demands)
+            if (demand.skip == Reason::none) demand.skip = Reason::map_allocation_failed;
+    select_sets(scene, frame_);
+    fit_views(scene, frame_);
+    maps_.assign_slots(scene, frame_);
+    recorder_.prepare(scene, gpu, frame_);
+    publish_lights(scene, samplers_, frame_);
+    recorder_.record(scene, gpu, frame_, list, report);
+    write_report(scene, report);
+    report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    return frame_;
+}
+
+void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) { maps_.commit(scene, frame_, drawn); }
+
+void ShadowSystem::write_report(const SceneSnapshot& scene, FrameReport& report) const {
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const LightItem& light = scene.lights[i];
+        const ShadowDemand& demand = frame_.demands[i];
+        LightReport& out = report.lights[i];
+        out.entity = light.entity;
+        out.name = light.name;
+        out.kind = light.kind;
+        const LightHistory* history = maps_.find(light.entity);
+        const gl::TextureDesc* desc = history && history->texture ? &history->desc : nullptr;
+        if (desc) {
+            const std::uint64_t faces = desc->kind == gl::TextureKind::cube ? 6 : desc->layers;
+            out.texels = std::uint64_t{desc->width} * desc->height * faces;
+            out.bytes = gl::byte_size(*desc);
+        }
+        for (std::size_t v = 0; v < frame_.views.size(); ++v) {
+            if (frame_.views[v].demand != i || !frame_.slots[v].texture) continue;
+            ++out.views;
+            out.predicted_error_px = std::max(out.predicted_error_px, frame_.views[v].predicted_error_px);
+        }
+        out.reason = frame_.sets[i].skip;
+        if (out.reason != Reason::none) {
+            out.state = LightState::skipped;
+        } else if (history && history->failure != Reason::none) {
+            out.state = LightState::degraded;
+            out.reason = history->failure;
+        } else if (demand.note != Reason::none) {
+            out.state = LightState::degraded;
+            out.reason = demand.note;
+        } else if (out.views_drawn == 0) {
+            out.state = LightState::reused;
+            out.reason = Reason::content_unchanged;
+        } else {
+            out.state = LightState::rendered;
+        }
+    }
+}
+
+}  // namespace gnomon::shadow

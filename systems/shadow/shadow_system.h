@@ -1,0 +1,45 @@
+#pragma once
+#include <memory>
+
+#include "engine/gl/device.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/report.h"
+#include "systems/shadow/map_store.h"
+#include "systems/shadow/publish.h"
+#include "systems/shadow/record.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::shadow {
+
+/// Seven stages, in order, and what outlives a frame. Owns its device objects.
+class ShadowSystem {
+public:
+    explicit ShadowSystem(gl::Device& device);
+    ~ShadowSystem();
+    ShadowSystem(const ShadowSystem&) = delete;
+    ShadowSystem& operator=(const ShadowSystem&) = delete;
+
+    /// Runs all stages for `scene`, records the depth passes into `list` and fills report.lights.
+    /// `shadows` false: every light is treated as disabled. Never throws; no device failure stops the frame.
+    const ShadowFrame& update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows, gl::CommandList& list,
+                              FrameReport& report);
+
+    /// To be called after the list was submitted: `drawn` says whether it was executed without failure.
+    void commit(const SceneSnapshot& scene, bool drawn);
+
+    const ShadowFrame& frame() const { return frame_; }
+    const MapStore& maps() const { return maps_; }
+
+private:
+    bool samplers_ready();
+    void write_report(const SceneSnapshot& scene, FrameReport& report) const;
+
+    gl::Device& device_;
+    MapStore maps_;
+    DepthRecorder recorder_;
+    CompareSamplers samplers_;
+    ShadowFrame frame_;
+};
+
+}  // namespace gnomon::shadow

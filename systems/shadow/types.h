@@ -1,0 +1,147 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <string_view>
+#include <vector>
+
+#include "components/light.h"
+#include "components/light_shadow.h"
+#include "engine/gl/commands.h"
+#include "engine/math/aabb.h"
+#include "systems/report.h"
+
+/// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
+/// nothing is changed after its stage.
+namespace gnomon::shadow {
+
+/// Half-open range into a flat array.
+struct IndexRange {
+    std::uint32_t first = 0, count = 0;
+    bool operator==(const IndexRange&) const = default;
+};
+
+/// Struct 2. What one light deserves this frame; or why it gets nothing.
+struct ShadowDemand {
+    std::uint32_t light = 0;          // index into SceneSnapshot::lights
+    Reason skip = Reason::none;
+    Reason note = Reason::none;       // a degradation that is known already (resolution_clamped, cone_clamped)
+    ShadowFilter filter = ShadowFilter::hard;
+    std::uint32_t resolution_px = 0;  // edge of the map or of a cube face
+    std::uint32_t view_count = 0;
+};
+
+/// Struct 3. Who is seen and lit (PSR), who can darken them (PSC). One per demand, same order.
+struct PotentialSets {
+    Reason skip = Reason::none;
+    IndexRange receivers;             // into ShadowFrame::receiver_items
+    IndexRange casters;               // into ShadowFrame::caster_items, all views of the light
+    IndexRange receiver_points;       // into ShadowFrame::receiver_points_ws: corners of receivers clipped to what is seen and reached
+};
+
+enum class ViewProjection : std::uint8_t { orthographic, perspective, cube_face };
+
+/// Struct 4. One depth picture: a cascade, a spot's view, a cube face. All hard numerics end here.
+struct ShadowView {
+    std::uint32_t demand = 0;
+    std::uint32_t layer = 0;             // cascade or face
+    ViewProjection projection = ViewProjection::orthographic;
+    glm::dvec3 anchor_ws_m{0.0};         // fixed to the light, never to a camera
+    glm::mat4 clip_from_anchor{1.0f};    // reversed depth in [0,1]
+    glm::mat4 map_from_anchor{1.0f};     // texture coordinates instead of clip
+    glm::dvec3 axis_u{1.0, 0.0, 0.0}, axis_v{0.0, 1.0, 0.0}, axis_back{0.0, 0.0, 1.0};  // world, unit
+    double texel_u = 0.0, texel_v = 0.0; // edge of a texel: metres (orthographic) or tangent at distance 1
+    double near_m = 0.0, far_m = 0.0;    // along -axis_back from the anchor's plane; perspective: from the light
+    double depth_alpha = 0.0, depth_beta = 0.0;  // perspective: depth = alpha + beta / distance
+    double predicted_error_px = 0.0;
+    std::uint32_t consumer_mask = 0;
+    IndexRange casters;                  // into ShadowFrame::view_caster_items
+};
+
+/// Struct 5. Where the view lives, and whether last frame's content still holds.
+struct ShadowSlot {
+    gl::TextureHandle texture{};
+    gl::TargetHandle target{};
+    std::uint32_t size_px = 0;
+    bool reuse = false;
+};
+
+inline constexpr std::uint32_t kMaxViews = 8;  // kMaxViews in shaders/shadow/light_block.glsl
+
+/// Matches ViewRecord in shaders/shadow/light_block.glsl (std140).
+struct ViewRecord {
+    glm::mat4 map_from_anchor{1.0f};
+    glm::vec4 axis_u{0.0f}, axis_v{0.0f}, axis_back{0.0f};
+    glm::vec4 numeric{0.0f};
+    bool operator==(const ViewRecord&) const = default;
+};
+static_assert(sizeof(ViewRecord) == 128);
+
+/// Matches LightBlock in shaders/shadow/light_block.glsl (std140).
+struct LightRecord {
+    glm::vec4 position{0.0f};
+    glm::vec4 to_light{0.0f};
+    glm::vec4 radiance{0.0f};
+    glm::vec4 cone{0.0f};
+    glm::vec4 anchor_from_camera{0.0f};
+    glm::ivec4 options{0};
+    glm::vec4 bias{0.0f};
+    ViewRecord views[kMaxViews];
+};
+static_assert(sizeof(LightRecord) == 7 * 16 + kMaxViews * sizeof(ViewRecord));
+
+/// Matches DepthViewBlock in shaders/shadow/depth/depth_view_block.glsl (std140).
+struct DepthViewRecord {
+    glm::mat4 clip_from_anchor{1.0f};
+    glm::vec4 anchor_high{0.0f}, anchor_low{0.0f};
+};
+static_assert(sizeof(DepthViewRecord) == 96);
+
+/// Matches CameraBlock in shaders/shared/camera_block.glsl (std140).
+struct CameraRecord {
+    glm::mat4 clip_from_anchor{1.0f};
+    glm::vec4 anchor_high{0.0f}, anchor_low{0.0f};
+    glm::vec4 right{0.0f}, up{0.0f}, back{0.0f};
+    glm::vec4 unproject{0.0f};
+};
+static_assert(sizeof(CameraRecord) == 160);
+
+/// Which program evaluates a light: one row of the light-kind table and one of the filter table.
+/// Names are paths under shaders/ and live as long as the program; empty filter: unshadowed.
+struct ProgramRow {
+    std::string_view kind_define;    // LIGHT_DIRECTIONAL, …
+    std::string_view kind_file, filter_file;
+    float reach_texel = 0.0f;        // the filter's footprint half-width E
+    bool operator==(const ProgramRow&) const = default;
+};
+
+/// Struct 6. One light as one consumer's lighting needs it: GPU-ready, with the textures to bind.
+struct LightingLight {
+    std::uint32_t light = 0;         // index into SceneSnapshot::lights and FrameReport::lights
+    ProgramRow row;
+    gl::TextureHandle map{};
+    gl::SamplerHandle sampler{};
+    gl::Rect screen{};               // pixels the light can reach; empty: none
+    LightRecord record;
+};
+struct LightingInputs {
+    std::uint32_t consumer = 0;
+    CameraRecord camera;
+    std::vector<LightingLight> lights;
+};
+
+/// Everything of one frame between snapshot and commands. Storage is reused from frame to frame.
+struct ShadowFrame {
+    std::vector<ShadowDemand> demands;               // one per light
+    std::vector<PotentialSets> sets;                 // one per demand
+    std::vector<std::uint32_t> receiver_items;       // indices into SceneSnapshot::instances
+    std::vector<std::uint32_t> caster_items;
+    std::vector<glm::dvec3> receiver_points_ws;
+    std::vector<ShadowView> views;
+    std::vector<std::uint32_t> view_caster_items;
+    std::vector<ShadowSlot> slots;                   // one per view
+    std::vector<LightingInputs> inputs;              // one per consumer
+};
+
+}  // namespace gnomon::shadow
