@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "sample_game/number_text.h"
+#include "systems/shadow/filter_table.h"
 
 namespace gnomon::game {
 namespace {
@@ -13,13 +14,6 @@ namespace {
 constexpr std::uint64_t kMaxResolution_px = 65536;
 constexpr double kMaxError_px = 1.0e4;
 constexpr double kMaxBias_m = 1.0e6;
-
-constexpr std::array kFilters{
-    FilterName{ShadowFilter::hard, "hard", "one tap: lit or dark"},
-    FilterName{ShadowFilter::hardware_2x2, "hardware_2x2", "four texels, blended by the sampler"},
-    FilterName{ShadowFilter::pcf_3x3, "pcf_3x3", "a smooth kernel over 3 x 3 texels"},
-};
-static_assert(kFilters.size() == static_cast<std::size_t>(ShadowFilter::count));
 
 std::string number_text(double value) {
     std::array<char, 32> text{};
@@ -41,11 +35,11 @@ bool set_enabled(LightShadow& shadow, std::string_view text) {
 }
 
 bool set_filter(LightShadow& shadow, std::string_view text) {
-    const auto row = std::find_if(kFilters.begin(), kFilters.end(), [&](const FilterName& f) { return text == f.name; });
-    if (row != kFilters.end()) shadow.filter = row->filter;
-    return row != kFilters.end();
+    const shadow::FilterRow* row = shadow::find_filter(text);
+    if (row) shadow.filter = row->id;
+    return row != nullptr;
 }
-std::string get_filter(const LightShadow& shadow) { return kFilters[static_cast<std::size_t>(shadow.filter)].name; }
+std::string get_filter(const LightShadow& shadow) { return std::string(shadow::filter_row(shadow.filter).name); }
 
 bool set_resolution(LightShadow& shadow, std::string_view text) {
     const auto value = read_count(text);
@@ -103,7 +97,6 @@ Error bad(std::string message, const char* rule) {
 }  // namespace
 
 std::span<const LightSetting> light_settings() { return kSettings; }
-std::span<const FilterName> filter_names() { return kFilters; }
 
 std::optional<Error> apply_setting(LightShadow& shadow, std::string_view key_value) {
     const std::size_t equals = key_value.find('=');
@@ -116,7 +109,7 @@ std::optional<Error> apply_setting(LightShadow& shadow, std::string_view key_val
         std::string allowed = row->values;
         if (row->set == set_filter) {
             allowed.clear();
-            for (const FilterName& f : kFilters) allowed += (allowed.empty() ? "" : " | ") + std::string(f.name);
+            for (const shadow::FilterRow& f : shadow::filter_table()) allowed += (allowed.empty() ? "" : " | ") + std::string(f.name);
         }
         return bad("'" + text + "': " + key + " takes " + allowed, "set.value");
     }
@@ -136,7 +129,8 @@ std::string list_settings() {
         text += " (default: " + s.get(defaults) + ")\n";
     }
     text += "Filters:\n";
-    for (const FilterName& f : kFilters) text += "  " + padded(f.name, kKeyWidth) + f.meaning + "\n";
+    for (const shadow::FilterRow& f : shadow::filter_table())
+        text += "  " + padded(std::string(f.name), kKeyWidth) + std::to_string(f.taps) + (f.taps == 1 ? " tap" : " taps") + "\n";
     return text;
 }
 

@@ -20,13 +20,6 @@ struct LightSetting {
 };
 std::span<const LightSetting> light_settings();
 
-struct FilterName {
-    ShadowFilter filter;
-    const char* name;
-    const char* meaning;
-};
-std::span<const FilterName> filter_names();  // one per ShadowFilter, in its order
-
 /// Applies "KEY=VALUE". Errors: rules "set.syntax", "set.key", "set.value"; `shadow` is then unchanged.
 std::optional<Error> apply_setting(LightShadow& shadow, std::string_view key_value);
 

@@ -1,0 +1,80 @@
+#include "sample_game/app.h"
+
+#include "components/light_shadow.h"
+#include "engine/gl/device_gl45.h"
+#include "sample_game/light_settings.h"
+#include "sample_game/number_text.h"
+#include "sample_game/picture_files.h"
+#include "sample_game/scene_source.h"
+
+namespace gnomon::game {
+
+Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
+    Result<assets::SceneData> data = load_scene(line.scene);
+    if (!data) return data.error();
+    auto world = std::make_unique<GameWorld>();
+    world->warnings = data.value().warnings;
+    world->scene = spawn_scene(std::move(data).value(), world->registry, world->library);
+    if (line.camera) {
+        const Result<std::size_t> camera = find_camera(world->scene, *line.camera);
+        if (!camera) return camera.error();
+        activate_camera(world->scene, camera.value(), world->registry);
+    }
+    for (const NamedEntity& light : world->scene.lights) {
+        if (!world->registry.has<LightShadow>(light.entity)) continue;
+        world->registry.patch<LightShadow>(light.entity, [&](LightShadow& shadow) {
+            for (const std::string& setting : line.settings) apply_setting(shadow, setting);
+        });
+    }
+    return world;
+}
+
+std::optional<Error> check_outputs(const CommandLine& line) {
+    for (const auto& file : {line.stats, line.screenshot})
+        if (file)
+            if (auto error = check_writable(*file)) return error;
+    return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
+}
+
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world) {
+    // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
+    Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
+    if (!device) return device.error();
+    Renderer renderer{std::move(device).value(), nullptr};
+    const gl::DeviceInfo& info = renderer.device->info();
+    if (line.size_px.x > info.max_texture_px || line.size_px.y > info.max_texture_px)
+        return Error{.message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
+                     .rule = "command_line"};
+    if (line.stats) renderer.device->set_timing(info.is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library);
+    if (!frame) return frame.error();
+    renderer.frame = std::move(frame).value();
+    return renderer;
+}
+
+void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log) {
+    for (const std::string& warning : world.warnings) log.warn(on_one_line(warning));
+    for (const DroppedEntity& dropped : first_frame.dropped)
+        log.warn(on_one_line("'" + dropped.name + "' is left out: " + reason_code(dropped.reason)));
+}
+
+std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats) {
+    if (line.screenshot) {
+        std::vector<std::uint8_t> rgba;
+        if (!frame.read_picture(rgba)) return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
+        if (auto error = write_png(*line.screenshot, size_px.x, size_px.y, rgba)) return error;
+    }
+    if (line.visibility) {
+        const std::vector<LightItem>& lights = frame.snapshot().lights;
+        std::vector<float> values;
+        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+            if (!lights[i].has_shadow) continue;
+            if (!frame.read_visibility(i, values))
+                return Error{.message = "the device could not draw the visibility of " + lights[i].name, .rule = "output.visibility"};
+            if (auto error = write_pfm(*line.visibility / (lights[i].name + ".pfm"), size_px.x, size_px.y, values)) return error;
+        }
+    }
+    return line.stats ? stats.write(*line.stats) : std::nullopt;
+}
+
+}  // namespace gnomon::game

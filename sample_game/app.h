@@ -1,0 +1,50 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <spdlog/logger.h>
+#include <string>
+#include <vector>
+
+#include "engine/assets/mesh_library.h"
+#include "engine/core/result.h"
+#include "engine/ecs/registry.h"
+#include "engine/gl/device.h"
+#include "sample_game/command_line.h"
+#include "sample_game/spawn.h"
+#include "sample_game/stats_file.h"
+#include "systems/frame.h"
+
+namespace gnomon::game {
+
+/// The loaded scene as entities.
+struct GameWorld {
+    ecs::Registry registry;
+    assets::MeshLibrary library;
+    SpawnedScene scene;
+    std::vector<std::string> warnings;  // of the loader, one line each
+};
+
+/// Loads, spawns, applies --set, chooses the camera.
+Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
+
+/// Whether every output named on the command line can be written; makes the folder of --visibility.
+std::optional<Error> check_outputs(const CommandLine& line);
+
+/// Device and frame for the context that is current on this thread.
+struct Renderer {
+    std::unique_ptr<gl::Device> device;
+    std::unique_ptr<Frame> frame;
+};
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world);
+
+/// Warns once of everything that is odd about the scene and yet no error.
+void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);
+
+/// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
+std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats);
+
+/// Run until done. Empty: all went well.
+std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);
+std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlog::logger& log);
+
+}  // namespace gnomon::game

@@ -1,0 +1,28 @@
+#include "engine/platform/context.h"
+#include "sample_game/app.h"
+
+namespace gnomon::game {
+
+std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log) {
+    auto context = platform::make_headless_context(false);
+    if (!context) return context.error();
+    auto made = make_renderer(line, world);
+    if (!made) return made.error();
+    Renderer renderer = std::move(made).value();
+
+    FrameSettings settings;
+    settings.viewport_px = line.size_px;
+    settings.exposure_ev = line.exposure_ev;
+    StatsFile stats(renderer.device->info().name);
+    const std::uint64_t frames = line.frames.value_or(1);
+    for (std::uint64_t i = 0; i < frames; ++i) {
+        const double time_s = frame_time_s(line, i, frames);
+        apply_motion(world.scene.moving, time_s, world.registry);
+        renderer.frame->run(world.registry, settings);
+        if (i == 0) log_warnings(world, renderer.frame->report(), log);
+        if (line.stats) stats.add(renderer.frame->report(), i, time_s);
+    }
+    return write_outputs(line, *renderer.frame, line.size_px, stats);
+}
+
+}  // namespace gnomon::game

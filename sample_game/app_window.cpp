@@ -1,0 +1,123 @@
+#include <algorithm>
+#include <chrono>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "engine/platform/context.h"
+#include "sample_game/app.h"
+#include "sample_game/fly_camera.h"
+
+namespace gnomon::game {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kTitleEvery_s = 0.5;
+constexpr double kLongestStep_s = 0.25;  // after a stall the walker does not leap through a wall
+constexpr double kWalkPerSize = 0.1;     // the courtyard, 36 m corner to corner, is walked at about 3.6 m/s
+constexpr double kFixedStep_s = 1.0 / 60.0;
+constexpr std::chrono::milliseconds kMinimisedPause{50};
+
+double walking_speed(const math::Aabb& bounds) {
+    const double size_m = math::is_empty(bounds) ? 0.0 : glm::length(bounds.max - bounds.min);
+    return kWalkPerSize * (size_m > 0.0 ? size_m : 10.0);
+}
+
+double seconds(Clock::duration duration) { return std::chrono::duration<double>(duration).count(); }
+
+/// Scene time: by frame number if frames are counted, else by the clock.
+class SceneClock {
+public:
+    explicit SceneClock(const CommandLine& line) : line_(line), paused_(!line.frames && line.time_s), time_s_(line.time_s.value_or(0.0)) {}
+
+    double time_s(std::uint64_t frame) const { return line_.frames ? frame_time_s(line_, frame, *line_.frames) : time_s_; }
+    void toggle_pause() { paused_ = !paused_; }
+    void advance(double dt_s) {
+        if (!paused_) time_s_ += dt_s;
+    }
+    bool runs() const { return line_.frames || !paused_; }
+
+private:
+    const CommandLine& line_;
+    bool paused_;  // an endless run with --time stands still there until P is pressed
+    double time_s_;
+};
+
+/// Frames per second, shown in the title now and then.
+class TitleMeter {
+public:
+    void frame_done(platform::Window& window, const std::string& device) {
+        ++frames_;
+        const double since_s = seconds(Clock::now() - start_);
+        if (since_s < kTitleEvery_s) return;
+        const auto fps = static_cast<long>(static_cast<double>(frames_) / since_s + 0.5);
+        window.set_title("Gnomon - " + std::to_string(fps) + " fps - " + device);
+        frames_ = 0;
+        start_ = Clock::now();
+    }
+
+private:
+    Clock::time_point start_ = Clock::now();
+    std::uint64_t frames_ = 0;
+};
+
+bool pressed(const platform::Input& input, platform::Key key) { return input.pressed[static_cast<std::size_t>(key)]; }
+
+bool wants_out(const platform::Input& input) { return input.close_requested || pressed(input, platform::Key::escape); }
+
+/// A click captures the mouse, Tab frees it.
+void update_capture(const platform::Input& input, platform::Window& window, bool& captured) {
+    const bool want = (captured || input.mouse_button) && !pressed(input, platform::Key::tab);
+    if (want == captured) return;
+    captured = want;
+    window.capture_mouse(captured);
+}
+
+}  // namespace
+
+std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlog::logger& log) {
+    auto opened = platform::make_window(line.size_px.x, line.size_px.y, "Gnomon", false);
+    if (!opened) return opened.error();
+    platform::Window& window = *opened.value();
+    auto made = make_renderer(line, world);
+    if (!made) return made.error();
+    Renderer renderer = std::move(made).value();
+
+    FrameSettings settings{.viewport_px = line.size_px, .exposure_ev = line.exposure_ev};
+    settings.present = true;
+    StatsFile stats(renderer.device->info().name);
+    FlyCamera walker(walking_speed(world.scene.bounds_ws));
+    SceneClock clock(line);
+    TitleMeter title;
+    bool captured = false;
+    Clock::time_point last = Clock::now();
+    std::uint64_t frame = 0;
+    while (!line.frames || frame < *line.frames) {
+        const platform::Input& input = window.poll();
+        if (frame > 0 && wants_out(input)) break;  // the first frame is always drawn: there is something to write
+        if (input.framebuffer_width == 0 || input.framebuffer_height == 0) {
+            std::this_thread::sleep_for(kMinimisedPause);
+            continue;
+        }
+        const double dt_s = line.frames ? kFixedStep_s : std::min(seconds(Clock::now() - last), kLongestStep_s);
+        last = Clock::now();
+        if (pressed(input, platform::Key::p)) clock.toggle_pause();
+        update_capture(input, window, captured);
+        if (frame > 0) {
+            clock.advance(dt_s);
+            const auto& consumers = renderer.frame->snapshot().consumers;
+            if (!consumers.empty()) walker.update(input, captured, dt_s, consumers.front(), world.registry);
+        }
+        if (frame == 0 || clock.runs()) apply_motion(world.scene.moving, clock.time_s(frame), world.registry);
+        settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
+        renderer.frame->run(world.registry, settings);
+        window.present();
+        if (frame == 0) log_warnings(world, renderer.frame->report(), log);
+        if (line.stats) stats.add(renderer.frame->report(), frame, clock.time_s(frame));
+        title.frame_done(window, renderer.device->info().name);
+        ++frame;
+    }
+    return write_outputs(line, *renderer.frame, settings.viewport_px, stats);
+}
+
+}  // namespace gnomon::game

@@ -1,0 +1,135 @@
+#include "sample_game/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+
+#include "sample_game/light_settings.h"
+#include "sample_game/number_text.h"
+
+namespace gnomon::game {
+namespace {
+
+constexpr std::uint64_t kMaxSize_px = 16384;
+constexpr std::uint64_t kMaxFrames = 100'000'000;
+constexpr double kMaxTime_s = 1.0e9;
+constexpr double kMaxExposure_ev = 64.0;
+constexpr double kFramesPerSecond = 60.0;
+
+/// What was typed, before it is understood.
+struct Typed {
+    std::string scene, camera, size, frames, time, exposure, stats, screenshot, visibility;
+    std::vector<std::string> settings;
+    bool headless = false, list = false;
+};
+
+Error wrong(const std::string& message) { return {.message = on_one_line(message), .rule = "command_line"}; }
+
+void declare(CLI::App& app, Typed& typed) {
+    app.set_help_flag("-h,--help", "print this and exit");
+    app.add_option("--scene", typed.scene, "FILE: glTF or GLB (default: the built-in scene)");
+    app.add_option("--camera", typed.camera, "NAME|INDEX (default: the first, else framed on the scene)");
+    app.add_option("--size", typed.size, "WxH: picture size, each 1 to 16384 (default: 1280x720)");
+    app.add_flag("--headless", typed.headless, "EGL, no window");
+    app.add_option("--frames", typed.frames, "N: frames to run, then exit");
+    app.add_option("--time", typed.time, "SECONDS: scene time of the last frame");
+    app.add_option("--exposure", typed.exposure, "EV|auto (default: auto)");
+    app.add_option("--stats", typed.stats, "F.json: per frame and light times, counts, report");
+    app.add_option("--screenshot", typed.screenshot, "F.png: the last frame");
+    app.add_option("--visibility", typed.visibility, "DIR: DIR/<light>.pfm, the visible fraction of each shadowed light");
+    app.add_option("--set", typed.settings, "KEY=VALUE: a LightShadow field of every light; repeatable")
+        ->expected(1)
+        ->allow_extra_args(false)
+        ->take_all();
+    app.add_flag("--list", typed.list, "print every key, filter and value that --set knows, and exit");
+    app.footer("In the window: WASD walk, Q and E down and up, Shift faster, click to look with the mouse, Tab frees it,\n"
+               "P pauses the motion, Esc quits.");
+}
+
+/// 1 to kMaxSize_px, or 0 if `text` says anything else.
+std::uint64_t read_side(std::string_view text) {
+    const std::uint64_t side = read_count(text).value_or(0);
+    return side <= kMaxSize_px ? side : 0;
+}
+
+std::optional<Error> read_size(const std::string& text, glm::uvec2& size_px) {
+    const std::size_t cross = std::min(text.find('x'), text.size());
+    const std::string_view view(text);
+    const std::uint64_t width = read_side(view.substr(0, cross));
+    const std::uint64_t height = read_side(view.substr(std::min(cross + 1, view.size())));
+    if (width == 0 || height == 0)
+        return wrong("--size: '" + text + "' is not WxH with each of 1 to " + std::to_string(kMaxSize_px));
+    size_px = {width, height};
+    return std::nullopt;
+}
+
+std::optional<Error> read_numbers(const Typed& typed, const CLI::App& app, CommandLine& line) {
+    if (app.count("--frames") > 0) {
+        line.frames = read_count(typed.frames);
+        if (!line.frames || *line.frames < 1 || *line.frames > kMaxFrames)
+            return wrong("--frames: '" + typed.frames + "' is not a number of 1 to " + std::to_string(kMaxFrames));
+    }
+    if (app.count("--time") > 0) {
+        line.time_s = read_number(typed.time);
+        if (!line.time_s || !(std::abs(*line.time_s) <= kMaxTime_s))
+            return wrong("--time: '" + typed.time + "' is not a number of seconds within +-1e9");
+    }
+    if (app.count("--exposure") > 0 && typed.exposure != "auto") {
+        const auto exposure = read_number(typed.exposure);
+        if (!exposure || !(std::abs(*exposure) <= kMaxExposure_ev))
+            return wrong("--exposure: '" + typed.exposure + "' is neither auto nor an EV within +-64");
+        line.exposure_ev = static_cast<float>(*exposure);
+    }
+    return std::nullopt;
+}
+
+std::optional<Error> read_names(const Typed& typed, const CLI::App& app, CommandLine& line) {
+    const auto read = [&](const char* flag, const std::string& text, auto& value) {
+        if (app.count(flag) == 0) return true;
+        value = text;
+        return !text.empty();
+    };
+    const bool all = read("--scene", typed.scene, line.scene) && read("--camera", typed.camera, line.camera) &&
+                     read("--stats", typed.stats, line.stats) && read("--screenshot", typed.screenshot, line.screenshot) &&
+                     read("--visibility", typed.visibility, line.visibility);
+    return all ? std::nullopt : std::optional(wrong("an empty name was given"));
+}
+
+Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
+    CommandLine line;
+    line.headless = typed.headless;
+    line.settings = typed.settings;
+    if (typed.list) line.print = list_settings();
+    if (app.count("--size") > 0)
+        if (auto error = read_size(typed.size, line.size_px)) return *error;
+    if (auto error = read_numbers(typed, app, line)) return *error;
+    if (auto error = read_names(typed, app, line)) return *error;
+    LightShadow any;
+    for (const std::string& setting : typed.settings)
+        if (auto error = apply_setting(any, setting)) return *error;
+    return line;
+}
+
+}  // namespace
+
+Result<CommandLine> parse_command_line(int argc, const char* const* argv) {
+    CLI::App app("Gnomon's sample game: shadows of sun, spot and point lights", "gnomon_game");
+    Typed typed;
+    declare(app, typed);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        CommandLine line;
+        line.print = app.help();
+        return line;
+    } catch (const CLI::Error& error) {
+        return wrong(error.what());
+    }
+    return understand(typed, app);
+}
+
+double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames) {
+    if (!line.time_s) return static_cast<double>(index) / kFramesPerSecond;
+    return *line.time_s - static_cast<double>(frames - 1 - index) / kFramesPerSecond;
+}
+
+}  // namespace gnomon::game

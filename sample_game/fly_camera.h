@@ -1,0 +1,28 @@
+#pragma once
+#include "components/camera.h"
+#include "engine/ecs/registry.h"
+#include "engine/platform/context.h"
+#include "systems/extract/snapshot.h"
+
+namespace gnomon::game {
+
+/// WASD, Q and E, Shift and the mouse. The scene's own camera is in charge until the first key or movement;
+/// then a free one starts from where it was.
+class FlyCamera {
+public:
+    /// `speed_m_per_s` when walking; Shift is faster.
+    explicit FlyCamera(double speed_m_per_s) : speed_m_per_s_(speed_m_per_s) {}
+
+    /// `seen`: the camera of the last frame. `look`: whether the mouse turns the head.
+    void update(const platform::Input& input, bool look, double dt_s, const ConsumerItem& seen, ecs::Registry& registry);
+
+private:
+    void take_over(const ConsumerItem& seen, ecs::Registry& registry);
+
+    double speed_m_per_s_;
+    ecs::Entity entity_ = ecs::kNull;
+    glm::dvec3 position_ws_m_{0.0};
+    double yaw_rad_ = 0.0, pitch_rad_ = 0.0;
+};
+
+}  // namespace gnomon::game

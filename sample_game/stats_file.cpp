@@ -1,0 +1,74 @@
+#include "sample_game/stats_file.h"
+
+#include <span>
+
+#include "sample_game/picture_files.h"
+
+namespace gnomon::game {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const char* kind_text(LightKind kind) {
+    switch (kind) {
+        case LightKind::directional: return "directional";
+        case LightKind::spot: return "spot";
+        case LightKind::point: break;
+    }
+    return "point";
+}
+
+/// Unknown is null, never 0.
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+Json light_stats(const LightReport& light) {
+    return {{"name", light.name},
+            {"kind", kind_text(light.kind)},
+            {"state", to_text(light.state)},
+            {"reason", reason_code(light.reason)},
+            {"predicted_error_px", light.predicted_error_px},
+            {"views", light.views},
+            {"views_drawn", light.views_drawn},
+            {"texels", light.texels},
+            {"bytes", light.bytes},
+            {"draws", light.draws},
+            {"clears", light.clears},
+            {"triangles", light.triangles},
+            {"cpu_us", light.cpu_us},
+            {"gpu_us", or_null(light.gpu_us)}};
+}
+
+}  // namespace
+
+Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) {
+    std::uint64_t views = 0, draws = 0, clears = 0, triangles = 0, bytes = 0;
+    Json lights = Json::array(), dropped = Json::array();
+    for (const LightReport& light : report.lights) {
+        views += light.views_drawn;
+        draws += light.draws;
+        clears += light.clears;
+        triangles += light.triangles;
+        bytes += light.bytes;
+        lights.push_back(light_stats(light));
+    }
+    for (const DroppedEntity& entity : report.dropped)
+        dropped.push_back({{"name", entity.name}, {"reason", reason_code(entity.reason)}});
+    Json shadow = {{"cpu_us", report.shadow_cpu_us}, {"gpu_us", or_null(report.shadow_gpu_us)}, {"views", views},
+                   {"draws", draws}, {"clears", clears}, {"triangles", triangles}, {"bytes", bytes}};
+    return {{"index", index}, {"time_s", time_s}, {"cpu_us", report.cpu_us}, {"gpu_us", or_null(report.gpu_us)},
+            {"shadow", std::move(shadow)}, {"lights", std::move(lights)}, {"dropped", std::move(dropped)}};
+}
+
+void StatsFile::add(const FrameReport& report, std::uint64_t index, double time_s) {
+    frames_.push_back(frame_stats(report, index, time_s));
+}
+
+std::optional<Error> StatsFile::write(const std::filesystem::path& file) const {
+    const Json document = {{"device", device_}, {"frames", frames_}};
+    constexpr int kIndent = 1;
+    // Names come from files: text that is not UTF-8 is replaced, not thrown at the user.
+    const std::string text = document.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+    return write_file(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace gnomon::game
