@@ -22,7 +22,7 @@ bool is_depth(Format format);
 const char* to_text(Format format);
 
 struct TextureDesc {
-    std::string label;
+    std::string label = {};
     TextureKind kind = TextureKind::flat;
     Format format = Format::rgba8;
     std::uint32_t width = 1, height = 1;
@@ -39,7 +39,7 @@ std::uint64_t byte_size(const TextureDesc& desc);
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, border };  // border is 0,0,0,0
 struct SamplerDesc {
-    std::string label;
+    std::string label = {};
     bool linear = false;   // min and mag
     bool mipmaps = false;  // linear between mips
     bool compare = false;  // depth compare, passes where reference >= stored
@@ -48,7 +48,7 @@ struct SamplerDesc {
 };
 
 struct BufferDesc {
-    std::string label;
+    std::string label = {};
     std::uint64_t size = 0;  // > 0
     BufferUse use = BufferUse::updated;
     bool operator==(const BufferDesc&) const = default;
@@ -57,9 +57,9 @@ struct BufferDesc {
 /// Sources are complete GLSL (includes already resolved, #version first).
 /// An empty fragment source makes a program without fragment stage (depth only).
 struct ProgramDesc {
-    std::string label;
-    std::string vertex;
-    std::string fragment;
+    std::string label = {};
+    std::string vertex = {};
+    std::string fragment = {};
     bool operator==(const ProgramDesc&) const = default;
 };
 
@@ -70,8 +70,8 @@ struct Attachment {
 };
 constexpr std::size_t kMaxColourAttachments = 8;  // what OpenGL guarantees
 struct TargetDesc {
-    std::string label;
-    std::vector<Attachment> colours;
+    std::string label = {};
+    std::vector<Attachment> colours = {};
     Attachment depth{};  // texture {0}: none
     bool operator==(const TargetDesc&) const = default;
 };

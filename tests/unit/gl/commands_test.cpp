@@ -1,0 +1,104 @@
+#include "engine/gl/commands.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <array>
+
+namespace gnomon::gl {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+CommandList sample() {
+    CommandList list;
+    list.add(BeginGroup{"sun"});
+    list.add(BeginPass{.target = {7}, .viewport = {0, 0, 512, 256}, .clear_depth = true, .depth = 0.0f});
+    list.add(SetPipeline{{.program = {3}, .cull = CullMode::front, .depth_test = DepthTest::greater}});
+    list.add(EndPass{});
+    list.add(EndGroup{});
+    return list;
+}
+
+TEST(CommandList, ListsWithTheSameCommandsAreEqual) { EXPECT_EQ(sample(), sample()); }
+
+TEST(CommandList, OneChangedFieldMakesListsDiffer) {
+    CommandList changed = sample();
+    std::get<BeginPass>(changed.commands[1]).viewport.height = 255;
+    EXPECT_NE(changed, sample());
+    CommandList longer = sample();
+    longer.add(DrawTriangle{});
+    EXPECT_NE(longer, sample());
+}
+
+TEST(CommandList, UpdateCopiesTheValuesBehindEarlierOnes) {
+    CommandList list;
+    const std::array<std::uint32_t, 2> first = {1, 2};
+    const std::array<float, 1> second = {0.5f};
+    list.update(BufferHandle{4}, 16, std::span<const std::uint32_t>{first});
+    list.update(BufferHandle{5}, 0, std::span<const float>{second});
+    ASSERT_EQ(list.commands.size(), 2u);
+    EXPECT_EQ(std::get<UpdateBuffer>(list.commands[0]), (UpdateBuffer{{4}, 16, 0, 8}));
+    EXPECT_EQ(std::get<UpdateBuffer>(list.commands[1]), (UpdateBuffer{{5}, 0, 8, 4}));
+    float stored = 0.0f;
+    std::memcpy(&stored, list.bytes.data() + 8, sizeof stored);
+    EXPECT_EQ(stored, 0.5f);
+}
+
+TEST(CommandList, UpdateOfNothingAddsNoCommand) {
+    CommandList list;
+    list.update(BufferHandle{4}, 0, std::span<const float>{});
+    EXPECT_EQ(list, CommandList{});
+}
+
+TEST(CommandList, ListsWithTheSameCommandsButOtherPayloadDiffer) {
+    CommandList a, b;
+    const std::array<float, 1> one = {1.0f}, two = {2.0f};
+    a.update(BufferHandle{1}, 0, std::span<const float>{one});
+    b.update(BufferHandle{1}, 0, std::span<const float>{two});
+    EXPECT_EQ(a.commands, b.commands);
+    EXPECT_NE(a, b);
+}
+
+TEST(CommandText, EachCommandIsOneLineThatNamesIt) {
+    const std::string text = to_text(sample());
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
+    EXPECT_THAT(text, HasSubstr("BeginGroup \"sun\"\n"));
+    EXPECT_THAT(text, HasSubstr("BeginPass target=#7 viewport=0,0 512x256 depth=0\n"));
+    EXPECT_THAT(text, HasSubstr("program=#3 cull=front depth_test=greater blend=off"));
+}
+
+TEST(CommandText, WhatABeginPassDoesNotClearIsNotNamed) {
+    EXPECT_THAT(to_text(Command{BeginPass{}}), Not(HasSubstr("depth")));
+    EXPECT_THAT(to_text(Command{BeginPass{.clear_colour = true}}), HasSubstr("colour=0,0,0,0"));
+}
+
+TEST(CommandText, CommandsThatDifferHaveDifferentText) {
+    const std::vector<Command> commands = {SetScissor{},
+                                           SetScissor{{1, 2, 3, 4}},
+                                           BindTexture{1, {2}, {3}},
+                                           BindTexture{1, {3}, {2}},
+                                           BindUniforms{0, {1}, 256, 64},
+                                           BindStorage{0, {1}},
+                                           UpdateBuffer{{1}, 0, 4, 8},
+                                           BindMeshes{{1}, {2}, {3}},
+                                           DrawMeshes{0, 3, 1, 0, 1},
+                                           DrawMeshes{0, 3, -1, 0, 1},
+                                           DrawTriangle{},
+                                           DrawLines{6},
+                                           GenerateMips{{1}},
+                                           Blit{{1}, {2}, {0, 0, 1, 1}, {0, 0, 2, 2}},
+                                           BeginTimer{1},
+                                           EndTimer{1},
+                                           SetPipeline{{.front_is_clockwise = true}},
+                                           SetPipeline{{.depth_write = true}},
+                                           SetPipeline{{.depth_clamp = true}},
+                                           SetPipeline{{.blend = Blend::alpha}}};
+    for (std::size_t i = 0; i < commands.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) EXPECT_NE(to_text(commands[i]), to_text(commands[j]));
+    }
+}
+
+}  // namespace
+}  // namespace gnomon::gl
