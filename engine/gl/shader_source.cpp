@@ -82,11 +82,11 @@ private:
     }
     static Error missing(std::string_view path, std::string_view from, std::size_t line) {
         return {
-            "no shader file \"" + std::string{path} + '"' + where(from, line), std::string{from}, {}, "shader.missing"};
+            std::string{"no shader file \""}.append(path).append("\"") + where(from, line), std::string{from}, {}, "shader.missing"};
     }
     static Error cycle(std::string_view path, std::string_view from, std::size_t line) {
         return {
-            "\"" + std::string{path} + "\" includes itself" + where(from, line), std::string{from}, {}, "shader.cycle"};
+            std::string{"\""}.append(path).append("\" includes itself") + where(from, line), std::string{from}, {}, "shader.cycle"};
     }
 
     std::span<const ShaderFile> files_;
