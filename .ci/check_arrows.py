@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Checks which part of Gnomon may know which, as docs/architecture.md draws it, and that no file grows too long.
+
+usage: check_arrows.py [ROOT]       prints one line per breach; exit status 1 if there is any
+       check_arrows.py --self-test  builds small trees with one breach each and expects every one to be found
+"""
+import re
+import sys
+import tempfile
+from pathlib import Path
+
+MAX_LINES = 400
+PARTS = ("components", "engine", "shaders", "systems", "sample_game", "bench", "tests")
+CODE = {".h", ".cpp"}
+COUNTED = CODE | {".glsl", ".vert", ".frag", ".geom", ".comp", ".py", ".cmake", ".sh"}
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
+GL_CALL = re.compile(r"(?<![\w:.>])gl[A-Z]\w*\s*\(")
+COMMENT = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
+REGISTRY = "engine/ecs/registry.h"
+
+# First matching prefix decides: what a file there may include of the project's own files.
+ALLOWED = (
+    ("components/", ("components/", "engine/ecs/entity.h")),
+    ("engine/", ("engine/",)),
+    ("shaders/", ("shaders/", "engine/")),
+    ("systems/", ("systems/", "components/", "engine/", "shaders/embedded.h")),
+    ("sample_game/", ("sample_game/", "systems/", "components/", "engine/", "shaders/")),
+    ("bench/", ("",)),
+    ("tests/", ("",)),
+)
+# The registry is read by these alone; frame.* only hands it on to them.
+READS_REGISTRY = ("engine/ecs/", "systems/extract/", "systems/transform/", "systems/frame.", "sample_game/", "bench/", "tests/")
+# Stages that must not reach the registry by any detour either, so that another ECS can take its place.
+KNOWS_NO_REGISTRY = ("systems/shadow/", "systems/lighting/", "systems/extract/snapshot.h", "components/")
+CALLS_GL = ("engine/gl/", "tests/")
+
+
+def is_standard(name):
+    return "." not in name and "/" not in name
+
+
+def included(text):
+    return [(mark == "<", name) for mark, name in INCLUDE.findall(text)]
+
+
+def breaches_of_include(path, name, root):
+    """Reasons why the file at `path` may not include the project's own `name`."""
+    if not (root / name).is_file():
+        return [f"includes {name}, which is no path from the project's root"]
+    found = []
+    allowed = next(prefixes for part, prefixes in ALLOWED if path.startswith(part))
+    if not name.startswith(allowed):
+        found.append(f"may not include {name}")
+    if name == REGISTRY and not path.startswith(READS_REGISTRY):
+        found.append(f"may not include {name}: extraction is the only reader of the registry")
+    if path.startswith("systems/lighting/") and name.startswith("systems/shadow/") and name != "systems/shadow/types.h":
+        found.append(f"may not include {name}: lighting sees of shadow only systems/shadow/types.h")
+    if path.startswith("systems/shadow/") and name.startswith("systems/lighting/"):
+        found.append(f"may not include {name}: shadow does not know who lights with it")
+    return found
+
+
+def reaches(path, goal, includes):
+    """The chain of includes from path to goal, or nothing."""
+    chains, seen = [[path]], {path}
+    while chains:
+        chain = chains.pop()
+        for name in includes.get(chain[-1], ()):
+            if name == goal:
+                return chain + [name]
+            if name not in seen:
+                seen.add(name)
+                chains.append(chain + [name])
+    return None
+
+
+def check(root):
+    """Sorted lines `path: breach`."""
+    files = sorted(p for part in PARTS for p in (root / part).rglob("*") if p.is_file() and p.suffix in COUNTED)
+    found, includes = [], {}
+    for file in files:
+        path = file.relative_to(root).as_posix()
+        text = file.read_text(encoding="utf-8", errors="replace")
+        breaches = []
+        lines = len(text.splitlines())
+        if lines > MAX_LINES:
+            breaches.append(f"has {lines} lines, {MAX_LINES} are the limit")
+        if file.suffix in CODE:
+            own = [name for angled, name in included(text) if not angled]
+            includes[path] = own
+            for name in own:
+                breaches += breaches_of_include(path, name, root)
+            for angled, name in included(text):
+                if angled and path.startswith("components/") and not (is_standard(name) or name.startswith("glm/")):
+                    breaches.append(f"may not include <{name}>: components know GLM and the standard library only")
+                if angled and name.startswith(PARTS) and (root / name).is_file():
+                    breaches.append(f"includes <{name}> in angle brackets, which hides an arrow")
+                if angled and name.startswith("epoxy/gl") and not path.startswith(CALLS_GL):
+                    breaches.append(f"may not include <{name}>: only engine/gl calls OpenGL")
+            calls = {call.rstrip("( ") for call in GL_CALL.findall(COMMENT.sub("", text))}
+            if calls and not path.startswith(CALLS_GL):
+                breaches.append(f"may not call {', '.join(sorted(calls))}: only engine/gl calls OpenGL")
+        found += [f"{path}: {breach}" for breach in breaches]
+    for path in includes:
+        if path.startswith(KNOWS_NO_REGISTRY):
+            chain = reaches(path, REGISTRY, includes)
+            if chain and len(chain) > 2:  # a direct include was reported above
+                found.append(f"{path}: reaches the registry: {' -> '.join(chain)}")
+    return sorted(found), len(files)
+
+
+# A tree without a breach, and for each rule a file that breaks it and what must be said of it.
+CLEAN = {
+    "engine/ecs/entity.h": "#pragma once\n#include <cstdint>\n",
+    "engine/ecs/registry.h": '#include <vector>\n#include "engine/ecs/entity.h"\n',
+    "engine/gl/device_gl45.cpp": "#include <epoxy/gl.h>\nvoid f() { glClear(0); }\n",
+    "engine/platform/context.cpp": "#include <GLFW/glfw3.h>\n// unlike glClear(x)\nvoid g() { glfwInit(); }\n",
+    "components/transform.h": '#include <glm/vec3.hpp>\n#include "engine/ecs/entity.h"\n',
+    "shaders/embedded.h": "#pragma once\n",
+    "systems/extract/snapshot.h": '#include "components/transform.h"\n',
+    "systems/extract/extract.h": '#include "engine/ecs/registry.h"\n#include "systems/extract/snapshot.h"\n',
+    "systems/shadow/types.h": '#include "systems/extract/snapshot.h"\n',
+    "systems/shadow/fit.h": '#include "systems/shadow/types.h"\n',
+    "systems/lighting/lighting.cpp": '#include "shaders/embedded.h"\n#include "systems/shadow/types.h"\n',
+    "sample_game/main.cpp": '#include "engine/ecs/registry.h"\n#include "systems/extract/extract.h"\n',
+    "tests/gl/raw_test.cpp": '#include "systems/shadow/fit.h"\nvoid t() { glGetError(); }\n',
+}
+BREACHES = (
+    ("components/light.h", '#include "engine/math/aabb.h"\n', "no path from"),
+    ("components/light.h", '#include "engine/gl/device_gl45.cpp"\n', "may not include engine/gl"),
+    ("components/light.h", '#include "systems/shadow/types.h"\n', "may not include systems/"),
+    ("components/light.h", "#include <spdlog/spdlog.h>\n", "components know GLM"),
+    ("engine/gl/device.h", '#include "components/transform.h"\n', "may not include components/"),
+    ("engine/gl/device.h", '#include "systems/shadow/types.h"\n', "may not include systems/"),
+    ("engine/gl/device.h", '  #  include "shaders/embedded.h"\n', "may not include shaders/"),
+    ("engine/gl/device.h", "#include <components/transform.h>\n", "hides an arrow"),
+    ("systems/shadow/sets.cpp", '#include "sample_game/main.cpp"\n', "may not include sample_game/"),
+    ("systems/shadow/sets.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
+    ("systems/shadow/sets.cpp", '#include "engine/ecs/registry.h"\n', "only reader"),
+    ("systems/shadow/sets.cpp", '#include "systems/extract/extract.h"\n', "reaches the registry"),
+    ("systems/shadow/sets.cpp", '#include "systems/lighting/lighting.cpp"\n', "does not know who lights"),
+    ("systems/shadow/sets.cpp", "void f() { glDrawArrays(4, 0, 3); }\n", "may not call glDrawArrays"),
+    ("systems/lighting/shade.cpp", '#include "systems/shadow/fit.h"\n', "only systems/shadow/types.h"),
+    ("engine/platform/window.cpp", "#include <epoxy/gl.h>\n", "only engine/gl calls"),
+    ("sample_game/hud.cpp", "void f() {\n    ::glEnable(1);\n    glEnable (1);\n}\n", "may not call glEnable"),
+    ("sample_game/main.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
+    ("shaders/shadow/long.glsl", "\n" * (MAX_LINES + 1), "limit"),
+    ("tests/unit/long_test.cpp", "\n" * (MAX_LINES + 1), "limit"),
+)
+
+
+def self_test():
+    failures = []
+    for path, text, want in ((None, None, None), *BREACHES):
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name, content in {**CLEAN, **({path: text} if path else {})}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(content, encoding="utf-8")
+            found, _ = check(root)
+        right = not found if path is None else any(line.startswith(f"{path}: ") and want in line for line in found)
+        if not right:
+            failures.append(f"expected {want!r} for {path}, found {found}")
+    print(*failures, f"{len(BREACHES) + 1} trees checked, {len(failures)} judged wrongly", sep="\n")
+    return 1 if failures else 0
+
+
+def main(arguments):
+    if arguments == ["--self-test"]:
+        return self_test()
+    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
+    found, count = check(root)
+    if count == 0:
+        found = [f"{root}: no source files here"]
+    print(*found, f"{count} files checked, {len(found)} breaches", sep="\n")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# Tests the launcher with stand-ins for apt-get, dpkg-query, sudo, cmake, ninja: nothing is installed or built.
+# usage: launcher_test.sh LAUNCHER
+set -uo pipefail
+
+launcher=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+project="$work/a folder with spaces"
+calls=$work/calls
+failures=0
+
+# A copy with a package list of its own, and a folder of stand-ins that note how they were called.
+mkdir -p "$project" "$work/bin" "$work/elsewhere"
+cp "$launcher" "$project/gnomon"
+printf '%s\n' '# the list' 'here  # is installed' 'older|newer  # one of two is installed' 'absent  # must come' \
+    'first|second  # only the second exists' 'slow  # test: for tests only' >"$project/packages.txt"
+
+stand_in() { printf '#!/bin/bash\n%s\n' "$2" >"$work/bin/$1"; chmod +x "$work/bin/$1"; }
+stand_in dpkg-query 'case ${@: -1} in here|newer) echo installed ;; *) exit 1 ;; esac'
+stand_in apt-cache 'case ${@: -1} in first) echo "  Candidate: (none)" ;; *) echo "  Candidate: 1.0" ;; esac'
+stand_in apt-get 'echo "apt-get $*" >>"$CALLS"; exit "${APT_STATUS:-0}"'
+stand_in sudo 'echo "sudo" >>"$CALLS"; exec "$@"'
+stand_in id 'echo "${FAKE_UID:-0}"'
+stand_in cmake 'case $1 in --version) echo "cmake version ${CMAKE_IS:-3.25.1}" ;;
+    *) echo "cmake $*" >>"$CALLS"
+       mkdir -p "$PROJECT/build/release/bin" && touch "$PROJECT/build/release/build.ninja"
+       printf "#!/bin/bash\necho \"\$PWD|\$*\"\nexit \${GAME_STATUS:-0}\n" >"$PROJECT/build/release/bin/gnomon_game"
+       chmod +x "$PROJECT/build/release/bin/gnomon_game"
+       echo "compiler says no"; exit "${BUILD_STATUS:-0}" ;; esac'
+stand_in ninja 'echo "${NINJA_SAYS:-}"'
+
+# run NAME=VALUE... -- ARGUMENTS: the launcher from another folder; sets status, out, err.
+run() {
+    local -a settings=()
+    while [[ $1 != -- ]]; do settings+=("$1"); shift; done
+    shift
+    : >"$calls"
+    out=$(cd "$work/elsewhere" && env -u GNOMON_SKIP_DEPS -u CC -u CXX PATH="$work/bin:$PATH" CALLS="$calls" PROJECT="$project" \
+        "${settings[@]}" "$project/gnomon" "$@" 2>"$work/err")
+    status=$?
+    err=$(<"$work/err")
+}
+expect() {
+    local what=$1
+    shift
+    if ! "$@"; then
+        printf 'FAILED: %s\n  status %s\n  out: %s\n  err: %s\n  calls: %s\n' "$what" "$status" "$out" "$err" "$(<"$calls")"
+        failures=$((failures + 1))
+    fi
+}
+called() { grep -qF -- "$1" "$calls"; }
+not_called() { ! called "$1"; }
+is() { [[ $1 == "$2" ]]; }
+has() { [[ $1 == *"$2"* ]]; }
+
+run -- ; expect "no arguments print the usage" is "$status" 0; expect "usage on stdout" has "$out" "usage: gnomon"
+run -- help; expect "help succeeds" is "$status" 0
+run -- dance; expect "an unknown command is status 2" is "$status" 2; expect "and is named" has "$err" dance
+run -- bench; expect "bench without a word is status 2" is "$status" 2
+
+run -- deps
+expect "deps succeeds" is "$status" 0
+expect "lists are read first" called "apt-get -o DPkg::Lock::Timeout=300 update"
+expect "only what is missing comes, the existing name of two" \
+    called "install -y --no-install-recommends absent second slow"
+expect "root needs no sudo" not_called sudo
+
+run FAKE_UID=1000 -- deps
+expect "others use sudo" called sudo
+run APT_STATUS=100 -- deps
+expect "a failed installation fails" is "$status" 1
+
+stand_in dpkg-query 'echo installed'
+run -- deps
+expect "nothing missing: apt-get is left alone" is "$(<"$calls")" ""
+expect "and nothing is said" is "$err" ""
+stand_in dpkg-query 'case ${@: -1} in slow) exit 1 ;; *) echo installed ;; esac'
+run -- play
+expect "play installs nothing that only tests need" not_called apt-get
+
+run GNOMON_SKIP_DEPS=1 -- play --frames 3 "a b"
+expect "play runs the game in the caller's folder with its flags" is "$out" "$work/elsewhere|--frames 3 a b"
+run GAME_STATUS=7 -- play
+expect "play passes the game's status on" is "$status" 7
+run NINJA_SAYS='ninja: no work to do.' -- play
+expect "an up-to-date build says nothing" is "$err" ""
+expect "and builds nothing" not_called cmake
+run CXX=other++ NINJA_SAYS='ninja: no work to do.' -- play
+expect "another compiler configures afresh" called "--fresh"
+run BUILD_STATUS=1 -- play
+expect "a failed build is status 1" is "$status" 1
+expect "a failed build shows its output" has "$err" "compiler says no"
+expect "a failed build starts no game" is "$out" ""
+rm -rf "$project/build"
+run CMAKE_IS=3.22.1 -- play
+expect "an old cmake is status 2" is "$status" 2
+expect "and is explained" has "$err" "3.25"
+
+# Elsewhere: a PATH with the few tools the launcher needs, and no apt-get.
+mkdir "$work/bare"
+for tool in bash env readlink dirname paste sed mkdir cat; do ln -s "$(command -v "$tool")" "$work/bare/$tool"; done
+out=$(env -u GNOMON_SKIP_DEPS PATH="$work/bare" "$project/gnomon" deps 2>"$work/err"); status=$?; err=$(<"$work/err")
+expect "without apt-get deps is status 2" is "$status" 2
+expect "and says what to install" has "$err" "here older|newer absent first|second slow"
+
+if ((failures > 0)); then exit 1; fi
+echo "the launcher keeps its promises"
