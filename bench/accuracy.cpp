@@ -1,0 +1,86 @@
+#include "bench/accuracy.h"
+
+#include <chrono>
+
+namespace gnomon::bench {
+namespace {
+
+// The second frame is the first whose automatic choices (sizes, caches) could have settled.
+constexpr int kSettlingFrames = 2;
+// Timings of a query may arrive this many frames late.
+constexpr std::uint32_t kTimingLag = 3;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<std::uint32_t>& indices) {
+    const SceneSnapshot& snapshot = stage.frame().snapshot();
+    if (snapshot.consumers.empty()) return Error{"no usable camera", accuracy.scene, "", "bench.camera"};
+    for (std::uint32_t i = 0; i < snapshot.lights.size(); ++i) {
+        if (!snapshot.lights[i].has_shadow) {
+            accuracy.unshadowed.push_back(snapshot.lights[i].name);
+            continue;
+        }
+        LightAccuracy light;
+        light.report = stage.frame().report().lights[i];
+        if (!stage.frame().read_visibility(i, light.measured))
+            return Error{"visibility of light '" + snapshot.lights[i].name + "' cannot be read", accuracy.scene, "",
+                         "bench.visibility"};
+        accuracy.lights.push_back(std::move(light));
+        indices.push_back(i);
+    }
+    return std::nullopt;
+}
+
+void trace_truth(Stage& stage, bool with_ambiguous, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
+    const auto start = std::chrono::steady_clock::now();
+    const SceneSnapshot& snapshot = stage.frame().snapshot();
+    const ConsumerItem& camera = snapshot.consumers.front();
+    const oracle::ReferenceTracer tracer(snapshot, stage.library(), camera.position_ws_m);
+    const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+    for (std::size_t k = 0; k < indices.size(); ++k)
+        accuracy.lights[k].truth = tracer.trace_light(hits, snapshot.lights[indices[k]], with_ambiguous);
+    accuracy.trace_s = seconds_since(start);
+    accuracy.camera_ws_m = camera.position_ws_m;
+    for (LightAccuracy& light : accuracy.lights)
+        light.metrics = oracle::compare(
+            {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
+}
+
+void time_lights(Stage& stage, std::uint32_t frames, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
+    std::vector<std::vector<double>> gpu_us(indices.size()), cpu_us(indices.size());
+    stage.set_economy(false);
+    for (std::uint32_t i = 0; i < frames + kTimingLag; ++i) {
+        stage.run_frame();
+        if (i < kTimingLag) continue;
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            const LightReport& report = stage.frame().report().lights[indices[k]];
+            cpu_us[k].push_back(report.cpu_us);
+            if (report.gpu_us) gpu_us[k].push_back(*report.gpu_us);
+        }
+    }
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        accuracy.lights[k].gpu_us = spread_of(gpu_us[k]);
+        accuracy.lights[k].cpu_us = spread_of(cpu_us[k]);
+    }
+}
+
+}  // namespace
+
+Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options) {
+    Accuracy accuracy;
+    accuracy.scene = stage.scene_name();
+    accuracy.device = stage.device().info().name;
+    for (int i = 0; i < kSettlingFrames; ++i) stage.run_frame();
+    std::vector<std::uint32_t> indices;
+    if (!stage.frame().snapshot().consumers.empty())
+        accuracy.size_px = stage.frame().snapshot().consumers.front().viewport_px;
+    if (auto error = read_lights(stage, accuracy, indices)) return *error;
+    trace_truth(stage, options.with_ambiguous, indices, accuracy);
+    if (options.timed_frames > 0) time_lights(stage, options.timed_frames, indices, accuracy);
+    accuracy.gl_complaints = stage.gl_complaints();
+    return accuracy;
+}
+
+}  // namespace gnomon::bench

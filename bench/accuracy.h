@@ -1,0 +1,48 @@
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/spread.h"
+#include "bench/stage.h"
+#include "engine/core/result.h"
+#include "systems/report.h"
+#include "tests/oracle/metrics.h"
+#include "tests/oracle/reference_tracer.h"
+
+namespace gnomon::bench {
+
+struct LightAccuracy {
+    LightReport report;  // of the frame that was measured
+    oracle::Metrics metrics;
+    std::vector<float> measured;  // as of --visibility
+    oracle::LightTruth truth;
+    Spread gpu_us, cpu_us;  // shadow and lighting pass, economy off: every view drawn in every frame
+};
+
+struct Accuracy {
+    std::string scene, device;
+    glm::uvec2 size_px{0, 0};
+    glm::dvec3 camera_ws_m{0.0};
+    std::vector<LightAccuracy> lights;    // those with a LightShadow
+    std::vector<std::string> unshadowed;  // names of the others
+    double trace_s = 0.0;                 // tree, primary rays and all lights
+    std::uint32_t gl_complaints = 0;
+};
+
+struct AccuracyOptions {
+    std::uint32_t timed_frames = 9;  // 0: no timing
+    bool with_ambiguous = true;
+};
+
+/// Runs frames as the scene asks for them, reads each light's visibility and compares it with ray-traced truth about
+/// the very snapshot that was drawn. Errors: "bench.visibility" if a light's visibility cannot be read, "bench.camera".
+Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options);
+
+/// A table for people.
+std::string accuracy_table(const Accuracy& accuracy);
+/// Everything, for scripts: see docs/bench.md for the keys.
+std::string accuracy_json(const Accuracy& accuracy);
+
+}  // namespace gnomon::bench

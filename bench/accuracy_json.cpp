@@ -1,0 +1,74 @@
+#include <nlohmann/json.hpp>
+
+#include "bench/accuracy.h"
+
+namespace gnomon::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Spread& spread) {
+    if (spread.count == 0) return nullptr;
+    return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"count", spread.count}};
+}
+
+const char* to_text(LightKind kind) {
+    switch (kind) {
+        case LightKind::directional:
+            return "directional";
+        case LightKind::spot:
+            return "spot";
+        case LightKind::point:
+            return "point";
+    }
+    return "";
+}
+
+Json to_json(const LightAccuracy& light) {
+    const oracle::Metrics& m = light.metrics;
+    Json json;
+    json["name"] = light.report.name;
+    json["kind"] = to_text(light.report.kind);
+    json["state"] = gnomon::to_text(light.report.state);
+    json["reason"] = reason_code(light.report.reason);
+    json["scored_px"] = m.scored;
+    json["wrong_px"] = m.wrong;
+    json["false_shadow_px"] = m.false_shadow;
+    json["false_light_px"] = m.false_light;
+    json["uncovered_px"] = m.uncovered;
+    json["acne_px"] = m.acne;
+    json["leak_px"] = m.leak;
+    json["ambiguous_px"] = m.ambiguous;
+    json["coverage_mismatch_px"] = m.coverage_mismatch;
+    json["wrong"] = m.fraction(m.wrong);
+    json["acne"] = m.fraction(m.acne);
+    json["leak"] = m.fraction(m.leak);
+    json["edge"] = {{"places", m.edge.places},         {"lost", m.edge.lost},
+                    {"unmeasured", m.edge.unmeasured}, {"mean_signed_px", m.edge.mean_signed_px},
+                    {"mean_px", m.edge.mean_px},       {"p95_px", m.edge.p95_px},
+                    {"max_px", m.edge.max_px}};
+    json["predicted_error_px"] = light.report.predicted_error_px;
+    json["views"] = light.report.views;
+    json["texels"] = light.report.texels;
+    json["bytes"] = light.report.bytes;
+    json["gpu_us"] = to_json(light.gpu_us);
+    json["cpu_us"] = to_json(light.cpu_us);
+    return json;
+}
+
+}  // namespace
+
+std::string accuracy_json(const Accuracy& accuracy) {
+    Json json;
+    json["scene"] = accuracy.scene;
+    json["device"] = accuracy.device;
+    json["size_px"] = {accuracy.size_px.x, accuracy.size_px.y};
+    json["trace_s"] = accuracy.trace_s;
+    json["gl_complaints"] = accuracy.gl_complaints;
+    json["lights"] = Json::array();
+    for (const LightAccuracy& light : accuracy.lights) json["lights"].push_back(to_json(light));
+    json["unshadowed"] = accuracy.unshadowed;
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,134 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <span>
+
+#include "bench/accuracy.h"
+#include "bench/frame_times.h"
+#include "bench/heat_pictures.h"
+#include "bench/stage.h"
+#include "sample_game/number_text.h"
+#include "sample_game/picture_files.h"
+
+namespace gnomon::bench {
+namespace {
+
+constexpr int kBadInput = 2;
+constexpr std::uint64_t kMaxSizePx = 16384;  // what OpenGL 4.5 guarantees for pictures
+constexpr std::uint32_t kMaxRepeats = 100000;
+
+struct Arguments {
+    StageOptions stage;
+    std::string scene, camera, size = "1280x720", offset, json, pictures;
+    std::uint32_t repeat = 9, rounds = 5;
+};
+
+int fail(const Error& error) {
+    std::fprintf(stderr, "gnomon_bench: %s\n", game::on_one_line(to_line(error)).c_str());
+    return kBadInput;
+}
+
+std::optional<glm::uvec2> parse_size(const std::string& text) {
+    const auto cross = text.find('x');
+    if (cross == std::string::npos) return std::nullopt;
+    const auto width = game::read_count(text.substr(0, cross)), height = game::read_count(text.substr(cross + 1));
+    if (!width || !height || *width == 0 || *height == 0 || *width > kMaxSizePx || *height > kMaxSizePx)
+        return std::nullopt;
+    return glm::uvec2(*width, *height);
+}
+
+std::optional<glm::dvec3> parse_offset(const std::string& text) {
+    glm::dvec3 value(0.0);
+    if (text.empty()) return value;
+    std::size_t start = 0;
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t end = i < 2 ? text.find(',', start) : text.size();
+        if (end == std::string::npos) return std::nullopt;
+        const auto number = game::read_number(text.substr(start, end - start));
+        if (!number) return std::nullopt;
+        value[i] = *number;
+        start = end + 1;
+    }
+    return value;
+}
+
+std::optional<Error> complete(Arguments& arguments) {
+    if (!arguments.scene.empty()) arguments.stage.scene = arguments.scene;
+    if (!arguments.camera.empty()) arguments.stage.camera = arguments.camera;
+    const auto size = parse_size(arguments.size);
+    if (!size) return Error{"--size wants WIDTHxHEIGHT, each 1 to 16384, not '" + arguments.size + "'", "", "", "size"};
+    arguments.stage.size_px = *size;
+    const auto offset = parse_offset(arguments.offset);
+    if (!offset) return Error{"--offset wants X,Y,Z in metres, not '" + arguments.offset + "'", "", "", "offset"};
+    arguments.stage.offset_m = *offset;
+    if (!std::isfinite(arguments.stage.time_s)) return Error{"--time wants a finite number", "", "", "time"};
+    return std::nullopt;
+}
+
+std::optional<Error> put_out(const Arguments& arguments, const std::string& table, const std::string& json) {
+    std::fputs(table.c_str(), stdout);
+    if (arguments.json.empty()) return std::nullopt;
+    return game::write_file(arguments.json, std::as_bytes(std::span(json)));
+}
+
+int run_accuracy(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    const auto accuracy = measure_accuracy(*stage.value(), {arguments.repeat});
+    if (!accuracy) return fail(accuracy.error());
+    if (auto error = put_out(arguments, accuracy_table(accuracy.value()), accuracy_json(accuracy.value())))
+        return fail(*error);
+    if (!arguments.pictures.empty())
+        if (auto error = write_heat_pictures(accuracy.value(), arguments.pictures)) return fail(*error);
+    return 0;
+}
+
+int run_frame(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    const FrameTimes times = measure_frame_times(*stage.value(), arguments.rounds, arguments.repeat);
+    if (auto error = put_out(arguments, frame_times_table(times), frame_times_json(times))) return fail(*error);
+    return 0;
+}
+
+void add_common(CLI::App& command, Arguments& arguments) {
+    command.add_option("--scene", arguments.scene, "glTF or GLB (default: the built-in scene)");
+    command.add_option("--camera", arguments.camera, "name or index (default: the first)");
+    command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
+    command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every LightShadow, as the game's --set")
+        ->allow_extra_args(false);
+    command.add_option("--time", arguments.stage.time_s, "scene time in seconds")->capture_default_str();
+    command.add_option("--offset", arguments.offset, "X,Y,Z metres by which the whole scene is moved");
+    command.add_option("--repeat", arguments.repeat, "frames that are timed")
+        ->check(CLI::Range(0u, kMaxRepeats))
+        ->capture_default_str();
+    command.add_option("--json", arguments.json, "write all figures to this file");
+}
+
+int run(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("What Gnomon's shadows cost, and how far they are from the truth", "gnomon_bench");
+    app.require_subcommand(1);
+    CLI::App* accuracy = app.add_subcommand("accuracy", "shadows of each light against ray-traced truth");
+    add_common(*accuracy, arguments);
+    accuracy->add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
+    CLI::App* frame = app.add_subcommand("frame", "frame times with and without shadows");
+    add_common(*frame, arguments);
+    frame->add_option("--rounds", arguments.rounds, "rounds of --repeat frames each")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        return fail({error.what(), "", "", "usage"});
+    }
+    if (auto error = complete(arguments)) return fail(*error);
+    return *accuracy ? run_accuracy(arguments) : run_frame(arguments);
+}
+
+}  // namespace
+}  // namespace gnomon::bench
+
+int main(int argc, char** argv) { return gnomon::bench::run(argc, argv); }

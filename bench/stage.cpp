@@ -1,0 +1,71 @@
+#include "bench/stage.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include "components/light_shadow.h"
+#include "engine/gl/device_gl45.h"
+#include "sample_game/light_settings.h"
+#include "sample_game/motion.h"
+#include "sample_game/scene_source.h"
+
+namespace gnomon::bench {
+
+Result<std::unique_ptr<Stage>> Stage::open(const StageOptions& options) {
+    std::unique_ptr<Stage> stage(new Stage);
+    if (auto error = stage->load(options)) return *error;
+    if (auto error = stage->prepare(options)) return *error;
+    return stage;
+}
+
+Stage::~Stage() = default;
+
+std::optional<Error> Stage::load(const StageOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    auto scene = game::load_scene(options.scene);
+    if (!scene) return scene.error();
+    for (assets::Node& node : scene.value().nodes)
+        if (node.parent == assets::kNone) node.translation_m += options.offset_m;
+    scene_name_ = options.scene ? options.scene->string() : "built-in";
+    spawned_ = game::spawn_scene(std::move(scene).value(), world_, library_);
+    game::apply_motion(spawned_.moving, options.time_s, world_);
+    for (const std::string& setting : options.settings) {
+        LightShadow probe;
+        if (auto error = game::apply_setting(probe, setting)) return error;
+        for (const game::NamedEntity& light : spawned_.lights)
+            world_.patch<LightShadow>(light.entity,
+                                      [&](LightShadow& shadow) { (void)game::apply_setting(shadow, setting); });
+    }
+    load_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!options.camera) return std::nullopt;
+    const auto camera = game::find_camera(spawned_, *options.camera);
+    if (!camera) return camera.error();
+    game::activate_camera(spawned_, camera.value(), world_);
+    return std::nullopt;
+}
+
+std::optional<Error> Stage::prepare(const StageOptions& options) {
+    auto context = platform::make_headless_context(false);
+    if (!context) return context.error();
+    context_ = std::move(context).value();
+    auto device = gl::make_gl45_device([this](gl::MessageSeverity severity, std::string_view text) {
+        if (severity < gl::MessageSeverity::medium) return;
+        ++gl_complaints_;
+        std::fprintf(stderr, "OpenGL: %.*s\n", static_cast<int>(text.size()), text.data());
+    });
+    if (!device) return device.error();
+    device_ = std::move(device).value();
+    device_->set_timing(device_->info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+    auto frame = Frame::create(*device_, library_);
+    if (!frame) return frame.error();
+    frame_ = std::move(frame).value();
+    settings_.viewport_px = options.size_px;
+    return std::nullopt;
+}
+
+void Stage::set_economy(bool on) {
+    for (const game::NamedEntity& light : spawned_.lights)
+        world_.patch<LightShadow>(light.entity, [on](LightShadow& shadow) { shadow.economy = on; });
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,65 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/assets/mesh_library.h"
+#include "engine/core/result.h"
+#include "engine/ecs/registry.h"
+#include "engine/gl/device.h"
+#include "engine/platform/context.h"
+#include "sample_game/spawn.h"
+#include "systems/frame.h"
+
+namespace gnomon::bench {
+
+struct StageOptions {
+    std::optional<std::filesystem::path> scene;  // empty: the built-in scene
+    std::optional<std::string> camera;           // name or index; empty: the first
+    glm::uvec2 size_px{1280, 720};
+    std::vector<std::string> settings;  // KEY=VALUE, for every LightShadow
+    double time_s = 0.0;                // scene time
+    glm::dvec3 offset_m{0.0};           // moves the whole scene
+};
+
+/// The real pipeline on a headless context, with a scene spawned and still.
+class Stage {
+public:
+    /// Errors: those of the loader, the context and the device; "set.*"; "camera.unknown".
+    static Result<std::unique_ptr<Stage>> open(const StageOptions& options);
+    ~Stage();
+
+    void run_frame() { frame_->run(world_, settings_); }
+    void show_shadows(bool on) { settings_.shadows = on; }
+    void set_economy(bool on);
+
+    Frame& frame() { return *frame_; }
+    gl::Device& device() { return *device_; }
+    const assets::MeshLibrary& library() const { return library_; }
+    const std::string& scene_name() const { return scene_name_; }
+    double load_s() const { return load_s_; }                       // file to entities
+    std::uint32_t gl_complaints() const { return gl_complaints_; }  // debug messages of medium or high severity
+
+private:
+    Stage() = default;
+    std::optional<Error> load(const StageOptions& options);
+    std::optional<Error> prepare(const StageOptions& options);
+
+    std::unique_ptr<platform::Context> context_;
+    std::unique_ptr<gl::Device> device_;
+    ecs::Registry world_;
+    assets::MeshLibrary library_;
+    game::SpawnedScene spawned_;
+    FrameSettings settings_;
+    std::unique_ptr<Frame> frame_;
+    std::string scene_name_;
+    double load_s_ = 0.0;
+    std::uint32_t gl_complaints_ = 0;
+};
+
+}  // namespace gnomon::bench
