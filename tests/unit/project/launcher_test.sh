@@ -25,7 +25,7 @@ stand_in id 'echo "${FAKE_UID:-0}"'
 stand_in cmake 'case $1 in --version) echo "cmake version ${CMAKE_IS:-3.25.1}" ;;
     *) echo "cmake $*" >>"$CALLS"
        mkdir -p "$PROJECT/build/release/bin" && touch "$PROJECT/build/release/build.ninja"
-       printf "#!/bin/bash\necho \"\$PWD|\$*\"\nexit \${GAME_STATUS:-0}\n" >"$PROJECT/build/release/bin/gnomon_game"
+       printf "#!/bin/bash\necho \"\$PWD|\$#|\$*\"\nexit \${GAME_STATUS:-0}\n" >"$PROJECT/build/release/bin/gnomon_game"
        chmod +x "$PROJECT/build/release/bin/gnomon_game"
        echo "compiler says no"; exit "${BUILD_STATUS:-0}" ;; esac'
 stand_in ninja 'echo "${NINJA_SAYS:-}"'
@@ -80,7 +80,7 @@ run -- play
 expect "play installs nothing that only tests need" not_called apt-get
 
 run GNOMON_SKIP_DEPS=1 -- play --frames 3 "a b"
-expect "play runs the game in the caller's folder with its flags" is "$out" "$work/elsewhere|--frames 3 a b"
+expect "play runs the game in the caller's folder with its flags" is "$out" "$work/elsewhere|3|--frames 3 a b"
 run GAME_STATUS=7 -- play
 expect "play passes the game's status on" is "$status" 7
 run NINJA_SAYS='ninja: no work to do.' -- play
