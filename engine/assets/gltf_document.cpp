@@ -95,6 +95,12 @@ tinygltf::Model parsed_model(const json& document) {
         const auto found = document.find(member);
         if (found != document.end()) shown[member] = *found;
     }
+    // tinygltf refuses index accessors without a buffer view (all zero, which glTF allows); the loader reads them raw.
+    if (shown.contains("meshes")) {
+        for (json& mesh : shown["meshes"]) {
+            for (json& primitive : mesh["primitives"]) primitive.erase("indices");
+        }
+    }
     const std::string text = shown.dump();
     tinygltf::TinyGLTF parser;
     tinygltf::Model model;

@@ -22,7 +22,7 @@ struct BufferData {
 struct Document {
     std::filesystem::path folder;
     nlohmann::json json;              // as written; tinygltf drops what it does not know
-    tinygltf::Model model;            // without buffers and images: tinygltf never sees bytes, URIs or files
+    tinygltf::Model model;            // without buffers, images and primitives' indices: no bytes, URI or file
     std::vector<BufferData> buffers;
     std::vector<std::string> warnings;
     std::size_t suppressed_warnings = 0;

@@ -25,7 +25,6 @@ void* bounded_realloc(void* block, std::size_t bytes) {
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
-#define STBI_MAX_DIMENSIONS 8192
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
 // The casts in front of our allocator's macros count as this file's code, not the system header's.
@@ -38,8 +37,6 @@ namespace gnomon::assets::gltf {
 namespace {
 
 constexpr int kChannels = 4;
-
-static_assert(kMaxImageEdge_px == STBI_MAX_DIMENSIONS);
 
 bool fits_decoder(std::span<const std::byte> bytes, std::string& reason) {
     if (bytes.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max())) return true;

@@ -38,11 +38,9 @@ LightData load_light(Document& document, std::size_t index) {
         light.type = LightType::directional;
     } else if (source.type == "point") {
         light.type = LightType::point;
-    } else if (source.type == "spot") {
+    } else {
         light.type = LightType::spot;
         read_cone(source, where, light);
-    } else {
-        fail("light.type", where + "/type", "must be directional, point or spot");
     }
     light.intensity = non_negative(source.intensity, "light.intensity", where + "/intensity");
     light.range_m = non_negative(source.range, "light.range", where + "/range");

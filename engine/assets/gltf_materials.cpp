@@ -146,11 +146,9 @@ void read_uv_transform(const json& info, const std::string& where, UvSource& sou
     }
 }
 
-AlphaMode alpha_mode_of(const tinygltf::Material& source, const std::string& where) {
-    if (source.alphaMode == "OPAQUE" || source.alphaMode.empty()) return AlphaMode::opaque;
+AlphaMode alpha_mode_of(const tinygltf::Material& source) {
     if (source.alphaMode == "MASK") return AlphaMode::mask;
-    if (source.alphaMode == "BLEND") return AlphaMode::blend;
-    fail("material.alpha_mode", where + "/alphaMode", "must be OPAQUE, MASK or BLEND");
+    return source.alphaMode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
 glm::vec3 emissive_of(const tinygltf::Material& source, const json& raw, const std::string& where) {
@@ -175,7 +173,7 @@ Material load_material(Document& document, std::size_t index, TextureLoader& tex
     Material material;
     material.name = source.name;
     material.double_sided = source.doubleSided;
-    material.alpha_mode = alpha_mode_of(source, where);
+    material.alpha_mode = alpha_mode_of(source);
     material.alpha_cutoff = finite_float(source.alphaCutoff, where + "/alphaCutoff");
     if (!(material.alpha_cutoff >= 0.0f)) fail("material.range", where + "/alphaCutoff", "must not be negative");
     material.metallic = unit_float(document, pbr.metallicFactor, pbr_where + "/metallicFactor");

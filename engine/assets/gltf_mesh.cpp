@@ -61,7 +61,8 @@ private:
         missing_normals_.clear();
         for (std::size_t p = 0; p < source.primitives.size(); ++p) {
             where_ = pointer("meshes", index, "primitives", p);
-            append_primitive(source.primitives[p], mesh);
+            const nlohmann::json& raw = document_.json["meshes"][index]["primitives"][p];
+            append_primitive(source.primitives[p], raw.value("indices", kNone), mesh);
         }
         if (std::find(missing_normals_.begin(), missing_normals_.end(), true) != missing_normals_.end()) {
             fill_normals(mesh, missing_normals_);
@@ -75,7 +76,7 @@ private:
         return mesh;
     }
 
-    void append_primitive(const tinygltf::Primitive& primitive, Mesh& mesh) {
+    void append_primitive(const tinygltf::Primitive& primitive, int index_accessor, Mesh& mesh) {
         if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) fail("primitive.mode", where_ + "/mode", "must lie between 0 and 6");
         if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
             document_.warn(where_ + ": points and lines are left out");
@@ -84,8 +85,8 @@ private:
         if (!primitive.targets.empty()) document_.warn("morph targets are ignored");
         const VertexBlock block = vertices_of(primitive, mesh);
         std::vector<std::uint32_t> corners;
-        if (primitive.indices >= 0) {
-            corners = read_indices(document_, primitive.indices);
+        if (index_accessor >= 0) {
+            corners = read_indices(document_, index_accessor);
             for (const std::uint32_t corner : corners) {
                 if (corner >= block.count) {
                     fail("index.out_of_range", where_ + "/indices",
@@ -93,7 +94,7 @@ private:
                 }
             }
         }
-        const std::size_t corner_count = primitive.indices >= 0 ? corners.size() : block.count;
+        const std::size_t corner_count = index_accessor >= 0 ? corners.size() : block.count;
         const std::size_t triangles = triangle_count(primitive.mode, corner_count);
         triangles_ += triangles;
         if (triangles_ > kMaxTriangles) fail("total.triangles", where_, "the scene has too many triangles");

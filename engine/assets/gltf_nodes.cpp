@@ -54,13 +54,11 @@ std::vector<int> roots_of(Document& document, const std::vector<int>& parents) {
     const json& scene = (*scenes)[index];
     const auto listed = scene.find("nodes");
     if (listed == scene.end()) return roots;
-    std::vector<bool> taken(parents.size(), false);
     for (std::size_t i = 0; i < listed->size(); ++i) {
         const auto root = (*listed)[i].get<std::size_t>();
         const std::string where = pointer("scenes", index, "nodes", i);
-        if (parents[root] != kNone) fail("scene.node_not_root", where, "the node has a parent");
-        if (taken[root]) fail("scene.duplicate_node", where, "the node is listed twice");
-        taken[root] = true;
+        // Widely used models do this; like other readers we show the node without what stands above it.
+        if (parents[root] != kNone) document.warn(where + ": the node has a parent, which is left out");
         roots.push_back(static_cast<int>(root));
     }
     return roots;
@@ -95,7 +93,7 @@ Trs read_trs(const tinygltf::Node& source, const json& raw, const std::string& w
 
 class NodeLoader {
 public:
-    NodeLoader(Document& document, SceneData& scene) : document_(document), scene_(scene) {}
+    NodeLoader(Document& document, SceneData& scene) : document_(document), scene_(scene), visited_(document.model.nodes.size(), false) {}
 
     void load(const std::vector<int>& roots) {
         std::vector<Pending> pending;
@@ -125,6 +123,8 @@ private:
 
     void append(int source_index, std::int32_t parent) {
         const auto at = static_cast<std::size_t>(source_index);
+        if (visited_[at]) fail("scene.node_twice", pointer("nodes", at), "the scene reaches the node twice");
+        visited_[at] = true;
         const tinygltf::Node& source = document_.model.nodes[at];
         const json& raw = document_.json["nodes"][at];
         const std::string where = pointer("nodes", at);
@@ -187,6 +187,7 @@ private:
 
     Document& document_;
     SceneData& scene_;
+    std::vector<bool> visited_;                     // per glTF node
     std::vector<glm::dmat4> worlds_;                // of scene_.nodes
     std::map<std::size_t, std::int32_t> variants_;  // light -> its copy with the other casts_shadow
 };

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-enum class Kind : std::uint8_t { object, list, text, boolean, number, integer, numbers, reference };
+enum class Kind : std::uint8_t { object, list, text, boolean, number, integer, numbers, reference, choice };
 enum class Need : std::uint8_t { optional, required };
 
 /// One property. `path` is a JSON pointer in which * stands for every element or member.
@@ -24,7 +24,7 @@ struct Row {
     Kind kind;
     Need need = Need::optional;
     std::size_t size = 0;              // list: most elements; numbers: exact length; integer: largest value
-    std::string_view target = {};      // reference: the collection
+    std::string_view target = {};      // reference: the collection; choice: the words, each between bars
 };
 
 constexpr std::size_t kMaxInt = std::numeric_limits<std::int32_t>::max();
@@ -57,7 +57,7 @@ constexpr Row kRows[] = {
     {"/accessors/*/byteOffset", Kind::integer, kOptional, kMaxSize},
     {"/accessors/*/componentType", Kind::integer, kRequired, kMaxInt},
     {"/accessors/*/count", Kind::integer, kRequired, kMaxSize},
-    {"/accessors/*/type", Kind::text, kRequired},
+    {"/accessors/*/type", Kind::choice, kRequired, 0, "|SCALAR|VEC2|VEC3|VEC4|MAT2|MAT3|MAT4|"},
     {"/accessors/*/normalized", Kind::boolean},
     {"/accessors/*/sparse", Kind::object},
     {"/accessors/*/sparse/count", Kind::integer, kRequired, kMaxInt},
@@ -85,7 +85,7 @@ constexpr Row kRows[] = {
     {"/materials", Kind::list, kOptional, kMaxItems},
     {"/materials/*", Kind::object},
     {"/materials/*/name", Kind::text},
-    {"/materials/*/alphaMode", Kind::text},
+    {"/materials/*/alphaMode", Kind::choice, kOptional, 0, "|OPAQUE|MASK|BLEND|"},
     {"/materials/*/alphaCutoff", Kind::number},
     {"/materials/*/doubleSided", Kind::boolean},
     {"/materials/*/emissiveFactor", Kind::numbers, kOptional, 3},
@@ -113,7 +113,7 @@ constexpr Row kRows[] = {
 
     {"/cameras", Kind::list, kOptional, kMaxItems},
     {"/cameras/*", Kind::object},
-    {"/cameras/*/type", Kind::text, kRequired},
+    {"/cameras/*/type", Kind::choice, kRequired, 0, "|perspective|orthographic|"},
     {"/cameras/*/perspective", Kind::object},
     {"/cameras/*/perspective/yfov", Kind::number, kRequired},
     {"/cameras/*/perspective/znear", Kind::number, kRequired},
@@ -128,7 +128,7 @@ constexpr Row kRows[] = {
     {"/extensions/KHR_lights_punctual", Kind::object},
     {"/extensions/KHR_lights_punctual/lights", Kind::list, kRequired, kMaxItems},
     {"/extensions/KHR_lights_punctual/lights/*", Kind::object},
-    {"/extensions/KHR_lights_punctual/lights/*/type", Kind::text, kRequired},
+    {"/extensions/KHR_lights_punctual/lights/*/type", Kind::choice, kRequired, 0, "|directional|point|spot|"},
     {"/extensions/KHR_lights_punctual/lights/*/color", Kind::numbers, kOptional, 3},
     {"/extensions/KHR_lights_punctual/lights/*/intensity", Kind::number},
     {"/extensions/KHR_lights_punctual/lights/*/range", Kind::number},
@@ -218,6 +218,7 @@ private:
             case Kind::integer: return check_integer(value, row_->size, "property.range");
             case Kind::numbers: return check_numbers(value);
             case Kind::reference: return check_reference(value);
+            case Kind::choice: return check_choice(value);
         }
     }
 
@@ -261,6 +262,14 @@ private:
         expect(value.is_number(), "an index");
         if (target_size_ == 0) fail("reference.unresolved", pointer_, "names an object that does not exist");
         check_integer(value, target_size_ - 1, "reference.unresolved");
+    }
+
+    void check_choice(const json& value) const {
+        expect(value.is_string(), "a string");
+        const auto& word = value.get_ref<const std::string&>();
+        const bool known = !word.empty() && word.find('|') == std::string::npos &&
+                           row_->target.find("|" + word + "|") != std::string_view::npos;
+        if (!known) fail("property.choice", pointer_, printable(word) + " is none of " + std::string{row_->target});
     }
 
     json& document_;
