@@ -36,7 +36,7 @@ run() {
     while [[ $1 != -- ]]; do settings+=("$1"); shift; done
     shift
     : >"$calls"
-    out=$(cd "$work/elsewhere" && env -u GNOMON_SKIP_DEPS -u CC -u CXX PATH="$work/bin:$PATH" CALLS="$calls" PROJECT="$project" \
+    out=$(cd "$work/elsewhere" && env -u GNOMON_SKIP_DEPS -u GNOMON_WARNINGS_AS_ERRORS -u CC -u CXX PATH="$work/bin:$PATH" CALLS="$calls" PROJECT="$project" \
         "${settings[@]}" "$project/gnomon" "$@" 2>"$work/err")
     status=$?
     err=$(<"$work/err")
@@ -88,6 +88,10 @@ expect "an up-to-date build says nothing" is "$err" ""
 expect "and builds nothing" not_called cmake
 run CXX=other++ NINJA_SAYS='ninja: no work to do.' -- play
 expect "another compiler configures afresh" called "--fresh"
+run -- play
+expect "warnings are no errors for users" called "GNOMON_WARNINGS_AS_ERRORS=OFF"
+run GNOMON_WARNINGS_AS_ERRORS=ON NINJA_SAYS='ninja: no work to do.' -- play
+expect "but may be" called "GNOMON_WARNINGS_AS_ERRORS=ON"
 run BUILD_STATUS=1 -- play
 expect "a failed build is status 1" is "$status" 1
 expect "a failed build shows its output" has "$err" "compiler says no"
