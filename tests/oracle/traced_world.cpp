@@ -30,7 +30,7 @@ float downward(double value) { return -upward(-value); }
 
 // Embree hands the context of a query to its callbacks; the question travels behind it.
 struct Query {
-    RTCIntersectContext context{};
+    QueryContext context{};
     const ExactRay* ray = nullptr;
     double t_min = 0.0, t_max = kInfinity;
     std::uint32_t start_triangle = kNoTriangle;
@@ -39,7 +39,7 @@ struct Query {
 
 Query make_query(const ExactRay& ray, double t_min, double t_max) {
     Query query;
-    rtcInitIntersectContext(&query.context);
+    init_query(query.context);
     query.ray = &ray;
     query.t_min = t_min;
     query.t_max = t_max;
@@ -160,7 +160,7 @@ SurfaceHit TracedWorld::nearest_surface(const ExactRay& ray, double t_min, doubl
     RTCRayHit r{};
     r.ray = to_embree(ray, t_max);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &query.context, &r);
+    intersect(scene_, query.context, r);
     return query.best;
 }
 
@@ -170,7 +170,7 @@ std::uint32_t TracedWorld::occluder(const ExactRay& ray, double t_max, std::uint
     Query query = make_query(ray, 0.0, t_max);
     query.start_triangle = start_triangle;
     RTCRay r = to_embree(ray, t_max);
-    rtcOccluded1(scene_, &query.context, &r);
+    occlude(scene_, query.context, r);
     return query.best.triangle;
 }
 

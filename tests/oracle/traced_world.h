@@ -1,6 +1,4 @@
 #pragma once
-#include <embree3/rtcore.h>
-
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -8,6 +6,7 @@
 
 #include "engine/assets/mesh_library.h"
 #include "systems/extract/snapshot.h"
+#include "tests/oracle/embree.h"
 #include "tests/oracle/reference_tracer.h"
 #include "tests/oracle/triangle_test.h"
 
