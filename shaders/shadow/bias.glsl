@@ -6,6 +6,9 @@
 // the tangent is not. Both shift a plane equally; they differ at contacts (depth) and at silhouettes (normal).
 const float kSteepTangent = 4.0;
 
+// Reversed perspective depth in D32F: half a quantum (1u of depth) and the projection's rounding (6u).
+const float kRelativeRounding = 7.0 * kUnitRoundoff;
+
 struct Bias {
     float along_normal_m;   // move the receiver by this much along its normal first
     float depth;            // then add this to its reversed depth
@@ -40,7 +43,7 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec3 position_map, float reac
     float depth = view.numeric.z + beta / z_m;
     Bias bias;
     bias.along_normal_m = steep ? across_m : 0.0;
-    bias.depth = view.numeric.x + 6.0 * kUnitRoundoff * depth +
+    bias.depth = view.numeric.x + kRelativeRounding * depth +
                  (steep ? 0.0 : beta * across_m / (z_m * plane_m));
     return bias;
 }

@@ -162,7 +162,7 @@ void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list)
         list.add(gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
     }
     list.add(gl::EndPass{});
-    list.add(gl::EndTimer{});
+    list.add(gl::EndTimer{kSurfaceTimer});
     list.add(gl::EndGroup{});
 }
 
@@ -203,7 +203,7 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         bind_light(light, i, list);
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
-        list.add(gl::EndTimer{});
+        list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});
     }
     list.add(gl::EndGroup{});
@@ -252,7 +252,7 @@ void LightingSystem::record_finish(gl::CommandList& list) {
     list.add(gl::BindUniforms{4, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
-    list.add(gl::EndTimer{});
+    list.add(gl::EndTimer{kFinishTimer});
     list.add(gl::EndGroup{});
 }
 

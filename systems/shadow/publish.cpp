@@ -14,8 +14,10 @@ namespace {
 
 // The rounding model of docs/architecture.md, "Bias". u = 2^-24.
 constexpr double kUnitRoundoff = 5.9604644775390625e-8;
-/// D32F in [0,1]: half a quantum (u/2) and the projection's own rounding (4u).
-constexpr double kDepthRounding = 4.5 * kUnitRoundoff;
+/// Orthographic depth in [0,1]: half a quantum of D32F (u/2) and the projection's own rounding (4u).
+constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;
+/// Perspective depth rounds in proportion to itself (bias.glsl adds that), and by 2u of its constant part alpha.
+constexpr double kAlphaRounding = 2.0 * kUnitRoundoff;
 /// Metres of position rounding per metre of coordinate sum: subtraction, basis product, matrix row (8u), times 1.5 for
 /// the lateral part seen through the slope.
 constexpr double kPositionRounding = 12.0 * kUnitRoundoff;
@@ -31,8 +33,8 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     record.axis_u = with_w(view.axis_u, view.texel_u * stretch);
     record.axis_v = with_w(view.axis_v, view.texel_v * stretch);
     record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
-    const double projection_rounding = orthographic ? 0.0 : 2.0 * kUnitRoundoff * std::abs(view.depth_alpha);
-    record.numeric = {static_cast<float>(kDepthRounding + projection_rounding), static_cast<float>(kPositionRounding),
+    const double depth_rounding = orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha);
+    record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
                       static_cast<float>(view.depth_alpha), 0.0f};
     return record;
 }

@@ -159,7 +159,7 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, cons
         list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
         draw_view(scene, gpu, frame, view, list, light_report);
         list.add(gl::EndPass{});
-        list.add(gl::EndTimer{});
+        list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
         ++light_report.clears;
         ++light_report.views_drawn;
