@@ -79,7 +79,7 @@ std::function<Bytes()> sparse(std::vector<std::uint8_t> which, std::function<voi
 }
 
 std::function<Bytes()> light(json properties) {
-    return spoilt([properties](json& doc) { doc["extensions"]["KHR_lights_punctual"]["lights"] = {properties}; });
+    return spoilt([properties](json& doc) { doc["extensions"]["KHR_lights_punctual"]["lights"] = json::array({properties}); });
 }
 
 std::function<Bytes()> camera(json properties) {
