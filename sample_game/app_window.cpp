@@ -67,7 +67,7 @@ bool wants_out(const platform::Input& input) { return input.close_requested || p
 
 /// A click captures the mouse, Tab frees it.
 void update_capture(const platform::Input& input, platform::Window& window, bool& captured) {
-    const bool want = (captured || input.mouse_button) && !pressed(input, platform::Key::tab);
+    const bool want = (captured || input.mouse_pressed) && !pressed(input, platform::Key::tab);
     if (want == captured) return;
     captured = want;
     window.capture_mouse(captured);

@@ -61,6 +61,7 @@ struct Input {
     double mouse_dx = 0.0, mouse_dy = 0.0;
     double mouse_x = 0.0, mouse_y = 0.0;
     bool mouse_button = false;  // any button is down
+    bool mouse_pressed = false; // a button went down since the last poll, even if it is up again
     bool close_requested = false;
     std::uint32_t framebuffer_width = 0, framebuffer_height = 0;
 };

@@ -77,6 +77,7 @@ public:
     const Input& poll() override {
         std::fill(std::begin(input_.pressed), std::end(input_.pressed), false);
         input_.mouse_dx = input_.mouse_dy = 0.0;
+        input_.mouse_pressed = false;
         glfwPollEvents();
         input_.close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE;
         read_size();
@@ -116,6 +117,7 @@ private:
     void on_button(int action) {
         buttons_down_ = std::max(buttons_down_ + (action == GLFW_PRESS ? 1 : -1), 0);
         input_.mouse_button = buttons_down_ > 0;
+        if (action == GLFW_PRESS) input_.mouse_pressed = true;
     }
     void on_focus(int focused) {
         if (focused == GLFW_TRUE) return;

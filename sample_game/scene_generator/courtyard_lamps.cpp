@@ -10,7 +10,7 @@ namespace gnomon::game {
 namespace {
 
 // Dusk: the lamps are about as bright on the ground as the sun, so that all three shadows show side by side.
-constexpr double kSun_lx = 110.0, kLantern_cd = 420.0, kGuard_cd = 16000.0;
+constexpr double kSun_lx = 60.0, kLantern_cd = 750.0, kGuard_cd = 18000.0;
 
 std::uint32_t add_light(const Kit& kit, const char* type, const glm::dvec3& colour, double intensity,
                         nlohmann::ordered_json spot = {}) {
@@ -69,10 +69,10 @@ void add_lantern(const Kit& kit) {
 }
 
 void add_guard_lamp(const Kit& kit) {
-    const glm::dvec3 head_m(-9.0, 5.6, 6.4), target_m(0.8, 0.0, 2.2);
+    const glm::dvec3 head_m(-9.0, 5.6, 6.4), target_m(1.6, 0.0, 3.2);
     Shape mast;
     append(mast, make_bar({0.0, -head_m.y - 0.1, 0.0}, {0.0, -0.35, 0.0}, 0.11, 12));
-    append(mast, make_box({-0.3, -0.36, -0.3}, {0.3, -0.28, 0.3}));
+    append(mast, make_box({-0.13, -0.4, -0.13}, {0.13, -0.3, 0.13}));
     kit.place("guard_mast", mast, kit.materials.iron, head_m);
     const std::uint32_t head = kit.mover("guard_head", head_m,
                                          {{"kind", "swing"}, {"axis", {0, 1, 0}}, {"amplitude", 0.38}, {"period_s", 16.0}});

@@ -1,0 +1,56 @@
+#include "sample_game/light_settings.h"
+
+#include <gmock/gmock.h>
+
+#include "systems/shadow/filter_table.h"
+
+namespace gnomon::game {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
+    LightShadow odd{.enabled = false, .filter = ShadowFilter::pcf_3x3, .resolution_px = 768, .max_error_px = 0.3f,
+                    .bias = BiasMode::constant, .bias_m = 0.0125f, .economy = false};
+    LightShadow copy;
+    for (const LightSetting& setting : light_settings()) EXPECT_TRUE(setting.set(copy, setting.get(odd))) << setting.key;
+    EXPECT_EQ(copy, odd);
+}
+
+TEST(LightSettings, EveryFilterOfTheTableCanBeChosen) {
+    for (const shadow::FilterRow& row : shadow::filter_table()) {
+        LightShadow shadow;
+        EXPECT_FALSE(apply_setting(shadow, "filter=" + std::string(row.name)));
+        EXPECT_EQ(shadow.filter, row.id);
+        EXPECT_THAT(list_settings(), HasSubstr(std::string(row.name)));
+    }
+}
+
+TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
+    const struct {
+        const char* text;
+        const char* rule;
+    } rows[] = {{"filter", "set.syntax"},          {"", "set.syntax"},          {"colour=red", "set.key"},
+                {"=hard", "set.key"},              {"filter=soft", "set.value"}, {"resolution=-1", "set.value"},
+                {"resolution=65537", "set.value"}, {"max_error_px=0", "set.value"}, {"max_error_px=nan", "set.value"},
+                {"max_error_px=1e-60", "set.value"}, {"bias=-1", "set.value"},   {"economy=1", "set.value"}};
+    for (const auto& row : rows) {
+        LightShadow shadow;
+        const auto error = apply_setting(shadow, row.text);
+        ASSERT_TRUE(error) << row.text;
+        EXPECT_EQ(error->rule, row.rule) << row.text;
+        EXPECT_EQ(shadow, LightShadow{}) << row.text;
+    }
+}
+
+TEST(LightSettings, AMetreValueSwitchesTheBiasToConstantAndAutomaticSwitchesBack) {
+    LightShadow shadow;
+    EXPECT_FALSE(apply_setting(shadow, "bias=0.02"));
+    EXPECT_EQ(shadow.bias, BiasMode::constant);
+    EXPECT_FLOAT_EQ(shadow.bias_m, 0.02f);
+    EXPECT_FALSE(apply_setting(shadow, "bias=automatic"));
+    EXPECT_EQ(shadow.bias, BiasMode::automatic);
+}
+
+}  // namespace
+}  // namespace gnomon::game
