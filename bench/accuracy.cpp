@@ -1,6 +1,7 @@
 #include "bench/accuracy.h"
 
 #include <chrono>
+#include <cstring>
 
 namespace gnomon::bench {
 namespace {
@@ -12,6 +13,13 @@ constexpr std::uint32_t kTimingLag = 3;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Bit for bit, so that NaN equals itself.
+std::size_t count_differing(const std::vector<float>& a, const std::vector<float>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0;
+    return count;
 }
 
 std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<std::uint32_t>& indices) {
@@ -60,9 +68,14 @@ void time_lights(Stage& stage, std::uint32_t frames, const std::vector<std::uint
             if (report.gpu_us) gpu_us[k].push_back(*report.gpu_us);
         }
     }
+    std::vector<float> redrawn;
     for (std::size_t k = 0; k < indices.size(); ++k) {
-        accuracy.lights[k].gpu_us = spread_of(gpu_us[k]);
-        accuracy.lights[k].cpu_us = spread_of(cpu_us[k]);
+        LightAccuracy& light = accuracy.lights[k];
+        light.redrawn_differs = light.measured.size();
+        if (stage.frame().read_visibility(indices[k], redrawn) && redrawn.size() == light.measured.size())
+            light.redrawn_differs = count_differing(light.measured, redrawn);
+        light.gpu_us = spread_of(gpu_us[k]);
+        light.cpu_us = spread_of(cpu_us[k]);
     }
 }
 

@@ -18,7 +18,8 @@ struct LightAccuracy {
     oracle::Metrics metrics;
     std::vector<float> measured;  // as of --visibility
     oracle::LightTruth truth;
-    Spread gpu_us, cpu_us;  // shadow and lighting pass, economy off: every view drawn in every frame
+    Spread gpu_us, cpu_us;            // shadow and lighting pass, economy off: every view drawn in every frame
+    std::size_t redrawn_differs = 0;  // pixels that changed when every view was drawn anew; must be 0
 };
 
 struct Accuracy {
@@ -42,7 +43,7 @@ Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options);
 
 /// A table for people.
 std::string accuracy_table(const Accuracy& accuracy);
-/// Everything, for scripts: see docs/bench.md for the keys.
+/// Everything, for scripts: bench/README.md lists the keys.
 std::string accuracy_json(const Accuracy& accuracy);
 
 }  // namespace gnomon::bench

@@ -51,6 +51,7 @@ Json to_json(const LightAccuracy& light) {
     json["views"] = light.report.views;
     json["texels"] = light.report.texels;
     json["bytes"] = light.report.bytes;
+    json["redrawn_differs_px"] = light.redrawn_differs;
     json["gpu_us"] = to_json(light.gpu_us);
     json["cpu_us"] = to_json(light.cpu_us);
     return json;

@@ -56,6 +56,10 @@ std::string accuracy_table(const Accuracy& accuracy) {
         "no edge within 8 px. ambig: left out, the truth hangs on the last digits. uncov: no surface measured, "
         "counted\n"
         "as wrong. cover: the same over the whole picture. ms: depth and lighting pass, every view drawn anew.\n";
+    for (const LightAccuracy& light : accuracy.lights)
+        if (light.redrawn_differs > 0)
+            append(text, "%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),
+                   light.redrawn_differs);
     if (accuracy.gl_complaints > 0) append(text, "OpenGL complained %u times.\n", accuracy.gl_complaints);
     return text;
 }
