@@ -209,10 +209,12 @@ public:
             !in_range(c.first_item, c.item_count, items_->desc.size / kItemBytes)) {
             return note(Failure::invalid_value);
         }
-        const auto offset = static_cast<std::uintptr_t>(c.first_index) * sizeof(GLuint);
+        // OpenGL takes the offset into the index buffer in a pointer.
+        const auto bytes = static_cast<std::uintptr_t>(c.first_index) * sizeof(GLuint);
+        const auto* offset = reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
         glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(c.index_count),
-                                                      GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
-                                                      static_cast<GLsizei>(c.item_count), c.base_vertex, c.first_item);
+                                                      GL_UNSIGNED_INT, offset, static_cast<GLsizei>(c.item_count),
+                                                      c.base_vertex, c.first_item);
     }
     void operator()(const DrawTriangle&) {
         constexpr GLsizei corners = 3;

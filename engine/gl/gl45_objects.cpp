@@ -292,7 +292,7 @@ Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects) {
     const auto add = [&](GLenum point, const Attachment& attachment) {
         const GlTexture* texture = find_object(objects.textures, attachment.texture.id);
         const Failure checked = check_attachment(attachment, texture == nullptr ? nullptr : &texture->desc);
-        if (checked != Failure::none) {
+        if (texture == nullptr || checked != Failure::none) {
             failure = checked;
             return;
         }

@@ -101,7 +101,9 @@ TEST_P(DeviceFormat, EveryLayerSurvivesUploadAndReadback) {
 }
 
 TEST_P(DeviceFormat, EveryLayerCanBeDrawnIntoAlone) {
-    const auto [name, format, kind] = GetParam();
+    const char* name = GetParam().name;
+    const Format format = GetParam().format;
+    const TextureKind kind = GetParam().kind;
     const gl::TextureDesc desc{.label = name,
                                .kind = kind,
                                .format = format,
