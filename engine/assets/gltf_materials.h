@@ -12,7 +12,6 @@ namespace gnomon::assets::gltf {
 struct UvSource {
     int set = 0;                       // TEXCOORD_<set>
     glm::mat3x2 transform{1.0f};       // KHR_texture_transform, applied at load
-    bool operator==(const UvSource&) const = default;
 };
 
 /// Fills scene.materials (one per glTF material, in order, then a default one if there is none) and scene.textures

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <initializer_list>
+#include <map>
 
 #include "engine/assets/gltf_accessor.h"
 #include "engine/assets/gltf_error.h"
@@ -17,13 +18,12 @@ namespace {
 
 /// Primitives that share all of this share their vertices.
 struct VertexSource {
-    int position = -1, normal = -1, uv = -1;
-    UvSource uv_source;
-    bool operator==(const VertexSource&) const = default;
+    int position = kNone, normal = kNone, uv = kNone;  // accessors
+    int material = kNone;                              // where it transforms texture coordinates, else kNone
+    auto operator<=>(const VertexSource&) const = default;
 };
 
 struct VertexBlock {
-    VertexSource source;
     std::uint32_t first = 0, count = 0;
 };
 
@@ -84,17 +84,8 @@ private:
         }
         if (!primitive.targets.empty()) document_.warn("morph targets are ignored");
         const VertexBlock block = vertices_of(primitive, mesh);
-        std::vector<std::uint32_t> corners;
-        if (index_accessor >= 0) {
-            corners = read_indices(document_, index_accessor);
-            for (const std::uint32_t corner : corners) {
-                if (corner >= block.count) {
-                    fail("index.out_of_range", where_ + "/indices",
-                         "index " + std::to_string(corner) + " of " + std::to_string(block.count) + " vertices");
-                }
-            }
-        }
-        const std::size_t corner_count = index_accessor >= 0 ? corners.size() : block.count;
+        const std::size_t corner_count =
+            index_accessor >= 0 ? document_.model.accessors[static_cast<std::size_t>(index_accessor)].count : block.count;
         const std::size_t triangles = triangle_count(primitive.mode, corner_count);
         triangles_ += triangles;
         if (triangles_ > kMaxTriangles) fail("total.triangles", where_, "the scene has too many triangles");
@@ -103,12 +94,25 @@ private:
             document_.warn(where_ + ": has no triangle");
             return;
         }
+        std::vector<std::uint32_t> corners;
+        if (index_accessor >= 0) corners = checked_indices(index_accessor, block.count);
         Submesh submesh;
         submesh.first_index = static_cast<std::uint32_t>(mesh.indices.size());
         submesh.index_count = static_cast<std::uint32_t>(triangles * 3);
         submesh.material = material_of(primitive);
         append_triangles(primitive.mode, corners, corner_count, block.first, mesh.indices);
         mesh.submeshes.push_back(submesh);
+    }
+
+    std::vector<std::uint32_t> checked_indices(int accessor, std::uint32_t vertex_count) const {
+        std::vector<std::uint32_t> corners = read_indices(document_, accessor);
+        for (const std::uint32_t corner : corners) {
+            if (corner >= vertex_count) {
+                fail("index.out_of_range", where_ + "/indices",
+                     "index " + std::to_string(corner) + " of " + std::to_string(vertex_count) + " vertices");
+            }
+        }
+        return corners;
     }
 
     std::uint32_t material_of(const tinygltf::Primitive& primitive) {
@@ -123,17 +127,18 @@ private:
         source.position = attribute_of(primitive, "POSITION");
         source.normal = attribute_of(primitive, "NORMAL");
         if (source.position < 0) fail("primitive.no_position", where_ + "/attributes", "POSITION is missing");
-        if (primitive.material >= 0) source.uv_source = uv_sources_[static_cast<std::size_t>(primitive.material)];
-        source.uv = attribute_of(primitive, "TEXCOORD_" + std::to_string(source.uv_source.set));
-        const auto known = std::find_if(blocks_.begin(), blocks_.end(),
-                                        [&](const VertexBlock& block) { return block.source == source; });
-        if (known != blocks_.end()) return *known;
+        const UvSource uv_source =
+            primitive.material >= 0 ? uv_sources_[static_cast<std::size_t>(primitive.material)] : UvSource{};
+        source.uv = attribute_of(primitive, "TEXCOORD_" + std::to_string(uv_source.set));
+        if (uv_source.transform != UvSource{}.transform) source.material = primitive.material;
+        const auto known = blocks_.find(source);
+        if (known != blocks_.end()) return known->second;
 
-        VertexBlock block{source, static_cast<std::uint32_t>(mesh.vertices.size()), 0};
+        VertexBlock block{static_cast<std::uint32_t>(mesh.vertices.size()), 0};
         read_positions(source, mesh, block);
         read_normals(source, mesh, block);
-        read_uvs(source, mesh, block);
-        blocks_.push_back(block);
+        read_uvs(source.uv, uv_source.transform, mesh, block);
+        blocks_.emplace(source, block);
         return block;
     }
 
@@ -181,13 +186,13 @@ private:
         }
     }
 
-    void read_uvs(const VertexSource& source, Mesh& mesh, const VertexBlock& block) {
-        if (source.uv < 0) return;
-        attribute(source.uv, "TEXCOORD", TINYGLTF_TYPE_VEC2,
+    void read_uvs(int accessor, const glm::mat3x2& transform, Mesh& mesh, const VertexBlock& block) {
+        if (accessor < 0) return;
+        attribute(accessor, "TEXCOORD", TINYGLTF_TYPE_VEC2,
                   {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT});
-        const std::vector<float> numbers = same_count_floats(source.uv, "TEXCOORD", block.count);
+        const std::vector<float> numbers = same_count_floats(accessor, "TEXCOORD", block.count);
         for (std::size_t i = 0; i < block.count; ++i) {
-            const glm::vec2 uv = source.uv_source.transform * glm::vec3(numbers[2 * i], numbers[2 * i + 1], 1.0f);
+            const glm::vec2 uv = transform * glm::vec3(numbers[2 * i], numbers[2 * i + 1], 1.0f);
             if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
                 fail("accessor.not_finite", where_, "a texture coordinate is not finite after its transform");
             }
@@ -201,7 +206,7 @@ private:
     bool quantized_;
     std::size_t triangles_ = 0;
     std::string where_;
-    std::vector<VertexBlock> blocks_;
+    std::map<VertexSource, VertexBlock> blocks_;  // of the mesh at hand
     std::vector<bool> missing_normals_;
 };
 

@@ -303,6 +303,12 @@ std::vector<BadInput> mesh_inputs() {
              d["accessors"][0].erase("bufferView");
              d["accessors"][0]["count"] = 20'000'000;
          })},
+        {"MoreIndicesThanMemory", "total.triangles", "/meshes/0/primitives/0",
+         spoilt([](json& d) {
+             d["accessors"][1].erase("bufferView");
+             d["accessors"][1]["componentType"] = kUByte;
+             d["accessors"][1]["count"] = limits::kMaxDecodedBytes;
+         })},
         {"TooManyTriangles", "total.triangles", "/meshes/0/primitives/1",
          [] {
              GltfBuilder builder = triangle();

@@ -265,6 +265,12 @@ TEST(Normals, StayZeroWhereAllFacesAreDegenerate) {
     for (const assets::Vertex& vertex : mesh.vertices) EXPECT_EQ(vertex.normal_ms, glm::vec3(0));
 }
 
+TEST(Normals, StayZeroWhereFacesCancel) {
+    Mesh mesh = mesh_of({{0.1F, 0.7F, 0.3F}, {1.3F, 0, 0.2F}, {0, 1.1F, 0.9F}}, {0, 1, 2, 2, 1, 0});
+    fill_normals(mesh, std::vector<bool>(3, true));
+    for (const assets::Vertex& vertex : mesh.vertices) EXPECT_EQ(vertex.normal_ms, glm::vec3(0));
+}
+
 TEST(Normals, LeaveVerticesAloneThatAreNotFlagged) {
     Mesh mesh = cube();
     mesh.vertices[3].normal_ms = {1, 0, 0};
