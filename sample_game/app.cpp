@@ -43,8 +43,9 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world) 
     Renderer renderer{std::move(device).value(), nullptr};
     const gl::DeviceInfo& info = renderer.device->info();
     if (line.size_px.x > info.max_texture_px || line.size_px.y > info.max_texture_px)
-        return Error{.message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
-                     .rule = "command_line"};
+        return Error{
+            .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
+            .rule = "command_line"};
     if (line.stats) renderer.device->set_timing(info.is_software ? gl::TimingMode::finish : gl::TimingMode::query);
     Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library);
     if (!frame) return frame.error();
@@ -61,7 +62,8 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats) {
     if (line.screenshot) {
         std::vector<std::uint8_t> rgba;
-        if (!frame.read_picture(rgba)) return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
+        if (!frame.read_picture(rgba))
+            return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
         if (auto error = write_png(*line.screenshot, size_px.x, size_px.y, rgba)) return error;
     }
     if (line.visibility) {
@@ -70,8 +72,10 @@ std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::u
         for (std::uint32_t i = 0; i < lights.size(); ++i) {
             if (!lights[i].has_shadow) continue;
             if (!frame.read_visibility(i, values))
-                return Error{.message = "the device could not draw the visibility of " + lights[i].name, .rule = "output.visibility"};
-            if (auto error = write_pfm(*line.visibility / (lights[i].name + ".pfm"), size_px.x, size_px.y, values)) return error;
+                return Error{.message = "the device could not draw the visibility of " + lights[i].name,
+                             .rule = "output.visibility"};
+            if (auto error = write_pfm(*line.visibility / (lights[i].name + ".pfm"), size_px.x, size_px.y, values))
+                return error;
         }
     }
     return line.stats ? stats.write(*line.stats) : std::nullopt;

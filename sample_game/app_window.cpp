@@ -28,9 +28,12 @@ double seconds(Clock::duration duration) { return std::chrono::duration<double>(
 /// Scene time: by frame number if frames are counted, else by the clock.
 class SceneClock {
 public:
-    explicit SceneClock(const CommandLine& line) : line_(line), paused_(!line.frames && line.time_s), time_s_(line.time_s.value_or(0.0)) {}
+    explicit SceneClock(const CommandLine& line)
+        : line_(line), paused_(!line.frames && line.time_s), time_s_(line.time_s.value_or(0.0)) {}
 
-    double time_s(std::uint64_t frame) const { return line_.frames ? frame_time_s(line_, frame, *line_.frames) : time_s_; }
+    double time_s(std::uint64_t frame) const {
+        return line_.frames ? frame_time_s(line_, frame, *line_.frames) : time_s_;
+    }
     void toggle_pause() { paused_ = !paused_; }
     void advance(double dt_s) {
         if (!paused_) time_s_ += dt_s;

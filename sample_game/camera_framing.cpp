@@ -12,7 +12,7 @@ namespace gnomon::game {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNearPerSize = 1.0e-4;   // near plane, of the half diagonal: reversed depth does not care how small
+constexpr double kNearPerSize = 1.0e-4;  // near plane, of the half diagonal: reversed depth does not care how small
 constexpr double kOutsideFov_rad = 0.8, kInsideFov_rad = 1.15;
 constexpr double kAspect = 16.0 / 9.0;
 
@@ -44,14 +44,16 @@ void cast_at_mesh(const assets::Mesh& mesh, const assets::SceneData& scene, cons
 /// Some hundred rays over the plain triangle list: no tree is worth its building.
 class RayCaster {
 public:
-    RayCaster(const assets::SceneData& scene, const std::vector<WorldTransform>& poses) : scene_(scene), poses_(poses) {}
+    RayCaster(const assets::SceneData& scene, const std::vector<WorldTransform>& poses)
+        : scene_(scene), poses_(poses) {}
 
     Hit cast(const glm::dvec3& origin_ws, const glm::dvec3& direction_ws) const {
         Hit nearest;
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             const assets::Node& node = scene_.nodes[i];
             const double determinant = glm::determinant(poses_[i].basis);
-            if (node.mesh == assets::kNone || !node.visible || determinant == 0.0 || !std::isfinite(determinant)) continue;
+            if (node.mesh == assets::kNone || !node.visible || determinant == 0.0 || !std::isfinite(determinant))
+                continue;
             const assets::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
             const glm::dmat3 model_from_world = glm::inverse(poses_[i].basis);
             const glm::dvec3 origin = model_from_world * (origin_ws - poses_[i].translation_ws_m);

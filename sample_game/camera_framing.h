@@ -19,6 +19,7 @@ struct FramedCamera {
 /// From inside, if the scene is an interior: the box's centre is surrounded by faces turned toward it, in all
 /// horizontal directions and upward where the outside camera would stand. The camera then stands at eye height in the
 /// free space along the longest horizontal axis and looks through the centre to the other end.
-FramedCamera frame_scene(const assets::SceneData& scene, const std::vector<WorldTransform>& poses, const math::Aabb& bounds);
+FramedCamera frame_scene(const assets::SceneData& scene, const std::vector<WorldTransform>& poses,
+                         const math::Aabb& bounds);
 
 }  // namespace gnomon::game

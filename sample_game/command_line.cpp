@@ -35,14 +35,16 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--exposure", typed.exposure, "EV|auto (default: auto)");
     app.add_option("--stats", typed.stats, "F.json: per frame and light times, counts, report");
     app.add_option("--screenshot", typed.screenshot, "F.png: the last frame");
-    app.add_option("--visibility", typed.visibility, "DIR: DIR/<light>.pfm, the visible fraction of each shadowed light");
+    app.add_option("--visibility", typed.visibility,
+                   "DIR: DIR/<light>.pfm, the visible fraction of each shadowed light");
     app.add_option("--set", typed.settings, "KEY=VALUE: a LightShadow field of every light; repeatable")
         ->expected(1)
         ->allow_extra_args(false)
         ->take_all();
     app.add_flag("--list", typed.list, "print every key, filter and value that --set knows, and exit");
-    app.footer("In the window: WASD walk, Q and E down and up, Shift faster, click to look with the mouse, Tab frees it,\n"
-               "P pauses the motion, Esc quits.");
+    app.footer(
+        "In the window: WASD walk, Q and E down and up, Shift faster, click to look with the mouse, Tab frees it,\n"
+        "P pauses the motion, Esc quits.");
 }
 
 /// 1 to kMaxSize_px, or 0 if `text` says anything else.
@@ -89,7 +91,8 @@ std::optional<Error> read_names(const Typed& typed, const CLI::App& app, Command
         return !text.empty();
     };
     const bool all = read("--scene", typed.scene, line.scene) && read("--camera", typed.camera, line.camera) &&
-                     read("--stats", typed.stats, line.stats) && read("--screenshot", typed.screenshot, line.screenshot) &&
+                     read("--stats", typed.stats, line.stats) &&
+                     read("--screenshot", typed.screenshot, line.screenshot) &&
                      read("--visibility", typed.visibility, line.visibility);
     return all ? std::nullopt : std::optional(wrong("an empty name was given"));
 }

@@ -12,16 +12,16 @@ namespace gnomon::game {
 
 /// The game's command line, checked as far as can be without touching a file.
 struct CommandLine {
-    std::optional<std::filesystem::path> scene;    // empty: the built-in scene
-    std::optional<std::string> camera;             // name or index
+    std::optional<std::filesystem::path> scene;  // empty: the built-in scene
+    std::optional<std::string> camera;           // name or index
     glm::uvec2 size_px{1280, 720};
     bool headless = false;
-    std::optional<std::uint64_t> frames;           // > 0; empty: 1 headless, endless in a window
-    std::optional<double> time_s;                  // scene time of the last frame
-    std::optional<float> exposure_ev;              // empty: automatic
+    std::optional<std::uint64_t> frames;  // > 0; empty: 1 headless, endless in a window
+    std::optional<double> time_s;         // scene time of the last frame
+    std::optional<float> exposure_ev;     // empty: automatic
     std::optional<std::filesystem::path> stats, screenshot, visibility;
-    std::vector<std::string> settings;             // KEY=VALUE, each known to be right
-    std::string print;                             // not empty (--help, --list): print it and exit with 0
+    std::vector<std::string> settings;  // KEY=VALUE, each known to be right
+    std::string print;                  // not empty (--help, --list): print it and exit with 0
 };
 
 /// Errors: rules "command_line" and those of apply_setting(); the message is one line.

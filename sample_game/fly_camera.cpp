@@ -24,7 +24,9 @@ bool held(const platform::Input& input, platform::Key key) {
 /// Right, up, back: what the keys ask for, each -1, 0 or 1.
 glm::dvec3 wished_step(const platform::Input& input) {
     using platform::Key;
-    const auto axis = [&](Key minus, Key plus) { return (held(input, plus) ? 1.0 : 0.0) - (held(input, minus) ? 1.0 : 0.0); };
+    const auto axis = [&](Key minus, Key plus) {
+        return (held(input, plus) ? 1.0 : 0.0) - (held(input, minus) ? 1.0 : 0.0);
+    };
     return {axis(Key::a, Key::d), axis(Key::q, Key::e), axis(Key::w, Key::s)};
 }
 
@@ -58,8 +60,8 @@ void FlyCamera::update(const platform::Input& input, bool look, double dt_s, con
         yaw_rad_ -= kRadPerPixel * input.mouse_dx;
         pitch_rad_ = std::clamp(pitch_rad_ - kRadPerPixel * input.mouse_dy, -kMaxPitch_rad, kMaxPitch_rad);
     }
-    const glm::dquat rotation = glm::angleAxis(yaw_rad_, glm::dvec3(0.0, 1.0, 0.0)) *
-                                glm::angleAxis(pitch_rad_, glm::dvec3(1.0, 0.0, 0.0));
+    const glm::dquat rotation =
+        glm::angleAxis(yaw_rad_, glm::dvec3(0.0, 1.0, 0.0)) * glm::angleAxis(pitch_rad_, glm::dvec3(1.0, 0.0, 0.0));
     if (step != glm::dvec3(0.0)) {
         const double speed = speed_m_per_s_ * (held(input, platform::Key::shift) ? kFaster : 1.0);
         position_ws_m_ += rotation * glm::normalize(step) * (speed * dt_s);

@@ -14,7 +14,8 @@ public:
     explicit FlyCamera(double speed_m_per_s) : speed_m_per_s_(speed_m_per_s) {}
 
     /// `seen`: the camera of the last frame. `look`: whether the mouse turns the head.
-    void update(const platform::Input& input, bool look, double dt_s, const ConsumerItem& seen, ecs::Registry& registry);
+    void update(const platform::Input& input, bool look, double dt_s, const ConsumerItem& seen,
+                ecs::Registry& registry);
 
 private:
     void take_over(const ConsumerItem& seen, ecs::Registry& registry);

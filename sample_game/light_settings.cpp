@@ -80,8 +80,8 @@ constexpr std::array kSettings{
     LightSetting{"enabled", "on | off", "whether the light casts shadows", set_enabled,
                  [](const LightShadow& s) { return switch_text(s.enabled); }},
     LightSetting{"filter", "a filter, see below", "how the map is read", set_filter, get_filter},
-    LightSetting{"resolution", "0 ... 65536 (px)", "edge of one map or cube face; 0: chosen by the system", set_resolution,
-                 [](const LightShadow& s) { return std::to_string(s.resolution_px); }},
+    LightSetting{"resolution", "0 ... 65536 (px)", "edge of one map or cube face; 0: chosen by the system",
+                 set_resolution, [](const LightShadow& s) { return std::to_string(s.resolution_px); }},
     LightSetting{"max_error_px", "above 0 ... 10000 (px)", "how far a shadow edge may be off on screen", set_max_error,
                  [](const LightShadow& s) { return number_text(static_cast<double>(s.max_error_px)); }},
     LightSetting{"bias", "automatic | 0 ... 1e6 (m)", "offset against self-shadowing; metres along the light", set_bias,
@@ -90,9 +90,7 @@ constexpr std::array kSettings{
                  [](const LightShadow& s) { return switch_text(s.economy); }},
 };
 
-Error bad(std::string message, const char* rule) {
-    return {.message = "--set: " + on_one_line(message), .rule = rule};
-}
+Error bad(std::string message, const char* rule) { return {.message = "--set: " + on_one_line(message), .rule = rule}; }
 
 }  // namespace
 
@@ -103,13 +101,15 @@ std::optional<Error> apply_setting(LightShadow& shadow, std::string_view key_val
     const std::string text(key_value);
     if (equals == std::string_view::npos) return bad("'" + text + "' is not KEY=VALUE", "set.syntax");
     const std::string key(key_value.substr(0, equals));
-    const auto row = std::find_if(kSettings.begin(), kSettings.end(), [&](const LightSetting& s) { return key == s.key; });
+    const auto row =
+        std::find_if(kSettings.begin(), kSettings.end(), [&](const LightSetting& s) { return key == s.key; });
     if (row == kSettings.end()) return bad("unknown key '" + key + "'; --list shows them", "set.key");
     if (!row->set(shadow, key_value.substr(equals + 1))) {
         std::string allowed = row->values;
         if (row->set == set_filter) {
             allowed.clear();
-            for (const shadow::FilterRow& f : shadow::filter_table()) allowed += (allowed.empty() ? "" : " | ") + std::string(f.name);
+            for (const shadow::FilterRow& f : shadow::filter_table())
+                allowed += (allowed.empty() ? "" : " | ") + std::string(f.name);
         }
         return bad("'" + text + "': " + key + " takes " + allowed, "set.value");
     }
@@ -130,7 +130,8 @@ std::string list_settings() {
     }
     text += "Filters:\n";
     for (const shadow::FilterRow& f : shadow::filter_table())
-        text += "  " + padded(std::string(f.name), kKeyWidth) + std::to_string(f.taps) + (f.taps == 1 ? " tap" : " taps") + "\n";
+        text += "  " + padded(std::string(f.name), kKeyWidth) + std::to_string(f.taps) +
+                (f.taps == 1 ? " tap" : " taps") + "\n";
     return text;
 }
 

@@ -13,7 +13,8 @@ Transform moved(const Transform& rest, const assets::Node::Motion& motion, doubl
                       std::isfinite(motion.amplitude);
     if (!sane) return rest;
     const glm::dvec3 axis = motion.axis / length;
-    const double angle = 2.0 * glm::pi<double>() * (turns - std::floor(turns));  // small, so that late frames stay exact
+    const double angle =
+        2.0 * glm::pi<double>() * (turns - std::floor(turns));  // small, so that late frames stay exact
     Transform now = rest;
     if (motion.kind == "spin") now.rotation = rest.rotation * glm::angleAxis(angle, axis);
     if (motion.kind == "swing") now.rotation = rest.rotation * glm::angleAxis(motion.amplitude * std::sin(angle), axis);

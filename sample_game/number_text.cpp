@@ -27,10 +27,13 @@ std::optional<std::uint64_t> read_count(std::string_view text) { return read_all
 std::string on_one_line(std::string_view text) {
     constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
     std::string line(text);
-    std::replace_if(line.begin(), line.end(), [](char c) {
-        const unsigned char code = static_cast<unsigned char>(c);
-        return code < kFirstPrintable || code == kDelete;
-    }, '?');
+    std::replace_if(
+        line.begin(), line.end(),
+        [](char c) {
+            const unsigned char code = static_cast<unsigned char>(c);
+            return code < kFirstPrintable || code == kDelete;
+        },
+        '?');
     return line;
 }
 

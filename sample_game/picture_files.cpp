@@ -51,8 +51,8 @@ std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height, 
     constexpr int kChannels = 4;
     std::vector<std::uint8_t> png;
     if (width == 0 || height == 0 || rgba.size() != std::size_t{width} * height * kChannels) return png;
-    stbi_write_png_to_func(append_bytes, &png, static_cast<int>(width), static_cast<int>(height), kChannels, rgba.data(),
-                           static_cast<int>(width) * kChannels);
+    stbi_write_png_to_func(append_bytes, &png, static_cast<int>(width), static_cast<int>(height), kChannels,
+                           rgba.data(), static_cast<int>(width) * kChannels);
     return png;
 }
 
@@ -67,7 +67,8 @@ std::optional<Error> write_file(const std::filesystem::path& file, std::span<con
 std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const std::uint8_t> rgba) {
     const std::vector<std::uint8_t> png = encode_png(width, height, rgba);
-    if (png.empty()) return Error{.message = "cannot encode the picture", .file = file.string(), .rule = "output.write"};
+    if (png.empty())
+        return Error{.message = "cannot encode the picture", .file = file.string(), .rule = "output.write"};
     return write_file(file, std::as_bytes(std::span(png)));
 }
 

@@ -25,9 +25,12 @@ constexpr double kSunElevation_deg = 55.0, kSunAzimuth_deg = 20.0;
 
 LightKind to_kind(assets::LightType type) {
     switch (type) {
-        case assets::LightType::directional: return LightKind::directional;
-        case assets::LightType::spot: return LightKind::spot;
-        case assets::LightType::point: break;
+        case assets::LightType::directional:
+            return LightKind::directional;
+        case assets::LightType::spot:
+            return LightKind::spot;
+        case assets::LightType::point:
+            break;
     }
     return LightKind::point;
 }
@@ -81,7 +84,8 @@ public:
                               std::cos(elevation) * std::sin(azimuth));
         const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), back));
         const ecs::Entity sun = registry_.create();
-        registry_.emplace<Transform>(sun, {.rotation = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back))});
+        registry_.emplace<Transform>(sun,
+                                     {.rotation = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back))});
         registry_.emplace<Light>(sun, {.kind = LightKind::directional, .intensity = kSun_lx});
         registry_.emplace<LightShadow>(sun);
         const std::string name = light_names_.next("sun", "", 0);

@@ -17,11 +17,11 @@ struct NamedEntity {
 };
 
 struct SpawnedScene {
-    std::vector<ecs::Entity> nodes;      // one per node of the scene
-    std::vector<NamedEntity> cameras;    // in node order; at least one; the first is active
-    std::vector<NamedEntity> lights;     // in node order; at least one; names are unique
+    std::vector<ecs::Entity> nodes;    // one per node of the scene
+    std::vector<NamedEntity> cameras;  // in node order; at least one; the first is active
+    std::vector<NamedEntity> lights;   // in node order; at least one; names are unique
     std::vector<MovingEntity> moving;
-    math::Aabb bounds_ws;                // of all meshes at rest; may be empty
+    math::Aabb bounds_ws;  // of all meshes at rest; may be empty
     bool sun_added = false, camera_added = false;
 };
 

@@ -11,9 +11,12 @@ using Json = nlohmann::ordered_json;
 
 const char* kind_text(LightKind kind) {
     switch (kind) {
-        case LightKind::directional: return "directional";
-        case LightKind::spot: return "spot";
-        case LightKind::point: break;
+        case LightKind::directional:
+            return "directional";
+        case LightKind::spot:
+            return "spot";
+        case LightKind::point:
+            break;
     }
     return "point";
 }
@@ -53,10 +56,20 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
     }
     for (const DroppedEntity& entity : report.dropped)
         dropped.push_back({{"name", entity.name}, {"reason", reason_code(entity.reason)}});
-    Json shadow = {{"cpu_us", report.shadow_cpu_us}, {"gpu_us", or_null(report.shadow_gpu_us)}, {"views", views},
-                   {"draws", draws}, {"clears", clears}, {"triangles", triangles}, {"bytes", bytes}};
-    return {{"index", index}, {"time_s", time_s}, {"cpu_us", report.cpu_us}, {"gpu_us", or_null(report.gpu_us)},
-            {"shadow", std::move(shadow)}, {"lights", std::move(lights)}, {"dropped", std::move(dropped)}};
+    Json shadow = {{"cpu_us", report.shadow_cpu_us},
+                   {"gpu_us", or_null(report.shadow_gpu_us)},
+                   {"views", views},
+                   {"draws", draws},
+                   {"clears", clears},
+                   {"triangles", triangles},
+                   {"bytes", bytes}};
+    return {{"index", index},
+            {"time_s", time_s},
+            {"cpu_us", report.cpu_us},
+            {"gpu_us", or_null(report.gpu_us)},
+            {"shadow", std::move(shadow)},
+            {"lights", std::move(lights)},
+            {"dropped", std::move(dropped)}};
 }
 
 void StatsFile::add(const FrameReport& report, std::uint64_t index, double time_s) {

@@ -28,14 +28,17 @@ Materials add_materials(GlbBuilder& glb) {
     m.plaster = glb.add_material({.name = "plaster", .base_colour = {0.68f, 0.62f, 0.53f, 1.0f}, .roughness = 0.95f});
     m.stone = glb.add_material({.name = "stone", .base_colour = {0.5f, 0.49f, 0.46f, 1.0f}});
     m.wood = glb.add_material({.name = "wood", .base_colour = {0.3f, 0.17f, 0.08f, 1.0f}});
-    m.iron = glb.add_material({.name = "iron", .base_colour = {0.12f, 0.12f, 0.13f, 1.0f}, .metallic = 0.3f, .roughness = 0.5f});
-    m.brass = glb.add_material({.name = "brass", .base_colour = {0.78f, 0.57f, 0.24f, 1.0f}, .metallic = 0.7f, .roughness = 0.4f});
+    m.iron = glb.add_material(
+        {.name = "iron", .base_colour = {0.12f, 0.12f, 0.13f, 1.0f}, .metallic = 0.3f, .roughness = 0.5f});
+    m.brass = glb.add_material(
+        {.name = "brass", .base_colour = {0.78f, 0.57f, 0.24f, 1.0f}, .metallic = 0.7f, .roughness = 0.4f});
     m.red = glb.add_material({.name = "red_paint", .base_colour = {0.5f, 0.07f, 0.05f, 1.0f}, .roughness = 0.6f});
     m.blue = glb.add_material({.name = "blue_paint", .base_colour = {0.08f, 0.16f, 0.42f, 1.0f}, .roughness = 0.6f});
     m.leaves = glb.add_material({.name = "leaves", .texture = leaves, .alpha_cutoff = 0.5f, .double_sided = true});
     m.cloth = glb.add_material({.name = "cloth", .texture = cloth, .alpha_cutoff = 0.5f, .double_sided = true});
     m.bark = glb.add_material({.name = "bark", .base_colour = {0.16f, 0.11f, 0.07f, 1.0f}, .roughness = 1.0f});
-    m.lamp_glow = glb.add_material({.name = "lamp_glow", .base_colour = {1.0f, 0.9f, 0.7f, 1.0f}, .emissive = {1.0f, 0.8f, 0.5f}});
+    m.lamp_glow = glb.add_material(
+        {.name = "lamp_glow", .base_colour = {1.0f, 0.9f, 0.7f, 1.0f}, .emissive = {1.0f, 0.8f, 0.5f}});
     return m;
 }
 
@@ -55,7 +58,9 @@ void add_cameras(const Kit& kit) {
             {{"name", view.name},
              {"type", "perspective"},
              {"perspective", {{"yfov", glm::radians(view.fov_y_deg)}, {"znear", kNear_m * kit.options.scale}}}});
-        kit.glb.add_node({.name = view.name, .translation_m = view.at_m, .rotation = facing(view.target_m - view.at_m),
+        kit.glb.add_node({.name = view.name,
+                          .translation_m = view.at_m,
+                          .rotation = facing(view.target_m - view.at_m),
                           .camera = camera});
     }
 }

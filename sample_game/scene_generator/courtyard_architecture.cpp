@@ -25,9 +25,9 @@ void add_walls(const Kit& kit) {
     wall("wall_east", {10.0, -kSunk_m, -9.98}, {10.5, 3.2, 4.0});
     // Merlons on the west wall.
     constexpr int kMerlons = 10;
-    const std::uint32_t merlon = kit.glb.add_mesh("merlon", make_box({-0.25, -0.1, -0.5}, {0.25, 0.6, 0.5}), kit.materials.plaster);
-    for (int i = 0; i < kMerlons; ++i)
-        kit.place("merlon_" + std::to_string(i), merlon, {-10.25, 2.2, -9.0 + 2.0 * i});
+    const std::uint32_t merlon =
+        kit.glb.add_mesh("merlon", make_box({-0.25, -0.1, -0.5}, {0.25, 0.6, 0.5}), kit.materials.plaster);
+    for (int i = 0; i < kMerlons; ++i) kit.place("merlon_" + std::to_string(i), merlon, {-10.25, 2.2, -9.0 + 2.0 * i});
 }
 
 /// One wall with round arches; columns stand under its piers.
@@ -50,21 +50,29 @@ void add_arcade(const Kit& kit) {
     profile.emplace_back(last, kTop);
     profile.emplace_back(first, kTop);
     kit.place("arcade", make_extrusion(profile, kDepth), kit.materials.plaster, {0.0, 0.0, kZ});
-    kit.place("arcade_roof", make_box({first, kTop - 0.05, -10.2}, {last, kTop + 0.15, kZ + 0.5}), kit.materials.wood, {});
+    kit.place("arcade_roof", make_box({first, kTop - 0.05, -10.2}, {last, kTop + 0.15, kZ + 0.5}), kit.materials.wood,
+              {});
 
-    const std::array<glm::dvec2, 10> outline{glm::dvec2(0.0, -kSunk_m), {0.36, -kSunk_m}, {0.36, 0.18}, {0.26, 0.26},
-                                             {0.24, 1.2}, {0.2, kSpring - 0.3}, {0.24, kSpring - 0.24}, {0.34, kSpring - 0.1},
-                                             {0.34, kSpring + 0.02}, {0.0, kSpring + 0.02}};
-    const std::uint32_t column = kit.glb.add_mesh("column", make_lathe(outline, 24, LatheNormals::creased), kit.materials.stone);
-    for (int i = 0; i <= kArches; ++i)
-        kit.place("column_" + std::to_string(i), column, {left + kPitch * i, 0.0, kZ});
+    const std::array<glm::dvec2, 10> outline{glm::dvec2(0.0, -kSunk_m),
+                                             {0.36, -kSunk_m},
+                                             {0.36, 0.18},
+                                             {0.26, 0.26},
+                                             {0.24, 1.2},
+                                             {0.2, kSpring - 0.3},
+                                             {0.24, kSpring - 0.24},
+                                             {0.34, kSpring - 0.1},
+                                             {0.34, kSpring + 0.02},
+                                             {0.0, kSpring + 0.02}};
+    const std::uint32_t column =
+        kit.glb.add_mesh("column", make_lathe(outline, 24, LatheNormals::creased), kit.materials.stone);
+    for (int i = 0; i <= kArches; ++i) kit.place("column_" + std::to_string(i), column, {left + kPitch * i, 0.0, kZ});
 }
 
 void add_stairs(const Kit& kit) {
     constexpr int kSteps = 8;
     constexpr double kRise = 0.18, kRun = 0.3, kWidth = 2.4, kLanding = 2.2;
-    std::vector<glm::dvec2> profile{{0.0, -kSunk_m}, {kSteps * kRun + kLanding, -kSunk_m},
-                                    {kSteps * kRun + kLanding, kSteps * kRise}};
+    std::vector<glm::dvec2> profile{
+        {0.0, -kSunk_m}, {kSteps * kRun + kLanding, -kSunk_m}, {kSteps * kRun + kLanding, kSteps * kRise}};
     for (int step = kSteps; step >= 1; --step) {
         profile.emplace_back((step - 1) * kRun, step * kRise);
         if (step > 1) profile.emplace_back((step - 1) * kRun, (step - 1) * kRise);

@@ -22,7 +22,11 @@ struct Kit {
     std::uint32_t place(const std::string& name, std::uint32_t mesh, const glm::dvec3& at,
                         const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0},
                         std::optional<std::uint32_t> parent = {}) const {
-        return glb.add_node({.name = name, .parent = parent, .translation_m = at, .rotation = rotation, .mesh = mesh,
+        return glb.add_node({.name = name,
+                             .parent = parent,
+                             .translation_m = at,
+                             .rotation = rotation,
+                             .mesh = mesh,
                              .extras = mesh_extras});
     }
     std::uint32_t place(const std::string& name, const Shape& shape, std::uint32_t material, const glm::dvec3& at,
@@ -33,8 +37,8 @@ struct Kit {
     /// An empty node that moves; its children follow.
     std::uint32_t mover(const std::string& name, const glm::dvec3& at, nlohmann::ordered_json motion,
                         const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0}) const {
-        return glb.add_node({.name = name, .translation_m = at, .rotation = rotation,
-                             .extras = {{"motion", std::move(motion)}}});
+        return glb.add_node(
+            {.name = name, .translation_m = at, .rotation = rotation, .extras = {{"motion", std::move(motion)}}});
     }
 };
 

@@ -95,7 +95,8 @@ GlbBuilder::Json GlbBuilder::primitive(const PartSpec& part) {
     Json uvs = vertex_accessor(add_view(std::span(shape.uvs), kArrayBuffer), "VEC2");
 
     const bool is_short = count < std::numeric_limits<std::uint16_t>::max();
-    const std::vector<std::uint16_t> narrow(shape.indices.begin(), is_short ? shape.indices.end() : shape.indices.begin());
+    const std::vector<std::uint16_t> narrow(shape.indices.begin(),
+                                            is_short ? shape.indices.end() : shape.indices.begin());
     const std::uint32_t view = is_short ? add_view(std::span(narrow), kElementArrayBuffer)
                                         : add_view(std::span(shape.indices), kElementArrayBuffer);
     Json indices = {{"bufferView", view},
@@ -105,7 +106,9 @@ GlbBuilder::Json GlbBuilder::primitive(const PartSpec& part) {
     Json attributes = {{"POSITION", add_accessor(std::move(positions))},
                        {"NORMAL", add_accessor(std::move(normals))},
                        {"TEXCOORD_0", add_accessor(std::move(uvs))}};
-    return {{"attributes", std::move(attributes)}, {"indices", add_accessor(std::move(indices))}, {"material", part.material}};
+    return {{"attributes", std::move(attributes)},
+            {"indices", add_accessor(std::move(indices))},
+            {"material", part.material}};
 }
 
 std::uint32_t GlbBuilder::add_mesh(const std::string& name, std::span<const PartSpec> parts) {
@@ -149,8 +152,10 @@ std::uint32_t GlbBuilder::add_node(const NodeSpec& spec) {
     if (spec.light) node["extensions"]["KHR_lights_punctual"]["light"] = *spec.light;
     if (!spec.extras.is_null()) node["extras"] = spec.extras;
     nodes_.push_back(std::move(node));
-    if (spec.parent) nodes_[*spec.parent]["children"].push_back(index);
-    else top_nodes_.push_back(index);
+    if (spec.parent)
+        nodes_[*spec.parent]["children"].push_back(index);
+    else
+        top_nodes_.push_back(index);
     return index;
 }
 

@@ -16,11 +16,11 @@ namespace gnomon::game {
 
 struct MaterialSpec {
     std::string name;
-    glm::vec4 base_colour{1.0f};                 // linear
-    std::optional<std::uint32_t> texture = {};   // of add_texture()
+    glm::vec4 base_colour{1.0f};                // linear
+    std::optional<std::uint32_t> texture = {};  // of add_texture()
     float metallic = 0.0f, roughness = 0.8f;
     glm::vec3 emissive{0.0f};
-    std::optional<float> alpha_cutoff = {};      // set: alpha mask
+    std::optional<float> alpha_cutoff = {};  // set: alpha mask
     bool double_sided = false;
 };
 
@@ -32,11 +32,11 @@ struct PartSpec {
 
 struct NodeSpec {
     std::string name;
-    std::optional<std::uint32_t> parent = {};    // of add_node(); none: below the root
+    std::optional<std::uint32_t> parent = {};  // of add_node(); none: below the root
     glm::dvec3 translation_m{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     std::optional<std::uint32_t> mesh = {}, light = {}, camera = {};
-    nlohmann::ordered_json extras = {};          // null: none
+    nlohmann::ordered_json extras = {};  // null: none
 };
 
 struct RootSpec {

@@ -20,7 +20,9 @@ int run(int argc, char** argv) {
     bool no_casters = false;
     CLI::App app("Writes Gnomon's built-in scene as a GLB file");
     app.add_option("file", file, "the file to write")->required();
-    app.add_option("--offset", offset_m, "X,Y,Z: where the courtyard's origin lies, metres")->delimiter(',')->expected(3);
+    app.add_option("--offset", offset_m, "X,Y,Z: where the courtyard's origin lies, metres")
+        ->delimiter(',')
+        ->expected(3);
     app.add_option("--scale", options.scale, "size, 1 is life size");
     app.add_flag("--no-casters", no_casters, "no mesh casts a shadow");
     try {

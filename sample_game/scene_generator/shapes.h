@@ -13,7 +13,7 @@ namespace gnomon::game {
 struct Shape {
     std::vector<glm::vec3> positions, normals;  // one normal and uv per position
     std::vector<glm::vec2> uvs;
-    std::vector<std::uint32_t> indices;         // triangle list
+    std::vector<std::uint32_t> indices;  // triangle list
 };
 
 /// Closed box. Texture coordinates are in metres on each side.

@@ -49,14 +49,19 @@ struct Leaf {
 
 std::vector<std::uint8_t> leaf_texture_png() {
     constexpr double kHalfLength = 0.16, kHalfWidth = 0.06;
-    static constexpr std::array<std::array<double, 4>, 9> kLeaves{{{0.25, 0.25, 0.8, 0.6}, {0.72, 0.22, -0.6, 0.8},
-                                                                   {0.5, 0.45, 1.0, 0.0}, {0.22, 0.68, 0.6, -0.8},
-                                                                   {0.76, 0.7, 0.8, 0.6}, {0.48, 0.8, 0.0, 1.0},
-                                                                   {0.5, 0.17, 0.28, 0.96}, {0.19, 0.47, -0.6, 0.8},
+    static constexpr std::array<std::array<double, 4>, 9> kLeaves{{{0.25, 0.25, 0.8, 0.6},
+                                                                   {0.72, 0.22, -0.6, 0.8},
+                                                                   {0.5, 0.45, 1.0, 0.0},
+                                                                   {0.22, 0.68, 0.6, -0.8},
+                                                                   {0.76, 0.7, 0.8, 0.6},
+                                                                   {0.48, 0.8, 0.0, 1.0},
+                                                                   {0.5, 0.17, 0.28, 0.96},
+                                                                   {0.19, 0.47, -0.6, 0.8},
                                                                    {0.8, 0.46, 0.96, -0.28}}};
     return painted([&](std::uint32_t x, std::uint32_t y) {
         const glm::dvec2 p = (glm::dvec2(x, y) + 0.5) / static_cast<double>(kSize);
-        Texel texel{glm::dvec3(0.24, 0.36, 0.12), false};  // colour also where cut out, so that filtering has no dark rim
+        Texel texel{glm::dvec3(0.24, 0.36, 0.12),
+                    false};  // colour also where cut out, so that filtering has no dark rim
         for (const auto& leaf : kLeaves) {
             const glm::dvec2 d = p - glm::dvec2(leaf[0], leaf[1]);
             const double along = (d.x * leaf[2] + d.y * leaf[3]) / kHalfLength;

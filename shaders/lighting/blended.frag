@@ -30,7 +30,7 @@ void main() {
     if (incoming.reaches && dot(geometric, incoming.to_light) > 0.0) {
         float visible = 1.0;
         if (instance.low.w > 0.5)
-            visible = shadow_visibility(fragment_position_ca + light.anchor_from_camera.xyz, geometric,
+            visible = shadow_visibility(fragment_position_ca, geometric,
                                         kRebuiltRelative * length(fragment_position_ca));
         added = visible * incoming.radiance *
                 brdf_times_cosine(colour.rgb, material.metallic, material.roughness, shading,

@@ -20,8 +20,7 @@ void main() {
     if (incoming.reaches && facing > 0.0) {
         visible = 1.0;
         if (surface.receives)
-            visible = shadow_visibility(surface.position_ca + light.anchor_from_camera.xyz, surface.geometric_normal,
-                                        surface.error_m);
+            visible = shadow_visibility(surface.position_ca, surface.geometric_normal, surface.error_m);
     }
 #ifdef WRITE_VISIBILITY
     visibility_out = visible;

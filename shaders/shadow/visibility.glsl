@@ -1,11 +1,11 @@
 // visibility(position, normal, error): the fraction of `light` that reaches a point, for any renderer.
 // Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint.
-//   position_la   from the light's anchor (add light.anchor_from_camera to a camera-anchored position), metres
+//   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
-//   error_m       how far position_la may be off the true surface
-float shadow_visibility(vec3 position_la, vec3 normal, float error_m) {
+//   error_m       how far position_ca may be off the true surface
+float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
 #ifdef SHADOWED
-    ShadowPoint point = shadow_point(position_la, normal, error_m, SHADOW_REACH_TEXEL);
+    ShadowPoint point = shadow_point(position_ca, normal, error_m, SHADOW_REACH_TEXEL);
     return point.covered ? shadow_filter(point) : 1.0;
 #else
     return 1.0;

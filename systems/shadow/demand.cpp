@@ -9,13 +9,13 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Texels per pixel of the picture's larger side. A sun's map is stretched over everything seen, near and far alike,
-/// so it needs more than one; a cube face covers a quarter of the horizon. Measured in docs/accuracy.md.
+/// Texels per pixel of the picture's larger side, for one cascade, spot view or cube face: what is seen lies obliquely
+/// in the map, so that one to one is not enough. Measured in docs/accuracy.md.
 double texels_per_px(LightKind kind) {
     switch (kind) {
-        case LightKind::directional: return 2.5;
+        case LightKind::directional: return 1.5;
         case LightKind::spot: return 1.5;
-        case LightKind::point: return 0.75;
+        case LightKind::point: return 1.5;
     }
     return 1.0;
 }

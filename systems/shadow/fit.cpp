@@ -13,16 +13,29 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Casters of a view: all of the light's for one view, those before the face for a cube.
+/// Whether a caster can darken anything within one cascade's map: it overlaps the map's rectangle and is not
+/// wholly behind the far plane. Nearer than the near plane it still counts.
+bool before_rectangle(const ShadowView& view, const math::Aabb& box_ws) {
+    const glm::dvec3 centre = math::centre(box_ws) - view.anchor_ws_m, half = math::half_extent(box_ws);
+    const auto reach = [&](const glm::dvec3& axis) { return glm::dot(half, glm::abs(axis)); };
+    return std::abs(glm::dot(centre, view.axis_u) - view.centre_ls_m.x) <= view.half_extent_m.x + reach(view.axis_u) &&
+           std::abs(glm::dot(centre, view.axis_v) - view.centre_ls_m.y) <= view.half_extent_m.y + reach(view.axis_v) &&
+           -glm::dot(centre, view.axis_back) - reach(view.axis_back) <= view.far_m;
+}
+
+/// Casters of a view: those of the light that can show in it.
 void assign_casters(const SceneSnapshot& scene, const PotentialSets& sets, ShadowView& view, ShadowFrame& frame) {
     view.casters.first = static_cast<std::uint32_t>(frame.view_caster_items.size());
-    const bool is_face = view.projection == ViewProjection::cube_face;
     const math::Frustum face =
-        is_face ? pyramid(view.anchor_ws_m, glm::dmat3(view.axis_u, view.axis_v, view.axis_back), 1.0, view.far_m)
-                : math::Frustum{};
+        view.projection == ViewProjection::cube_face
+            ? pyramid(view.anchor_ws_m, glm::dmat3(view.axis_u, view.axis_v, view.axis_back), 1.0, view.far_m)
+            : math::Frustum{};
     for (std::uint32_t i = 0; i < sets.casters.count; ++i) {
         const std::uint32_t item = frame.caster_items[sets.casters.first + i];
-        if (!is_face || math::may_overlap(face, scene.instances[item].bounds_ws)) frame.view_caster_items.push_back(item);
+        const math::Aabb& box_ws = scene.instances[item].bounds_ws;
+        const bool shows = view.projection == ViewProjection::orthographic ? before_rectangle(view, box_ws)
+                                                                           : math::may_overlap(face, box_ws);
+        if (shows) frame.view_caster_items.push_back(item);
     }
     // One draw per mesh needs equal meshes side by side; entity order within.
     const auto begin = frame.view_caster_items.begin() + view.casters.first;

@@ -5,9 +5,12 @@
 namespace gnomon::shadow {
 namespace {
 
+/// Cascades of a sun: each about doubles the depth that one texel size can serve; docs/accuracy.md has the figures.
+constexpr std::uint32_t kCascades = 4;
+
 constexpr LightKindRow kRows[] = {
-    {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/kinds/directional.glsl", gl::TextureKind::array, 1,
-     fit_directional},
+    {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/kinds/directional.glsl", gl::TextureKind::array,
+     kCascades, fit_directional},
     {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot},
     {LightKind::point, "point", "LIGHT_POINT", "shadow/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point},
 };

@@ -24,7 +24,8 @@ constexpr double kPositionRounding = 12.0 * kUnitRoundoff;
 
 glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
-ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot) {
+ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot,
+                       const ConsumerItem& consumer) {
     // A map that had to be shrunk has larger texels than the fit planned.
     const double stretch = static_cast<double>(demand.resolution_px) / static_cast<double>(slot.size_px);
     const bool orthographic = view.projection == ViewProjection::orthographic;
@@ -36,6 +37,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     const double depth_rounding = orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha);
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
                       static_cast<float>(view.depth_alpha), 0.0f};
+    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, 0.0);
     return record;
 }
 
@@ -138,9 +140,8 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.row.reach_texel = filter.reach_texel;
             out.map = slot.texture;
             out.sampler = filter.linear_sampler ? samplers.linear : samplers.nearest;
-            out.record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, 0.0);
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
-                out.record.views[out.record.options.x++] = view_record(view, demand, slot);
+                out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
             out.record.bias.x = light.shadow.bias_m;
         }

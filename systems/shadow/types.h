@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <string_view>
@@ -54,6 +55,8 @@ struct ShadowView {
     double texel_u = 0.0, texel_v = 0.0; // edge of a texel: metres (orthographic) or tangent at distance 1
     double near_m = 0.0, far_m = 0.0;    // along -axis_back from the anchor's plane; perspective: from the light
     double depth_alpha = 0.0, depth_beta = 0.0;  // perspective: depth = alpha + beta / distance
+    glm::dvec2 half_extent_m{0.0};       // orthographic: half of the map's sides along axis_u and axis_v
+    glm::dvec2 centre_ls_m{0.0};         // orthographic: the map's centre from the anchor, along axis_u and axis_v
     double predicted_error_px = 0.0;
     std::uint32_t consumer_mask = 0;
     IndexRange casters;                  // into ShadowFrame::view_caster_items
@@ -74,9 +77,10 @@ struct ViewRecord {
     glm::mat4 map_from_anchor{1.0f};
     glm::vec4 axis_u{0.0f}, axis_v{0.0f}, axis_back{0.0f};
     glm::vec4 numeric{0.0f};
+    glm::vec4 anchor_from_camera{0.0f};
     bool operator==(const ViewRecord&) const = default;
 };
-static_assert(sizeof(ViewRecord) == 128);
+static_assert(sizeof(ViewRecord) == 144);
 
 /// Matches LightBlock in shaders/shadow/light_block.glsl (std140).
 struct LightRecord {
@@ -84,12 +88,11 @@ struct LightRecord {
     glm::vec4 to_light{0.0f};
     glm::vec4 radiance{0.0f};
     glm::vec4 cone{0.0f};
-    glm::vec4 anchor_from_camera{0.0f};
     glm::ivec4 options{0};
     glm::vec4 bias{0.0f};
     ViewRecord views[kMaxViews];
 };
-static_assert(sizeof(LightRecord) == 7 * 16 + kMaxViews * sizeof(ViewRecord));
+static_assert(sizeof(LightRecord) == 6 * 16 + kMaxViews * sizeof(ViewRecord));
 
 /// Matches DepthViewBlock in shaders/shadow/depth/depth_view_block.glsl (std140).
 struct DepthViewRecord {

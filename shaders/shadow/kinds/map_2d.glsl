@@ -13,12 +13,14 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
 }
 
 // Beyond the far plane depth is negative; clamped to 0 it is lit unless something nearer is stored.
-ShadowPoint point_2d(int view, vec4 projected, float bias_depth) {
+// Nearer than `margin_texel` to the border a filter would read past it: not covered.
+ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_texel) {
     ShadowPoint point;
+    point.texel_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
     vec3 map = projected.xyz / projected.w;
-    point.covered = projected.w > 0.0 && all(greaterThanEqual(map.xy, vec2(0.0))) && all(lessThanEqual(map.xy, vec2(1.0)));
+    vec2 margin = margin_texel * point.texel_uv;
+    point.covered = projected.w > 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
     point.layer = float(view);
-    point.texel_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
     return point;
 }

@@ -21,8 +21,9 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     return texture(shadow_map, vec4(direction, clamp(depth + point.bias_depth, 0.0, 1.0)));
 }
 
-ShadowPoint shadow_point(vec3 position_la, vec3 normal, float error_m, float reach_texel) {
+ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[0];
+    vec3 position_la = position_ca + view.anchor_from_camera.xyz;
     vec3 size = abs(position_la);
     bool x_major = size.x >= size.y && size.x >= size.z;
     bool y_major = !x_major && size.y >= size.z;

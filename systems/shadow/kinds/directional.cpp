@@ -1,15 +1,17 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "engine/math/frustum.h"
 #include "engine/math/projection.h"
+#include "systems/extract/volumes.h"
 #include "systems/shadow/kinds/rectangle.h"
 #include "systems/shadow/light_kinds.h"
 
-/// Directional light: one orthographic view, the smallest rotated rectangle around the visible receivers as the
-/// light sees them. Depth runs from the receiver nearest the light to the farthest; casters nearer still are
-/// flattened onto the near plane by depth clamping and cast all the same.
+/// Directional light: cascades along the first consumer's view, each an orthographic view around the smallest rotated
+/// rectangle of the receivers seen in its slice, as the light sees them. Depth runs from the receiver nearest the
+/// light to the farthest; casters nearer still are flattened onto the near plane by depth clamping and cast all the same.
 namespace gnomon::shadow {
 namespace {
 
@@ -25,37 +27,52 @@ glm::dvec3 lattice_anchor(const glm::dvec3& centre_ws, double extent_m) {
 }
 
 struct DepthRange {
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;  // along back, from the world's origin
+    double lowest = std::numeric_limits<double>::infinity(), highest = -std::numeric_limits<double>::infinity();
+    void include(double value) {
+        lowest = std::min(lowest, value);
+        highest = std::max(highest, value);
+    }
 };
 
-}  // namespace
+/// Share of logarithmic against uniform splits (Zhang et al. 2006, "practical split scheme").
+constexpr double kLogarithmicShare = 0.8;
+/// The nearest split starts no nearer than this share of the farthest receiver: a camera inside a receiver's
+/// box sees it from distance 0 as far as bounds can tell, and a logarithm needs a start.
+constexpr double kNearestShare = 1.0 / 1024;
 
-bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
-    const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
-    // Local storage: the hull of a few hundred points at most, once per sun and frame.
+/// Where cascade i of n ends, as distance along the view.
+double split_m(const DepthRange& seen, std::uint32_t i, std::uint32_t n, bool perspective) {
+    const double share = static_cast<double>(i) / static_cast<double>(n);
+    const double uniform = seen.lowest + (seen.highest - seen.lowest) * share;
+    if (!perspective) return uniform;
+    const double start = std::max(seen.lowest, seen.highest * kNearestShare);
+    return kLogarithmicShare * start * std::pow(seen.highest / start, share) + (1.0 - kLogarithmicShare) * uniform;
+}
+
+/// One orthographic view around `points_ws`. False if they span nothing finite.
+bool fit_rectangle(const glm::dmat3& basis, std::span<const glm::dvec3> points_ws, double size_px, double reach_texel,
+                   ShadowView& view) {
+    // Local storage: the hull of a few hundred points at most, a few times per sun and frame.
     std::vector<glm::dvec2> points, hull;
-    points.reserve(input.receiver_points_ws.size());
+    points.reserve(points_ws.size());
     DepthRange depth;
-    const glm::dvec3 origin_ws = input.receiver_points_ws.front();
-    for (const glm::dvec3& p_ws : input.receiver_points_ws) {
+    const glm::dvec3 origin_ws = points_ws.front();
+    for (const glm::dvec3& p_ws : points_ws) {
         const glm::dvec3 p = (p_ws - origin_ws) * basis;
         points.emplace_back(p.x, p.y);
-        depth.lowest = std::min(depth.lowest, p.z);
-        depth.highest = std::max(depth.highest, p.z);
+        depth.include(p.z);
     }
     const Rectangle rectangle = smallest_rectangle(points, hull);
     const glm::dvec2 extent = rectangle.max - rectangle.min;
     const double largest = std::max({extent.x, extent.y, depth.highest - depth.lowest});
     if (!(largest > 0.0) || !std::isfinite(largest)) return false;
 
-    ShadowView view;
     view.projection = ViewProjection::orthographic;
     view.axis_u = basis[0] * rectangle.axis_u.x + basis[1] * rectangle.axis_u.y;
     view.axis_v = basis[1] * rectangle.axis_u.x - basis[0] * rectangle.axis_u.y;
     view.axis_back = basis[2];
 
-    const double size_px = input.demand.resolution_px;
-    const double margin_px = std::ceil(static_cast<double>(input.reach_texel)) + 1.0;  // filter footprint, and snapping
+    const double margin_px = std::ceil(reach_texel) + 1.0;  // filter footprint, and snapping
     const glm::dvec2 padded = glm::max(extent, glm::dvec2(largest * kLeastExtent)) * (size_px / (size_px - 2.0 * margin_px));
     view.texel_u = padded.x / size_px;
     view.texel_v = padded.y / size_px;
@@ -70,6 +87,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const glm::dvec3 c(glm::dot(offset, view.axis_u), glm::dot(offset, view.axis_v), glm::dot(offset, view.axis_back));
     view.near_m = -c.z - 0.5 * range_m - slack_m;
     view.far_m = -c.z + 0.5 * range_m + slack_m;
+    view.half_extent_m = 0.5 * padded;
+    view.centre_ls_m = glm::dvec2(c);
 
     const glm::dmat4 view_from_anchor(glm::transpose(glm::dmat3(view.axis_u, view.axis_v, view.axis_back)));
     const glm::dmat4 clip_from_anchor =
@@ -77,8 +96,54 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
                                     view.near_m, view.far_m) * view_from_anchor;
     view.clip_from_anchor = glm::mat4(clip_from_anchor);
     view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);
-    views.push_back(view);
     return true;
+}
+
+/// The slice of what the consumer sees between two distances along its view.
+ConsumerItem slice(ConsumerItem consumer, double from_m, double to_m) {
+    consumer.near_m = from_m;
+    consumer.far_m = to_m;
+    return consumer;
+}
+
+}  // namespace
+
+bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
+    const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
+    const ConsumerItem& consumer = input.scene.consumers.front();
+    const bool perspective = consumer.projection == CameraProjection::perspective;
+    DepthRange seen;
+    for (const glm::dvec3& p : input.receiver_points_ws)
+        seen.include(-glm::dot(p - consumer.position_ws_m, consumer.rotation_ws[2]));
+    seen.lowest = std::max(seen.lowest, consumer.near_m);
+    seen.highest = std::max(seen.highest, seen.lowest);
+    // Several consumers share the cascades: the last one then holds whatever any of them sees.
+    const bool alone = input.scene.consumers.size() == 1;
+
+    std::vector<glm::dvec3> points_ws;
+    std::uint32_t layer = 0;
+    double from_m = seen.lowest;
+    for (std::uint32_t i = 1; i <= input.demand.view_count; ++i) {
+        const bool last = i == input.demand.view_count;
+        const double to_m = last ? seen.highest : split_m(seen, i, input.demand.view_count, perspective);
+        points_ws.clear();
+        if (last && (!alone || layer == 0)) {
+            points_ws.assign(input.receiver_points_ws.begin(), input.receiver_points_ws.end());
+        } else if (from_m < to_m) {
+            const math::Frustum frustum = consumer_frustum(slice(consumer, from_m, to_m));
+            for (const std::uint32_t r : input.receivers)
+                math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws);
+        }
+        ShadowView view;
+        view.layer = layer;
+        if (!points_ws.empty() &&
+            fit_rectangle(basis, points_ws, input.demand.resolution_px, static_cast<double>(input.reach_texel), view)) {
+            views.push_back(view);
+            ++layer;
+        }
+        from_m = to_m;
+    }
+    return layer > 0;
 }
 
 }  // namespace gnomon::shadow

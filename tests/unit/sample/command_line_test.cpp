@@ -25,8 +25,11 @@ TEST(CommandLine, DefaultsAreThoseOfTheContract) {
 }
 
 TEST(CommandLine, EveryFlagIsUnderstood) {
-    const auto line = parse({"--scene", "a b.glb", "--camera", "1", "--size", "64x32", "--headless", "--frames", "3", "--time",
-                             "-1.5", "--exposure", "7.5", "--stats", "s", "--screenshot", "p", "--visibility", "v", "--set",
+    const auto line = parse({"--scene",     "a b.glb",       "--camera",   "1",
+                             "--size",      "64x32",         "--headless", "--frames",
+                             "3",           "--time",        "-1.5",       "--exposure",
+                             "7.5",         "--stats",       "s",          "--screenshot",
+                             "p",           "--visibility",  "v",          "--set",
                              "filter=hard", "--set=bias=0.5"});
     ASSERT_TRUE(line) << to_line(line.error());
     const CommandLine& l = line.value();
@@ -70,7 +73,8 @@ TEST(NumberText, NumbersAreReadWholeOrNotAtAll) {
     for (const char* bad : {"", " 1", "1 ", "+1", "1x", "nan", "inf", "-inf", "1e999", "0x10", "1,5"})
         EXPECT_EQ(read_number(bad), std::nullopt) << bad;
     EXPECT_EQ(read_count("42"), 42u);
-    for (const char* bad : {"", "-1", "+1", "1.0", "0x1", "18446744073709551616"}) EXPECT_EQ(read_count(bad), std::nullopt) << bad;
+    for (const char* bad : {"", "-1", "+1", "1.0", "0x1", "18446744073709551616"})
+        EXPECT_EQ(read_count(bad), std::nullopt) << bad;
 }
 
 }  // namespace

@@ -10,10 +10,16 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
-    LightShadow odd{.enabled = false, .filter = ShadowFilter::pcf_3x3, .resolution_px = 768, .max_error_px = 0.3f,
-                    .bias = BiasMode::constant, .bias_m = 0.0125f, .economy = false};
+    LightShadow odd{.enabled = false,
+                    .filter = ShadowFilter::pcf_3x3,
+                    .resolution_px = 768,
+                    .max_error_px = 0.3f,
+                    .bias = BiasMode::constant,
+                    .bias_m = 0.0125f,
+                    .economy = false};
     LightShadow copy;
-    for (const LightSetting& setting : light_settings()) EXPECT_TRUE(setting.set(copy, setting.get(odd))) << setting.key;
+    for (const LightSetting& setting : light_settings())
+        EXPECT_TRUE(setting.set(copy, setting.get(odd))) << setting.key;
     EXPECT_EQ(copy, odd);
 }
 
@@ -30,10 +36,12 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
     const struct {
         const char* text;
         const char* rule;
-    } rows[] = {{"filter", "set.syntax"},          {"", "set.syntax"},          {"colour=red", "set.key"},
-                {"=hard", "set.key"},              {"filter=soft", "set.value"}, {"resolution=-1", "set.value"},
-                {"resolution=65537", "set.value"}, {"max_error_px=0", "set.value"}, {"max_error_px=nan", "set.value"},
-                {"max_error_px=1e-60", "set.value"}, {"bias=-1", "set.value"},   {"economy=1", "set.value"}};
+    } rows[] = {{"filter", "set.syntax"},          {"", "set.syntax"},
+                {"colour=red", "set.key"},         {"=hard", "set.key"},
+                {"filter=soft", "set.value"},      {"resolution=-1", "set.value"},
+                {"resolution=65537", "set.value"}, {"max_error_px=0", "set.value"},
+                {"max_error_px=nan", "set.value"}, {"max_error_px=1e-60", "set.value"},
+                {"bias=-1", "set.value"},          {"economy=1", "set.value"}};
     for (const auto& row : rows) {
         LightShadow shadow;
         const auto error = apply_setting(shadow, row.text);

@@ -12,9 +12,12 @@ namespace {
 
 using Motion = assets::Node::Motion;
 
-const Transform kRest{.translation_m = {1.0, 2.0, 3.0}, .rotation = glm::angleAxis(0.5 * glm::pi<double>(), glm::dvec3(0.0, 1.0, 0.0))};
+const Transform kRest{.translation_m = {1.0, 2.0, 3.0},
+                      .rotation = glm::angleAxis(0.5 * glm::pi<double>(), glm::dvec3(0.0, 1.0, 0.0))};
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::length(a - b), 1e-12) << a.x << " " << a.y << " " << a.z; }
+void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
+    EXPECT_LT(glm::length(a - b), 1e-12) << a.x << " " << a.y << " " << a.z;
+}
 
 TEST(Motion, SpinTurnsOncePerPeriodCounterClockwise) {
     const Motion spin{.kind = "spin", .axis = {0.0, 2.0, 0.0}, .period_s = 4.0};

@@ -23,10 +23,13 @@ assets::Mesh box_mesh(bool inward) {
     assets::Mesh mesh;
     for (int i = 0; i < 8; ++i)
         mesh.vertices.push_back({.position_ms = {i & 4 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 1 ? 1.f : -1.f}});
-    const std::uint32_t quads[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    const std::uint32_t quads[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1},
+                                       {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
     for (const auto& q : quads) {
-        if (inward) mesh.indices.insert(mesh.indices.end(), {q[0], q[2], q[1], q[0], q[3], q[2]});
-        else mesh.indices.insert(mesh.indices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
+        if (inward)
+            mesh.indices.insert(mesh.indices.end(), {q[0], q[2], q[1], q[0], q[3], q[2]});
+        else
+            mesh.indices.insert(mesh.indices.end(), {q[0], q[1], q[2], q[0], q[2], q[3]});
     }
     mesh.submeshes.push_back({0, static_cast<std::uint32_t>(mesh.indices.size()), 0});
     mesh.bounds_ms = {glm::dvec3(-1.0), glm::dvec3(1.0)};
@@ -159,7 +162,8 @@ TEST(Framing, ARoomIsSeenFromWithin) {
     const Spawned s(one_box(true));
     const glm::dvec3 at = s.registry.get<Transform>(s.scene.cameras[0].entity)->translation_m;
     EXPECT_TRUE(glm::all(glm::lessThan(glm::abs(at), glm::dvec3(1.0)))) << at.x << " " << at.y << " " << at.z;
-    const glm::dvec3 forward = s.registry.get<Transform>(s.scene.cameras[0].entity)->rotation * glm::dvec3(0.0, 0.0, -1.0);
+    const glm::dvec3 forward =
+        s.registry.get<Transform>(s.scene.cameras[0].entity)->rotation * glm::dvec3(0.0, 0.0, -1.0);
     EXPECT_LT(glm::dot(forward, at), 0.0) << "it must look through the centre";
 }
 
