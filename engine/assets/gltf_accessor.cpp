@@ -19,12 +19,16 @@ constexpr std::size_t kMaxStride = 252;
 std::size_t component_bytes(int component_type) {
     switch (component_type) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 1;
         case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 2;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-        default: return 0;
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return 4;
+        default:
+            return 0;
     }
 }
 
@@ -34,13 +38,20 @@ struct ElementLayout {
 
 ElementLayout element_layout(int type) {
     switch (type) {
-        case TINYGLTF_TYPE_VEC2: return {2, 1};
-        case TINYGLTF_TYPE_VEC3: return {3, 1};
-        case TINYGLTF_TYPE_VEC4: return {4, 1};
-        case TINYGLTF_TYPE_MAT2: return {2, 2};
-        case TINYGLTF_TYPE_MAT3: return {3, 3};
-        case TINYGLTF_TYPE_MAT4: return {4, 4};
-        default: return {1, 1};
+        case TINYGLTF_TYPE_VEC2:
+            return {2, 1};
+        case TINYGLTF_TYPE_VEC3:
+            return {3, 1};
+        case TINYGLTF_TYPE_VEC4:
+            return {4, 1};
+        case TINYGLTF_TYPE_MAT2:
+            return {2, 2};
+        case TINYGLTF_TYPE_MAT3:
+            return {3, 3};
+        case TINYGLTF_TYPE_MAT4:
+            return {4, 4};
+        default:
+            return {1, 1};
     }
 }
 
@@ -151,13 +162,20 @@ T load(const std::byte* from) {
 template <class Use>
 void with_component(int component_type, Use&& use) {
     switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return use(std::int8_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return use(std::uint8_t{});
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return use(std::int16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return use(std::uint16_t{});
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return use(std::uint32_t{});
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return use(float{});
-        default: return;
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return use(std::int8_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return use(std::uint8_t{});
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return use(std::int16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return use(std::uint16_t{});
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return use(std::uint32_t{});
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return use(float{});
+        default:
+            return;
     }
 }
 
@@ -181,7 +199,8 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
         }
         if (!accessor.sparse.isSparse) return;
         const auto& sparse = accessor.sparse;
-        const std::byte* values = view_bytes(document, sparse.values.bufferView, where).data() + sparse.values.byteOffset;
+        const std::byte* values =
+            view_bytes(document, sparse.values.bufferView, where).data() + sparse.values.byteOffset;
         const std::byte* indices =
             view_bytes(document, sparse.indices.bufferView, where).data() + sparse.indices.byteOffset;
         with_component(sparse.indices.componentType, [&]<class I>(I) {
@@ -229,13 +248,20 @@ std::vector<std::uint32_t> read_indices(const Document& document, int index) {
     if (accessor.type != TINYGLTF_TYPE_SCALAR) fail("index.type", where, "indices must be SCALAR");
     std::uint32_t restart = 0;
     switch (accessor.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: restart = std::numeric_limits<std::uint8_t>::max(); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: restart = std::numeric_limits<std::uint16_t>::max(); break;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: restart = std::numeric_limits<std::uint32_t>::max(); break;
-        default: fail("index.type", where, "indices must be unsigned integers");
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            restart = std::numeric_limits<std::uint8_t>::max();
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            restart = std::numeric_limits<std::uint16_t>::max();
+            break;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            restart = std::numeric_limits<std::uint32_t>::max();
+            break;
+        default:
+            fail("index.type", where, "indices must be unsigned integers");
     }
-    std::vector<std::uint32_t> indices = read_elements<std::uint32_t>(
-        document, index, [](auto value) { return static_cast<std::uint32_t>(value); });
+    std::vector<std::uint32_t> indices =
+        read_elements<std::uint32_t>(document, index, [](auto value) { return static_cast<std::uint32_t>(value); });
     for (const std::uint32_t value : indices) {
         if (value == restart) fail("index.restart", where, "holds the primitive restart value");
     }

@@ -21,8 +21,9 @@ constexpr std::array<std::string_view, 5> kKnownExtensions = {
     "KHR_texture_transform"};
 
 /// All that tinygltf is shown. Nothing else is read, so nothing else can hurt.
-constexpr std::array<const char*, 10> kParsedMembers = {"asset",     "accessors", "bufferViews", "meshes",  "nodes",
-                                                        "materials", "textures",  "samplers",    "cameras", "extensions"};
+constexpr std::array<const char*, 10> kParsedMembers = {"asset",   "accessors", "bufferViews", "meshes",
+                                                        "nodes",   "materials", "textures",    "samplers",
+                                                        "cameras", "extensions"};
 
 json parsed_json(std::string_view text) {
     check_json_text(text);
@@ -38,7 +39,8 @@ json parsed_json(std::string_view text) {
 void check_version_and_extensions(Document& document) {
     const json& asset = document.json["asset"];
     const auto version = asset["version"].get<std::string>();
-    if (!version.starts_with("2.")) fail("asset.version", "/asset/version", "glTF " + printable(version) + " is not 2.x");
+    if (!version.starts_with("2."))
+        fail("asset.version", "/asset/version", "glTF " + printable(version) + " is not 2.x");
     const auto minimum = asset.find("minVersion");
     if (minimum != asset.end() && *minimum != "2.0") {
         fail("asset.min_version", "/asset/minVersion", "asks for more than glTF 2.0");
@@ -78,7 +80,8 @@ void load_buffers(Document& document, const Framing& framing) {
                                : read_file(resolve_uri(text, document.folder, where), kMaxFileBytes, where);
             data.bytes = data.storage;
             external_bytes += data.storage.size();
-            if (external_bytes > kMaxExternalBytes) fail("buffer.total_bytes", where, "all buffers together are too large");
+            if (external_bytes > kMaxExternalBytes)
+                fail("buffer.total_bytes", where, "all buffers together are too large");
         }
         data.available = true;
         if (length > data.bytes.size()) {
@@ -131,7 +134,8 @@ bool Document::try_charge(std::size_t bytes) {
 
 void Document::charge(std::size_t bytes, const std::string& pointer) {
     if (!try_charge(bytes)) {
-        fail("total.decoded_bytes", pointer, "the scene needs more than " + std::to_string(kMaxDecodedBytes) + " bytes");
+        fail("total.decoded_bytes", pointer,
+             "the scene needs more than " + std::to_string(kMaxDecodedBytes) + " bytes");
     }
 }
 

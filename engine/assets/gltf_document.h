@@ -21,12 +21,12 @@ struct BufferData {
 /// A parsed and checked file: every index resolves, every range lies within its buffer.
 struct Document {
     std::filesystem::path folder;
-    nlohmann::json json;              // as written; tinygltf drops what it does not know
-    tinygltf::Model model;            // without buffers, images and primitives' indices: no bytes, URI or file
+    nlohmann::json json;    // as written; tinygltf drops what it does not know
+    tinygltf::Model model;  // without buffers, images and primitives' indices: no bytes, URI or file
     std::vector<BufferData> buffers;
     std::vector<std::string> warnings;
     std::size_t suppressed_warnings = 0;
-    std::size_t decoded_bytes = 0;    // against kMaxDecodedBytes
+    std::size_t decoded_bytes = 0;  // against kMaxDecodedBytes
 
     void warn(std::string line);
     /// Accounts for memory that the scene will keep. False, and nothing charged, if the budget does not allow it.

@@ -91,8 +91,9 @@ void load_cameras(const Document& document, SceneData& scene) {
         const tinygltf::Camera& source = document.model.cameras[i];
         const bool perspective = source.type == "perspective";
         const std::string where = pointer("cameras", i, source.type);
-        CameraData camera = perspective ? load_perspective(source.perspective, document.json["cameras"][i]["perspective"], where)
-                                        : load_orthographic(source.orthographic, where);
+        CameraData camera =
+            perspective ? load_perspective(source.perspective, document.json["cameras"][i]["perspective"], where)
+                        : load_orthographic(source.orthographic, where);
         camera.name = source.name;
         scene.cameras.push_back(std::move(camera));
     }

@@ -122,7 +122,8 @@ void read_uv_transform(const json& info, const std::string& where, UvSource& sou
     const auto pair = [&](const char* key, glm::dvec2 fallback) {
         const auto value = found->find(key);
         if (value == found->end()) return fallback;
-        const bool right = value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
+        const bool right =
+            value->is_array() && value->size() == 2 && (*value)[0].is_number() && (*value)[1].is_number();
         if (!right) fail("property.type", where, std::string{key} + " must be two numbers");
         return glm::dvec2((*value)[0].get<double>(), (*value)[1].get<double>());
     };
@@ -133,8 +134,8 @@ void read_uv_transform(const json& info, const std::string& where, UvSource& sou
     const double c = std::cos(rotation_rad);
     const double s = std::sin(rotation_rad);
     // Columns; a positive angle turns counter-clockwise with v pointing down, as the extension defines it.
-    source.transform = glm::mat3x2(glm::vec2(c * scale.x, -s * scale.x), glm::vec2(s * scale.y, c * scale.y),
-                                   glm::vec2(offset));
+    source.transform =
+        glm::mat3x2(glm::vec2(c * scale.x, -s * scale.x), glm::vec2(s * scale.y, c * scale.y), glm::vec2(offset));
     for (int column = 0; column < 3; ++column) {
         if (!std::isfinite(source.transform[column].x) || !std::isfinite(source.transform[column].y)) {
             fail("material.range", where, "the texture transform is not finite");
@@ -179,8 +180,8 @@ Material load_material(Document& document, std::size_t index, TextureLoader& tex
     material.metallic = unit_float(document, pbr.metallicFactor, pbr_where + "/metallicFactor");
     material.roughness = unit_float(document, pbr.roughnessFactor, pbr_where + "/roughnessFactor");
     for (int i = 0; i < 4; ++i) {
-        material.base_colour[i] = unit_float(document, pbr.baseColorFactor[static_cast<std::size_t>(i)],
-                                             pbr_where + "/baseColorFactor");
+        material.base_colour[i] =
+            unit_float(document, pbr.baseColorFactor[static_cast<std::size_t>(i)], pbr_where + "/baseColorFactor");
     }
     material.emissive = emissive_of(source, raw, where);
     if (pbr.baseColorTexture.index < 0) return material;

@@ -10,8 +10,8 @@ namespace gnomon::assets::gltf {
 
 /// What a material demands of the vertices that wear it.
 struct UvSource {
-    int set = 0;                       // TEXCOORD_<set>
-    glm::mat3x2 transform{1.0f};       // KHR_texture_transform, applied at load
+    int set = 0;                  // TEXCOORD_<set>
+    glm::mat3x2 transform{1.0f};  // KHR_texture_transform, applied at load
 };
 
 /// Fills scene.materials (one per glTF material, in order, then a default one if there is none) and scene.textures

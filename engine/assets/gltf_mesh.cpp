@@ -43,7 +43,9 @@ bool is_allowed(const tinygltf::Accessor& accessor, int type, std::initializer_l
 class MeshLoader {
 public:
     MeshLoader(Document& document, const std::vector<UvSource>& uv_sources, SceneData& scene)
-        : document_(document), uv_sources_(uv_sources), scene_(scene),
+        : document_(document),
+          uv_sources_(uv_sources),
+          scene_(scene),
           quantized_(document.uses_extension("KHR_mesh_quantization")) {}
 
     void load_all() {
@@ -77,15 +79,17 @@ private:
     }
 
     void append_primitive(const tinygltf::Primitive& primitive, int index_accessor, Mesh& mesh) {
-        if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) fail("primitive.mode", where_ + "/mode", "must lie between 0 and 6");
+        if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
+            fail("primitive.mode", where_ + "/mode", "must lie between 0 and 6");
         if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
             document_.warn(where_ + ": points and lines are left out");
             return;
         }
         if (!primitive.targets.empty()) document_.warn("morph targets are ignored");
         const VertexBlock block = vertices_of(primitive, mesh);
-        const std::size_t corner_count =
-            index_accessor >= 0 ? document_.model.accessors[static_cast<std::size_t>(index_accessor)].count : block.count;
+        const std::size_t corner_count = index_accessor >= 0
+                                             ? document_.model.accessors[static_cast<std::size_t>(index_accessor)].count
+                                             : block.count;
         const std::size_t triangles = triangle_count(primitive.mode, corner_count);
         triangles_ += triangles;
         if (triangles_ > kMaxTriangles) fail("total.triangles", where_, "the scene has too many triangles");
@@ -142,10 +146,12 @@ private:
         return block;
     }
 
-    const tinygltf::Accessor& attribute(int accessor, const char* name, int type, std::initializer_list<int> core) const {
+    const tinygltf::Accessor& attribute(int accessor, const char* name, int type,
+                                        std::initializer_list<int> core) const {
         const auto& found = document_.model.accessors[static_cast<std::size_t>(accessor)];
         if (!is_allowed(found, type, core, quantized_)) {
-            fail("attribute.type", where_ + "/attributes/" + name, "its accessor has a type that glTF does not allow here");
+            fail("attribute.type", where_ + "/attributes/" + name,
+                 "its accessor has a type that glTF does not allow here");
         }
         return found;
     }

@@ -67,7 +67,8 @@ std::vector<int> roots_of(Document& document, const std::vector<int>& parents) {
 Trs read_trs(const tinygltf::Node& source, const json& raw, const std::string& where) {
     if (!source.matrix.empty()) {
         for (const char* member : {"translation", "rotation", "scale"}) {
-            if (raw.contains(member)) fail("node.matrix_and_trs", where + "/matrix", "stands beside " + std::string{member});
+            if (raw.contains(member))
+                fail("node.matrix_and_trs", where + "/matrix", "stands beside " + std::string{member});
         }
         glm::dmat4 matrix(1.0);
         for (std::size_t i = 0; i < 16; ++i) {
@@ -93,7 +94,8 @@ Trs read_trs(const tinygltf::Node& source, const json& raw, const std::string& w
 
 class NodeLoader {
 public:
-    NodeLoader(Document& document, SceneData& scene) : document_(document), scene_(scene), visited_(document.model.nodes.size(), false) {}
+    NodeLoader(Document& document, SceneData& scene)
+        : document_(document), scene_(scene), visited_(document.model.nodes.size(), false) {}
 
     void load(const std::vector<int>& roots) {
         std::vector<Pending> pending;

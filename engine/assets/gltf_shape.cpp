@@ -23,8 +23,8 @@ struct Row {
     std::string_view path;
     Kind kind;
     Need need = Need::optional;
-    std::size_t size = 0;              // list: most elements; numbers: exact length; integer: largest value
-    std::string_view target = {};      // reference: the collection; choice: the words, each between bars
+    std::size_t size = 0;          // list: most elements; numbers: exact length; integer: largest value
+    std::string_view target = {};  // reference: the collection; choice: the words, each between bars
 };
 
 constexpr std::size_t kMaxInt = std::numeric_limits<std::int32_t>::max();
@@ -210,15 +210,24 @@ private:
 
     void check_value(json& value) {
         switch (row_->kind) {
-            case Kind::object: return expect(value.is_object(), "an object");
-            case Kind::list: return check_list(value);
-            case Kind::text: return expect(value.is_string(), "a string");
-            case Kind::boolean: return expect(value.is_boolean(), "true or false");
-            case Kind::number: return expect(value.is_number(), "a number");
-            case Kind::integer: return check_integer(value, row_->size, "property.range");
-            case Kind::numbers: return check_numbers(value);
-            case Kind::reference: return check_reference(value);
-            case Kind::choice: return check_choice(value);
+            case Kind::object:
+                return expect(value.is_object(), "an object");
+            case Kind::list:
+                return check_list(value);
+            case Kind::text:
+                return expect(value.is_string(), "a string");
+            case Kind::boolean:
+                return expect(value.is_boolean(), "true or false");
+            case Kind::number:
+                return expect(value.is_number(), "a number");
+            case Kind::integer:
+                return check_integer(value, row_->size, "property.range");
+            case Kind::numbers:
+                return check_numbers(value);
+            case Kind::reference:
+                return check_reference(value);
+            case Kind::choice:
+                return check_choice(value);
         }
     }
 

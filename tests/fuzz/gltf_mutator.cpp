@@ -53,24 +53,27 @@ GltfBuilder rich_seed() {
     builder.push("samplers", {{"wrapS", 33071}});
     builder.push("textures", {{"source", 0}, {"sampler", 0}});
     builder.push("textures", {{"source", 1}});
-    builder.push("materials",
-                 {{"alphaMode", "MASK"},
-                  {"alphaCutoff", 0.5},
-                  {"emissiveFactor", {1, 1, 1}},
-                  {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}},
-                  {"pbrMetallicRoughness",
-                   {{"baseColorFactor", {1, 1, 1, 1}},
-                    {"baseColorTexture",
-                     {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}, {"rotation", 1}}}}}}}}}});
+    builder.push(
+        "materials",
+        {{"alphaMode", "MASK"},
+         {"alphaCutoff", 0.5},
+         {"emissiveFactor", {1, 1, 1}},
+         {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2}}}}},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {1, 1, 1, 1}},
+           {"baseColorTexture",
+            {{"index", 0}, {"extensions", {{"KHR_texture_transform", {{"scale", {2, 2}}, {"rotation", 1}}}}}}}}}});
     builder.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"zfar", 10}}}});
-    builder.push("cameras", {{"type", "orthographic"},
-                             {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}});
+    builder.push("cameras",
+                 {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0}, {"zfar", 10}}}});
     builder.doc["extensions"]["KHR_lights_punctual"]["lights"] =
         json::array({{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}}}, {"range", 9}, {"color", {1, 1, 1}}},
                      {{"type", "directional"}, {"extras", {{"shadow", false}}}}});
     builder.push("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"extras", {{"shadow", false}}}});
     builder.push("nodes", {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}, {"children", {1, 0}}});
-    builder.push("nodes", {{"camera", 0}, {"rotation", {0, 0, 0, 1}}, {"scale", {1, 1, 1}},
+    builder.push("nodes", {{"camera", 0},
+                           {"rotation", {0, 0, 0, 1}},
+                           {"scale", {1, 1, 1}},
                            {"extras", {{"motion", {{"kind", "spin"}, {"axis", {0, 1, 0}}, {"period_s", 2}}}}}});
     builder.doc["scenes"] = json::array({{{"nodes", {2, 3}}}});
     builder.doc["scene"] = 0;
@@ -79,30 +82,54 @@ GltfBuilder rich_seed() {
 
 json odd_value(Choices& choices) {
     switch (choices.below(24)) {
-        case 0: return -1;
-        case 1: return 0;
-        case 2: return 1;
-        case 3: return choices.byte();
-        case 4: return 5120 + choices.byte() % 8;
-        case 5: return std::numeric_limits<std::int32_t>::max();
-        case 6: return std::numeric_limits<std::uint32_t>::max();
-        case 7: return std::numeric_limits<std::int64_t>::min();
-        case 8: return std::numeric_limits<std::uint64_t>::max();
-        case 9: return std::uint64_t{1} << choices.byte() % 64;
-        case 10: return 0.5;
-        case 11: return 1e308;
-        case 12: return -1e-320;
-        case 13: return 1e39;
-        case 14: return "";
-        case 15: return "data:,%41";
-        case 16: return "../x";
-        case 17: return "MAT4";
-        case 18: return nullptr;
-        case 19: return true;
-        case 20: return json::array();
-        case 21: return json::object();
-        case 22: return json::array({0, choices.byte(), 1e10});
-        default: return json::array({odd_value(choices)});  // ends: spent choices give 0
+        case 0:
+            return -1;
+        case 1:
+            return 0;
+        case 2:
+            return 1;
+        case 3:
+            return choices.byte();
+        case 4:
+            return 5120 + choices.byte() % 8;
+        case 5:
+            return std::numeric_limits<std::int32_t>::max();
+        case 6:
+            return std::numeric_limits<std::uint32_t>::max();
+        case 7:
+            return std::numeric_limits<std::int64_t>::min();
+        case 8:
+            return std::numeric_limits<std::uint64_t>::max();
+        case 9:
+            return std::uint64_t{1} << choices.byte() % 64;
+        case 10:
+            return 0.5;
+        case 11:
+            return 1e308;
+        case 12:
+            return -1e-320;
+        case 13:
+            return 1e39;
+        case 14:
+            return "";
+        case 15:
+            return "data:,%41";
+        case 16:
+            return "../x";
+        case 17:
+            return "MAT4";
+        case 18:
+            return nullptr;
+        case 19:
+            return true;
+        case 20:
+            return json::array();
+        case 21:
+            return json::object();
+        case 22:
+            return json::array({0, choices.byte(), 1e10});
+        default:
+            return json::array({odd_value(choices)});  // ends: spent choices give 0
     }
 }
 
@@ -154,7 +181,8 @@ void edit_document(json& document, Choices& choices) {
                 *target = static_cast<std::int64_t>(target->get<std::uint64_t>() + choices.byte() % 9 - 4);
             }
             return;
-        default: *target = replacement(json(*target), choices);
+        default:
+            *target = replacement(json(*target), choices);
     }
 }
 
@@ -180,7 +208,8 @@ void check_mesh(const assets::Mesh& mesh, std::size_t materials) {
         if (index >= mesh.vertices.size()) broken("indices in range");
     }
     for (const auto& vertex : mesh.vertices) {
-        if (!finite(vertex.position_ms) || !finite(vertex.normal_ms) || !finite({vertex.uv, 0.0F})) broken("finite vertices");
+        if (!finite(vertex.position_ms) || !finite(vertex.normal_ms) || !finite({vertex.uv, 0.0F}))
+            broken("finite vertices");
         const float length = glm::length(vertex.normal_ms);
         if (length != 0.0F && std::abs(length - 1.0F) > 1e-5F) broken("unit normals");
     }
@@ -228,7 +257,8 @@ void load_and_check(std::span<const std::byte> file) {
         if (!(std::abs(node.translation_m.x) <= std::numeric_limits<double>::max())) broken("finite nodes");
     }
     for (const auto& light : scene.lights) {
-        if (!std::isfinite(light.intensity) || !finite(light.colour) || !(light.inner_cone_rad < light.outer_cone_rad)) {
+        if (!std::isfinite(light.intensity) || !finite(light.colour) ||
+            !(light.inner_cone_rad < light.outer_cone_rad)) {
             broken("lights are lights");
         }
     }

@@ -2,127 +2,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <limits>
+#include <string>
+#include <vector>
 
 #include "engine/assets/gltf_limits.h"
-#include "tests/unit/assets/gltf_builder.h"
+#include "tests/unit/assets/bad_input.h"
 
 namespace gnomon::test {
 namespace {
 
 namespace limits = assets::gltf;
-
-struct BadInput {
-    const char* name;
-    const char* rule;
-    const char* pointer;
-    std::function<Bytes()> make;
-    const char* file = "bad.gltf";
-};
-
-void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
-
-/// The good triangle after `change` has spoilt its document.
-std::function<Bytes()> spoilt(std::function<void(json&)> change) {
-    return [change] {
-        GltfBuilder builder = triangle();
-        change(builder.doc);
-        return builder.gltf();
-    };
-}
-
-std::function<Bytes()> text(std::string content) {
-    return [content] { return bytes_of(content); };
-}
-
-std::function<Bytes()> spoilt_glb(std::function<void(Bytes&)> change) {
-    return [change] {
-        Bytes bytes = triangle().glb();
-        change(bytes);
-        return bytes;
-    };
-}
-
-/// The triangle with other positions.
-std::function<Bytes()> positions(std::vector<float> numbers) {
-    return [numbers] {
-        GltfBuilder builder = triangle();
-        builder.doc["accessors"][0]["bufferView"] = builder.add_view(numbers.data(), numbers.size() * sizeof(float));
-        return builder.gltf();
-    };
-}
-
-template <class T>
-std::function<Bytes()> indices(std::vector<T> numbers) {
-    return [numbers] {
-        GltfBuilder builder = triangle();
-        builder.doc["meshes"][0]["primitives"][0]["indices"] = builder.add_accessor<T>(numbers, "SCALAR");
-        return builder.gltf();
-    };
-}
-
-/// A sparse accessor of one element; `change` spoils accessors/0.
-std::function<Bytes()> sparse(std::vector<std::uint8_t> which, std::function<void(json&)> change) {
-    return [which, change] {
-        GltfBuilder builder = triangle();
-        const std::vector<float> values(3 * which.size(), 1.0F);
-        const int index_view = builder.add_view(which.data(), which.size());
-        const int value_view = builder.add_view(values.data(), values.size() * sizeof(float));
-        json& accessor = builder.doc["accessors"][0];
-        accessor["sparse"] = {{"count", which.size()},
-                              {"indices", {{"bufferView", index_view}, {"componentType", kUByte}}},
-                              {"values", {{"bufferView", value_view}}}};
-        change(accessor);
-        return builder.gltf();
-    };
-}
-
-std::function<Bytes()> light(json properties) {
-    return spoilt([properties](json& doc) { doc["extensions"]["KHR_lights_punctual"]["lights"] = json::array({properties}); });
-}
-
-std::function<Bytes()> camera(json properties) {
-    return spoilt([properties](json& doc) { doc["cameras"] = json::array({properties}); });
-}
-
-std::function<Bytes()> nodes(json list) {
-    return spoilt([list](json& doc) { doc["nodes"] = list; });
-}
-
-json perspective(double yfov, double znear, double zfar) {
-    return {{"type", "perspective"}, {"perspective", {{"yfov", yfov}, {"znear", znear}, {"zfar", zfar}}}};
-}
-
-json orthographic(double ymag, double znear, double zfar) {
-    return {{"type", "orthographic"},
-            {"orthographic", {{"xmag", 1}, {"ymag", ymag}, {"znear", znear}, {"zfar", zfar}}}};
-}
-
-json chain(std::size_t length) {
-    json list = json::array();
-    for (std::size_t i = 0; i < length; ++i) {
-        list.push_back(i + 1 < length ? json{{"children", {i + 1}}} : json::object());
-    }
-    return list;
-}
-
-std::string repeated(const std::string& part, std::size_t times) {
-    std::string all;
-    for (std::size_t i = 0; i < times; ++i) all += part;
-    return all;
-}
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr const char* kLight0 = "/extensions/KHR_lights_punctual/lights/0";
-constexpr std::size_t kGlbJsonLength = 12;  // offset of the first chunk's length
-
-std::size_t bin_chunk_at(const Bytes& glb) {
-    std::uint32_t json_length = 0;
-    std::memcpy(&json_length, glb.data() + kGlbJsonLength, sizeof(json_length));
-    return kGlbJsonLength + 8 + json_length;
-}
 
 std::vector<BadInput> framing_inputs() {
     return {
@@ -143,17 +32,13 @@ std::vector<BadInput> framing_inputs() {
         {"BodyCutShort", "glb.truncated", "", spoilt_glb([](Bytes& b) { b.resize(b.size() - 8); })},
         {"LongerThanItsHeaderSays", "glb.length", "", spoilt_glb([](Bytes& b) { b.resize(b.size() + 4); })},
         {"GlbVersion1", "glb.version", "", spoilt_glb([](Bytes& b) { put_u32(b, 4, 1); })},
-        {"ChunkTooLong", "glb.chunk_length", "",
-         spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 0xFFFFFFF0U); })},
-        {"BinChunkTooLong", "glb.chunk_length", "",
-         spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b), 0x1000); })},
-        {"ChunkNotAligned", "glb.chunk_alignment", "",
-         spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 21); })},
+        {"ChunkTooLong", "glb.chunk_length", "", spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 0xFFFFFFF0U); })},
+        {"BinChunkTooLong", "glb.chunk_length", "", spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b), 0x1000); })},
+        {"ChunkNotAligned", "glb.chunk_alignment", "", spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 21); })},
         {"FirstChunkIsNotJson", "glb.first_chunk", "", spoilt_glb([](Bytes& b) { put_u32(b, 16, 0x004E4942); })},
         {"TwoJsonChunks", "glb.duplicate_chunk", "",
          spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b) + 4, 0x4E4F534A); })},
-        {"ChunkHeaderCutShort", "glb.chunk_header", "",
-         spoilt_glb([](Bytes& b) {
+        {"ChunkHeaderCutShort", "glb.chunk_header", "", spoilt_glb([](Bytes& b) {
              b.resize(b.size() + 4);
              put_u32(b, 8, static_cast<std::uint32_t>(b.size()));
          })},
@@ -182,8 +67,9 @@ std::vector<BadInput> shape_inputs() {
          nodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}})},
         {"UnknownChild", "reference.unresolved", "/nodes/0/children/0", nodes({{{"children", {9}}}})},
         {"UnknownScene", "reference.unresolved", "/scene", spoilt([](json& d) { d["scene"] = 0; })},
-        {"UnknownSceneNode", "reference.unresolved", "/scenes/0/nodes/0",
-         spoilt([](json& d) { d["scenes"] = {{{"nodes", {1e300}}}}; })},
+        {"UnknownSceneNode", "reference.unresolved", "/scenes/0/nodes/0", spoilt([](json& d) {
+             d["scenes"] = {{{"nodes", {1e300}}}};
+         })},
         {"UnknownMaterial", "reference.unresolved", "/meshes/0/primitives/0/material",
          spoilt([](json& d) { d["meshes"][0]["primitives"][0]["material"] = 0; })},
         {"UnknownPosition", "reference.unresolved", "/meshes/0/primitives/0/attributes/POSITION",
@@ -195,15 +81,19 @@ std::vector<BadInput> shape_inputs() {
         {"UnknownBufferView", "reference.unresolved", "/accessors/0/bufferView",
          spoilt([](json& d) { d["accessors"][0]["bufferView"] = 2; })},
         {"UnknownTexture", "reference.unresolved", "/materials/0/pbrMetallicRoughness/baseColorTexture/index",
-         spoilt([](json& d) { d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}}; })},
-        {"UnknownImage", "reference.unresolved", "/textures/0/source",
-         spoilt([](json& d) { d["textures"] = json::array({{{"source", 3}}}); })},
+         spoilt([](json& d) {
+             d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+         })},
+        {"UnknownImage", "reference.unresolved", "/textures/0/source", spoilt([](json& d) {
+             d["textures"] = json::array({{{"source", 3}}});
+         })},
         {"NegativeOffset", "property.range", "/accessors/0/byteOffset",
          spoilt([](json& d) { d["accessors"][0]["byteOffset"] = -4; })},
         {"UnknownAccessorType", "property.choice", "/accessors/0/type",
          spoilt([](json& d) { d["accessors"][0]["type"] = "VEC9"; })},
-        {"UnknownAlphaMode", "property.choice", "/materials/0/alphaMode",
-         spoilt([](json& d) { d["materials"] = json::array({{{"alphaMode", "GLOW"}}}); })},
+        {"UnknownAlphaMode", "property.choice", "/materials/0/alphaMode", spoilt([](json& d) {
+             d["materials"] = json::array({{{"alphaMode", "GLOW"}}});
+         })},
         {"TooManyNodes", "collection.too_large", "/nodes",
          spoilt([](json& d) { d["nodes"] = json(limits::kMaxNodes + 1, json::object()); })},
     };
@@ -211,10 +101,12 @@ std::vector<BadInput> shape_inputs() {
 
 std::vector<BadInput> buffer_inputs() {
     return {
-        {"BufferTooShort", "buffer.too_short", "/buffers/0/byteLength",
-         spoilt([](json& d) { d["buffers"] = {{{"byteLength", 42}, {"uri", "data:;base64,AAAA"}}}; })},
-        {"BufferWithoutData", "buffer.no_data", "/accessors/0",
-         spoilt([](json& d) { d["buffers"] = json::array({{{"byteLength", 42}}}); })},
+        {"BufferTooShort", "buffer.too_short", "/buffers/0/byteLength", spoilt([](json& d) {
+             d["buffers"] = {{{"byteLength", 42}, {"uri", "data:;base64,AAAA"}}};
+         })},
+        {"BufferWithoutData", "buffer.no_data", "/accessors/0", spoilt([](json& d) {
+             d["buffers"] = json::array({{{"byteLength", 42}}});
+         })},
         {"EmptyGlbBuffer", "buffer_view.out_of_range", "/bufferViews/0",
          [] {
              GltfBuilder builder = triangle();
@@ -242,8 +134,7 @@ std::vector<BadInput> buffer_inputs() {
          spoilt([](json& d) { d["accessors"][0]["byteOffset"] = 1; })},
         {"CountOverflows", "accessor.too_large", "/accessors/0/count",
          spoilt([](json& d) { d["accessors"][0]["count"] = std::uint64_t{1} << 40; })},
-        {"HugeAccessorWithoutView", "accessor.too_large", "/accessors/0/count",
-         spoilt([](json& d) {
+        {"HugeAccessorWithoutView", "accessor.too_large", "/accessors/0/count", spoilt([](json& d) {
              d["accessors"][0].erase("bufferView");
              d["accessors"][0]["count"] = std::uint64_t{1} << 50;
          })},
@@ -298,13 +189,11 @@ std::vector<BadInput> mesh_inputs() {
              builder.doc["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normal;
              return builder.gltf();
          }},
-        {"TooManyVertices", "total.decoded_bytes", kPosition,
-         spoilt([](json& d) {
+        {"TooManyVertices", "total.decoded_bytes", kPosition, spoilt([](json& d) {
              d["accessors"][0].erase("bufferView");
              d["accessors"][0]["count"] = 20'000'000;
          })},
-        {"MoreIndicesThanMemory", "total.triangles", "/meshes/0/primitives/0",
-         spoilt([](json& d) {
+        {"MoreIndicesThanMemory", "total.triangles", "/meshes/0/primitives/0", spoilt([](json& d) {
              d["accessors"][1].erase("bufferView");
              d["accessors"][1]["componentType"] = kUByte;
              d["accessors"][1]["count"] = limits::kMaxDecodedBytes;
@@ -312,7 +201,8 @@ std::vector<BadInput> mesh_inputs() {
         {"TooManyTriangles", "total.triangles", "/meshes/0/primitives/1",
          [] {
              GltfBuilder builder = triangle();
-             const int many = builder.push("accessors", {{"componentType", kUByte}, {"count", 30'000'000}, {"type", "SCALAR"}});
+             const int many =
+                 builder.push("accessors", {{"componentType", kUByte}, {"count", 30'000'000}, {"type", "SCALAR"}});
              json& primitives = builder.doc["meshes"][0]["primitives"];
              primitives[0]["indices"] = many;
              primitives.push_back(primitives[0]);
@@ -324,17 +214,17 @@ std::vector<BadInput> mesh_inputs() {
 std::vector<BadInput> node_inputs() {
     return {
         {"NodeIsItsOwnChild", "node.cycle", "/nodes/0", nodes({{{"children", {0}}}})},
-        {"NodeCycle", "node.cycle", "/nodes/0",
-         nodes({{{"children", {1}}}, {{"children", {2}}}, {{"children", {0}}}})},
+        {"NodeCycle", "node.cycle", "/nodes/0", nodes({{{"children", {1}}}, {{"children", {2}}}, {{"children", {0}}}})},
         {"SecondParent", "node.second_parent", "/nodes/1/children/0",
          nodes({{{"children", {2}}}, {{"children", {2}}}, json::object()})},
-        {"ChildListedTwice", "node.second_parent", "/nodes/0/children/1", nodes({{{"children", {1, 1}}}, json::object()})},
+        {"ChildListedTwice", "node.second_parent", "/nodes/0/children/1",
+         nodes({{{"children", {1, 1}}}, json::object()})},
         {"ChainTooDeep", "node.too_deep", "/nodes/256", nodes(chain(limits::kMaxNodeDepth + 1))},
         {"ChainMuchTooDeep", "node.too_deep", "/nodes/256", nodes(chain(100'000))},
-        {"SceneListsANodeTwice", "scene.node_twice", "/nodes/0",
-         spoilt([](json& d) { d["scenes"] = json::array({{{"nodes", {0, 0}}}}); })},
-        {"SceneListsAParentAndItsChild", "scene.node_twice", "/nodes/1",
-         spoilt([](json& d) {
+        {"SceneListsANodeTwice", "scene.node_twice", "/nodes/0", spoilt([](json& d) {
+             d["scenes"] = json::array({{{"nodes", {0, 0}}}});
+         })},
+        {"SceneListsAParentAndItsChild", "scene.node_twice", "/nodes/1", spoilt([](json& d) {
              d["nodes"] = json::array({{{"children", {1}}}, json::object()});
              d["scenes"] = json::array({{{"nodes", {0, 1}}}});
          })},
@@ -383,12 +273,15 @@ std::vector<BadInput> light_and_camera_inputs() {
         {"OrthographicSizeZero", "camera.size", "/cameras/0/orthographic/ymag", camera(orthographic(0, 0, 1))},
         {"OrthographicNearNegative", "camera.near", "/cameras/0/orthographic/znear", camera(orthographic(1, -1, 1))},
         {"OrthographicFarBeforeNear", "camera.far", "/cameras/0/orthographic/zfar", camera(orthographic(1, 2, 2))},
-        {"EmissionNegative", "material.range", "/materials/0/emissiveFactor",
-         spoilt([](json& d) { d["materials"] = json::array({{{"emissiveFactor", {0, -1, 0}}}}); })},
-        {"CutoffNegative", "material.range", "/materials/0/alphaCutoff",
-         spoilt([](json& d) { d["materials"] = json::array({{{"alphaCutoff", -0.5}}}); })},
-        {"FactorBeyondFloat", "material.range", "/materials/0/pbrMetallicRoughness/metallicFactor",
-         spoilt([](json& d) { d["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1e300}}}}}; })},
+        {"EmissionNegative", "material.range", "/materials/0/emissiveFactor", spoilt([](json& d) {
+             d["materials"] = json::array({{{"emissiveFactor", {0, -1, 0}}}});
+         })},
+        {"CutoffNegative", "material.range", "/materials/0/alphaCutoff", spoilt([](json& d) {
+             d["materials"] = json::array({{{"alphaCutoff", -0.5}}});
+         })},
+        {"FactorBeyondFloat", "material.range", "/materials/0/pbrMetallicRoughness/metallicFactor", spoilt([](json& d) {
+             d["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1e300}}}}};
+         })},
     };
 }
 

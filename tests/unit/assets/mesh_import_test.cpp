@@ -139,7 +139,8 @@ assets::Vertex quantized_vertex(T value, bool normalized) {
     builder.doc["extensionsUsed"] = builder.doc["extensionsRequired"] = {"KHR_mesh_quantization"};
     const std::vector<T> numbers = {0, 0, 0, value, 0, 0, 0, value, 0};
     const int position = builder.add_accessor<T>(numbers, "VEC3", normalized);
-    // Elements of three bytes or shorts are tightly packed here, which the specification discourages but allows to read.
+    // Elements of three bytes or shorts are tightly packed here, which the specification discourages but allows to
+    // read.
     builder.add_mesh({{"attributes", {{"POSITION", position}}}});
     return loaded(builder.gltf()).meshes.at(0).vertices.at(1);
 }

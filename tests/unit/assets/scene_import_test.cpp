@@ -48,9 +48,9 @@ TEST(SceneImport, KeepsTranslationRotationAndScale) {
 
 TEST(SceneImport, DecomposesMatricesAlsoMirroredAndFlatOnes) {
     const glm::dmat4 turned = glm::rotate(glm::translate(glm::dmat4(1.0), {4, 5, 6}), 0.7, {1, 2, 3});
-    const glm::dvec3 scales[] = {{1, 1, 1},  {2, 3, 4},      {-2, 3, 4},     {2, -3, 4}, {2, 3, -4}, {-2, -3, -4},
-                                 {0, 3, 4},  {2, 0, 4},      {2, 3, 0},      {0, 0, 4},  {0, 3, 0},  {2, 0, 0},
-                                 {0, 0, 0},  {1e-4, 1, 1e4}, {1e5, 1e5, 1e5}};
+    const glm::dvec3 scales[] = {{1, 1, 1},    {2, 3, 4}, {-2, 3, 4}, {2, -3, 4},     {2, 3, -4},
+                                 {-2, -3, -4}, {0, 3, 4}, {2, 0, 4},  {2, 3, 0},      {0, 0, 4},
+                                 {0, 3, 0},    {2, 0, 0}, {0, 0, 0},  {1e-4, 1, 1e4}, {1e5, 1e5, 1e5}};
     for (const glm::dvec3& scale : scales) {
         SCOPED_TRACE(testing::Message() << scale.x << ' ' << scale.y << ' ' << scale.z);
         const glm::dmat4 matrix = glm::scale(turned, scale);
@@ -138,11 +138,11 @@ GltfBuilder with_lights(const json& lights) {
 }
 
 TEST(SceneImport, ReadsPunctualLights) {
-    const GltfBuilder builder = with_lights(
-        {{{"type", "directional"}, {"intensity", 5e4}, {"color", {1, 0.5, 0.25}}, {"name", "sun"}},
-         {{"type", "point"}, {"range", 7}},
-         {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}, {"intensity", 0}},
-         {{"type", "spot"}, {"spot", json::object()}, {"extras", {{"shadow", false}}}}});
+    const GltfBuilder builder =
+        with_lights({{{"type", "directional"}, {"intensity", 5e4}, {"color", {1, 0.5, 0.25}}, {"name", "sun"}},
+                     {{"type", "point"}, {"range", 7}},
+                     {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}, {"intensity", 0}},
+                     {{"type", "spot"}, {"spot", json::object()}, {"extras", {{"shadow", false}}}}});
     const SceneData scene = loaded(builder.gltf());
     ASSERT_EQ(scene.lights.size(), 4U);
     EXPECT_EQ(scene.lights[0].type, assets::LightType::directional);
@@ -175,17 +175,17 @@ TEST(SceneImport, LetsANodeOverrideTheShadowOfItsLightAlone) {
 }
 
 TEST(SceneImport, AcceptsASpotOfHalfASphereWrittenAsFloat) {
-    const GltfBuilder builder =
-        with_lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", double{1.57079637F}}}}}});
+    const GltfBuilder builder = with_lights({{{"type", "spot"}, {"spot", {{"outerConeAngle", double{1.57079637F}}}}}});
     EXPECT_FLOAT_EQ(loaded(builder.gltf()).lights.at(0).outer_cone_rad, 1.57079637F);
 }
 
 TEST(SceneImport, ReadsCameras) {
     GltfBuilder builder;
-    builder.push("cameras", {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});
+    builder.push("cameras",
+                 {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.8}, {"znear", 0.1}}}});
     builder.push("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}, {"zfar", 50}}}});
-    builder.push("cameras", {{"type", "orthographic"},
-                             {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
+    builder.push("cameras",
+                 {{"type", "orthographic"}, {"orthographic", {{"xmag", 2}, {"ymag", 3}, {"znear", 0}, {"zfar", 9}}}});
     builder.push("nodes", {{"camera", 2}});
     const SceneData scene = loaded(builder.gltf());
     ASSERT_EQ(scene.cameras.size(), 3U);
@@ -202,9 +202,11 @@ TEST(SceneImport, ReadsCameras) {
 TEST(SceneImport, ReadsTheProjectsExtras) {
     GltfBuilder builder;
     builder.push("nodes", {{"extras", {{"castShadow", false}, {"receiveShadow", false}, {"visible", false}}}});
-    builder.push("nodes", {{"extras",
-                            {{"motion",
-                              {{"kind", "swing"}, {"axis", {0, 0, 2}}, {"amplitude", 0.5}, {"period_s", 4}, {"phase", 0.25}}}}}});
+    builder.push(
+        "nodes",
+        {{"extras",
+          {{"motion",
+            {{"kind", "swing"}, {"axis", {0, 0, 2}}, {"amplitude", 0.5}, {"period_s", 4}, {"phase", 0.25}}}}}});
     const SceneData scene = loaded(builder.gltf());
     EXPECT_FALSE(scene.nodes.at(0).casts_shadow);
     EXPECT_FALSE(scene.nodes[0].receives_shadow);

@@ -178,8 +178,7 @@ TEST(Topology, DropsFacesWithRepeatedVerticesButKeepsSlivers) {
 
     // A quad beside two triangles that meet in the middle of its edge: the sliver closes the gap.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, -1, 0}};
-    topology = analyse_topology(
-        mesh_of(positions, {0, 2, 3, 0, 3, 4, 5, 1, 0, 5, 2, 1, 0, 1, 2}));
+    topology = analyse_topology(mesh_of(positions, {0, 2, 3, 0, 3, 4, 5, 1, 0, 5, 2, 1, 0, 1, 2}));
     EXPECT_EQ(topology.degenerate_faces, 1U);
     EXPECT_EQ(topology.boundary_edges, 5U);
     EXPECT_EQ(topology.non_manifold_edges, 0U);
@@ -206,8 +205,10 @@ Topology brute_force(const Mesh& mesh) {
         }
     }
     for (const auto& [edge, count] : uses) {
-        if (count[0] + count[1] == 1) ++topology.boundary_edges;
-        else if (count[0] != 1 || count[1] != 1) ++topology.non_manifold_edges;
+        if (count[0] + count[1] == 1)
+            ++topology.boundary_edges;
+        else if (count[0] != 1 || count[1] != 1)
+            ++topology.non_manifold_edges;
     }
     return topology;
 }
