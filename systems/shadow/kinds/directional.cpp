@@ -35,7 +35,7 @@ struct DepthRange {
 };
 
 /// Share of logarithmic against uniform splits (Zhang et al. 2006, "practical split scheme").
-constexpr double kLogarithmicShare = 0.8;
+constexpr double kLogarithmicShare = 0.7;
 /// The nearest split starts no nearer than this share of the farthest receiver: a camera inside a receiver's
 /// box sees it from distance 0 as far as bounds can tell, and a logarithm needs a start.
 constexpr double kNearestShare = 1.0 / 1024;
