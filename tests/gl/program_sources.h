@@ -1,0 +1,54 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/gl/device_recording.h"
+#include "engine/gl/shader_source.h"
+#include "shaders/embedded.h"
+#include "systems/lighting/light_programs.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/light_kinds.h"
+
+namespace gnomon {
+
+/// Every row of (light kind × filter), and each kind unshadowed.
+inline std::vector<shadow::ProgramRow> all_rows() {
+    std::vector<shadow::ProgramRow> rows;
+    for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
+        rows.push_back({kind.define, {}, {}, 0.0f});
+        for (const shadow::FilterRow& filter : shadow::filter_table())
+            rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel});
+    }
+    return rows;
+}
+
+/// The sources of every program, as the lighting system itself hands them to a device; and the depth programs'.
+inline std::vector<gl::ProgramDesc> all_programs() {
+    std::vector<gl::ProgramDesc> programs;
+    gl::RecordingDevice device;
+    {
+        lighting::LightPrograms lighting(device);
+        const auto add = [&](gl::ProgramHandle handle) {
+            if (const gl::ProgramDesc* desc = device.program(handle)) programs.push_back(*desc);
+            else programs.push_back({.label = "not expanded"});
+        };
+        add(lighting.surface());
+        add(lighting.blended_base());
+        add(lighting.luminance());
+        add(lighting.tonemap());
+        for (const shadow::ProgramRow& row : all_rows())
+            for (const auto output :
+                 {lighting::RowOutput::picture, lighting::RowOutput::visibility, lighting::RowOutput::blended})
+                add(lighting.row(row, output));
+    }
+    for (const bool masked : {false, true}) {
+        const std::vector<std::string> defines(masked ? 1 : 0, "MASKED 1");
+        const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
+        const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
+        if (vertex && fragment)
+            programs.push_back({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()});
+    }
+    return programs;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,44 @@
+#include <set>
+
+#include "tests/gl/gl_test_context.h"
+#include "tests/gl/program_sources.h"
+
+// Every program that a frame can ask for, on the real compiler. The fixture fails on any driver message.
+namespace gnomon {
+namespace {
+
+class ShaderRows : public GlTest {};
+
+TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
+    const auto programs = all_programs();
+    const std::size_t rows = shadow::light_kind_table().size() * (shadow::filter_table().size() + 1);
+    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 2;
+    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth);
+    std::set<std::string> sources;
+    for (const gl::ProgramDesc& desc : programs) {
+        ASSERT_NE(desc.fragment, "") << desc.label;
+        EXPECT_TRUE(sources.insert(desc.vertex + desc.fragment).second) << desc.label << " equals another program";
+        const auto made = device().create_program(desc);
+        EXPECT_TRUE(made) << desc.label << ": " << made.log;
+        EXPECT_EQ(made.log, "") << desc.label;
+        device().destroy(made.handle);
+    }
+}
+
+TEST_F(ShaderRows, ASourceWithAMistakeIsRefused) {
+    auto desc = all_programs().front();
+    desc.fragment += "\nfloat unfinished( {\n";
+    EXPECT_EQ(device().create_program(desc).failure, gl::Failure::compile_failed);
+    take_messages();
+}
+
+TEST_F(ShaderRows, ARowWhoseFilterIsMissingIsRefusedAndTheOthersStay) {
+    lighting::LightPrograms programs(device());
+    shadow::ProgramRow row = all_rows().back();
+    row.filter_file = "shadow/filters/none_such.glsl";
+    EXPECT_FALSE(programs.row(row, lighting::RowOutput::picture));
+    EXPECT_TRUE(programs.row(all_rows().back(), lighting::RowOutput::picture));
+}
+
+}  // namespace
+}  // namespace gnomon

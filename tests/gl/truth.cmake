@@ -1,0 +1,7 @@
+# The real pipeline against the ray tracer, through the bench's own measurement.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_truth LABEL gl SOURCES
+    truth_accuracy_gl_test.cpp
+    truth_controls_gl_test.cpp
+    LIBRARIES gnomon_bench_parts)
+endif()

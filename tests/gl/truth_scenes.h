@@ -1,0 +1,76 @@
+#pragma once
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "bench/accuracy.h"
+#include "bench/stage.h"
+#include "sample_game/picture_files.h"
+#include "sample_game/scene_generator/courtyard.h"
+
+namespace gnomon {
+
+// The bounds that every light of every scene must meet with default settings.
+inline constexpr double kMostWrong = 0.01, kMostAcneAndLeak = 0.001;
+
+/// A folder that is gone at the end of the test.
+class TruthTest : public ::testing::Test {
+protected:
+    void SetUp() override {
+        const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("gnomon_truth_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::filesystem::path courtyard_file(const game::CourtyardOptions& options) const {
+        const auto file = folder_ / "courtyard.glb";
+        const auto courtyard = game::make_courtyard(options);
+        const auto error = game::write_file(file, std::as_bytes(std::span(courtyard.glb)));
+        EXPECT_FALSE(error) << to_line(*error);
+        return file;
+    }
+
+    static std::unique_ptr<bench::Stage> open(const bench::StageOptions& options) {
+        auto stage = bench::Stage::open(options);
+        if (!stage) {
+            ADD_FAILURE() << to_line(stage.error());
+            return nullptr;
+        }
+        return std::move(stage).value();
+    }
+
+    /// Without timings. Fails on any complaint of the driver.
+    static bench::Accuracy measure(bench::Stage& stage) {
+        auto accuracy = bench::measure_accuracy(stage, {.timed_frames = 0, .with_ambiguous = true});
+        if (!accuracy) {
+            ADD_FAILURE() << to_line(accuracy.error());
+            return {};
+        }
+        EXPECT_EQ(accuracy.value().gl_complaints, 0u);
+        return std::move(accuracy).value();
+    }
+    static bench::Accuracy measure(const bench::StageOptions& options) {
+        const auto stage = open(options);
+        return stage ? measure(*stage) : bench::Accuracy{};
+    }
+
+private:
+    std::filesystem::path folder_;
+};
+
+inline const bench::LightAccuracy* find_light(const bench::Accuracy& accuracy, const std::string& name) {
+    for (const bench::LightAccuracy& light : accuracy.lights)
+        if (light.report.name == name) return &light;
+    return nullptr;
+}
+
+inline double wrong_share(const oracle::Metrics& m) { return m.fraction(m.wrong); }
+inline double false_shape_share(const oracle::Metrics& m) { return m.fraction(m.acne + m.leak); }
+
+}  // namespace gnomon
