@@ -13,7 +13,7 @@ enum class BiasMode : std::uint8_t { automatic, constant };
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
     bool enabled = true;
-    ShadowFilter filter = ShadowFilter::hardware_2x2;
+    ShadowFilter filter = ShadowFilter::hard;  // the row that measures best (docs/accuracy.md)
     std::uint32_t resolution_px = 0;   // edge of one map or cube face; 0: chosen by the system
     float max_error_px = 1.0f;         // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;

@@ -21,7 +21,7 @@ namespace gnomon::game {
 namespace {
 
 constexpr float kSun_lx = 20000.0f;
-constexpr double kSunElevation_deg = 55.0, kSunAzimuth_deg = 20.0;
+constexpr double kSunElevation_deg = 60.0, kSunAzimuth_deg = -40.0;
 
 LightKind to_kind(assets::LightType type) {
     switch (type) {

@@ -28,7 +28,8 @@ struct SpawnedScene {
 /// Makes one entity per node, with Transform (and parent), Name, and MeshRef, ShadowCaster, Light, LightShadow, Camera
 /// as the node says; moves meshes, materials and textures to `library`, which is replaced.
 /// Lights are named by their node, else by their light, else light<index>: see LightNames.
-/// A scene without light gets "sun": 20000 lx from 55 degrees above the horizon, 20 degrees from +x toward +z.
+/// A scene without light gets "sun": 20000 lx from 60 degrees above the horizon, 40 degrees from +x toward -z:
+/// a three-quarter light, aligned with no wall.
 /// A scene without camera gets "framed": see frame_scene().
 SpawnedScene spawn_scene(assets::SceneData scene, ecs::Registry& registry, assets::MeshLibrary& library);
 

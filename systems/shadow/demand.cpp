@@ -9,18 +9,9 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Texels per pixel of the picture's larger side, for one cascade, spot view or cube face: what is seen lies obliquely
-/// in the map, so that one to one is not enough. Measured in docs/accuracy.md.
-double texels_per_px(LightKind kind) {
-    switch (kind) {
-        case LightKind::directional: return 1.5;
-        case LightKind::spot: return 1.5;
-        case LightKind::point: return 1.5;
-    }
-    return 1.0;
-}
-
 constexpr std::uint32_t kLeastMap_px = 256;
+/// 256 MiB for one D32F layer: who wants more asks for it by resolution_px.
+constexpr std::uint32_t kLargestAutomatic_px = 8192;
 /// Below this no margin for the filter is left around the content.
 constexpr std::uint32_t kLeastRequested_px = 16;
 
@@ -34,11 +25,12 @@ Reason wanted(const LightItem& light, bool shadows) {
 
 }  // namespace
 
-std::uint32_t automatic_resolution(LightKind kind, glm::uvec2 viewport_px, std::uint32_t limit_px) {
-    const double side_px = std::max(viewport_px.x, viewport_px.y);
-    const double wish_px = std::min(std::ceil(side_px * texels_per_px(kind)), static_cast<double>(limit_px));
-    const std::uint32_t size_px = std::bit_ceil(std::max(static_cast<std::uint32_t>(wish_px), kLeastMap_px));
-    return std::min(size_px, limit_px);
+std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, std::uint32_t limit_px) {
+    const double wished_error_px = max_error_px > 0.0f ? static_cast<double>(max_error_px) : 1.0;
+    const std::uint32_t most_px = std::min(limit_px, kLargestAutomatic_px);
+    const double wish_px = std::ceil(std::max(viewport_px.x, viewport_px.y) * kTexelsPerPixel / wished_error_px);
+    const auto bounded_px = static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
+    return std::min(std::bit_ceil(bounded_px), most_px);
 }
 
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows,
@@ -56,7 +48,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         demand.view_count = kind.layers;
         const std::uint32_t limit_px = kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
         if (light.shadow.resolution_px == 0) {
-            demand.resolution_px = automatic_resolution(light.kind, viewport_px, limit_px);
+            demand.resolution_px = automatic_resolution(viewport_px, light.shadow.max_error_px, limit_px);
         } else {
             demand.resolution_px = std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
