@@ -29,6 +29,7 @@ const char* reason_code(Reason reason) {
         case Reason::lighting_program_failed: return "lighting_program_failed";
         case Reason::cone_clamped: return "cone_clamped";
         case Reason::buffer_failed: return "buffer_failed";
+        case Reason::sampler_failed: return "sampler_failed";
         case Reason::fit_degenerate: return "fit_degenerate";
     }
     return "unknown";

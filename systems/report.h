@@ -32,6 +32,7 @@ enum class Reason : std::uint8_t {
     lighting_program_failed,
     cone_clamped,             // a spot wider than one map can hold
     buffer_failed,
+    sampler_failed,
     fit_degenerate            // no finite volume to render
 };
 const char* reason_code(Reason reason);
@@ -49,7 +50,7 @@ struct LightReport {
     std::uint64_t bytes = 0;           // everything the light holds
     std::uint32_t draws = 0, clears = 0;
     std::uint64_t triangles = 0;
-    double cpu_us = 0.0;
+    double cpu_us = 0.0;               // of the shadow stages, what this light alone took
     std::optional<double> gpu_us;      // shadow and lighting pass; empty: not measured
 };
 

@@ -209,7 +209,8 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
                           was->translation_ws_m == item.translation_ws_m && was->casts == item.casts &&
                           was->receives == item.receives && was->visible == item.visible;
         item.version = same ? was->version : snapshot.version;
-        if (!same) snapshot.changed_instances.push_back(i);
+        // One that touch_moved() had already moved when it gave up equals itself, but is not on the device.
+        if (!same || was->version == snapshot.version) snapshot.changed_instances.push_back(i);
     }
     snapshot.dropped = unusable_;
     for (const QuarantinedEntity& q : transforms.quarantined)
@@ -247,7 +248,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
                        glm::uvec2 viewport_px, SceneSnapshot& snapshot) {
     moved_.clear();
     snapshot.changed_instances.clear();
-    bool anew = !started_;
+    bool anew = !started_ || transforms.quarantined != quarantined_;
     anew |= read_changes<WorldTransform>(registry, cursors_.world, false);
     anew |= read_changes<MeshRef>(registry, cursors_.mesh, true);
     anew |= read_changes<ShadowCaster>(registry, cursors_.caster, true);
@@ -268,6 +269,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     }
     if (!anew && moved_.empty()) return;
     started_ = true;
+    quarantined_ = transforms.quarantined;
     ++snapshot.version;
     if (anew || !touch_moved(registry, library, snapshot)) {
         snapshot.changed_instances.clear();

@@ -39,6 +39,7 @@ private:
     std::vector<ecs::Entity> slot_owner_;        // gpu_slot -> entity
     std::vector<std::uint32_t> slot_of_;         // entity index -> gpu_slot, kNone
     std::vector<DroppedEntity> unusable_;        // found while making the lists
+    std::vector<QuarantinedEntity> quarantined_; // as last seen
     glm::uvec2 viewport_px_{0, 0};
     bool started_ = false;
 };

@@ -1,5 +1,6 @@
 #include "systems/extract/gpu_scene.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -168,6 +169,7 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     triangle_normals_ = std::exchange(other.triangle_normals_, {});
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
     instance_capacity_ = std::exchange(other.instance_capacity_, 0);
+    upload_all_ = std::exchange(other.upload_all_, false);
     records_ = std::move(other.records_);
     textures_ = std::move(other.textures_);
     samplers_ = std::move(other.samplers_);
@@ -191,7 +193,6 @@ void GpuScene::release() {
 
 bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
     records_.resize(snapshot.gpu_slot_count);
-    bool upload_all = false;
     if (snapshot.gpu_slot_count > instance_capacity_) {
         const std::uint32_t wanted = std::bit_ceil(snapshot.gpu_slot_count);
         const auto made = device_->create_buffer(
@@ -200,12 +201,14 @@ bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
             device_->destroy(instances_);
             instances_ = made.handle;
             instance_capacity_ = wanted;
-            upload_all = true;
+            upload_all_ = true;
         }
     }
-    if (upload_all) {
+    const std::size_t held = std::min<std::size_t>(records_.size(), instance_capacity_);
+    if (upload_all_) {
         for (const InstanceItem& item : snapshot.instances) records_[item.gpu_slot] = instance_record(item);
-        list.update(instances_, 0, std::span<const InstanceRecord>(records_));
+        list.update(instances_, 0, std::span<const InstanceRecord>(records_).first(held));
+        upload_all_ = false;
     } else {
         // They come by rising slot; each run of neighbours is one copy.
         const auto& changed = snapshot.changed_instances;
@@ -216,9 +219,10 @@ bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
                 records_[slot(end)] = instance_record(snapshot.instances[changed[end]]);
                 ++end;
             } while (end < changed.size() && slot(end) == slot(end - 1) + 1);
-            if (slot(end - 1) < instance_capacity_)
-                list.update(instances_, std::uint64_t{slot(first)} * sizeof(InstanceRecord),
-                            std::span<const InstanceRecord>(records_).subspan(slot(first), end - first));
+            const std::size_t from = slot(first), to = std::min(held, from + (end - first));
+            if (from < to)
+                list.update(instances_, std::uint64_t{from} * sizeof(InstanceRecord),
+                            std::span<const InstanceRecord>(records_).subspan(from, to - from));
             first = end;
         }
     }

@@ -39,6 +39,8 @@ public:
     /// False if it could not grow: instances beyond its size must not be drawn (see capacity()).
     bool update(const SceneSnapshot& snapshot, gl::CommandList& list);
     std::uint32_t capacity() const { return instance_capacity_; }
+    /// To be called when a submission failed: what it was to upload is uploaded again by the next update().
+    void forget_uploads() { upload_all_ = true; }
 
     struct MeshRange {
         std::int32_t base_vertex = 0;
@@ -76,6 +78,7 @@ private:
     gl::Device* device_ = nullptr;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
     std::uint32_t instance_capacity_ = 0;
+    bool upload_all_ = false;
     std::vector<InstanceRecord> records_;
     std::vector<gl::TextureHandle> textures_;
     std::vector<gl::SamplerHandle> samplers_;

@@ -1,5 +1,7 @@
 #include "systems/lighting/light_programs.h"
 
+#include <algorithm>
+
 #include "shaders/embedded.h"
 
 namespace gnomon::lighting {
@@ -23,25 +25,29 @@ const char* output_name(RowOutput output) {
 }  // namespace
 
 LightPrograms::~LightPrograms() {
-    for (const Entry& e : entries_) device_.destroy(e.program);
+    for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
+    for (const Entry& e : {surface_, blended_base_, luminance_, tonemap_}) device_.destroy(e.program);
 }
 
-gl::ProgramHandle LightPrograms::get(const std::string& key, const char* vertex, const char* fragment,
-                                     const std::vector<std::string>& defines, const shadow::ProgramRow* row) {
-    for (const Entry& e : entries_)
-        if (e.key == key) return e.program;
+void LightPrograms::make(Entry& entry, const std::string& label, const char* vertex, const char* fragment,
+                         std::span<const std::string> defines, const shadow::ProgramRow* row) {
     const std::string row_text = row_source(row);
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
     files.push_back({"row.glsl", row_text});
     const auto v = gl::expand_shader(files, vertex, defines);
     const auto f = gl::expand_shader(files, fragment, defines);
-    gl::ProgramHandle program{};
-    if (v && f) program = device_.create_program({key, v.value(), f.value()}).handle;
-    entries_.push_back({key, program});
-    return program;
+    if (v && f) entry.program = device_.create_program({label, v.value(), f.value()}).handle;
+    if (!entry.program) entry.retry.failed(frame_);
 }
 
-gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& row, RowOutput output) {
+gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput output) {
+    shadow::ProgramRow row = wanted;
+    if (row.filter_file.empty()) row = {row.kind_define, {}, {}, 0.0f};  // unshadowed is one program per kind
+    auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) { return e.output == output && e.row == row; });
+    if (found == rows_.end()) found = rows_.insert(rows_.end(), {row, output, {}});
+    Entry& entry = found->entry;
+    if (!is_due(entry)) return entry.program;
+
     std::vector<std::string> defines{std::string(row.kind_define) + " 1"};
     if (!row.filter_file.empty()) {
         defines.emplace_back("SHADOWED 1");
@@ -49,20 +55,26 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& row, RowOutput ou
     }
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
-    const std::string key = std::string(output_name(output)) + " " + std::string(row.kind_define) + " " + std::string(row.filter_file);
-    return output == RowOutput::blended ? get(key, "lighting/surface.vert", "lighting/blended.frag", defines, &row)
-                                        : get(key, "shared/fullscreen.vert", "lighting/light.frag", defines, &row);
+    const std::string label = std::string(output_name(output)) + " " + std::string(row.kind_define) + " " + std::string(row.filter_file);
+    if (output == RowOutput::blended) make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
+    else make(entry, label, "shared/fullscreen.vert", "lighting/light.frag", defines, &row);
+    return entry.program;
 }
 
-gl::ProgramHandle LightPrograms::surface() { return get("surface", "lighting/surface.vert", "lighting/surface.frag", {}, nullptr); }
+gl::ProgramHandle LightPrograms::plain(Entry& entry, const char* label, const char* vertex, const char* fragment) {
+    if (is_due(entry)) make(entry, label, vertex, fragment, {}, nullptr);
+    return entry.program;
+}
+
+gl::ProgramHandle LightPrograms::surface() { return plain(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag"); }
 gl::ProgramHandle LightPrograms::blended_base() {
-    return get("blended base", "lighting/surface.vert", "lighting/blended.frag", {}, nullptr);
+    return plain(blended_base_, "blended base", "lighting/surface.vert", "lighting/blended.frag");
 }
 gl::ProgramHandle LightPrograms::luminance() {
-    return get("luminance", "shared/fullscreen.vert", "lighting/luminance.frag", {}, nullptr);
+    return plain(luminance_, "luminance", "shared/fullscreen.vert", "lighting/luminance.frag");
 }
 gl::ProgramHandle LightPrograms::tonemap() {
-    return get("tonemap", "shared/fullscreen.vert", "lighting/tonemap.frag", {}, nullptr);
+    return plain(tonemap_, "tonemap", "shared/fullscreen.vert", "lighting/tonemap.frag");
 }
 
 }  // namespace gnomon::lighting

@@ -1,8 +1,10 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "systems/retry.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::lighting {
@@ -11,13 +13,16 @@ namespace gnomon::lighting {
 enum class RowOutput : std::uint8_t { picture, visibility, blended };
 
 /// Programs of the lighting system, made when first called for; one per (row, output). Owns them.
-/// A source that failed to compile is not tried again.
+/// One that could not be made is tried again after Retry::kFrames. Finding one that exists allocates nothing.
 class LightPrograms {
 public:
     explicit LightPrograms(gl::Device& device) : device_(device) {}
     ~LightPrograms();
     LightPrograms(const LightPrograms&) = delete;
     LightPrograms& operator=(const LightPrograms&) = delete;
+
+    /// To be called once a frame: the clock of the retries.
+    void next_frame() { ++frame_; }
 
     /// {0} if it cannot be made.
     gl::ProgramHandle row(const shadow::ProgramRow& row, RowOutput output);
@@ -28,14 +33,23 @@ public:
 
 private:
     struct Entry {
-        std::string key;
         gl::ProgramHandle program{};
+        Retry retry;
     };
-    gl::ProgramHandle get(const std::string& key, const char* vertex, const char* fragment,
-                          const std::vector<std::string>& defines, const shadow::ProgramRow* row);
+    struct RowEntry {
+        shadow::ProgramRow row;
+        RowOutput output;
+        Entry entry;
+    };
+    bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
+    void make(Entry& entry, const std::string& label, const char* vertex, const char* fragment,
+              std::span<const std::string> defines, const shadow::ProgramRow* row);
+    gl::ProgramHandle plain(Entry& entry, const char* label, const char* vertex, const char* fragment);
 
     gl::Device& device_;
-    std::vector<Entry> entries_;
+    std::vector<RowEntry> rows_;
+    Entry surface_, blended_base_, luminance_, tonemap_;
+    std::uint64_t frame_ = 0;
 };
 
 }  // namespace gnomon::lighting

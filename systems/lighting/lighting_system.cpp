@@ -50,6 +50,7 @@ gl::Rect LightingSystem::viewport() const {
 }
 
 bool LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
+    programs_.next_frame();
     if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return false;
     if (!point_sampler_) point_sampler_ = device_.create_sampler({"surface", false, false, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
     if (!mip_sampler_) mip_sampler_ = device_.create_sampler({"luminance", true, true, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
@@ -179,26 +180,32 @@ void LightingSystem::bind_light(const shadow::LightingLight& light, std::uint32_
     if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
 }
 
+/// The program of a row; where it cannot be had, that of the same light without its shadow.
+LightingSystem::RowProgram LightingSystem::row_program(const shadow::ProgramRow& row, RowOutput output) {
+    const gl::ProgramHandle program = programs_.row(row, output);
+    if (program) return {program, false};
+    shadow::ProgramRow unshadowed = row;
+    unshadowed.filter_file = {};
+    return {programs_.row(unshadowed, output), true};
+}
+
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, gl::CommandList& list,
                                    FrameReport& report) {
     list.add(gl::BeginGroup{"lights"});
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
         if (light.screen.width <= 0) continue;
-        gl::ProgramHandle program = programs_.row(light.row, RowOutput::picture);
-        if (!program) {
+        const RowProgram row = row_program(light.row, RowOutput::picture);
+        if (row.fell_back) {
             report.lights[light.light].state = LightState::skipped;
             report.lights[light.light].reason = Reason::lighting_program_failed;
-            shadow::ProgramRow unshadowed = light.row;
-            unshadowed.filter_file = {};
-            program = programs_.row(unshadowed, RowOutput::picture);
-            if (!program) continue;
         }
+        if (!row.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
         list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
         list.add(gl::SetScissor{light.screen});
-        list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
+        list.add(gl::SetPipeline{{row.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
         bind_surface_textures(list);
         bind_light(light, i, list);
         list.add(gl::DrawTriangle{});
@@ -222,7 +229,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
         const gl::DrawMeshes meshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count};
         list.add(meshes);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-            state.program = programs_.row(inputs.lights[i].row, RowOutput::blended);
+            state.program = row_program(inputs.lights[i].row, RowOutput::blended).program;
             if (!state.program || inputs.lights[i].screen.width <= 0) continue;
             state.blend = gl::Blend::add;
             list.add(gl::SetPipeline{state});

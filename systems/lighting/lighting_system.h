@@ -69,6 +69,11 @@ private:
         double distance_m;  // blended ones: from the camera, for their order
     };
 
+    struct RowProgram {
+        gl::ProgramHandle program{};
+        bool fell_back = false;
+    };
+    RowProgram row_program(const shadow::ProgramRow& row, RowOutput output);
     bool prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,

@@ -9,6 +9,7 @@
 #include "systems/extract/volumes.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -72,6 +73,7 @@ void fit_views(const SceneSnapshot& scene, ShadowFrame& frame) {
         PotentialSets& sets = frame.sets[d];
         if (sets.skip != Reason::none) continue;
         const ShadowDemand& demand = frame.demands[d];
+        const LightTime time(frame, demand.light);
         const LightItem& light = scene.lights[demand.light];
         const auto points = std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
         const FitInput input{light, demand, scene,

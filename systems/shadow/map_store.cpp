@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -91,7 +92,14 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, LightHistory& history) 
 
 bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
     const LightKindRow& kind = light_kind_row(light.kind);
-    const bool fits = history.texture && history.desc.kind == kind.texture && history.wanted_px == demand.resolution_px;
+    const std::uint32_t layers = kind.texture == gl::TextureKind::cube ? 1u : demand.view_count;
+    if (history.texture && !(history.desc.kind == kind.texture && history.desc.layers == layers)) {
+        // The light has become one of another kind: its map has no use, nor has the memory of a failure.
+        release(history);
+        history.wanted_px = 0;
+        history.failure = Reason::none;
+    }
+    const bool fits = history.texture && history.wanted_px == demand.resolution_px;
     if (fits && (history.failure == Reason::none || frame_ < history.retry_frame)) return true;
     if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == demand.resolution_px)
         return static_cast<bool>(history.texture);
@@ -99,7 +107,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     desc.label = "shadow map " + light.name;
     desc.kind = kind.texture;
     desc.format = gl::Format::d32f;
-    desc.layers = kind.texture == gl::TextureKind::cube ? 1u : demand.view_count;
+    desc.layers = layers;
     history.wanted_px = demand.resolution_px;
     history.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
@@ -114,9 +122,8 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
         if (reason == Reason::target_incomplete) break;  // smaller would fail alike
     }
     if (history.failure != Reason::none) history.retry_frame = frame_ + kRetryFrames;
-    const bool usable = history.texture && history.desc.kind == kind.texture;
-    if (history.failure != Reason::none && usable) history.failure = Reason::map_shrunk;
-    return usable;
+    if (history.failure != Reason::none && history.texture) history.failure = Reason::map_shrunk;
+    return static_cast<bool>(history.texture);
 }
 
 void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
@@ -124,6 +131,7 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
     frame.slots.assign(frame.views.size(), {});
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
         PotentialSets& sets = frame.sets[d];
+        const LightTime time(frame, frame.demands[d].light);
         if (sets.skip != Reason::none) {
             // Seen by nobody just now: the map is held for a while, in case the camera turns back.
             if (frame.demands[d].skip == Reason::none && find(scene.lights[frame.demands[d].light].entity) == nullptr) continue;
@@ -147,6 +155,7 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
         const ShadowView& view = frame.views[v];
         if (frame.sets[view.demand].skip != Reason::none) continue;
+        const LightTime time(frame, frame.demands[view.demand].light);
         const LightItem& light = scene.lights[frame.demands[view.demand].light];
         const LightHistory& history = *find(light.entity);
         ShadowSlot& slot = frame.slots[v];

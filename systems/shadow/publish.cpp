@@ -8,6 +8,7 @@
 #include "systems/extract/volumes.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -117,6 +118,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
         inputs.camera = camera_record(consumer);
         inputs.lights.resize(scene.lights.size());
         for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+            const LightTime time(frame, i);
             const LightItem& light = scene.lights[i];
             const LightKindRow& kind = light_kind_row(light.kind);
             LightingLight& out = inputs.lights[i];
@@ -131,6 +133,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             if (!slot.texture) continue;
             const ShadowView& view = frame.views[v];
             const ShadowDemand& demand = frame.demands[view.demand];
+            const LightTime time(frame, demand.light);
             const LightItem& light = scene.lights[demand.light];
             const LightKindRow& kind = light_kind_row(light.kind);
             const FilterRow& filter = filter_row(demand.filter);

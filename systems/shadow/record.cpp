@@ -6,6 +6,7 @@
 #include "shaders/embedded.h"
 #include "systems/extract/instance_order.h"
 #include "systems/frame_timers.h"
+#include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -39,30 +40,38 @@ DepthRecorder::~DepthRecorder() {
 bool DepthRecorder::program(bool masked) {
     const std::uint32_t which = masked ? kMasked : kOpaque;
     if (programs_[which]) return true;
-    if (failures_[which]) return false;  // the source is embedded: it would fail again
+    if (!retries_[which].due(frame_)) return false;
     const std::vector<std::string> defines = masked ? std::vector<std::string>{"MASKED 1"} : std::vector<std::string>{};
     const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
     const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
-    if (!vertex || !fragment) {
-        failures_[which] = gl::Failure::compile_failed;
-        return false;
+    if (vertex && fragment)
+        programs_[which] =
+            device_.create_program({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()}).handle;
+    if (!programs_[which]) retries_[which].failed(frame_);
+    return static_cast<bool>(programs_[which]);
+}
+
+/// What keeps these casters from being drawn: nothing, a program, or that the device has no room for their records.
+Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters) {
+    bool masked = false;
+    for (const std::uint32_t i : casters) {
+        if (scene.instances[i].gpu_slot >= gpu.capacity()) return Reason::buffer_failed;
+        masked = masked || has_masked(gpu, scene.instances[i].mesh);
     }
-    const auto made = device_.create_program({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()});
-    if (!made) failures_[which] = made.failure;
-    programs_[which] = made.handle;
-    return static_cast<bool>(made);
+    return program(false) && (!masked || program(true)) ? Reason::none : Reason::depth_program_failed;
 }
 
 void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    ++frame_;
     std::size_t items = 0, views = 0;
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
         if (!is_drawn(frame, v)) continue;
         const ShadowView& view = frame.views[v];
-        bool masked = false;
-        for (std::uint32_t i = 0; i < view.casters.count && !masked; ++i)
-            masked = has_masked(gpu, scene.instances[frame.view_caster_items[view.casters.first + i]].mesh);
-        if (!program(false) || (masked && !program(true))) {
-            drop_light(frame, view.demand, Reason::depth_program_failed);
+        const LightTime time(frame, frame.demands[view.demand].light);
+        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+        const Reason reason = ready(scene, gpu, casters);
+        if (reason != Reason::none) {
+            drop_light(frame, view.demand, reason);
             continue;
         }
         items += view.casters.count;
@@ -71,8 +80,8 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
     if (views == 0) return;
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
     if (!items_.reserve(std::max<std::size_t>(items, 1) * sizeof(DrawItem)) || !views_.reserve(views * stride))
-        for (std::uint32_t d = 0; d < frame.demands.size(); ++d)
-            if (frame.sets[d].skip == Reason::none) drop_light(frame, d, Reason::buffer_failed);
+        for (std::size_t v = 0; v < frame.views.size(); ++v)
+            if (is_drawn(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
 }
 
 void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint32_t first_item, std::uint32_t count,
@@ -122,7 +131,7 @@ void DepthRecorder::draw_view(const SceneSnapshot& scene, const GpuScene& gpu, c
     });
 }
 
-void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, gl::CommandList& list,
+void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                            FrameReport& report) {
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
     item_scratch_.clear();
@@ -148,6 +157,7 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, cons
         const ShadowView& view = frame.views[v];
         const ShadowSlot& slot = frame.slots[v];
         const std::uint32_t light = frame.demands[view.demand].light;
+        const LightTime time(frame, light);
         LightReport& light_report = report.lights[light];
         const auto size = static_cast<std::int32_t>(slot.size_px);
         list.add(gl::BeginGroup{"shadow " + scene.lights[light].name + " " + std::to_string(view.layer)});

@@ -1,11 +1,12 @@
 #pragma once
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
+#include "systems/retry.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::shadow {
@@ -22,8 +23,8 @@ public:
     /// its light's sets[i].skip says why. Call before record().
     void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
-    /// Stage 7, first half: one pass per view that is not reused, in order; counts go to the report.
-    void record(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, gl::CommandList& list,
+    /// Stage 7, first half: one pass per view that is not reused, in order; counts go to the report, times to frame.cpu_us.
+    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                 FrameReport& report);
 
 private:
@@ -31,6 +32,7 @@ private:
         std::uint32_t instance, first_triangle;
     };
     bool program(bool masked);
+    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
     void draw_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const ShadowView& view,
                    gl::CommandList& list, LightReport& report);
     void draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint32_t first_item, std::uint32_t count,
@@ -38,7 +40,8 @@ private:
 
     gl::Device& device_;
     gl::ProgramHandle programs_[2]{};   // opaque, masked
-    std::optional<gl::Failure> failures_[2];
+    Retry retries_[2];
+    std::uint64_t frame_ = 0;
     GrowingBuffer items_, views_;
     std::vector<DrawItem> item_scratch_;
     std::vector<std::byte> view_scratch_;

@@ -6,6 +6,7 @@
 #include "engine/math/frustum.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -92,6 +93,7 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
     std::vector<math::Frustum> seen;
     for (const ConsumerItem& consumer : scene.consumers) seen.push_back(consumer_frustum(consumer));
     for (const ShadowDemand& demand : frame.demands) {
+        const LightTime time(frame, demand.light);
         PotentialSets sets;
         sets.skip = demand.skip;
         if (demand.skip == Reason::none) {

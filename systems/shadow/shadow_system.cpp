@@ -30,12 +30,13 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuSce
                                         FrameReport& report) {
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
+    frame_.cpu_us.assign(scene.lights.size(), 0.0);
     decide_demand(scene, device_.info(), shadows, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });
     if (any && !samplers_ready())
         for (ShadowDemand& demand : frame_.demands)
-            if (demand.skip == Reason::none) demand.skip = Reason::map_allocation_failed;
+            if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
     select_sets(scene, frame_);
     fit_views(scene, frame_);
     maps_.assign_slots(scene, frame_);
@@ -57,6 +58,7 @@ void ShadowSystem::write_report(const SceneSnapshot& scene, FrameReport& report)
         out.entity = light.entity;
         out.name = light.name;
         out.kind = light.kind;
+        out.cpu_us = frame_.cpu_us[i];
         const LightHistory* history = maps_.find(light.entity);
         const gl::TextureDesc* desc = history && history->texture ? &history->desc : nullptr;
         if (desc) {

@@ -145,6 +145,7 @@ struct ShadowFrame {
     std::vector<std::uint32_t> view_caster_items;
     std::vector<ShadowSlot> slots;                   // one per view
     std::vector<LightingInputs> inputs;              // one per consumer
+    std::vector<double> cpu_us;                      // one per light: what the stages spent on it alone
 };
 
 }  // namespace gnomon::shadow

@@ -1,0 +1,225 @@
+#include "components/mesh_ref.h"
+#include "components/shadow_caster.h"
+#include "tests/system/frame_fixture.h"
+
+/// What is drawn into depth maps, when, and in which order.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+using ::testing::UnorderedElementsAre;
+
+class DepthPasses : public FrameTest {
+protected:
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+    }
+    std::vector<std::string> groups() const {
+        std::vector<std::string> names;
+        for (const Pass& p : passes()) names.push_back(p.group);
+        return names;
+    }
+    /// Groups of the depth passes alone.
+    std::vector<std::string> drawn() const {
+        std::vector<std::string> names;
+        for (const Pass& p : depth_passes()) names.push_back(p.group);
+        return names;
+    }
+    TestWorld::Stage stage;
+};
+
+TEST_F(DepthPasses, ComeBeforeSurfacesThenLightsThenExposure) {
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    world.add_light(LightKind::spot, {-3, 6, 1}, "lantern");
+    step();
+    EXPECT_THAT(groups(), ElementsAre("shadow lamp 0", "shadow lantern 0", "surfaces", "lamp", "lantern", "exposure", "exposure"));
+}
+
+TEST_F(DepthPasses, EachClearsItsMapToNothingBeforeTheLight) {
+    world.add_light(LightKind::point, kLightPlace_m, "lamp");
+    step();
+    ASSERT_THAT(depth_passes(), SizeIs(6));
+    for (const Pass& pass : depth_passes()) {
+        EXPECT_TRUE(pass.begin.clear_depth);
+        EXPECT_EQ(pass.begin.depth, 0.0f);  // reversed: nothing is farther
+        for (const gl::PipelineState& state : pass.pipelines) {
+            EXPECT_EQ(state.depth_test, gl::DepthTest::greater);
+            EXPECT_TRUE(state.depth_write && state.depth_clamp);
+        }
+    }
+}
+
+TEST_F(DepthPasses, EachViewOfEveryLightIsDrawnOnce) {
+    world.add_light(LightKind::directional, kLightPlace_m, "sun");
+    world.add_light(LightKind::spot, kLightPlace_m, "spot");
+    world.add_light(LightKind::point, kLightPlace_m, "point");
+    step();
+    std::vector<std::uint32_t> targets;
+    for (const Pass& pass : depth_passes()) targets.push_back(pass.begin.target.id);
+    std::sort(targets.begin(), targets.end());
+    EXPECT_EQ(std::adjacent_find(targets.begin(), targets.end()), targets.end());
+    std::uint32_t views = 0, views_drawn = 0, clears = 0;
+    for (const LightReport& l : frame->report().lights) views += l.views, views_drawn += l.views_drawn, clears += l.clears;
+    EXPECT_EQ(views, targets.size());
+    EXPECT_EQ(views_drawn, targets.size());
+    EXPECT_EQ(clears, targets.size());
+}
+
+TEST_F(DepthPasses, OnlyCastersAreDrawn) {
+    const ecs::Entity disabled = world.add_mesh(kBox, {1, 1, 0}, true);
+    world.registry.patch<ShadowCaster>(disabled, [](ShadowCaster& c) { c.enabled = false; });
+    const ecs::Entity second = world.add_mesh(kBox, {-1, 1, 0}, true);
+    world.add_mesh(kBox, {0, 1, 1}, false);
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    ASSERT_THAT(depth_passes(), SizeIs(1));
+    EXPECT_THAT(drawn_slots(depth_passes()[0]), UnorderedElementsAre(slot_of(stage.box), slot_of(second)));
+    EXPECT_EQ(light("lamp").triangles, 2u * 12u);
+    EXPECT_EQ(light("lamp").draws, 1u) << "equal meshes are one draw";
+}
+
+TEST_F(DepthPasses, TakingTheCasterAwayIsNoticed) {
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    ASSERT_THAT(drawn_slots(depth_passes().at(0)), ElementsAre(slot_of(stage.box)));
+    world.registry.destroy(stage.box);
+    step();
+    EXPECT_THAT(depth_passes(), IsEmpty());
+    EXPECT_EQ(light("lamp").reason, Reason::no_caster);
+}
+
+TEST_F(DepthPasses, AnInvisibleCasterStillCasts) {
+    world.registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.visible = false; });
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(drawn_slots(depth_passes().at(0)), ElementsAre(slot_of(stage.box)));
+}
+
+TEST_F(DepthPasses, ACasterThatTheCameraDoesNotSeeStillCasts) {
+    const ecs::Entity above = world.add_mesh(kBox, {1.5, 3, 0.5}, true);
+    world.registry.patch<Camera>(stage.camera, [](Camera& c) { c.fov_y_rad = 0.3; });
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(drawn_slots(depth_passes().at(0)), Contains(slot_of(above)));
+}
+
+TEST_F(DepthPasses, BlendedSurfacesLetLightThrough) {
+    const ecs::Entity glass = world.add_mesh(kBlendedBox, {1, 1, 0}, true);
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(drawn_slots(depth_passes().at(0)), Not(Contains(slot_of(glass))));
+    EXPECT_EQ(light("lamp").triangles, 12u);
+}
+
+TEST_F(DepthPasses, AStillSceneRedrawsNothing) {
+    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})
+        world.add_light(kind, kLightPlace_m, kind == LightKind::spot ? "spot" : kind == LightKind::point ? "point" : "sun");
+    step();
+    for (int i = 0; i < 3; ++i) {
+        step();
+        EXPECT_THAT(drawn(), IsEmpty());
+        for (const LightReport& l : frame->report().lights) {
+            EXPECT_EQ(l.state, LightState::reused) << l.name;
+            EXPECT_STREQ(reason_code(l.reason), "content_unchanged");
+            EXPECT_GT(l.views, 0u);
+            EXPECT_EQ(l.views_drawn + l.draws + l.clears, 0u);
+        }
+    }
+}
+
+TEST_F(DepthPasses, WithoutEconomyEveryViewIsRedrawn) {
+    const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.economy = false; });
+    step();
+    const gl::CommandList first = frame->commands();
+    step();
+    EXPECT_THAT(depth_passes(), SizeIs(6));
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+    EXPECT_EQ(depth_passes_of(first, device).size(), depth_passes().size());
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(depth_passes_of(first, device)[i].draws, depth_passes()[i].draws);
+}
+
+TEST_F(DepthPasses, AMovedCasterRedrawsOnlyItsOwnLights) {
+    const ecs::Entity far_box = world.add_mesh(kBox, {-6, 1, -4}, true);
+    const ecs::Entity near_lamp = world.add_light(LightKind::spot, {1, 4, 0}, "near");
+    const ecs::Entity far_lamp = world.add_light(LightKind::point, {-6, 3, -4}, "far");
+    world.registry.patch<Light>(near_lamp, [](Light& l) { l.outer_cone_rad = 0.4f; });
+    world.registry.patch<Light>(far_lamp, [](Light& l) { l.range_m = 3.5f; });
+    step();
+    step();
+    ASSERT_THAT(drawn(), IsEmpty());
+    world.move(far_box, {-6.1, 1, -4});
+    step();
+    EXPECT_THAT(drawn(), Not(IsEmpty()));
+    EXPECT_THAT(drawn(), Not(Contains("shadow near 0")));
+    EXPECT_EQ(light("near").state, LightState::reused);
+    world.move(stage.box, {0.05, 1, 0});
+    step();
+    EXPECT_THAT(drawn(), ElementsAre("shadow near 0"));
+    EXPECT_EQ(light("far").state, LightState::reused);
+}
+
+TEST_F(DepthPasses, AFaceOfACubeWithoutAnyMovedCasterIsKept) {
+    world.add_light(LightKind::point, {0, 4, 0}, "lamp");
+    step();
+    step();
+    ASSERT_THAT(drawn(), IsEmpty());
+    world.move(stage.box, {0.05, 1, 0});  // only below the lamp, between near and far as before
+    step();
+    EXPECT_THAT(drawn(), ElementsAre("shadow lamp 3"));
+    EXPECT_EQ(light("lamp").views, 6u);
+    EXPECT_EQ(light("lamp").views_drawn, 1u);
+}
+
+TEST_F(DepthPasses, AWalkingCameraRedrawsNoLocalLightWhoseReceiversItSeesWhole) {
+    world.add_light(LightKind::spot, kLightPlace_m, "spot");
+    world.add_light(LightKind::point, kLightPlace_m, "point");
+    world.move(stage.camera, {0, 30, 60});
+    step();
+    world.move(stage.camera, {0.5, 31, 61});
+    step();
+    EXPECT_THAT(drawn(), IsEmpty());
+    EXPECT_EQ(light("spot").state, LightState::reused);
+    EXPECT_EQ(light("point").state, LightState::reused);
+}
+
+TEST_F(DepthPasses, AMovedReceiverThatCastsNothingRedrawsNoSpot) {
+    const ecs::Entity marker = world.add_mesh(kBox, {0.5, 0.2, 1}, false);
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    world.move(marker, {0.4, 0.2, 1});
+    step();
+    EXPECT_EQ(light("lamp").state, LightState::reused);
+}
+
+TEST_F(DepthPasses, ANewLightLeavesTheMapsOfOthersAlone) {
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    world.add_light(LightKind::spot, {-3, 6, 1}, "second");
+    step();
+    EXPECT_THAT(drawn(), ElementsAre("shadow second 0"));
+    EXPECT_EQ(light("lamp").state, LightState::reused);
+}
+
+TEST_F(DepthPasses, ReusedMapsAreStillBoundForLighting) {
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    const auto bound_map = [&]() -> gl::TextureHandle {
+        for (const gl::Command& c : frame->commands().commands)
+            if (const auto* b = std::get_if<gl::BindTexture>(&c); b && b->unit == 4) return b->texture;
+        return {};
+    };
+    step();
+    const gl::TextureHandle map = bound_map();
+    ASSERT_TRUE(map);
+    EXPECT_EQ(device.texture(map)->label, "shadow map lamp");
+    step();
+    EXPECT_EQ(bound_map(), map);
+}
+
+}  // namespace
+}  // namespace gnomon

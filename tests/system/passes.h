@@ -1,0 +1,48 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "engine/gl/device_recording.h"
+
+namespace gnomon {
+
+/// One pass of a list, and the innermost group it lies in.
+struct Pass {
+    std::string group;
+    gl::BeginPass begin;
+    bool is_depth = false;                    // its target has no colours
+    std::vector<gl::PipelineState> pipelines; // as set, in order
+    std::vector<gl::DrawMeshes> draws;
+};
+
+inline std::vector<Pass> passes_of(const gl::CommandList& list, const gl::RecordingDevice& device) {
+    std::vector<Pass> passes;
+    std::vector<std::string> groups;
+    for (const gl::Command& command : list.commands) {
+        if (const auto* g = std::get_if<gl::BeginGroup>(&command)) groups.push_back(g->label);
+        if (std::get_if<gl::EndGroup>(&command) && !groups.empty()) groups.pop_back();
+        if (const auto* b = std::get_if<gl::BeginPass>(&command)) {
+            const gl::TargetDesc* target = device.target(b->target);
+            passes.push_back({groups.empty() ? "" : groups.back(), *b, target && target->colours.empty(), {}, {}});
+        }
+        if (const auto* p = std::get_if<gl::SetPipeline>(&command); p && !passes.empty()) passes.back().pipelines.push_back(p->state);
+        if (const auto* d = std::get_if<gl::DrawMeshes>(&command); d && !passes.empty()) passes.back().draws.push_back(*d);
+    }
+    return passes;
+}
+
+inline std::vector<Pass> depth_passes_of(const gl::CommandList& list, const gl::RecordingDevice& device) {
+    std::vector<Pass> passes = passes_of(list, device);
+    std::erase_if(passes, [](const Pass& p) { return !p.is_depth; });
+    return passes;
+}
+
+/// Labels of living textures that hold shadow maps, sorted.
+inline std::vector<std::string> map_labels(const gl::RecordingDevice& device, const std::string& kind = "shadow map") {
+    std::vector<std::string> labels = device.live_labels();
+    std::erase_if(labels, [&](const std::string& label) { return label.rfind(kind, 0) != 0; });
+    return labels;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,103 @@
+#include "tests/system/frame_fixture.h"
+
+/// Programs exist only for what the scene uses.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::Not;
+
+class Programs : public FrameTest {
+protected:
+    /// Labels of the programs made so far, sorted.
+    std::vector<std::string> made() const {
+        std::vector<std::string> labels;
+        for (const gl::ResourceCall& call : device.resource_calls())
+            if (call.kind == gl::ResourceCall::Kind::create_program) labels.push_back(call.label);
+        std::sort(labels.begin(), labels.end());
+        return labels;
+    }
+};
+
+constexpr const char* kSpot2x2 = "light LIGHT_SPOT shadow/filters/hardware_2x2.glsl";
+
+TEST_F(Programs, ALightWithoutShadowNeedsNoShadowProgram) {
+    world.add_stage();
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp", false);
+    step();
+    EXPECT_THAT(made(), ElementsAre("light LIGHT_SPOT ", "luminance", "surface", "tonemap"));
+}
+
+TEST_F(Programs, OneShadowedSpotNeedsOneDepthProgramAndOneRow) {
+    world.add_stage();
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(made(), ElementsAre("depth opaque", kSpot2x2, "luminance", "surface", "tonemap"));
+}
+
+TEST_F(Programs, NothingIsMadeTwice) {
+    world.add_stage();
+    for (int i = 0; i < 3; ++i) world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    for (int i = 0; i < 3; ++i) step();
+    EXPECT_THAT(made(), ElementsAre("depth opaque", kSpot2x2, "luminance", "surface", "tonemap"));
+}
+
+TEST_F(Programs, EachFilterInUseIsARow) {
+    world.add_stage();
+    const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::pcf_3x3; });
+    step();
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf_3x3.glsl"));
+    EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/hard.glsl")));
+}
+
+TEST_F(Programs, TheMaskedOneIsMadeWhenAMaskedCasterComes) {
+    world.add_stage();
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    const ecs::Entity fence = world.add_mesh(kMaskedBox, {1, 1, 0}, false);
+    step();
+    EXPECT_THAT(made(), Not(Contains("depth masked"))) << "it does not cast yet";
+    world.registry.destroy(fence);
+    const ecs::Entity caster = world.add_mesh(kMaskedBox, {1, 1, 0}, true);
+    step();
+    EXPECT_THAT(made(), Contains("depth masked"));
+
+    const std::vector<Pass> depth = depth_passes();
+    ASSERT_EQ(depth.size(), 1u);
+    ASSERT_EQ(depth[0].draws.size(), 2u);
+    std::vector<std::string> used;
+    for (const gl::PipelineState& state : depth[0].pipelines) used.push_back(device.program(state.program)->label);
+    EXPECT_THAT(used, ElementsAre("depth opaque", "depth masked", "depth opaque"));
+    EXPECT_EQ(drawn_slots(depth[0]).back(), slot_of(caster));
+}
+
+TEST_F(Programs, AMeshOfBothMaterialsIsDrawnByBothPrograms) {
+    world.add_mesh(kPlane, {0, 0, 0}, false);
+    world.add_mesh(kMixedBox, {0, 1, 0}, true);
+    world.add_camera({0, 4, 8}, {0, 0, 0});
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    ASSERT_EQ(depth_passes().size(), 1u);
+    const Pass pass = depth_passes()[0];
+    ASSERT_EQ(pass.draws.size(), 2u);
+    EXPECT_EQ(pass.draws[0].index_count, 18u);
+    EXPECT_EQ(pass.draws[1].index_count, 18u);
+    EXPECT_EQ(pass.draws[1].first_index, pass.draws[0].first_index + 18);
+    EXPECT_EQ(light("lamp").triangles, 12u);
+}
+
+TEST_F(Programs, BlendedRowsAreMadeOnlyWhereABlendedSurfaceIsSeen) {
+    world.add_stage();
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(made(), Not(Contains("blended base")));
+    world.add_mesh(kBlendedBox, {1, 1, 0}, false);
+    step();
+    EXPECT_THAT(made(), Contains("blended base"));
+    EXPECT_THAT(made(), Contains("blended light LIGHT_SPOT shadow/filters/hardware_2x2.glsl"));
+}
+
+}  // namespace
+}  // namespace gnomon
