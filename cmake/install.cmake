@@ -1,0 +1,58 @@
+# What `cmake --install` puts where, so that another project finds it with find_package(Gnomon).
+# Headers keep their paths from the project's root, below include/gnomon: "systems/frame.h" is the same name on both sides.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(GNOMON_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/gnomon)
+set(GNOMON_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon)
+
+# The engine's own parts (loader, executor) stay inside: their headers would drag tinygltf and OpenGL's along.
+set(GNOMON_ENGINE_HEADERS
+  engine/assets/gltf_loader.h
+  engine/assets/mesh_library.h
+  engine/assets/mesh_topology.h
+  engine/assets/scene_data.h
+  engine/core/result.h
+  engine/ecs/entity.h
+  engine/ecs/registry.h
+  engine/gl/commands.h
+  engine/gl/device.h
+  engine/gl/device_gl45.h
+  engine/gl/device_recording.h
+  engine/gl/handles.h
+  engine/gl/shader_source.h
+  engine/math/aabb.h
+  engine/math/frustum.h
+  engine/math/projection.h
+  engine/platform/context.h)
+list(TRANSFORM GNOMON_ENGINE_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
+# Components and systems are public whole: whoever brings an own frame may take any stage.
+file(GLOB GNOMON_COMPONENT_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/components/*.h)
+file(GLOB_RECURSE GNOMON_SYSTEM_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/systems/*.h)
+
+target_sources(gnomon_components INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
+  FILES ${GNOMON_COMPONENT_HEADERS})
+target_sources(gnomon_engine PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_ENGINE_HEADERS})
+target_sources(gnomon_shaders PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
+  FILES ${PROJECT_SOURCE_DIR}/shaders/embedded.h)
+target_sources(gnomon_systems PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_SYSTEM_HEADERS})
+
+foreach(part components engine shaders systems)
+  target_compile_features(gnomon_${part} INTERFACE cxx_std_20)
+  target_include_directories(gnomon_${part} INTERFACE $<INSTALL_INTERFACE:${GNOMON_INCLUDE_DIR}>)
+endforeach()
+
+foreach(part components engine shaders systems)
+  set_target_properties(gnomon_${part} PROPERTIES EXPORT_NAME ${part})
+  install(TARGETS gnomon_${part} EXPORT GnomonTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${GNOMON_INCLUDE_DIR})
+endforeach()
+install(EXPORT GnomonTargets NAMESPACE Gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR})
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/GnomonConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/GnomonConfig.cmake INSTALL_DESTINATION ${GNOMON_PACKAGE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/GnomonConfig.cmake ${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake
+  DESTINATION ${GNOMON_PACKAGE_DIR})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon)
