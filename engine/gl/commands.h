@@ -22,7 +22,7 @@ struct Rect {
 
 enum class CullMode : std::uint8_t { none, back, front };
 enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal };
-enum class Blend : std::uint8_t { off, add, alpha };
+enum class Blend : std::uint8_t { off, add, alpha };  // alpha: over, its own alpha channel becomes coverage
 
 struct PipelineState {
     ProgramHandle program{};

@@ -89,7 +89,7 @@ void apply(const PipelineState& state, GLuint program) {
     set_enabled(GL_DEPTH_CLAMP, state.depth_clamp);
     set_enabled(GL_BLEND, state.blend != Blend::off);
     if (state.blend == Blend::add) glBlendFunc(GL_ONE, GL_ONE);
-    if (state.blend == Blend::alpha) glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    if (state.blend == Blend::alpha) glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 /// One operator() per command; state of one list.

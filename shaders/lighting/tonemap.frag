@@ -1,6 +1,8 @@
-// Exposure and tone curve. The target encodes sRGB.
+// Exposure and tone curve, and the sky behind everything. The target encodes sRGB.
+#include "lighting/sky.glsl"
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D luminance_sum;
+layout(binding = 2) uniform sampler2D surface_depth;
 layout(std140, binding = 4) uniform ExposureBlock {
     vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum
 };
@@ -13,7 +15,11 @@ void main() {
         const float kMiddleGrey = 0.18;
         scale = sum.g > 0.0 ? kMiddleGrey / exp2(sum.r / sum.g) : 1.0;
     }
-    vec3 x = max(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb * scale, vec3(0.0));
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    // Blended surfaces may stand before the sky: what they let through is in the picture's alpha.
+    vec4 seen = texelFetch(picture, pixel, 0);
+    if (texelFetch(surface_depth, pixel, 0).r == 0.0) seen.rgb += (1.0 - clamp(seen.a, 0.0, 1.0)) * sky_radiance(view_direction(pixel));
+    vec3 x = max(seen.rgb * scale, vec3(0.0));
     // Rational curve through (0,0), slope 1 at 0, that reaches 1 at kWhite (Reinhard et al. 2002, eq. 4).
     const float kWhite = 8.0;
     vec3 mapped = x * (1.0 + x / (kWhite * kWhite)) / (1.0 + x);

@@ -26,13 +26,17 @@ float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 AmbientRecord ambient_for(const SceneSnapshot& scene) {
     // A clear sky gives about a tenth of the sun's light, bluish; the ground returns a fifth of that.
     constexpr float kSkyShare = 0.1f, kGroundShare = 0.2f;
-    // Local lights fill a room by bounces: the light at a few metres, times a room's mean reflectance to the second power.
-    constexpr float kBounceShare = 0.04f, kRoom_m = 4.0f;
+    // What local lights send out comes back once from walls 10 m away that reflect 30 %, spread over their sphere.
+    constexpr double kReflected = 0.3, kRoom_m = 10.0;
     glm::vec3 sky(0.0f), bounce(0.0f);
     for (const LightItem& light : scene.lights) {
         const glm::vec3 power = light.colour * light.intensity;
-        if (light.kind == LightKind::directional) sky += power * kSkyShare * glm::vec3(0.85f, 0.95f, 1.2f);
-        else bounce += power * (kBounceShare / (kRoom_m * kRoom_m));
+        if (light.kind == LightKind::directional) {
+            sky += power * kSkyShare * glm::vec3(0.85f, 0.95f, 1.2f);
+            continue;
+        }
+        const double cone_share = light.kind == LightKind::spot ? 0.5 * (1.0 - std::cos(light.outer_cone_rad)) : 1.0;
+        bounce += power * static_cast<float>(kReflected * cone_share / (kRoom_m * kRoom_m));
     }
     return {glm::vec4(sky + bounce, 0.0f), glm::vec4(sky * kGroundShare + bounce, 0.0f)};
 }
@@ -108,9 +112,13 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
         if (plain > 0) add_mesh_run(scene, gpu, first, plain, consumer);
         if (plain < count) add_mesh_run(scene, gpu, first + plain, count - plain, consumer);
     });
-    std::stable_sort(draws_.begin(), draws_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) { return a.material < b.material; });
-    std::stable_sort(blended_.begin(), blended_.end(),
-                     [](const SurfaceDraw& a, const SurfaceDraw& b) { return a.distance_m > b.distance_m; });
+    // Equals stay in the order of their items; a stable sort would allocate.
+    std::sort(draws_.begin(), draws_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) {
+        return a.material != b.material ? a.material < b.material : a.first_item < b.first_item;
+    });
+    std::sort(blended_.begin(), blended_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) {
+        return a.distance_m != b.distance_m ? a.distance_m > b.distance_m : a.first_item < b.first_item;
+    });
 }
 
 void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const LightingSettings& settings,
@@ -256,6 +264,9 @@ void LightingSystem::record_finish(gl::CommandList& list) {
     list.add(gl::SetPipeline{{programs_.tonemap(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     list.add(gl::BindTexture{0, targets_.light_sum, point_sampler_});
     list.add(gl::BindTexture{1, targets_.luminance, mip_sampler_});
+    list.add(gl::BindTexture{2, targets_.depth, point_sampler_});
+    list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
     list.add(gl::BindUniforms{4, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
