@@ -1,0 +1,11 @@
+# Scenes of boxes and planes, whose shadows are known in closed form.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_analytic LABEL gl SOURCES
+    shadow_blending_gl_test.cpp
+    shadow_cube_gl_test.cpp
+    shadow_limits_gl_test.cpp
+    shadow_shape_gl_test.cpp
+    shadow_shading_gl_test.cpp
+    visibility_include_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_shaders)
+endif()

@@ -1,0 +1,100 @@
+#include "tests/gl/box_fixture.h"
+
+// A point light amid a room: every face of its cube and every seam between them.
+namespace gnomon {
+namespace {
+
+constexpr double kHalf_m = 4.0;
+constexpr std::size_t kSome = 200;
+
+class ShadowCube : public BoxTest {
+protected:
+    void add_room() {
+        for (int axis = 0; axis < 3; ++axis)
+            for (const double side : {-1.0, 1.0}) {
+                glm::dvec3 inward(0.0), u(0.0), v(0.0);
+                inward[axis] = -side;
+                u[(axis + 1) % 3] = kHalf_m;
+                v[(axis + 2) % 3] = kHalf_m * -side;  // cross(u, v) points inward
+                ASSERT_GT(glm::dot(glm::cross(u, v), inward), 0.0);
+                add_card({-inward * kHalf_m, u, v});
+            }
+    }
+    /// A camera near the wall behind, aside of the light so that casters do not hide their shadows.
+    void look(const glm::dvec3& direction) {
+        const glm::dvec3 aside(direction.y + direction.z, direction.z + direction.x, direction.x + direction.y);
+        add_camera({.fov_y_rad = 1.6}, -0.85 * kHalf_m * direction + 0.5 * kHalf_m * aside, direction);
+    }
+};
+
+class ShadowCubeAlong : public ShadowCube, public ::testing::WithParamInterface<int> {
+protected:
+    static glm::dvec3 direction() {
+        glm::dvec3 d(0.0);
+        d[GetParam() / 2] = GetParam() % 2 == 0 ? 1.0 : -1.0;
+        return d;
+    }
+};
+
+TEST_P(ShadowCubeAlong, OneCasterDarkensTheWallBehindItAndNoOther) {
+    truth.margin_m = 0.12;
+    add_room();
+    const glm::dvec3 at = 1.4 * direction() + 0.2 * glm::dvec3(direction().y, direction().z, direction().x);
+    add_box(at - 0.3, at + 0.3);
+    add_light({.kind = LightKind::point, .intensity = 1000.0f}, glm::dvec3(0.1, -0.15, 0.05), {0.0, 0.0, -1.0},
+              {.filter = ShadowFilter::hard, .resolution_px = 256});
+    look(direction());
+    draw();
+    expect_true(kSome, 10 * kSome);
+    // The same caster on the other side of the light would darken another wall.
+    truth.boxes.front().translation_m = -2.0 * at;
+    EXPECT_GT(judged().wrong, kSome / 2);
+}
+
+TEST_P(ShadowCubeAlong, CastersAcrossEverySeamAndCornerDarkenBothSides) {
+    truth.margin_m = 0.12;
+    add_room();
+    for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+            for (int z = -1; z <= 1; ++z) {
+                if (std::abs(x) + std::abs(y) + std::abs(z) < 2) continue;
+                const glm::dvec3 at = 1.3 * glm::dvec3(x, y, z);
+                add_box(at - 0.22, at + 0.22);
+            }
+    for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3})
+        add_light({.kind = LightKind::point, .intensity = 1000.0f}, glm::dvec3(0.0), {0.0, 0.0, -1.0},
+                  {.filter = filter, .resolution_px = 256});
+    look(direction());
+    draw();
+    for (std::uint32_t light = 0; light < 3; ++light) {
+        SCOPED_TRACE(light);
+        expect_true(kSome, 10 * kSome, light);
+    }
+}
+
+TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
+    // Off the middle, so that the cube's seams run over the walls; within the filter of the room's own edges a
+    // neighbouring wall may darken, which the margin leaves out.
+    truth.margin_m = 0.4;
+    add_room();
+    // Something must cast, or no map exists: here the walls cast upon themselves.
+    const auto walls = world.entities_with<MeshRef>();
+    for (const ecs::Entity wall : std::vector<ecs::Entity>(walls.begin(), walls.end())) world.emplace<ShadowCaster>(wall);
+    for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3})
+        add_light({.kind = LightKind::point, .intensity = 1000.0f}, glm::dvec3(1.2, 0.9, -0.7), {0.0, 0.0, -1.0},
+                  {.filter = filter, .resolution_px = 64});
+    look(direction());
+    draw();
+    for (std::uint32_t light = 0; light < 3; ++light) {
+        SCOPED_TRACE(light);
+        EXPECT_EQ(frame().report().lights[light].views, 6u);
+        expect_true(0, 50 * kSome, light);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(EachAxis, ShadowCubeAlong, ::testing::Range(0, 6), [](const auto& row) {
+    return std::string(row.param % 2 == 0 ? "plus_" : "minus_") + "xyz"[row.param / 2];
+});
+
+}  // namespace
+}  // namespace gnomon
