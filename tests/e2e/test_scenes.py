@@ -6,6 +6,9 @@ import struct
 from game import GameTest, Field, Picture, SMALL, glb_parts, main, read_bytes, without_times, write_glb
 
 
+DATA = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "..", "shared", "data")
+
+
 class Scenes(GameTest):
     def fields_of(self, *args):
         folder = self.path("fields%d" % len(os.listdir(self.folder)))
@@ -87,6 +90,22 @@ class Scenes(GameTest):
         edge = [field.values[y * 320 + x] for y in (0, 179) for x in range(320)]
         edge += [field.values[y * 320 + x] for y in range(180) for x in (0, 319)]
         self.assertEqual(set(edge), {-1.0}, "the framed box touches the rim of the picture")
+
+    def test_a_textured_file_is_drawn_with_the_shadow_it_casts_upon_itself(self):
+        scene = os.path.join(DATA, "khronos-sample-models", "Lantern", "glTF", "Lantern.gltf")
+        if not os.path.exists(scene):
+            self.skipTest("no khronos-sample-models/Lantern in the data folder")
+        for name, extra in (("with", ()), ("without", ("--set", "enabled=off"))):
+            self.run_game("--size", SMALL, "--exposure", 12, "--scene", scene, "--screenshot", self.path(name + ".png"), *extra)
+        shaded, lit = Picture(self.path("with.png")), Picture(self.path("without.png"))
+        self.assertEqual((shaded.width, shaded.height), (320, 180))
+        self.assertGreater(shaded.shade_count(), 150, "a textured lantern has many shades")
+        pairs = list(zip(shaded.luma(), lit.luma()))
+        self.assertGreater(sum(1 for a, b in pairs if b > a + 8), 200, "the shadows darken nothing")
+        self.assertEqual(sum(1 for a, b in pairs if a > b + 1), 0, "a shadow makes something brighter")
+        field = self.fields_of("--scene", scene)["sun"]
+        self.assertGreater(field.share(lambda v: v == 1.0), 0.02)
+        self.assertGreater(field.share(lambda v: v == 0.0), 0.02)
 
     def box_scene(self):
         corners = [(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]

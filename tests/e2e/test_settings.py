@@ -77,6 +77,20 @@ class Settings(GameTest):
         lit = lambda field: field.share(lambda v: v == 1.0)
         self.assertGreater(lit(automatic["sun"]), lit(constant["sun"]) + 0.02)
 
+    def test_every_key_reaches_every_light(self):
+        plain = self.fields_of("--set", "filter=hard", "--set", "resolution=256")
+        self.assertEqual(len(plain), 3)
+        for change in ("filter=pcf_3x3", "resolution=64", "bias=0", "enabled=off"):
+            changed = self.fields_of("--set", "filter=hard", "--set", "resolution=256", "--set", change)
+            self.assertEqual(sorted(plain), sorted(changed))
+            for name, field in plain.items():
+                off = sum(1 for a, b in zip(field.values, changed[name].values) if a != b) / float(len(field.values))
+                self.assertGreater(off, 0.001, "%s changes nothing of %s" % (change, name))
+        plain = self.lights_of("--set", "max_error_px=1")
+        for light in self.lights_of("--set", "economy=off", "--frames", 3).values():
+            self.assertNotEqual(light["state"], "reused", light["name"])
+        self.assertEqual(len(plain), 3)
+
     def test_the_last_of_repeated_keys_counts(self):
         lights = self.lights_of("--set", "resolution=64", "--set", "filter=hard", "--set", "resolution=128")
         self.assertEqual(lights["guard_lamp"]["texels"], 128 * 128)
