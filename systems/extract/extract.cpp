@@ -143,7 +143,7 @@ void Extractor::list_instance(const ecs::Registry& registry, const assets::MeshL
         unusable_.push_back({entity, name_of(registry, entity), DropReason::zero_scale});
         return;
     }
-    snapshot.instances.push_back(std::move(item));
+    snapshot.instances.push_back(item);
 }
 
 void Extractor::assign_slots(SceneSnapshot& snapshot) {
