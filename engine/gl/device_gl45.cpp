@@ -87,6 +87,14 @@ public:
 
     const DeviceInfo& info() const override { return info_; }
     std::size_t live_objects() const { return objects_.count(); }
+    GLuint name(TextureHandle h) const {
+        const GlTexture* texture = find_object(objects_.textures, h.id);
+        return texture == nullptr ? 0 : texture->name;
+    }
+    GLuint name(SamplerHandle h) const {
+        const GLuint* sampler = find_object(objects_.samplers, h.id);
+        return sampler == nullptr ? 0 : *sampler;
+    }
 
     Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) override {
         const Failure checked = check_texture(desc, info_, pixels.size());
@@ -208,6 +216,16 @@ Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink) {
         return Error{"the current context is not OpenGL 4.5 but " + get_string(GL_VERSION), {}, {}, "gl.version"};
     }
     return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink))};
+}
+
+unsigned gl_name(const Device& gl45_device, TextureHandle texture) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? 0 : device->name(texture);
+}
+
+unsigned gl_name(const Device& gl45_device, SamplerHandle sampler) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? 0 : device->name(sampler);
 }
 
 std::size_t live_objects(const Device& gl45_device) {

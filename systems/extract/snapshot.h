@@ -18,8 +18,8 @@ namespace gnomon {
 
 /// A camera that wants shadows in its picture.
 struct ConsumerItem {
-    ecs::Entity entity;
-    std::string name;
+    ecs::Entity entity = {};
+    std::string name = {};
     glm::dvec3 position_ws_m{0.0};
     glm::dmat3 rotation_ws{1.0};  // columns right, up, back; orthonormal, right-handed
     CameraProjection projection = CameraProjection::perspective;
@@ -31,8 +31,8 @@ struct ConsumerItem {
 };
 
 struct LightItem {
-    ecs::Entity entity;
-    std::string name;             // unique within the snapshot
+    ecs::Entity entity = {};
+    std::string name = {};        // unique within the snapshot
     LightKind kind = LightKind::point;
     glm::dvec3 position_ws_m{0.0};
     glm::dmat3 rotation_ws{1.0};  // columns right, up, back; the light shines along -back
@@ -41,18 +41,18 @@ struct LightItem {
     double range_m = 0.0;         // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
     bool has_shadow = false;      // a LightShadow component exists
-    LightShadow shadow;
+    LightShadow shadow = {};
     std::uint64_t version = 0;    // grows whenever any of the above changed
 };
 
 /// One placed mesh.
 struct InstanceItem {
-    ecs::Entity entity;
+    ecs::Entity entity = {};
     std::uint32_t mesh = 0;
     std::uint32_t gpu_slot = 0;   // index of its record in the instance buffer; stable while the entity lives
     glm::dmat3 basis{1.0};
     glm::dvec3 translation_ws_m{0.0};
-    math::Aabb bounds_ws;         // finite, not empty
+    math::Aabb bounds_ws = {};    // finite, not empty
     bool casts = false;
     bool receives = true;
     bool visible = true;
@@ -66,8 +66,8 @@ const char* reason_code(DropReason reason);
 
 /// An entity that could not be used this frame, and why. The others are unaffected.
 struct DroppedEntity {
-    ecs::Entity entity;
-    std::string name;
+    ecs::Entity entity = {};
+    std::string name = {};
     DropReason reason = DropReason::non_finite_transform;
 };
 

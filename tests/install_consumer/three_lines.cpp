@@ -1,0 +1,91 @@
+// The shortest way: Gnomon's context, registry and frame. Exit code 0: the shadow is where it belongs.
+#include <cstdio>
+#include <glm/gtc/quaternion.hpp>
+#include <numbers>
+#include <vector>
+
+#include "components/camera.h"
+#include "components/light.h"
+#include "components/light_shadow.h"
+#include "components/mesh_ref.h"
+#include "components/shadow_caster.h"
+#include "components/transform.h"
+#include "engine/ecs/registry.h"
+#include "engine/gl/device_gl45.h"
+#include "engine/platform/context.h"
+#include "ground_and_box.h"
+#include "systems/frame.h"
+
+namespace {
+
+using namespace gnomon;
+
+int fail(const char* what) {
+    std::fprintf(stderr, "three_lines: %s\n", what);
+    return 1;
+}
+
+struct World {
+    ecs::Registry registry;
+    ecs::Entity box, sun;
+};
+
+World make_world() {
+    World world;
+    ecs::Registry& registry = world.registry;
+    const ecs::Entity ground = registry.create(), camera = registry.create();
+    world.box = registry.create();
+    world.sun = registry.create();
+    registry.emplace<Transform>(ground);
+    registry.emplace<MeshRef>(ground, {.mesh = kGroundMesh});
+    registry.emplace<Transform>(world.box, {.translation_m = {0.0, kBoxHeight_m, 0.0}});
+    registry.emplace<MeshRef>(world.box, {.mesh = kBoxMesh});
+    const glm::dquat looking_down = glm::angleAxis(-std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));
+    registry.emplace<Transform>(camera, {.translation_m = {0.0, kEyeHeight_m, 0.0}, .rotation = looking_down});
+    registry.emplace<Camera>(camera, {.projection = CameraProjection::orthographic, .half_height_m = kHalfHeight_m,
+                                      .near_m = 0.1, .far_m = 20.0});
+    registry.emplace<Transform>(world.sun, {.rotation = glm::quatLookAt(glm::normalize(glm::dvec3(1.0, -1.0, 0.0)),
+                                                                        glm::dvec3(0.0, 0.0, 1.0))});
+    return world;
+}
+
+}  // namespace
+
+int main() {
+    // [context]
+    auto context = platform::make_headless_context(false);
+    if (!context) return fail(to_line(context.error()).c_str());
+    auto device = gl::make_gl45_device({});
+    if (!device) return fail(to_line(device.error()).c_str());
+    // [context]
+
+    World world = make_world();
+    ecs::Registry& registry = world.registry;
+    const ecs::Entity sun = world.sun, box = world.box;
+    // [three lines]
+    registry.emplace<Light>(sun, {.kind = LightKind::directional, .intensity = 50000.0f});
+    registry.emplace<LightShadow>(sun);
+    registry.emplace<ShadowCaster>(box);
+    // [three lines]
+
+    // [frame]
+    const assets::MeshLibrary library = ground_and_box();
+    auto frame = Frame::create(*device.value(), library);
+    if (!frame) return fail(to_line(frame.error()).c_str());
+    const FrameSettings settings{.viewport_px = {kPicture_px, kPicture_px}, .exposure_ev = 14.0f};
+    frame.value()->run(registry, settings);
+    // [frame]
+
+    std::vector<std::uint8_t> rgba;
+    if (!frame.value()->read_picture(rgba)) return fail("no picture");
+    const auto red = [&](int column) { return int{rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + column) * 4)]}; };
+    std::printf("red: %d in the shadow, %d in the light\n", red(kShadowedColumn), red(kLitColumn));
+    if (!is_darker(red(kShadowedColumn), red(kLitColumn))) return fail("no shadow in the picture");
+
+    // Without the caster there is none: the shadow was not something else.
+    registry.remove<ShadowCaster>(box);
+    frame.value()->run(registry, settings);
+    if (!frame.value()->read_picture(rgba)) return fail("no picture");
+    if (red(kShadowedColumn) != red(kLitColumn)) return fail("a shadow without a caster");
+    return 0;
+}
