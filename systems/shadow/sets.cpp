@@ -90,8 +90,8 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
     frame.receiver_items.clear();
     frame.caster_items.clear();
     frame.receiver_points_ws.clear();
-    std::vector<math::Frustum> seen;
-    for (const ConsumerItem& consumer : scene.consumers) seen.push_back(consumer_frustum(consumer));
+    frame.seen.clear();
+    for (const ConsumerItem& consumer : scene.consumers) frame.seen.push_back(consumer_frustum(consumer));
     for (const ShadowDemand& demand : frame.demands) {
         const LightTime time(frame, demand.light);
         PotentialSets sets;
@@ -99,7 +99,7 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
         if (demand.skip == Reason::none) {
             const LightItem& light = scene.lights[demand.light];
             const Reach reach(light);
-            select_receivers(scene, seen, reach, sets, frame);
+            select_receivers(scene, frame.seen, reach, sets, frame);
             sets.casters.first = static_cast<std::uint32_t>(frame.caster_items.size());
             if (sets.receivers.count == 0) {
                 sets.skip = Reason::no_visible_receiver;

@@ -11,6 +11,7 @@
 #include "components/light_shadow.h"
 #include "engine/gl/commands.h"
 #include "engine/math/aabb.h"
+#include "engine/math/frustum.h"
 #include "systems/report.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
@@ -92,7 +93,7 @@ struct LightRecord {
     glm::vec4 bias{0.0f};
     ViewRecord views[kMaxViews];
 };
-static_assert(sizeof(LightRecord) == 6 * 16 + kMaxViews * sizeof(ViewRecord));
+static_assert(sizeof(LightRecord) == std::size_t{6} * 16 + kMaxViews * sizeof(ViewRecord));
 
 /// Matches DepthViewBlock in shaders/shadow/depth/depth_view_block.glsl (std140).
 struct DepthViewRecord {
@@ -137,6 +138,7 @@ struct LightingInputs {
 /// Everything of one frame between snapshot and commands. Storage is reused from frame to frame.
 struct ShadowFrame {
     std::vector<ShadowDemand> demands;               // one per light
+    std::vector<math::Frustum> seen;                 // one per consumer: what it sees
     std::vector<PotentialSets> sets;                 // one per demand
     std::vector<std::uint32_t> receiver_items;       // indices into SceneSnapshot::instances
     std::vector<std::uint32_t> caster_items;

@@ -1,1 +1,112 @@
-#include <gtest/gtest.h>
+#include <iostream>
+
+#include "tests/system/frame_fixture.h"
+#include "tests/unit/allocation_counter.h"
+
+/// What a frame costs the CPU, as far as it can be tested without a clock's mood.
+namespace gnomon {
+namespace {
+
+class FrameCost : public FrameTest {
+protected:
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+        world.add_light(LightKind::directional, kLightPlace_m, "sun");
+        world.add_light(LightKind::spot, kLightPlace_m, "spot");
+        world.add_light(LightKind::point, {0, 4, 0}, "point");
+    }
+    TestWorld::Stage stage;
+};
+
+TEST_F(FrameCost, EveryLightIsToldItsOwnTime) {
+    world.add_light(LightKind::point, {0, 4, 0}, "plain", false);
+    step();
+    double sum_us = 0.0;
+    for (const char* name : {"sun", "spot", "point"}) {
+        EXPECT_GT(light(name).cpu_us, 0.0) << name;
+        sum_us += light(name).cpu_us;
+    }
+    EXPECT_LE(sum_us, frame->report().shadow_cpu_us) << "parts are not more than the whole";
+    EXPECT_LT(light("plain").cpu_us, light("sun").cpu_us);
+}
+
+TEST_F(FrameCost, TimesAreOfThisFrameAlone) {
+    step();
+    for (int i = 0; i < 10; ++i) {
+        step();
+        double sum_us = 0.0;
+        for (const LightReport& l : frame->report().lights) sum_us += l.cpu_us;
+        EXPECT_LE(sum_us, frame->report().shadow_cpu_us);
+    }
+}
+
+/// A device that keeps nothing, so that only the frame's own allocations are counted.
+class SilentDevice final : public gl::Device {
+public:
+    const gl::DeviceInfo& info() const override { return inner_.info(); }
+    gl::Created<gl::TextureHandle> create_texture(const gl::TextureDesc& d, std::span<const std::byte> b) override { return inner_.create_texture(d, b); }
+    gl::Created<gl::SamplerHandle> create_sampler(const gl::SamplerDesc& d) override { return inner_.create_sampler(d); }
+    gl::Created<gl::BufferHandle> create_buffer(const gl::BufferDesc& d, std::span<const std::byte> b) override { return inner_.create_buffer(d, b); }
+    gl::Created<gl::ProgramHandle> create_program(const gl::ProgramDesc& d) override { return inner_.create_program(d); }
+    gl::Created<gl::TargetHandle> create_target(const gl::TargetDesc& d) override { return inner_.create_target(d); }
+    void destroy(gl::TextureHandle h) override { inner_.destroy(h); }
+    void destroy(gl::SamplerHandle h) override { inner_.destroy(h); }
+    void destroy(gl::BufferHandle h) override { inner_.destroy(h); }
+    void destroy(gl::ProgramHandle h) override { inner_.destroy(h); }
+    void destroy(gl::TargetHandle h) override { inner_.destroy(h); }
+    gl::SubmitResult submit(const gl::CommandList&) override { return {}; }
+    bool read_texture(gl::TextureHandle, std::uint32_t, std::span<std::byte>) override { return false; }
+    void set_timing(gl::TimingMode) override {}
+    std::vector<gl::Timing> take_timings() override { return {}; }
+    void finish() override {}
+
+private:
+    gl::RecordingDevice inner_;
+};
+
+/// Allocations of the eighth frame; `edit` changes the world before each.
+template <class Edit>
+std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const FrameSettings& settings, Edit edit) {
+    const assets::MeshLibrary library = test_library();
+    SilentDevice silent;
+    auto made = Frame::create(silent, library);
+    if (!made) return ~std::size_t{0};
+    TestWorld world;
+    const TestWorld::Stage parts = world.add_stage();
+    int n = 0;
+    for (const LightKind kind : kinds) world.add_light(kind, kLightPlace_m, "l" + std::to_string(n++));
+    std::size_t allocations = 0;
+    for (int i = 0; i < 8; ++i) {
+        edit(world, parts, i);
+        const std::size_t before = allocation_count();
+        made.value()->run(world.registry, settings);
+        allocations = allocation_count() - before;
+    }
+    return allocations;
+}
+const auto still = [](TestWorld&, const TestWorld::Stage&, int) {};
+const auto moving = [](TestWorld& world, const TestWorld::Stage& stage, int i) {
+    world.move(stage.box, {0.01 * i, 1, 0});
+    world.move(stage.camera, {0.01 * i, 4, 8});
+};
+
+TEST_F(FrameCost, AStillSceneOfLocalLightsAllocatesNothing) {
+    EXPECT_EQ(allocations_when_warm({LightKind::spot, LightKind::point}, settings, still), 0u);
+}
+
+TEST_F(FrameCost, AMovingSceneOfLocalLightsAllocatesNothingOnceWarm) {
+    EXPECT_EQ(allocations_when_warm({LightKind::spot, LightKind::point}, settings, moving), 0u);
+}
+
+TEST_F(FrameCost, ASunAllocatesOnlyForItsHulls) {
+    constexpr std::size_t kHulls = 40;  // a few growing lists per cascade, four cascades
+    for (const std::size_t count : {allocations_when_warm({LightKind::directional}, settings, still),
+                                    allocations_when_warm({LightKind::directional}, settings, moving)}) {
+        std::cout << "allocations in a frame with one sun: " << count << '\n';
+        EXPECT_LE(count, kHulls);
+    }
+}
+
+}  // namespace
+}  // namespace gnomon
