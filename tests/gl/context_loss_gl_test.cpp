@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "engine/gl/device_gl45.h"
+#include "engine/platform/context.h"
+#include "tests/soak/soak_world.h"
+#include "tests/unit/math/random_seed.h"
+
+// The device's memory is never the only place where anything lives: after the context is gone, a new one shows the
+// same pictures from the same world.
+namespace gnomon {
+namespace {
+
+using Picture = std::vector<std::uint8_t>;
+constexpr int kFrames = 12, kLostBefore = 7;
+
+/// Everything that dies with a context.
+struct Gpu {
+    std::unique_ptr<platform::Context> context;
+    std::unique_ptr<gl::Device> device;
+    std::unique_ptr<Frame> frame;
+
+    static std::optional<Gpu> make(const assets::MeshLibrary& library) {
+        Gpu gpu;
+        auto context = platform::make_headless_context(false);
+        if (!context) return std::nullopt;
+        gpu.context = std::move(context).value();
+        auto device = gl::make_gl45_device({});
+        if (!device) return std::nullopt;
+        gpu.device = std::move(device).value();
+        auto frame = Frame::create(*gpu.device, library);
+        if (!frame) return std::nullopt;
+        gpu.frame = std::move(frame).value();
+        return gpu;
+    }
+    /// The context goes first, under the feet of all that live in it.
+    void lose() {
+        context.reset();
+        frame.reset();
+        device.reset();
+    }
+};
+
+/// The pictures of `kFrames` frames of a world in motion; the context is destroyed before frame `lost_before`.
+std::vector<Picture> film(std::uint64_t seed, int lost_before) {
+    const assets::MeshLibrary library = test_library();
+    SoakWorld world(seed);
+    std::optional<Gpu> gpu = Gpu::make(library);
+    std::vector<Picture> pictures;
+    constexpr int kSettling = 100;  // until there are lights and casters
+    for (int i = 0; i < kSettling; ++i) world.churn();
+    for (int i = 0; i < kFrames; ++i) {
+        if (i == lost_before) {
+            if (gpu) gpu->lose();
+            gpu = Gpu::make(library);
+        }
+        if (!gpu) {
+            ADD_FAILURE() << "no context";
+            return pictures;
+        }
+        for (int k = 0; k < 3; ++k) world.churn();
+        gpu->frame->run(world.registry(), {.viewport_px = {64, 64}, .exposure_ev = {}});
+        EXPECT_STREQ(gl::to_text(gpu->frame->report().failure), "none") << "frame " << i;
+        EXPECT_TRUE(gpu->frame->read_picture(pictures.emplace_back())) << "frame " << i;
+    }
+    return pictures;
+}
+
+TEST(ContextLoss, ANewContextShowsTheSamePicturesFromTheSameWorld) {
+    const std::uint64_t seed = print_seed();
+    const std::vector<Picture> unbroken = film(seed, kFrames), broken = film(seed, kLostBefore);
+    ASSERT_EQ(unbroken.size(), static_cast<std::size_t>(kFrames));
+    ASSERT_EQ(broken.size(), unbroken.size());
+    for (std::size_t i = 0; i < unbroken.size(); ++i) EXPECT_EQ(broken[i], unbroken[i]) << "frame " << i;
+    // Pictures change, so that equal ones say something.
+    int changes = 0;
+    for (std::size_t i = 1; i < unbroken.size(); ++i) changes += unbroken[i] != unbroken[i - 1];
+    EXPECT_GT(changes, kFrames / 2);
+}
+
+}  // namespace
+}  // namespace gnomon

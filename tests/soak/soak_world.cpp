@@ -1,0 +1,129 @@
+#include "tests/soak/soak_world.h"
+
+#include <malloc.h>
+#include <unistd.h>
+
+#include <fstream>
+
+#include "components/shadow_caster.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/map_store.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double kArena_m = 8.0;
+
+}  // namespace
+
+SoakWorld::SoakWorld(std::uint64_t seed) : random_(seed) {
+    world_.add_mesh(kPlane, {0, 0, 0}, false);
+    camera_ = world_.add_camera({0, 6, 10}, {0, 0, 0});
+}
+
+ecs::Entity& SoakWorld::any_of(std::vector<ecs::Entity>& from) {
+    return from[std::uniform_int_distribution<std::size_t>(0, from.size() - 1)(random_)];
+}
+
+glm::dvec3 SoakWorld::place(double low_m, double high_m) {
+    const double x = number(-kArena_m, kArena_m), y = number(low_m, high_m), z = number(-kArena_m, kArena_m);
+    return {x, y, z};
+}
+
+void SoakWorld::add_light(LightKind kind, ShadowFilter filter) {
+    constexpr std::uint32_t kLeastMap_px = 16, kSizes = 4;
+    const ecs::Entity light = world_.add_light(kind, place(3.0, 8.0), "light", false);
+    LightShadow shadow;
+    shadow.filter = filter;
+    shadow.resolution_px = kLeastMap_px << std::uniform_int_distribution<std::uint32_t>(0, kSizes - 1)(random_);
+    world_.registry.emplace<LightShadow>(light, shadow);
+    lights_.push_back(light);
+}
+
+void SoakWorld::add_caster() {
+    const std::uint32_t mesh = std::uniform_int_distribution<std::uint32_t>(kBox, kMixedBox)(random_);
+    casters_.push_back(world_.add_mesh(mesh, place(0.5, 4.0), true));
+}
+
+void SoakWorld::remove_one(std::vector<ecs::Entity>& from) {
+    if (from.empty()) return;
+    ecs::Entity& gone = any_of(from);
+    world_.registry.destroy(gone);
+    gone = from.back();
+    from.pop_back();
+}
+
+void SoakWorld::change_light(ecs::Entity light) {
+    if (!world_.registry.has<LightShadow>(light)) {
+        world_.registry.emplace<LightShadow>(light);
+    } else if (chance(0.5)) {
+        world_.registry.remove<LightShadow>(light);
+    } else {
+        world_.registry.patch<LightShadow>(light, [&](LightShadow& s) { s.enabled = !s.enabled; });
+    }
+    if (chance(0.2))
+        world_.registry.patch<Light>(light, [&](Light& l) {
+            const auto kinds = static_cast<unsigned>(shadow::light_kind_table().size());
+            l.kind = static_cast<LightKind>(std::uniform_int_distribution<unsigned>(0, kinds - 1)(random_));
+        });
+}
+
+void SoakWorld::churn_lights() {
+    const auto kinds = static_cast<unsigned>(shadow::light_kind_table().size());
+    const auto filters = static_cast<unsigned>(shadow::filter_table().size());
+    if (lights_.size() < kMostLights && chance(0.15)) {
+        const auto kind = static_cast<LightKind>(std::uniform_int_distribution<unsigned>(0, kinds - 1)(random_));
+        add_light(kind, static_cast<ShadowFilter>(std::uniform_int_distribution<unsigned>(0, filters - 1)(random_)));
+    }
+    if (chance(0.1)) remove_one(lights_);
+    if (lights_.empty()) return;
+    if (chance(0.4)) world_.move(any_of(lights_), place(3.0, 8.0));
+    if (chance(0.1)) change_light(any_of(lights_));
+}
+
+void SoakWorld::churn() {
+    churn_lights();
+    if (casters_.size() < kMostCasters && chance(0.3)) add_caster();
+    if (chance(0.25)) remove_one(casters_);
+    if (!casters_.empty() && chance(0.6)) world_.move(any_of(casters_), place(0.5, 4.0));
+    if (!casters_.empty() && chance(0.05)) {
+        const ecs::Entity e = any_of(casters_);
+        if (world_.registry.has<ShadowCaster>(e)) world_.registry.remove<ShadowCaster>(e);
+        else world_.registry.emplace<ShadowCaster>(e);
+    }
+    if (chance(0.3)) {
+        const double x = number(-4.0, 4.0), y = number(4.0, 10.0), z = number(7.0, 12.0);  // the ground stays in view
+        world_.move(camera_, {x, y, z});
+    }
+}
+
+void SoakWorld::use_everything(const std::function<void()>& run_frame) {
+    world_.move(camera_, {0, 6, 10});
+    casters_.push_back(world_.add_mesh(kMixedBox, {0, 1, 0}, true));
+    casters_.push_back(world_.add_mesh(kBlendedBox, {2, 1, 0}, true));
+    for (const shadow::LightKindRow& kind : shadow::light_kind_table())
+        for (const shadow::FilterRow& filter : shadow::filter_table()) {
+            add_light(kind.kind, filter.id);
+            run_frame();
+            world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
+            run_frame();
+            world_.registry.destroy(lights_.back());
+            lights_.pop_back();
+        }
+}
+
+void SoakWorld::clear(const std::function<void()>& run_frame) {
+    while (!lights_.empty()) remove_one(lights_);
+    while (!casters_.empty()) remove_one(casters_);
+    for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames; ++i) run_frame();
+}
+
+std::size_t resident_bytes() {
+    malloc_trim(0);
+    std::size_t all_pages = 0, resident_pages = 0;
+    std::ifstream("/proc/self/statm") >> all_pages >> resident_pages;
+    return resident_pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+}  // namespace gnomon

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include "systems/frame.h"
+#include "tests/system/test_world.h"
+
+namespace gnomon {
+
+/// A world that never stays the same: lights and casters come, move, change and go at random, the same way for the
+/// same seed. Ground and camera stay.
+class SoakWorld {
+public:
+    explicit SoakWorld(std::uint64_t seed);
+
+    ecs::Registry& registry() { return world_.registry; }
+    /// Changes something or other; to be called before each frame.
+    void churn();
+    /// Runs one frame for each kind of light with each filter, so that whatever is made once has been made.
+    void use_everything(const std::function<void()>& run_frame);
+    /// Removes all lights and casters, and runs frames until nothing of them need be held.
+    void clear(const std::function<void()>& run_frame);
+
+    static constexpr std::size_t kMostLights = 6, kMostCasters = 24;
+
+private:
+    double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+    bool chance(double share) { return number(0.0, 1.0) < share; }
+    ecs::Entity& any_of(std::vector<ecs::Entity>& from);
+    glm::dvec3 place(double low_m, double high_m);
+    void add_light(LightKind kind, ShadowFilter filter);
+    void add_caster();
+    void churn_lights();
+    void change_light(ecs::Entity light);
+    void remove_one(std::vector<ecs::Entity>& from);
+
+    std::mt19937_64 random_;
+    TestWorld world_;
+    ecs::Entity camera_;
+    std::vector<ecs::Entity> lights_, casters_;
+};
+
+/// Bytes of this process that lie in memory, after giving back what the allocator held free.
+std::size_t resident_bytes();
+
+}  // namespace gnomon
