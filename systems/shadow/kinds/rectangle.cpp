@@ -40,6 +40,10 @@ Rectangle along(const glm::dvec2& axis_u, std::span<const glm::dvec2> points) {
     return r;
 }
 
+/// Sides of equal area (those of any triangle, opposite sides of anything) must not take turns by rounding: the first in
+/// the hull's order stays unless another is clearly smaller.
+constexpr double kClearlyLess = 1.0 - 1.0 / (1 << 20);
+
 }  // namespace
 
 Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch) {
@@ -53,7 +57,7 @@ Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec
         if (!(size > 0.0)) continue;
         const Rectangle r = along(edge / size, hull_scratch);
         const double area = (r.max.x - r.min.x) * (r.max.y - r.min.y);
-        if (area < best_area) {
+        if (area < best_area * kClearlyLess) {
             best = r;
             best_area = area;
         }

@@ -1,0 +1,2 @@
+gnomon_tests(NAME unit_extract LABEL unit SOURCES
+  extract/extract_test.cpp extract/volumes_test.cpp ../system/test_world.cpp)

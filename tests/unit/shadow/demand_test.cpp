@@ -1,0 +1,114 @@
+#include "systems/shadow/demand.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <limits>
+
+namespace gnomon::shadow {
+namespace {
+
+class DemandTest : public ::testing::Test {
+protected:
+    DemandTest() {
+        device.max_texture_px = 8192;
+        device.max_cube_px = 4096;
+        scene.consumers.push_back({});
+        for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) {
+            LightItem light;
+            light.kind = kind;
+            light.intensity = 1.0f;
+            light.has_shadow = true;
+            light.outer_cone_rad = 0.5;
+            scene.lights.push_back(light);
+        }
+    }
+    const std::vector<ShadowDemand>& decide(bool shadows = true) {
+        decide_demand(scene, device, shadows, demands);
+        return demands;
+    }
+    gl::DeviceInfo device;
+    SceneSnapshot scene;
+    std::vector<ShadowDemand> demands;
+};
+
+TEST_F(DemandTest, EachLightHasOneInItsOrder) {
+    ASSERT_EQ(decide().size(), 3u);
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(demands[i].light, i);
+        EXPECT_EQ(demands[i].skip, Reason::none);
+        EXPECT_EQ(demands[i].note, Reason::none);
+    }
+    EXPECT_EQ(demands[0].view_count, 4u);
+    EXPECT_EQ(demands[1].view_count, 1u);
+    EXPECT_EQ(demands[2].view_count, 6u);
+    decide();
+    EXPECT_EQ(demands.size(), 3u) << "and not more the next time";
+}
+
+TEST_F(DemandTest, WhatNobodyWantsEndsHereWithItsReason) {
+    scene.lights[0].has_shadow = false;
+    scene.lights[1].shadow.enabled = false;
+    scene.lights[2].intensity = 0.0f;
+    decide();
+    EXPECT_EQ(demands[0].skip, Reason::no_light_shadow);
+    EXPECT_EQ(demands[1].skip, Reason::shadows_off);
+    EXPECT_EQ(demands[2].skip, Reason::light_off);
+    scene.lights[2].intensity = 1.0f;
+    EXPECT_EQ(decide(false)[2].skip, Reason::shadows_off);
+    scene.lights[2].colour = glm::vec3(0.0f);
+    EXPECT_EQ(decide()[2].skip, Reason::light_off);
+}
+
+TEST_F(DemandTest, TheAutomaticSizeGrowsWithThePictureUpToTheLimit) {
+    std::uint32_t last = 0;
+    for (const std::uint32_t side : {1u, 64u, 640u, 1280u, 1920u, 3840u, 100000u, 0xffffffffu}) {
+        const std::uint32_t size = automatic_resolution({side, 1}, 1.0f, 8192);
+        EXPECT_EQ(size, automatic_resolution({1, side}, 1.0f, 8192));
+        EXPECT_TRUE(std::has_single_bit(size)) << size;
+        EXPECT_GE(size, std::max(last, 256u));
+        EXPECT_LE(size, 8192u);
+        EXPECT_GE(size, std::min(side, 8192u)) << "at least a texel per pixel";
+        last = size;
+    }
+    EXPECT_EQ(automatic_resolution({640, 480}, 1.0f, 100), 100u) << "the device's limit comes first";
+}
+
+TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
+    const auto size = [](float max_error_px) { return automatic_resolution({1280, 720}, max_error_px, 16384); };
+    EXPECT_EQ(size(0.5f), 2 * size(1.0f));
+    EXPECT_EQ(2 * size(2.0f), size(1.0f));
+    EXPECT_EQ(size(1e9f), 256u);
+    EXPECT_EQ(size(1e-9f), 8192u);
+    for (const float absurd : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) EXPECT_EQ(size(absurd), size(1.0f));
+}
+
+TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {
+    for (LightItem& light : scene.lights) light.shadow.resolution_px = 777;
+    for (const ShadowDemand& d : decide()) {
+        EXPECT_EQ(d.resolution_px, 777u);
+        EXPECT_EQ(d.note, Reason::none);
+    }
+    for (LightItem& light : scene.lights) light.shadow.resolution_px = 8192;
+    decide();
+    EXPECT_EQ(demands[1].resolution_px, 8192u);
+    EXPECT_EQ(demands[1].note, Reason::none);
+    EXPECT_EQ(demands[2].resolution_px, 4096u) << "cubes have a limit of their own";
+    EXPECT_EQ(demands[2].note, Reason::resolution_clamped);
+    scene.lights[1].shadow.resolution_px = 1;
+    EXPECT_EQ(decide()[1].note, Reason::resolution_clamped);
+    EXPECT_GT(demands[1].resolution_px, 1u);
+}
+
+TEST_F(DemandTest, AConeWiderThanOneMapIsNoted) {
+    scene.lights[1].outer_cone_rad = 1.5;
+    EXPECT_EQ(decide()[1].note, Reason::cone_clamped);
+}
+
+TEST_F(DemandTest, WithoutCamerasItStaysTotal) {
+    scene.consumers.clear();
+    for (const ShadowDemand& d : decide()) EXPECT_GE(d.resolution_px, 256u);
+}
+
+}  // namespace
+}  // namespace gnomon::shadow

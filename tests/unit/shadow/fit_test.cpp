@@ -1,0 +1,142 @@
+#include "systems/shadow/fit.h"
+
+#include <gtest/gtest.h>
+
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/light_kinds.h"
+#include "tests/unit/shadow/random_scene.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Map coordinates and depth as the shaders compute them: float matrix, float offset from the anchor.
+glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
+    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f);
+    return glm::dvec3(q) / static_cast<double>(q.w);
+}
+
+class FitTest : public ::testing::TestWithParam<LightKind> {
+protected:
+    /// The view whose map the point is looked up in, and the margin it keeps there, in map edges.
+    const ShadowView* view_of(const ShadowFrame& frame, const SceneSnapshot& scene, const glm::dvec3& p) const {
+        const double margin = static_cast<double>(filter_row(ShadowFilter::pcf_3x3).reach_texel) / scene.lights[0].shadow.resolution_px;
+        for (const ShadowView& view : frame.views) {
+            const double keep = GetParam() == LightKind::point ? -1e-6 : margin;
+            const glm::dvec3 q = in_map(view, p);
+            const bool before = GetParam() == LightKind::directional || glm::dot(p - view.anchor_ws_m, view.axis_back) < 0.0;
+            if (before && q.x >= keep && q.y >= keep && q.x <= 1.0 - keep && q.y <= 1.0 - keep && q.z >= 0.0 && q.z <= 1.0)
+                return &view;
+        }
+        return nullptr;
+    }
+    template <class Visit>
+    void for_each_point(RandomScene& random, const SceneSnapshot& scene, Visit visit) {
+        for (const InstanceItem& receiver : scene.instances)
+            for (int k = 0; k < 10; ++k) {
+                const glm::dvec3 p = random_point(random, receiver.bounds_ws);
+                if (receiver.visible && receiver.receives && seen(scene.consumers[0], p) && reaches(scene.lights[0], p)) visit(p);
+            }
+    }
+};
+
+TEST_P(FitTest, EveryVisiblePointLiesInAMapWithRoomForTheFilterAndItsBlockersBeforeIt) {
+    RandomScene random(print_seed());
+    int points = 0, blockers = 0;
+    for (int round = 0; round < 150; ++round) {
+        const SceneSnapshot scene = random.scene(GetParam());
+        const ShadowFrame frame = fitted(scene);
+        if (frame.views.empty()) continue;
+        for_each_point(random, scene, [&](const glm::dvec3& p) {
+            ++points;
+            const ShadowView* view = view_of(frame, scene, p);
+            ASSERT_NE(view, nullptr) << "round " << round;
+            const double depth = in_map(*view, p).z;
+            for (const InstanceItem& caster : scene.instances) {
+                const glm::dvec3 source = source_of(scene.lights[0], p);
+                const Crossing hit = crossing(caster.bounds_ws, p, source);
+                if (!caster.casts || !(hit.from < hit.to)) continue;
+                ++blockers;
+                const glm::dvec3 blocker = p + (source - p) * (0.5 * (hit.from + hit.to));
+                const double its = GetParam() == LightKind::directional || hit.to < 1.0 ? in_map(*view, blocker).z : 1.0;
+                EXPECT_GE(its, depth) << "reversed: nearer is greater; beyond 1 it is clamped and still nearer";
+                EXPECT_TRUE(std::isfinite(its));
+            }
+        });
+    }
+    EXPECT_GT(points, 500);
+    EXPECT_GT(blockers, 100);
+}
+
+TEST_P(FitTest, AShiftedMapIsNoticed) {
+    RandomScene random(7);
+    const SceneSnapshot scene = random.scene(GetParam());
+    ShadowFrame frame = fitted(scene);
+    if (frame.views.empty()) GTEST_SKIP() << "this seed shows nothing to this kind";
+    for (ShadowView& view : frame.views)  // shifted by a map's width
+        for (int c = 0; c < 4; ++c) view.map_from_anchor[c][0] += view.map_from_anchor[c][3];
+    bool outside = false;
+    for_each_point(random, scene, [&](const glm::dvec3& p) { outside = outside || view_of(frame, scene, p) == nullptr; });
+    EXPECT_TRUE(outside);
+}
+
+TEST_P(FitTest, TexelSizesAreThoseOfTheMap) {
+    RandomScene random(print_seed());
+    for (int round = 0; round < 60; ++round) {
+        const SceneSnapshot scene = random.scene(GetParam());
+        const double size_px = scene.lights[0].shadow.resolution_px;
+        for (const ShadowView& view : fitted(scene).views) {
+            const bool flat = view.projection == ViewProjection::orthographic;
+            const double distance_m = flat ? 0.5 * (view.near_m + view.far_m) : view.far_m;
+            const glm::dvec3 p = view.anchor_ws_m - view.axis_back * distance_m +
+                                 (flat ? view.axis_u * view.centre_ls_m.x + view.axis_v * view.centre_ls_m.y : glm::dvec3(0.0));
+            const double unit = flat ? 1.0 : distance_m;
+            const glm::dvec3 at = in_map(view, p), right = in_map(view, p + 100.0 * unit * view.texel_u * view.axis_u),
+                             up = in_map(view, p + 100.0 * unit * view.texel_v * view.axis_v);
+            EXPECT_NEAR(at.x, 0.5, 1e-5);
+            EXPECT_NEAR(at.y, 0.5, 1e-5);
+            EXPECT_NEAR((right.x - at.x) * size_px, 100.0, 1e-2);
+            EXPECT_NEAR((up.y - at.y) * size_px, 100.0, 1e-2);
+            EXPECT_NEAR(right.y, at.y, 1e-5);
+            EXPECT_NEAR(up.x, at.x, 1e-5);
+            EXPECT_LT(view.near_m, view.far_m);
+            if (!flat) {
+                EXPECT_NEAR(at.z, view.depth_alpha + view.depth_beta / distance_m, 1e-6 * (1.0 + std::abs(view.depth_alpha)));
+            }
+        }
+    }
+}
+
+TEST_P(FitTest, LayersAreCountedUpAndEveryViewNamesItsDemand) {
+    RandomScene random(print_seed());
+    for (int round = 0; round < 60; ++round) {
+        const ShadowFrame frame = fitted(random.scene(GetParam()));
+        for (std::uint32_t v = 0; v < frame.views.size(); ++v) {
+            EXPECT_EQ(frame.views[v].layer, v);
+            EXPECT_EQ(frame.views[v].demand, 0u);
+            EXPECT_TRUE(std::isfinite(frame.views[v].predicted_error_px));
+        }
+        EXPECT_LE(frame.views.size(), light_kind_row(GetParam()).layers);
+    }
+}
+
+TEST_P(FitTest, TwiceTheTexelsHalveThePredictedErrorBeyondThePixelItself) {
+    RandomScene random(11);
+    SceneSnapshot scene = random.scene(GetParam());
+    scene.lights[0].range_m = 0.0;
+    scene.lights[0].position_ws_m = {0.0, 20.0, 0.0};
+    scene.lights[0].rotation_ws = math::basis_from_back({0.0, 1.0, 0.0});
+    scene.lights[0].shadow.filter = ShadowFilter::hard;
+    const auto error = [&](std::uint32_t px) {
+        scene.lights[0].shadow.resolution_px = px;
+        const ShadowFrame frame = fitted(scene);
+        return frame.views.empty() ? 0.0 : frame.views[0].predicted_error_px - 0.5;
+    };
+    ASSERT_GT(error(1024), 0.0);
+    EXPECT_NEAR(error(1024) / error(2048), 2.0, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(EachKind, FitTest, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
+                         [](const auto& param) { return std::string(light_kind_row(param.param).name); });
+
+}  // namespace
+}  // namespace gnomon::shadow

@@ -1,0 +1,92 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "engine/math/frustum.h"
+#include "systems/extract/volumes.h"
+#include "systems/shadow/publish.h"
+#include "tests/unit/math/random_seed.h"
+
+namespace gnomon::shadow {
+namespace {
+
+class ScreenRectangle : public ::testing::Test {
+protected:
+    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random); }
+    glm::dvec3 direction() {
+        glm::dvec3 d;
+        do d = {number(-1, 1), number(-1, 1), number(-1, 1)};
+        while (!(glm::dot(d, d) > 1e-3 && glm::dot(d, d) <= 1.0));
+        return glm::normalize(d);
+    }
+    ConsumerItem camera(bool orthographic) {
+        ConsumerItem c;
+        c.position_ws_m = 100.0 * direction();
+        c.rotation_ws = math::basis_from_back(direction());
+        c.projection = orthographic ? CameraProjection::orthographic : CameraProjection::perspective;
+        c.fov_y_rad = number(0.2, 2.5);
+        c.half_height_m = number(0.5, 20.0);
+        c.far_m = orthographic ? 1000.0 : 1e9;
+        c.viewport_px = {static_cast<std::uint32_t>(number(1, 2000)), static_cast<std::uint32_t>(number(1, 2000))};
+        return c;
+    }
+    std::mt19937_64 random{print_seed()};
+};
+
+TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRange) {
+    int visible = 0, partial = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const ConsumerItem c = camera(round % 2 == 1);
+        LightItem light;
+        light.kind = round % 3 == 0 ? LightKind::spot : LightKind::point;
+        light.position_ws_m = c.position_ws_m + number(0.0, 60.0) * direction();
+        light.range_m = number(0.1, 20.0);
+        const gl::Rect rect = screen_rectangle(light, c);
+        const bool flat = c.projection == CameraProjection::orthographic;
+        const double half_y = flat ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+        if (rect.width > 0 && rect.width < static_cast<int>(c.viewport_px.x)) ++partial;
+        for (int i = 0; i < 50; ++i) {
+            const glm::dvec3 p = (light.position_ws_m + light.range_m * std::cbrt(number(0, 1)) * direction() - c.position_ws_m) * c.rotation_ws;
+            if (!(-p.z > c.near_m)) continue;
+            const glm::dvec2 ndc = glm::dvec2(p) / (flat ? 1.0 : -p.z) / glm::dvec2(half_y * aspect(c), half_y);
+            if (std::abs(ndc.x) > 1.0 || std::abs(ndc.y) > 1.0) continue;
+            const glm::dvec2 px = (ndc * 0.5 + 0.5) * glm::dvec2(c.viewport_px);
+            ++visible;
+            EXPECT_TRUE(px.x >= rect.x && px.y >= rect.y && px.x <= rect.x + rect.width && px.y <= rect.y + rect.height)
+                << px.x << ',' << px.y << " outside " << rect.x << ',' << rect.y << ' ' << rect.width << 'x' << rect.height;
+        }
+        EXPECT_TRUE(rect.x >= 0 && rect.y >= 0 && rect.x + rect.width <= static_cast<int>(c.viewport_px.x) &&
+                    rect.y + rect.height <= static_cast<int>(c.viewport_px.y));
+    }
+    EXPECT_GT(visible, 1000) << "the test must see something";
+    EXPECT_GT(partial, 50) << "and not only whole pictures";
+}
+
+TEST_F(ScreenRectangle, IsEmptyBehindTheCameraAndWholeForTheUnlimited) {
+    ConsumerItem c;
+    c.viewport_px = {320, 200};
+    LightItem light;
+    light.range_m = 2.0;
+    light.position_ws_m = {0, 0, 5};
+    EXPECT_EQ(screen_rectangle(light, c).width, 0);
+    light.range_m = 0.0;
+    EXPECT_EQ(screen_rectangle(light, c), (gl::Rect{0, 0, 320, 200}));
+    light.range_m = 2.0;
+    light.kind = LightKind::directional;
+    EXPECT_EQ(screen_rectangle(light, c), (gl::Rect{0, 0, 320, 200}));
+}
+
+TEST_F(ScreenRectangle, OfAFarLightIsSmall) {
+    ConsumerItem c;
+    c.viewport_px = {1000, 1000};
+    LightItem light;
+    light.range_m = 1.0;
+    light.position_ws_m = {0, 0, -100};
+    const gl::Rect rect = screen_rectangle(light, c);
+    EXPECT_GT(rect.width, 0);
+    EXPECT_LT(rect.width, 30);
+}
+
+}  // namespace
+}  // namespace gnomon::shadow
