@@ -30,10 +30,11 @@ Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float err
 
 // Perspective depth d = alpha + beta / z is affine in the map's coordinates on any plane, so the slope term is exact.
 // position: from the light, in the map's axes (u, v, toward the light); its -z is the distance along the axis.
-Bias perspective_bias(ViewRecord view, vec3 n_map, vec3 position_map, float reach_texel, float error_m) {
+// tangents: |n_map.xy|, or a bound on them where the footprint reaches a neighbouring face.
+Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, vec3 position_map, float reach_texel, float error_m) {
     vec2 texel_tan = vec2(view.axis_u.w, view.axis_v.w);
     float z_m = -position_map.z;
-    vec2 lateral = abs(n_map.xy) + kNormalError_rad;
+    vec2 lateral = tangents + kNormalError_rad;
     float spread = (reach_texel + kRasterSnap_texel) * dot(lateral, texel_tan);
     float across_m = spread * z_m + error_m;
     float distance_m = length(position_map);

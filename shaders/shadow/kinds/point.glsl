@@ -37,9 +37,11 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
     vec3 n_map = normal * map_axes;
     float z_m = largest(position_la);
     float second = max(abs(dot(position_la, axis_u)), abs(dot(position_la, axis_v)));
-    if (second > z_m * (1.0 - 2.0 * (reach_texel + 1.0) * view.axis_u.w)) n_map.xy = abs(n_map.xy) + abs(n_map.z);
-    Bias bias = perspective_bias(view, vec3(n_map.xy, dot(normal, axis_back)), position_la * map_axes, reach_texel,
-                                 rounding_m);
+    // Its texels are larger there, by the share that the tap lies beyond the seam.
+    vec2 tangents = abs(n_map.xy);
+    float beyond = (reach_texel + 1.0) * view.axis_u.w;
+    if (second > z_m * (1.0 - 2.0 * beyond)) tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
+    Bias bias = perspective_bias(view, n_map, tangents, position_la * map_axes, reach_texel, rounding_m);
     if (light.options.y != 0) bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
     ShadowPoint point;
     point.covered = z_m > 0.0;

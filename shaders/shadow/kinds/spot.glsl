@@ -10,7 +10,7 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
     float rounding_m = error_m + view.numeric.y * length(position_la);
-    Bias bias = perspective_bias(view, n_map, position_map, reach_texel, rounding_m);
+    Bias bias = perspective_bias(view, n_map, abs(n_map.xy), position_map, reach_texel, rounding_m);
     if (light.options.y != 0) {
         float z_m = -position_map.z;
         bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
