@@ -10,11 +10,19 @@
 namespace gnomon::game {
 
 Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
-    Result<assets::SceneData> data = load_scene(line.scene);
+    const bool game = plays_game(line);
+    Result<assets::SceneData> data = game ? load_game_scene() : load_scene(line.scene);
     if (!data) return data.error();
+    std::optional<Level> level;
+    if (game) {
+        Result<Level> made = courtyard_level(data.value());
+        if (!made) return made.error();
+        level = std::move(made).value();
+    }
     auto world = std::make_unique<GameWorld>();
     world->warnings = data.value().warnings;
     world->scene = spawn_scene(std::move(data).value(), world->registry, world->library);
+    if (level) world->game = std::make_unique<GameSession>(std::move(*level), world->scene, world->registry);
     if (line.camera) {
         const Result<std::size_t> camera = find_camera(world->scene, *line.camera);
         if (!camera) return camera.error();

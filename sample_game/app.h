@@ -10,6 +10,7 @@
 #include "engine/ecs/registry.h"
 #include "engine/gl/device.h"
 #include "sample_game/command_line.h"
+#include "sample_game/game_session.h"
 #include "sample_game/spawn.h"
 #include "sample_game/stats_file.h"
 #include "systems/frame.h"
@@ -21,6 +22,7 @@ struct GameWorld {
     ecs::Registry registry;
     assets::MeshLibrary library;
     SpawnedScene scene;
+    std::unique_ptr<GameSession> game;  // null: the scene is only looked at
     std::vector<std::string> warnings;  // of the loader, one line each
 };
 

@@ -14,10 +14,16 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
     settings.viewport_px = line.size_px;
     settings.exposure_ev = line.exposure_ev;
     StatsFile stats(renderer.device->info().name);
+    const bool to_the_end = line.demo && !line.frames && !line.time_s;
     const std::uint64_t frames = line.frames.value_or(1);
-    for (std::uint64_t i = 0; i < frames; ++i) {
+    for (std::uint64_t i = 0; to_the_end ? !world.game->ended() : i < frames; ++i) {
         const double time_s = frame_time_s(line, i, frames);
-        apply_motion(world.scene.moving, time_s, world.registry);
+        if (world.game) {
+            world.game->play_demo_until(time_s);
+            world.game->apply(world.registry);
+        } else {
+            apply_motion(world.scene.moving, time_s, world.registry);
+        }
         renderer.frame->run(world.registry, settings);
         if (i == 0) log_warnings(world, renderer.frame->report(), log);
         if (line.stats) stats.add(renderer.frame->report(), i, time_s);

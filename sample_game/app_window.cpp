@@ -49,17 +49,26 @@ private:
 /// Frames per second, shown in the title now and then.
 class TitleMeter {
 public:
-    void frame_done(platform::Window& window, const std::string& device) {
+    /// `state`: of the game, shown at once when it changes; empty if none is played.
+    void frame_done(platform::Window& window, const std::string& state, const std::string& device) {
         ++frames_;
+        if (state != state_ && !rate_.empty()) show(window, state, device);
         const double since_s = seconds(Clock::now() - start_);
         if (since_s < kTitleEvery_s) return;
         const auto fps = static_cast<long>(static_cast<double>(frames_) / since_s + 0.5);
-        window.set_title("Gnomon - " + std::to_string(fps) + " fps - " + device);
+        rate_ = std::to_string(fps) + " fps";
+        show(window, state, device);
         frames_ = 0;
         start_ = Clock::now();
     }
 
 private:
+    void show(platform::Window& window, const std::string& state, const std::string& device) {
+        window.set_title("Gnomon - " + (state.empty() ? "" : state + " - ") + rate_ + " - " + device);
+        state_ = state;
+    }
+
+    std::string state_, rate_;
     Clock::time_point start_ = Clock::now();
     std::uint64_t frames_ = 0;
 };
@@ -74,6 +83,24 @@ void update_capture(const platform::Input& input, platform::Window& window, bool
     if (want == captured) return;
     captured = want;
     window.capture_mouse(captured);
+}
+
+/// One frame's worth of whatever runs: the game, or the motion of a scene and a walk through it.
+void advance(GameWorld& world, const CommandLine& line, const platform::Input& input, bool captured, double dt_s,
+             std::uint64_t frame, SceneClock& clock, FlyCamera& walker, const SceneSnapshot& last) {
+    if (world.game) {
+        if (line.frames) world.game->play_demo_until(frame_time_s(line, frame, *line.frames));
+        else if (line.demo) world.game->advance_demo(frame > 0 ? dt_s : line.time_s.value_or(0.0));
+        else if (frame > 0) world.game->advance(dt_s, to_game_input(input, captured));
+        world.game->apply(world.registry);
+        return;
+    }
+    if (pressed(input, platform::Key::p)) clock.toggle_pause();
+    if (frame > 0) {
+        clock.advance(dt_s);
+        if (!last.consumers.empty()) walker.update(input, captured, dt_s, last.consumers.front(), world.registry);
+    }
+    if (frame == 0 || clock.runs()) apply_motion(world.scene.moving, clock.time_s(frame), world.registry);
 }
 
 }  // namespace
@@ -104,20 +131,14 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         }
         const double dt_s = line.frames ? kFixedStep_s : std::min(seconds(Clock::now() - last), kLongestStep_s);
         last = Clock::now();
-        if (pressed(input, platform::Key::p)) clock.toggle_pause();
         update_capture(input, window, captured);
-        if (frame > 0) {
-            clock.advance(dt_s);
-            const auto& consumers = renderer.frame->snapshot().consumers;
-            if (!consumers.empty()) walker.update(input, captured, dt_s, consumers.front(), world.registry);
-        }
-        if (frame == 0 || clock.runs()) apply_motion(world.scene.moving, clock.time_s(frame), world.registry);
+        advance(world, line, input, captured, dt_s, frame, clock, walker, renderer.frame->snapshot());
         settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
         renderer.frame->run(world.registry, settings);
         window.present();
         if (frame == 0) log_warnings(world, renderer.frame->report(), log);
         if (line.stats) stats.add(renderer.frame->report(), frame, clock.time_s(frame));
-        title.frame_done(window, renderer.device->info().name);
+        title.frame_done(window, world.game ? to_text(world.game->state().phase) : "", renderer.device->info().name);
         ++frame;
     }
     return write_outputs(line, *renderer.frame, settings.viewport_px, stats);

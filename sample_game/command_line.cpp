@@ -19,7 +19,7 @@ constexpr double kFramesPerSecond = 60.0;
 struct Typed {
     std::string scene, camera, size, frames, time, exposure, stats, screenshot, visibility;
     std::vector<std::string> settings;
-    bool headless = false, list = false;
+    bool headless = false, demo = false, list = false;
 };
 
 Error wrong(const std::string& message) { return {.message = on_one_line(message), .rule = "command_line"}; }
@@ -30,6 +30,7 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--camera", typed.camera, "NAME|INDEX (default: the first, else framed on the scene)");
     app.add_option("--size", typed.size, "WxH: picture size, each 1 to 16384 (default: 1280x720)");
     app.add_flag("--headless", typed.headless, "EGL, no window");
+    app.add_flag("--demo", typed.demo, "the game plays itself: a scripted walk across the courtyard");
     app.add_option("--frames", typed.frames, "N: frames to run, then exit");
     app.add_option("--time", typed.time, "SECONDS: scene time of the last frame");
     app.add_option("--exposure", typed.exposure, "EV|auto (default: auto)");
@@ -43,8 +44,9 @@ void declare(CLI::App& app, Typed& typed) {
         ->take_all();
     app.add_flag("--list", typed.list, "print every key, filter and value that --set knows, and exit");
     app.footer(
-        "In the window: WASD walk, Q and E down and up, Shift faster, click to look with the mouse, Tab frees it,\n"
-        "P pauses the motion, Esc quits.");
+        "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses, Esc quits.\n"
+        "The game, in a window without --scene, --camera, --frames and --time: cross the courtyard to the gate unseen;\n"
+        "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
 }
 
 /// 1 to kMaxSize_px, or 0 if `text` says anything else.
@@ -100,12 +102,15 @@ std::optional<Error> read_names(const Typed& typed, const CLI::App& app, Command
 Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
     CommandLine line;
     line.headless = typed.headless;
+    line.demo = typed.demo;
     line.settings = typed.settings;
     if (typed.list) line.print = list_settings();
     if (app.count("--size") > 0)
         if (auto error = read_size(typed.size, line.size_px)) return *error;
     if (auto error = read_numbers(typed, app, line)) return *error;
     if (auto error = read_names(typed, app, line)) return *error;
+    if (line.demo && (line.scene || line.camera))
+        return wrong("--demo plays the built-in scene with its own camera: neither --scene nor --camera go with it");
     LightShadow any;
     for (const std::string& setting : typed.settings)
         if (auto error = apply_setting(any, setting)) return *error;
@@ -128,6 +133,10 @@ Result<CommandLine> parse_command_line(int argc, const char* const* argv) {
         return wrong(error.what());
     }
     return understand(typed, app);
+}
+
+bool plays_game(const CommandLine& line) {
+    return line.demo || !(line.headless || line.scene || line.camera || line.frames || line.time_s);
 }
 
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames) {

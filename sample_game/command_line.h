@@ -16,6 +16,7 @@ struct CommandLine {
     std::optional<std::string> camera;           // name or index
     glm::uvec2 size_px{1280, 720};
     bool headless = false;
+    bool demo = false;
     std::optional<std::uint64_t> frames;  // > 0; empty: 1 headless, endless in a window
     std::optional<double> time_s;         // scene time of the last frame
     std::optional<float> exposure_ev;     // empty: automatic
@@ -26,6 +27,9 @@ struct CommandLine {
 
 /// Errors: rules "command_line" and those of apply_setting(); the message is one line.
 Result<CommandLine> parse_command_line(int argc, const char* const* argv);
+
+/// Whether the game is played: --demo, or a window without --scene, --camera, --frames and --time.
+bool plays_game(const CommandLine& line);
 
 /// Scene time of frame `index` of `frames`: the last one is at `line.time_s`, or, without it, the first one at 0.
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames);

@@ -13,6 +13,10 @@ Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>&
     return assets::load_gltf_memory(make_courtyard().glb, {}, "built-in courtyard");
 }
 
+Result<assets::SceneData> load_game_scene() {
+    return assets::load_gltf_memory(make_courtyard({.game = true}).glb, {}, "built-in courtyard");
+}
+
 Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& name_or_index) {
     const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                     [&](const NamedEntity& camera) { return camera.name == name_or_index; });

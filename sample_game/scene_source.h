@@ -13,6 +13,9 @@ namespace gnomon::game {
 /// Errors: those of assets::load_gltf.
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file);
 
+/// The courtyard with what the game adds to it.
+Result<assets::SceneData> load_game_scene();
+
 /// The camera called `name_or_index`: by name, else by index. Error: rule "camera.unknown".
 Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& name_or_index);
 

@@ -73,6 +73,7 @@ Courtyard make_courtyard(const CourtyardOptions& options) {
     add_lamps(kit);
     add_architecture(kit);
     add_furniture(kit);
+    if (options.game) add_game(kit);
     Courtyard courtyard;
     courtyard.triangles = glb.triangle_count();
     courtyard.glb = glb.finish({.name = "courtyard", .translation_m = options.offset_m, .scale = options.scale});

@@ -10,6 +10,7 @@ struct CourtyardOptions {
     glm::dvec3 offset_m{0.0};  // where the courtyard's origin lies in the world; finite
     double scale = 1.0;        // size, finite, > 0; candela, ranges and clip planes follow, so that the picture stays
     bool casters = true;       // false: every mesh says extras.castShadow = false
+    bool game = false;         // true: also the player, two screens to hide behind, a parapet and the gate to reach
 };
 
 struct Courtyard {

@@ -86,7 +86,7 @@ TEST(Spawn, ASceneWithoutLightGetsASunFromAboveThatIsNotAxisAligned) {
     EXPECT_GE(s.registry.get<Light>(sun)->intensity, 10000.0f);
     EXPECT_TRUE(s.registry.has<LightShadow>(sun));
     const glm::dvec3 to_sun = s.registry.get<Transform>(sun)->rotation * glm::dvec3(0.0, 0.0, 1.0);
-    EXPECT_NEAR(std::asin(to_sun.y), 55.0 * glm::pi<double>() / 180.0, 1e-9);
+    EXPECT_NEAR(std::asin(to_sun.y), 60.0 * glm::pi<double>() / 180.0, 1e-9);
     EXPECT_GT(std::abs(to_sun.x), 0.1);
     EXPECT_GT(std::abs(to_sun.z), 0.1);
 }

@@ -1,0 +1,28 @@
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "components/transform.h"
+
+/// What a walker cannot pass: upright boxes that stand, turn and move with nodes of the scene.
+namespace gnomon::game {
+
+/// A box in the frame of its node, whose +Y stays upright.
+struct Solid {
+    std::size_t node = 0;
+    glm::dvec3 min_m{0.0}, max_m{0.0};
+};
+
+/// Moves an upright circle out of every solid that stands between `low_m` and `high_m` above the ground.
+/// Returns its centre (x, z). In a corner narrower than the circle some overlap remains.
+glm::dvec2 pushed_out(glm::dvec2 centre_m, double radius_m, double low_m, double high_m, std::span<const Solid> solids,
+                      std::span<const WorldTransform> poses);
+
+/// Fraction of the way from `from` to `to` at which the first solid is met; 1 if none is.
+double free_way(const glm::dvec3& from_ws_m, const glm::dvec3& to_ws_m, std::span<const Solid> solids,
+                std::span<const WorldTransform> poses);
+
+}  // namespace gnomon::game
