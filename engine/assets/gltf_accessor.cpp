@@ -206,7 +206,7 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
         with_component(sparse.indices.componentType, [&]<class I>(I) {
             std::size_t next_allowed = 0;
             for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
-                const auto element = static_cast<std::size_t>(load<I>(indices + i * sizeof(I)));
+                const auto element = static_cast<std::size_t>(load<I>(indices + i * sizeof(I)));  // NOLINT(bugprone-signed-char-misuse): indices are unsigned
                 if (element < next_allowed || element >= accessor.count) {
                     fail("accessor.sparse_index", where + "/sparse/indices", "must rise and stay below the count");
                 }

@@ -63,7 +63,7 @@ std::filesystem::path resolve_uri(std::string_view uri, const std::filesystem::p
     std::error_code failed;
     const auto root = std::filesystem::canonical(folder, failed);
     if (failed) fail("uri.not_found", pointer, "the asset's folder does not exist");
-    const auto target = std::filesystem::canonical(root / relative, failed);
+    auto target = std::filesystem::canonical(root / relative, failed);
     if (failed) fail("uri.not_found", pointer, "no such file: " + printable(relative.string()));
     if (!is_inside(target, root)) fail("uri.escapes_folder", pointer, "the file lies outside the asset's folder");
     return target;

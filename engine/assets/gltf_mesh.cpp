@@ -20,7 +20,7 @@ namespace {
 struct VertexSource {
     int position = kNone, normal = kNone, uv = kNone;  // accessors
     int material = kNone;                              // where it transforms texture coordinates, else kNone
-    auto operator<=>(const VertexSource&) const = default;
+    auto operator<=>(const VertexSource&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads <=>
 };
 
 struct VertexBlock {

@@ -74,7 +74,7 @@ Bytes decode_base64(std::string_view text, const std::string& pointer) {
     std::uint32_t bits = 0;
     int bit_count = 0;
     for (const char c : text) {
-        const int digit = kTable[static_cast<unsigned char>(c)];
+        const int digit = kTable[static_cast<unsigned char>(c)];  // NOLINT(bugprone-signed-char-misuse): -1 means none
         if (digit == kNotADigit) fail("uri.base64", pointer, "a character that is not base64");
         bits = (bits << 6) | static_cast<std::uint32_t>(digit);
         bit_count += 6;

@@ -69,7 +69,7 @@ public:
         add_edges();
         add_faces();
         link_boundaries();
-        return std::move(mesh_);
+        return mesh_;
     }
 
 private:
@@ -101,7 +101,7 @@ private:
     void add_faces() {
         for (std::uint32_t f = 0; f < face_count_; ++f) {
             const FaceHandle face = mesh_.new_face();
-            mesh_.set_halfedge_handle(face, handles_[3 * f]);
+            mesh_.set_halfedge_handle(face, handles_[std::size_t{3} * f]);
             for (std::uint32_t h = 3 * f; h < 3 * f + 3; ++h) {
                 mesh_.set_face_handle(handles_[h], face);
                 mesh_.set_next_halfedge_handle(handles_[h], handles_[next_half_edge(h)]);

@@ -22,6 +22,7 @@ bool is_finite(const WorldTransform& w) {
 // Unlike ==, tells -0 from 0, so that a reader of the change list never holds other bits than the registry.
 bool same_bits(const WorldTransform& a, const WorldTransform& b) {
     static_assert(sizeof(WorldTransform) == 12 * sizeof(double), "padding would make memcmp unreliable");
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits are what is asked for
     return std::memcmp(&a, &b, sizeof(WorldTransform)) == 0;
 }
 
