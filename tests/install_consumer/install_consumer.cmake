@@ -7,3 +7,11 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/build_and_run.cmake)
   set_tests_properties(Package.AStrangerBuildsAgainstTheInstalledCopy PROPERTIES LABELS e2e TIMEOUT 600)
 endif()
+
+# The guides show that project's code, and nothing else.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+add_test(NAME Guides.ShowWhatTheStrangerBuilds
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/snippets.py ${PROJECT_SOURCE_DIR})
+add_test(NAME Guides.AChangedBlockIsFound
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/snippets.py --self-test ${PROJECT_SOURCE_DIR})
+set_tests_properties(Guides.ShowWhatTheStrangerBuilds Guides.AChangedBlockIsFound PROPERTIES LABELS unit TIMEOUT 60)
