@@ -65,6 +65,10 @@ void Frame::collect_timings() {
     report_.shadow_gpu_us = shadow_us;
 }
 
+gl::TargetHandle Frame::picture_target() const {
+    return has_picture_ ? lighting_->picture_target() : gl::TargetHandle{};
+}
+
 bool Frame::read_picture(std::vector<std::uint8_t>& rgba) {
     if (!has_picture_) return false;
     const glm::uvec2 size = lighting_->size_px();

@@ -50,6 +50,9 @@ public:
     /// The last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. False: nothing to read.
     bool read_picture(std::vector<std::uint8_t>& rgba);
 
+    /// What read_picture() reads: draw overlays into it, in a list of your own, after run(). {0}: no picture was drawn.
+    gl::TargetHandle picture_target() const;
+
     /// Visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats, bottom row first,
     /// with the meaning of --visibility in the README. False: nothing to read.
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
