@@ -1,5 +1,6 @@
 #include "engine/platform/context.h"
 #include "sample_game/app.h"
+#include "sample_game/gui/gui.h"
 
 namespace gnomon::game {
 
@@ -10,6 +11,12 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
     if (!made) return made.error();
     Renderer renderer = std::move(made).value();
 
+    std::unique_ptr<Gui> gui;
+    if (world.game) {
+        auto drawn = Gui::create(*renderer.device);
+        if (!drawn) return drawn.error();
+        gui = std::move(drawn).value();
+    }
     FrameSettings settings;
     settings.viewport_px = line.size_px;
     settings.exposure_ev = line.exposure_ev;
@@ -25,6 +32,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
             apply_motion(world.scene.moving, time_s, world.registry);
         }
         renderer.frame->run(world.registry, settings);
+        if (gui) gui->draw(world, *renderer.frame, line.size_px, nullptr, kStep_s, false);
         if (i == 0) log_warnings(world, renderer.frame->report(), log);
         if (line.stats) stats.add(renderer.frame->report(), i, time_s);
     }

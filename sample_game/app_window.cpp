@@ -2,10 +2,12 @@
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <thread>
+#include <utility>
 
 #include "engine/platform/context.h"
 #include "sample_game/app.h"
 #include "sample_game/fly_camera.h"
+#include "sample_game/gui/gui.h"
 
 namespace gnomon::game {
 namespace {
@@ -77,9 +79,9 @@ bool pressed(const platform::Input& input, platform::Key key) { return input.pre
 
 bool wants_out(const platform::Input& input) { return input.close_requested || pressed(input, platform::Key::escape); }
 
-/// A click captures the mouse, Tab frees it.
-void update_capture(const platform::Input& input, platform::Window& window, bool& captured) {
-    const bool want = (captured || input.mouse_pressed) && !pressed(input, platform::Key::tab);
+/// A click captures the mouse, Tab frees it; the panel keeps it free.
+void update_capture(const platform::Input& input, platform::Window& window, bool panel, bool& captured) {
+    const bool want = (captured || input.mouse_pressed) && !pressed(input, platform::Key::tab) && !panel;
     if (want == captured) return;
     captured = want;
     window.capture_mouse(captured);
@@ -87,15 +89,18 @@ void update_capture(const platform::Input& input, platform::Window& window, bool
 
 /// One frame's worth of whatever runs: the game, or the motion of a scene and a walk through it.
 void advance(GameWorld& world, const CommandLine& line, const platform::Input& input, bool captured, double dt_s,
-             std::uint64_t frame, SceneClock& clock, FlyCamera& walker, const SceneSnapshot& last) {
+             std::uint64_t frame, SceneClock& clock, FlyCamera& walker, const SceneSnapshot& last, Gui& gui) {
+    const bool stop_or_go = std::exchange(gui.toggle_motion, false);
     if (world.game) {
+        GameInput wish = to_game_input(input, captured);
+        wish.toggle_pause = wish.toggle_pause != stop_or_go;
         if (line.frames) world.game->play_demo_until(frame_time_s(line, frame, *line.frames));
         else if (line.demo) world.game->advance_demo(frame > 0 ? dt_s : line.time_s.value_or(0.0));
-        else if (frame > 0) world.game->advance(dt_s, to_game_input(input, captured));
+        else if (frame > 0) world.game->advance(dt_s, wish);
         world.game->apply(world.registry);
         return;
     }
-    if (pressed(input, platform::Key::p)) clock.toggle_pause();
+    if (pressed(input, platform::Key::p) != stop_or_go) clock.toggle_pause();
     if (frame > 0) {
         clock.advance(dt_s);
         if (!last.consumers.empty()) walker.update(input, captured, dt_s, last.consumers.front(), world.registry);
@@ -114,7 +119,9 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
     Renderer renderer = std::move(made).value();
 
     FrameSettings settings{.viewport_px = line.size_px, .exposure_ev = line.exposure_ev};
-    settings.present = true;
+    auto drawn = Gui::create(*renderer.device);
+    if (!drawn) return drawn.error();
+    Gui& gui = *drawn.value();
     StatsFile stats(renderer.device->info().name);
     FlyCamera walker(walking_speed(world.scene.bounds_ws));
     SceneClock clock(line);
@@ -131,10 +138,14 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         }
         const double dt_s = line.frames ? kFixedStep_s : std::min(seconds(Clock::now() - last), kLongestStep_s);
         last = Clock::now();
-        update_capture(input, window, captured);
-        advance(world, line, input, captured, dt_s, frame, clock, walker, renderer.frame->snapshot());
+        if (pressed(input, platform::Key::f1)) gui.panel = !gui.panel;
+        update_capture(input, window, gui.panel, captured);
+        advance(world, line, input, captured, dt_s, frame, clock, walker, renderer.frame->snapshot(),
+                gui);
         settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
+        settings.shadows = gui.shadows;
         renderer.frame->run(world.registry, settings);
+        gui.draw(world, *renderer.frame, settings.viewport_px, &input, dt_s, true);
         window.present();
         if (frame == 0) log_warnings(world, renderer.frame->report(), log);
         if (line.stats) stats.add(renderer.frame->report(), frame, clock.time_s(frame));

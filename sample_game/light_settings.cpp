@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint64_t kMaxResolution_px = 65536;
 constexpr double kMaxError_px = 1.0e4;
 constexpr double kMaxBias_m = 1.0e6;
+constexpr double kSliderResolution_px = 4096.0, kSliderError_px = 16.0, kSliderBias_m = 0.2;
 
 std::string number_text(double value) {
     std::array<char, 32> text{};
@@ -78,16 +79,19 @@ bool set_economy(LightShadow& shadow, std::string_view text) {
 
 constexpr std::array kSettings{
     LightSetting{"enabled", "on | off", "whether the light casts shadows", set_enabled,
-                 [](const LightShadow& s) { return switch_text(s.enabled); }},
-    LightSetting{"filter", "a filter, see below", "how the map is read", set_filter, get_filter},
+                 [](const LightShadow& s) { return switch_text(s.enabled); }, SettingEditor::toggle},
+    LightSetting{"filter", "a filter, see below", "how the map is read", set_filter, get_filter,
+                 SettingEditor::filter},
     LightSetting{"resolution", "0 ... 65536 (px)", "edge of one map or cube face; 0: chosen by the system",
-                 set_resolution, [](const LightShadow& s) { return std::to_string(s.resolution_px); }},
+                 set_resolution, [](const LightShadow& s) { return std::to_string(s.resolution_px); },
+                 SettingEditor::number, kSliderResolution_px, true},
     LightSetting{"max_error_px", "above 0 ... 10000 (px)", "how far a shadow edge may be off on screen", set_max_error,
-                 [](const LightShadow& s) { return number_text(static_cast<double>(s.max_error_px)); }},
+                 [](const LightShadow& s) { return number_text(static_cast<double>(s.max_error_px)); }, SettingEditor::number,
+                 kSliderError_px},
     LightSetting{"bias", "automatic | 0 ... 1e6 (m)", "offset against self-shadowing; metres along the light", set_bias,
-                 get_bias},
+                 get_bias, SettingEditor::number, kSliderBias_m, false, "automatic"},
     LightSetting{"economy", "on | off", "off: redraw every map every frame, change nothing else", set_economy,
-                 [](const LightShadow& s) { return switch_text(s.economy); }},
+                 [](const LightShadow& s) { return switch_text(s.economy); }, SettingEditor::toggle},
 };
 
 Error bad(std::string message, const char* rule) { return {.message = "--set: " + on_one_line(message), .rule = rule}; }

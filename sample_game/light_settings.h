@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,9 @@
 /// The fields of LightShadow by name: one row per key, for --set, --list and anything else that edits them.
 namespace gnomon::game {
 
+/// How a panel edits a setting: on or off, one of the filters' names, or a number of 0 to LightSetting::slider_most.
+enum class SettingEditor : std::uint8_t { toggle, filter, number };
+
 struct LightSetting {
     const char* key;
     const char* values;   // what may be written, for people
@@ -17,6 +21,10 @@ struct LightSetting {
     /// False, and nothing changed, if `text` is no value of this key.
     bool (*set)(LightShadow& shadow, std::string_view text);
     std::string (*get)(const LightShadow& shadow);  // a text that `set` reads back to the same value
+    SettingEditor editor;
+    double slider_most = 0.0;         // of a number: where a slider ends; `set` takes more
+    bool whole = false;               // of a number: only whole ones
+    const char* automatic = nullptr;  // of a number: the word that `set` takes as well
 };
 std::span<const LightSetting> light_settings();
 

@@ -1,0 +1,53 @@
+#include "sample_game/gui/gui.h"
+
+#include <algorithm>
+
+namespace gnomon::game {
+namespace {
+
+constexpr float kLeastStep_s = 1.0e-4f;  // ImGui wants time to pass
+
+void feed(ImGuiIO& io, const platform::Input& input) {
+    io.MousePos = {static_cast<float>(input.mouse_x), static_cast<float>(input.mouse_y)};
+    io.MouseDown[0] = input.mouse_button || input.mouse_pressed;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Gui>> Gui::create(gl::Device& device) {
+    std::unique_ptr<Gui> gui(new Gui(device));
+    gui->context_.reset(ImGui::CreateContext());
+    ImGui::SetCurrentContext(gui->context_.get());
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = io.LogFilename = nullptr;  // the game leaves no files behind
+    ImGui::StyleColorsDark();
+    auto overlay = Overlay::create(device);
+    if (!overlay) return overlay.error();
+    gui->overlay_ = std::move(overlay).value();
+    return gui;
+}
+
+Gui::~Gui() = default;
+
+void Gui::draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
+               bool present) {
+    const gl::TargetHandle target = frame.picture_target();
+    if (!target) return;
+    ImGui::SetCurrentContext(context_.get());
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
+    io.DeltaTime = std::max(static_cast<float>(dt_s), kLeastStep_s);
+    if (input && panel) feed(io, *input);
+    ImGui::NewFrame();
+    if (world.game) draw_game_overlay(world.game->state(), glm::vec2(size_px));
+    if (panel) draw_light_panel(world, frame.report(), shadows, toggle_motion);
+    ImGui::Render();
+
+    list_.clear();
+    overlay_->record(*ImGui::GetDrawData(), target, size_px, list_);
+    const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px.x), static_cast<std::int32_t>(size_px.y)};
+    if (present) list_.add(gl::Blit{target, {}, all, all});
+    device_.submit(list_);
+}
+
+}  // namespace gnomon::game

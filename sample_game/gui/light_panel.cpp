@@ -1,0 +1,122 @@
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "sample_game/gui/gui.h"
+#include "sample_game/light_settings.h"
+#include "systems/shadow/filter_table.h"
+
+namespace gnomon::game {
+namespace {
+
+/// What was chosen for `setting`, as a text for its `set`; empty if nothing was touched.
+std::string edited(const LightSetting& setting, const LightShadow& shadow) {
+    std::string now = setting.get(shadow);
+    switch (setting.editor) {
+        case SettingEditor::toggle: {
+            bool on = now == "on";
+            if (!ImGui::Checkbox(setting.key, &on)) return {};
+            return on ? "on" : "off";
+        }
+        case SettingEditor::filter: {
+            std::string chosen;
+            if (!ImGui::BeginCombo(setting.key, now.c_str())) return {};
+            for (const shadow::FilterRow& row : shadow::filter_table()) {
+                const std::string name(row.name);
+                if (ImGui::Selectable(name.c_str(), name == now)) chosen = name;
+            }
+            ImGui::EndCombo();
+            return chosen;
+        }
+        case SettingEditor::number:
+            break;
+    }
+    if (setting.automatic) {
+        bool automatic = now == setting.automatic;
+        const std::string label = std::string(setting.automatic) + " " + setting.key;
+        if (ImGui::Checkbox(label.c_str(), &automatic)) return automatic ? setting.automatic : "0";
+        if (automatic) return {};
+        ImGui::SameLine();
+    }
+    float value = std::strtof(now.c_str(), nullptr);
+    const char* format = setting.whole ? "%.0f" : "%.4g";
+    const auto flags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput;
+    if (!ImGui::SliderFloat(setting.key, &value, 0.0f, static_cast<float>(setting.slider_most), format, flags))
+        return {};
+    return setting.whole ? std::to_string(std::lround(value)) : std::to_string(value);
+}
+
+void draw_settings(GameWorld& world) {
+    for (const NamedEntity& light : world.scene.lights) {
+        const LightShadow* shadow = world.registry.get<LightShadow>(light.entity);
+        if (!shadow || !ImGui::CollapsingHeader(light.name.c_str())) continue;
+        ImGui::PushID(light.name.c_str());
+        LightShadow changed = *shadow;
+        for (const LightSetting& setting : light_settings()) {
+            const std::string text = edited(setting, changed);
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.meaning);
+            if (!text.empty()) setting.set(changed, text);  // a value that it does not take changes nothing
+        }
+        if (!(changed == *shadow)) world.registry.patch<LightShadow>(light.entity, [&](LightShadow& s) { s = changed; });
+        ImGui::PopID();
+    }
+}
+
+void time_cell(const std::optional<double>& time_us) {
+    ImGui::TableNextColumn();
+    if (time_us) ImGui::Text("%.0f", *time_us);
+    else ImGui::TextUnformatted("-");
+}
+
+void draw_report(const FrameReport& report) {
+    constexpr std::array kColumns{"light", "state", "reason", "texels", "KiB", "draws", "cpu us", "gpu us", "error px"};
+    const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
+    for (const char* column : kColumns) ImGui::TableSetupColumn(column);
+    ImGui::TableHeadersRow();
+    const auto count = [](std::uint64_t n) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(std::to_string(n).c_str());
+    };
+    const auto text = [](const char* words) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(words);
+    };
+    for (const LightReport& light : report.lights) {
+        ImGui::TableNextRow();
+        text(light.name.c_str());
+        text(to_text(light.state));
+        text(reason_code(light.reason));
+        count(light.texels);
+        count(light.bytes / 1024);
+        count(light.draws);
+        time_cell(light.cpu_us);
+        time_cell(light.gpu_us);
+        ImGui::TableNextColumn();
+        ImGui::Text("%.2f", light.predicted_error_px);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+void draw_light_panel(GameWorld& world, const FrameReport& report, bool& shadows, bool& toggle_motion) {
+    const ImVec2 at{12.0f, 12.0f};
+    ImGui::SetNextWindowPos(at, ImGuiCond_Once);
+    if (ImGui::Begin("Lights and shadows (F1)", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::Checkbox("shadows", &shadows);
+        ImGui::SameLine();
+        if (ImGui::Button("stop or go (P)")) toggle_motion = true;
+        ImGui::SameLine();
+        ImGui::Text("frame %.2f ms, of it shadows %.2f ms on the CPU", report.cpu_us * 1e-3, report.shadow_cpu_us * 1e-3);
+        draw_report(report);
+        draw_settings(world);
+    }
+    ImGui::End();
+}
+
+}  // namespace gnomon::game
