@@ -1,5 +1,5 @@
 # What `cmake --install` puts where, so that another project finds it with find_package(Gnomon).
-# Headers keep their paths from the project's root, below include/gnomon: "systems/frame.h" is the same name on both sides.
+# Headers keep their paths from the project's root, below include/gnomon: "systems/frame.h" is one name on both sides.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -38,7 +38,6 @@ target_sources(gnomon_shaders PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE
 target_sources(gnomon_systems PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_SYSTEM_HEADERS})
 
 foreach(part components engine shaders systems)
-  target_compile_features(gnomon_${part} INTERFACE cxx_std_20)
   target_include_directories(gnomon_${part} INTERFACE $<INSTALL_INTERFACE:${GNOMON_INCLUDE_DIR}>)
 endforeach()
 

@@ -94,7 +94,8 @@ struct Child {
     if (child.count(LightState::degraded) + child.count(LightState::skipped) != child.lights.size())
         quit(6, "a light lost its map in silence");
     for (const LightReport& light : child.frame->report().lights)
-        if (light.state == LightState::skipped && light.reason != Reason::map_allocation_failed) quit(7, "a wrong reason");
+        if (light.state == LightState::skipped && light.reason != Reason::map_allocation_failed)
+            quit(7, "a wrong reason");
 
     if (!lift_limit()) quit(2, "no end to the limit");
     child.ask_for(kSmall_px * 2);

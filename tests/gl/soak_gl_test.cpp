@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <chrono>
+#include <iostream>
 
 #include "tests/gl/gl_test_context.h"
 #include "tests/soak/soak_world.h"
@@ -9,8 +11,18 @@ namespace gnomon {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr auto kWarmUp = std::chrono::seconds(15), kSoak = std::chrono::seconds(45);
-constexpr std::size_t kMostGrowth_bytes = 1u << 20;
+constexpr auto kWarmUp = std::chrono::seconds(10), kSlice = std::chrono::seconds(4);
+constexpr std::size_t kSlices = 12;
+/// llvmpipe's own memory goes up and down by 3 MiB either way over any 1000 frames (measured over 30 000 frames,
+/// without a trend); medians of six even that out. What Gnomon itself keeps is bounded to 1 MiB by the soak on the
+/// recording device.
+constexpr std::int64_t kMostGrowth_bytes = 4 << 20;
+
+std::int64_t median(std::vector<std::size_t> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<std::int64_t>(*middle);
+}
 
 class GlSoak : public GlTest {
 protected:
@@ -54,19 +66,20 @@ TEST_F(GlSoak, AMinuteOfFramesLeavesNoObjectsAndNoMemoryBehind) {
     const std::size_t baseline = objects_when_empty();
     churn(kWarmUp);
     EXPECT_EQ(objects_when_empty(), baseline);
-    const std::size_t bytes_before = resident_bytes(), frames_before = frames;
-
-    churn(kSoak);
-
-    EXPECT_EQ(objects_when_empty(), baseline);
+    const std::size_t frames_before = frames;
+    std::vector<std::size_t> first, second;  // resident bytes after each slice
+    for (std::size_t i = 0; i < kSlices; ++i) {
+        churn(kSlice);
+        EXPECT_EQ(objects_when_empty(), baseline);
+        (i < kSlices / 2 ? first : second).push_back(resident_bytes());
+    }
     EXPECT_EQ(failures, 0);
-    const std::size_t bytes_after = resident_bytes();
-    const auto growth = static_cast<std::int64_t>(bytes_after) - static_cast<std::int64_t>(bytes_before);
-    std::cout << frames - frames_before << " frames on " << device().info().name << ", resident memory grew by " << growth
-              << " bytes\n";
+    const std::int64_t growth = median(second) - median(first);
+    std::cout << frames - frames_before << " frames on " << device().info().name << ", resident memory grew by "
+              << growth << " bytes\n";
     RecordProperty("frames", std::to_string(frames - frames_before));
     RecordProperty("growth_bytes", std::to_string(growth));
-    EXPECT_LE(bytes_after, bytes_before + kMostGrowth_bytes);
+    EXPECT_LE(growth, kMostGrowth_bytes);
 }
 
 }  // namespace

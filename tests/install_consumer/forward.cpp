@@ -130,9 +130,16 @@ SceneSnapshot stage_with(LightKind kind, const assets::MeshLibrary& library) {
     const glm::dvec3 back = glm::normalize(glm::dvec3(-1.0, 1.0, 0.0)), up = {0.0, 0.0, 1.0};
     // Far away on the sun's line, a lamp's shadow lies where the sun's does.
     const glm::dvec3 lamp_m = glm::dvec3(0.0, kBoxHeight_m, 0.0) + 100.0 * back;
-    scene.lights = {{.entity = {1, 1}, .name = "light", .kind = kind, .position_ws_m = lamp_m,
-                     .rotation_ws = {glm::cross(up, back), up, back}, .intensity = 50000.0f, .outer_cone_rad = 0.1,
-                     .has_shadow = true, .shadow = {.resolution_px = 2048}, .version = 1}};
+    scene.lights = {{.entity = {1, 1},
+                     .name = "light",
+                     .kind = kind,
+                     .position_ws_m = lamp_m,
+                     .rotation_ws = {glm::cross(up, back), up, back},
+                     .intensity = 50000.0f,
+                     .outer_cone_rad = 0.1,
+                     .has_shadow = true,
+                     .shadow = {.resolution_px = 2048},
+                     .version = 1}};
     for (const std::uint32_t mesh : {kGroundMesh, kBoxMesh}) {
         InstanceItem item;
         item.entity = {2 + mesh, 1};
@@ -170,8 +177,8 @@ int check(LightKind kind) {
 
     const auto fragment = fragment_for(light.row);
     if (!fragment) return fail(to_line(fragment.error()));
-    const GLuint program = linked(compiled(GL_VERTEX_SHADER, kVertex),
-                                  compiled(GL_FRAGMENT_SHADER, fragment.value().c_str()));
+    const GLuint program =
+        linked(compiled(GL_VERTEX_SHADER, kVertex), compiled(GL_FRAGMENT_SHADER, fragment.value().c_str()));
     if (program == 0) return fail("the program does not link");
     GLuint target = 0, picture = 0, light_buffer = 0, layout = 0;
     glCreateRenderbuffers(1, &picture);
@@ -189,9 +196,11 @@ int check(LightKind kind) {
     std::array<unsigned char, kPicture_px * kPicture_px * 4> rgba{};
     glReadPixels(0, 0, kPicture_px, kPicture_px, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
     const GLenum error = glGetError();
-    const auto red = [&](int column) { return int{rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + column) * 4)]}; };
-    std::printf("%s: visibility %d in the shadow, %d in the light, of 255\n", std::string(light.row.kind_define).c_str(),
-                red(kShadowedColumn), red(kLitColumn));
+    const auto red = [&](int column) {
+        return int{rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + column) * 4)]};
+    };
+    std::printf("%s: visibility %d in the shadow, %d in the light, of 255\n",
+                std::string(light.row.kind_define).c_str(), red(kShadowedColumn), red(kLitColumn));
     if (error != GL_NO_ERROR) return fail("OpenGL reports an error");
     if (red(kShadowedColumn) != 0 || red(kLitColumn) != 255) return fail("the shadow is not where it belongs");
     return 0;

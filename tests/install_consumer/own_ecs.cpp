@@ -29,7 +29,7 @@ struct Thing {
     glm::dvec3 position_m{0.0};
     glm::dvec3 back{0.0, 0.0, 1.0};  // against the direction in which a sun shines, a camera looks
     bool casts = false, moved = true;
-    std::uint64_t version = 0;       // of the snapshot in which it last moved
+    std::uint64_t version = 0;  // of the snapshot in which it last moved
 };
 using Things = std::vector<Thing>;
 // [world]
@@ -107,7 +107,8 @@ public:
         report.clear();
         gpu_scene_.update(scene, commands_);
         const shadow::ShadowFrame& frame = shadows_.update(scene, gpu_scene_, true, commands_, report);
-        const bool lit = lighting_.record(frame.inputs.front(), scene, gpu_scene_, {.exposure_ev = 14.0f}, commands_, report);
+        const bool lit =
+            lighting_.record(frame.inputs.front(), scene, gpu_scene_, {.exposure_ev = 14.0f}, commands_, report);
         const bool drawn = device_.submit(commands_).failure == gl::Failure::none;
         shadows_.commit(scene, drawn);
         if (!drawn) gpu_scene_.forget_uploads();
@@ -130,7 +131,8 @@ std::vector<int> middle_row(gl::Device& device, gl::TextureHandle picture) {
     std::vector<std::uint8_t> rgba(std::size_t{kPicture_px} * kPicture_px * 4);
     std::vector<int> row;
     if (!device.read_texture(picture, 0, std::as_writable_bytes(std::span(rgba)))) return row;
-    for (int x = 0; x < kPicture_px; ++x) row.push_back(rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + x) * 4)]);
+    for (int x = 0; x < kPicture_px; ++x)
+        row.push_back(rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + x) * 4)]);
     return row;
 }
 

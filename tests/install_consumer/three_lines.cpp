@@ -42,8 +42,9 @@ World make_world() {
     registry.emplace<MeshRef>(world.box, {.mesh = kBoxMesh});
     const glm::dquat looking_down = glm::angleAxis(-std::numbers::pi / 2.0, glm::dvec3(1.0, 0.0, 0.0));
     registry.emplace<Transform>(camera, {.translation_m = {0.0, kEyeHeight_m, 0.0}, .rotation = looking_down});
-    registry.emplace<Camera>(camera, {.projection = CameraProjection::orthographic, .half_height_m = kHalfHeight_m,
-                                      .near_m = 0.1, .far_m = 20.0});
+    registry.emplace<Camera>(
+        camera,
+        {.projection = CameraProjection::orthographic, .half_height_m = kHalfHeight_m, .near_m = 0.1, .far_m = 20.0});
     registry.emplace<Transform>(world.sun, {.rotation = glm::quatLookAt(glm::normalize(glm::dvec3(1.0, -1.0, 0.0)),
                                                                         glm::dvec3(0.0, 0.0, 1.0))});
     return world;
@@ -78,7 +79,9 @@ int main() {
 
     std::vector<std::uint8_t> rgba;
     if (!frame.value()->read_picture(rgba)) return fail("no picture");
-    const auto red = [&](int column) { return int{rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + column) * 4)]}; };
+    const auto red = [&](int column) {
+        return int{rgba[static_cast<std::size_t>((kMiddleRow * kPicture_px + column) * 4)]};
+    };
     std::printf("red: %d in the shadow, %d in the light\n", red(kShadowedColumn), red(kLitColumn));
     if (!is_darker(red(kShadowedColumn), red(kLitColumn))) return fail("no shadow in the picture");
 

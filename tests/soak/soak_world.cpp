@@ -89,8 +89,10 @@ void SoakWorld::churn() {
     if (!casters_.empty() && chance(0.6)) world_.move(any_of(casters_), place(0.5, 4.0));
     if (!casters_.empty() && chance(0.05)) {
         const ecs::Entity e = any_of(casters_);
-        if (world_.registry.has<ShadowCaster>(e)) world_.registry.remove<ShadowCaster>(e);
-        else world_.registry.emplace<ShadowCaster>(e);
+        if (world_.registry.has<ShadowCaster>(e))
+            world_.registry.remove<ShadowCaster>(e);
+        else
+            world_.registry.emplace<ShadowCaster>(e);
     }
     if (chance(0.3)) {
         const double x = number(-4.0, 4.0), y = number(4.0, 10.0), z = number(7.0, 12.0);  // the ground stays in view
@@ -116,6 +118,7 @@ void SoakWorld::use_everything(const std::function<void()>& run_frame) {
 void SoakWorld::clear(const std::function<void()>& run_frame) {
     while (!lights_.empty()) remove_one(lights_);
     while (!casters_.empty()) remove_one(casters_);
+    world_.move(camera_, {0, 6, 10});  // emptied worlds are alike
     for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames; ++i) run_frame();
 }
 

@@ -43,9 +43,9 @@ protected:
     }
     void forget() {
         for (const gl::Finding& f : device.findings()) ADD_FAILURE() << gl::to_text(f.misuse) << ": " << f.detail;
-        created += static_cast<std::size_t>(std::count_if(
-            device.resource_calls().begin(), device.resource_calls().end(),
-            [](const gl::ResourceCall& c) { return c.kind == gl::ResourceCall::Kind::create_texture; }));
+        created += static_cast<std::size_t>(
+            std::count_if(device.resource_calls().begin(), device.resource_calls().end(),
+                          [](const gl::ResourceCall& c) { return c.kind == gl::ResourceCall::Kind::create_texture; }));
         device.forget();
     }
     void churn(int frames) {
