@@ -44,6 +44,11 @@ std::optional<Error> check_outputs(const CommandLine& line) {
     return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
 }
 
+void set_timing(gl::Device& device, bool on) {
+    const gl::TimingMode mode = device.info().is_software ? gl::TimingMode::finish : gl::TimingMode::query;
+    device.set_timing(on ? mode : gl::TimingMode::off);
+}
+
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world) {
     // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
     Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
@@ -54,7 +59,7 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world) 
         return Error{
             .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
             .rule = "command_line"};
-    if (line.stats) renderer.device->set_timing(info.is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+    if (line.stats) set_timing(*renderer.device, true);
     Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library);
     if (!frame) return frame.error();
     renderer.frame = std::move(frame).value();

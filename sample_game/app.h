@@ -39,6 +39,9 @@ struct Renderer {
 };
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world);
 
+/// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
+void set_timing(gl::Device& device, bool on);
+
 /// Warns once of everything that is odd about the scene and yet no error.
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);
 

@@ -34,7 +34,8 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         renderer.frame->run(world.registry, settings);
         if (gui) gui->draw(world, *renderer.frame, line.size_px, nullptr, kStep_s, false);
         if (i == 0) log_warnings(world, renderer.frame->report(), log);
-        if (line.stats) stats.add(renderer.frame->report(), i, time_s);
+        if (line.stats) 
+            stats.add(renderer.frame->report(), i, time_s, world.game ? &world.game->state() : nullptr);
     }
     return write_outputs(line, *renderer.frame, line.size_px, stats);
 }

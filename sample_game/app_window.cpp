@@ -138,7 +138,10 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         }
         const double dt_s = line.frames ? kFixedStep_s : std::min(seconds(Clock::now() - last), kLongestStep_s);
         last = Clock::now();
-        if (pressed(input, platform::Key::f1)) gui.panel = !gui.panel;
+        if (pressed(input, platform::Key::f1)) {
+            gui.panel = !gui.panel;
+            set_timing(*renderer.device, gui.panel || line.stats);  // the panel shows times per light
+        }
         update_capture(input, window, gui.panel, captured);
         advance(world, line, input, captured, dt_s, frame, clock, walker, renderer.frame->snapshot(),
                 gui);
@@ -148,7 +151,11 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         gui.draw(world, *renderer.frame, settings.viewport_px, &input, dt_s, true);
         window.present();
         if (frame == 0) log_warnings(world, renderer.frame->report(), log);
-        if (line.stats) stats.add(renderer.frame->report(), frame, clock.time_s(frame));
+        if (line.stats) {
+            const GameState* game = world.game ? &world.game->state() : nullptr;
+            const double time_s = game && !line.frames ? game->time_s() : clock.time_s(frame);
+            stats.add(renderer.frame->report(), frame, time_s, game);
+        }
         title.frame_done(window, world.game ? to_text(world.game->state().phase) : "", renderer.device->info().name);
         ++frame;
     }

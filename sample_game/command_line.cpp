@@ -44,7 +44,8 @@ void declare(CLI::App& app, Typed& typed) {
         ->take_all();
     app.add_flag("--list", typed.list, "print every key, filter and value that --set knows, and exit");
     app.footer(
-        "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses, Esc quits.\n"
+        "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses,\n"
+        "F1 shows the lights and their settings, Esc quits.\n"
         "The game, in a window without --scene, --camera, --frames and --time: cross the courtyard to the gate unseen;\n"
         "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
 }

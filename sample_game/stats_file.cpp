@@ -72,8 +72,14 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
             {"dropped", std::move(dropped)}};
 }
 
-void StatsFile::add(const FrameReport& report, std::uint64_t index, double time_s) {
+void StatsFile::add(const FrameReport& report, std::uint64_t index, double time_s, const GameState* game) {
     frames_.push_back(frame_stats(report, index, time_s));
+    if (!game) return;
+    frames_.back()["game"] = {{"phase", to_text(game->phase)},
+                              {"time_s", game->time_s()},
+                              {"feet_m", {game->feet_m.x, game->feet_m.y, game->feet_m.z}},
+                              {"light", game->light},
+                              {"seen", game->seen}};
 }
 
 std::optional<Error> StatsFile::write(const std::filesystem::path& file) const {

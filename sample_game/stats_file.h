@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/core/result.h"
+#include "sample_game/game/game.h"
 #include "systems/report.h"
 
 /// The file of --stats; its keys are listed in docs/stats.md.
@@ -18,7 +19,8 @@ nlohmann::ordered_json frame_stats(const FrameReport& report, std::uint64_t inde
 class StatsFile {
 public:
     explicit StatsFile(std::string device) : device_(std::move(device)) {}
-    void add(const FrameReport& report, std::uint64_t index, double time_s);
+    /// `game`: null if none is played.
+    void add(const FrameReport& report, std::uint64_t index, double time_s, const GameState* game);
     std::optional<Error> write(const std::filesystem::path& file) const;
 
 private:

@@ -49,11 +49,11 @@ Words words(Phase phase) {
 
 void draw_words(ImDrawList& list, const Words& text, glm::vec2 size_px) {
     if (text.large[0] == '\0') return;
-    const float large = std::max(0.08f * size_px.y, ImGui::GetFontSize()), small = std::max(0.35f * large, 13.0f);
+    const float large = std::max(0.12f * size_px.y, ImGui::GetFontSize()), small = std::max(0.25f * large, 13.0f);
     ImFont* font = ImGui::GetFont();
     const ImVec2 wide = font->CalcTextSizeA(large, size_px.x, 0.0f, text.large);
     const ImVec2 wide_2 = font->CalcTextSizeA(small, size_px.x, 0.0f, text.small);
-    const float top = 0.36f * size_px.y;
+    const float top = 0.34f * size_px.y;
     list.AddRectFilled({0.0f, top - 0.3f * large}, {size_px.x, top + 1.4f * large + small}, kBack);
     list.AddText(font, large, {0.5f * (size_px.x - wide.x), top}, text.colour, text.large);
     list.AddText(font, small, {0.5f * (size_px.x - wide_2.x), top + 1.15f * large}, kFrame, text.small);

@@ -43,6 +43,17 @@ TEST(CommandLine, EveryFlagIsUnderstood) {
     EXPECT_EQ(l.settings, (std::vector<std::string>{"filter=hard", "bias=0.5"}));
 }
 
+TEST(CommandLine, TheGameIsPlayedInAPlainWindowAndByTheDemo) {
+    for (const auto& plays : {std::vector<const char*>{}, {"--size", "64x64"}, {"--demo"}, {"--demo", "--headless"},
+                              {"--demo", "--frames", "2", "--time", "1"}})
+        EXPECT_TRUE(plays_game(parse(plays).value()));
+    for (const auto& looks : {std::vector<const char*>{"--headless"}, {"--scene", "a.glb"}, {"--camera", "top"},
+                              {"--frames", "2"}, {"--time", "0"}})
+        EXPECT_FALSE(plays_game(parse(looks).value())) << looks.front();
+    EXPECT_FALSE(parse({"--demo", "--scene", "a.glb"}));
+    EXPECT_FALSE(parse({"--demo", "--camera", "top"}));
+}
+
 TEST(CommandLine, LimitsAreInclusive) {
     EXPECT_TRUE(parse({"--size", "1x16384"}));
     EXPECT_FALSE(parse({"--size", "1x16385"}));
