@@ -2,7 +2,7 @@
 import json
 import time
 
-from game import Picture
+from game import Picture, SMALL
 from window import W, H, WindowTest, main_in_display
 
 
