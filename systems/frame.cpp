@@ -16,8 +16,11 @@ Result<std::unique_ptr<Frame>> Frame::create(gl::Device& device, const assets::M
 }
 
 Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, GpuScene scene)
-    : device_(device), library_(library), gpu_scene_(std::move(scene)),
-      shadows_(std::make_unique<shadow::ShadowSystem>(device)), lighting_(std::make_unique<lighting::LightingSystem>(device)) {}
+    : device_(device),
+      library_(library),
+      gpu_scene_(std::move(scene)),
+      shadows_(std::make_unique<shadow::ShadowSystem>(device)),
+      lighting_(std::make_unique<lighting::LightingSystem>(device)) {}
 
 Frame::~Frame() = default;
 
@@ -32,10 +35,11 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     report_.dropped = snapshot_.dropped;
     gpu_scene_.update(snapshot_, commands_);
     const shadow::ShadowFrame& shadows = shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
-    has_picture_ = !shadows.inputs.empty() &&
-                   lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_, {settings.exposure_ev}, commands_, report_);
+    has_picture_ = !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
+                                                                {settings.exposure_ev}, commands_, report_);
     if (has_picture_ && settings.present) {
-        const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x), static_cast<std::int32_t>(settings.viewport_px.y)};
+        const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
+                           static_cast<std::int32_t>(settings.viewport_px.y)};
         commands_.add(gl::Blit{lighting_->picture_target(), {}, all, all});
     }
     report_.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
@@ -59,7 +63,8 @@ void Frame::collect_timings() {
         if (t.id >= kSurfaceTimer) continue;
         const std::uint32_t light = t.id / 2;
         if (t.id % 2 == 0) shadow_us += t.gpu_us;
-        if (light < report_.lights.size()) report_.lights[light].gpu_us = report_.lights[light].gpu_us.value_or(0.0) + t.gpu_us;
+        if (light < report_.lights.size())
+            report_.lights[light].gpu_us = report_.lights[light].gpu_us.value_or(0.0) + t.gpu_us;
     }
     report_.gpu_us = all_us;
     report_.shadow_gpu_us = shadow_us;

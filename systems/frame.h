@@ -27,9 +27,9 @@ class LightingSystem;
 
 struct FrameSettings {
     glm::uvec2 viewport_px{1280, 720};
-    std::optional<float> exposure_ev;   // EV100; empty: automatic
-    bool shadows = true;                // false: every light is treated as if its LightShadow were disabled
-    bool present = false;               // copy the picture to the window at the end
+    std::optional<float> exposure_ev;  // EV100; empty: automatic
+    bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
+    bool present = false;              // copy the picture to the window at the end
 };
 
 /// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.
@@ -53,8 +53,8 @@ public:
     /// What read_picture() reads: draw overlays into it, in a list of your own, after run(). {0}: no picture was drawn.
     gl::TargetHandle picture_target() const;
 
-    /// Visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats, bottom row first,
-    /// with the meaning of --visibility in the README. False: nothing to read.
+    /// Visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats, bottom row
+    /// first, with the meaning of --visibility in the README. False: nothing to read.
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
 
 private:

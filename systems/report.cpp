@@ -4,47 +4,76 @@ namespace gnomon {
 
 const char* to_text(LightState state) {
     switch (state) {
-        case LightState::rendered: return "rendered";
-        case LightState::reused: return "reused";
-        case LightState::degraded: return "degraded";
-        case LightState::skipped: return "skipped";
+        case LightState::rendered:
+            return "rendered";
+        case LightState::reused:
+            return "reused";
+        case LightState::degraded:
+            return "degraded";
+        case LightState::skipped:
+            return "skipped";
     }
     return "unknown";
 }
 
 const char* reason_code(Reason reason) {
     switch (reason) {
-        case Reason::none: return "none";
-        case Reason::no_light_shadow: return "no_light_shadow";
-        case Reason::shadows_off: return "shadows_off";
-        case Reason::light_off: return "light_off";
-        case Reason::no_visible_receiver: return "no_visible_receiver";
-        case Reason::no_caster: return "no_caster";
-        case Reason::content_unchanged: return "content_unchanged";
-        case Reason::resolution_clamped: return "resolution_clamped";
-        case Reason::map_shrunk: return "map_shrunk";
-        case Reason::map_allocation_failed: return "map_allocation_failed";
-        case Reason::target_incomplete: return "target_incomplete";
-        case Reason::depth_program_failed: return "depth_program_failed";
-        case Reason::lighting_program_failed: return "lighting_program_failed";
-        case Reason::cone_clamped: return "cone_clamped";
-        case Reason::buffer_failed: return "buffer_failed";
-        case Reason::sampler_failed: return "sampler_failed";
-        case Reason::fit_degenerate: return "fit_degenerate";
+        case Reason::none:
+            return "none";
+        case Reason::no_light_shadow:
+            return "no_light_shadow";
+        case Reason::shadows_off:
+            return "shadows_off";
+        case Reason::light_off:
+            return "light_off";
+        case Reason::no_visible_receiver:
+            return "no_visible_receiver";
+        case Reason::no_caster:
+            return "no_caster";
+        case Reason::content_unchanged:
+            return "content_unchanged";
+        case Reason::resolution_clamped:
+            return "resolution_clamped";
+        case Reason::map_shrunk:
+            return "map_shrunk";
+        case Reason::map_allocation_failed:
+            return "map_allocation_failed";
+        case Reason::target_incomplete:
+            return "target_incomplete";
+        case Reason::depth_program_failed:
+            return "depth_program_failed";
+        case Reason::lighting_program_failed:
+            return "lighting_program_failed";
+        case Reason::cone_clamped:
+            return "cone_clamped";
+        case Reason::buffer_failed:
+            return "buffer_failed";
+        case Reason::sampler_failed:
+            return "sampler_failed";
+        case Reason::fit_degenerate:
+            return "fit_degenerate";
     }
     return "unknown";
 }
 
 const char* reason_code(DropReason reason) {
     switch (reason) {
-        case DropReason::non_finite_transform: return "non_finite_transform";
-        case DropReason::zero_rotation: return "zero_rotation";
-        case DropReason::parent_missing: return "parent_missing";
-        case DropReason::parent_cycle: return "parent_cycle";
-        case DropReason::unknown_mesh: return "unknown_mesh";
-        case DropReason::zero_scale: return "zero_scale";
-        case DropReason::absurd_light: return "absurd_light";
-        case DropReason::absurd_camera: return "absurd_camera";
+        case DropReason::non_finite_transform:
+            return "non_finite_transform";
+        case DropReason::zero_rotation:
+            return "zero_rotation";
+        case DropReason::parent_missing:
+            return "parent_missing";
+        case DropReason::parent_cycle:
+            return "parent_cycle";
+        case DropReason::unknown_mesh:
+            return "unknown_mesh";
+        case DropReason::zero_scale:
+            return "zero_scale";
+        case DropReason::absurd_light:
+            return "absurd_light";
+        case DropReason::absurd_camera:
+            return "absurd_camera";
     }
     return "unknown";
 }

@@ -18,22 +18,22 @@ const char* to_text(LightState state);
 /// Stable codes; their texts are part of the command-line contract.
 enum class Reason : std::uint8_t {
     none,
-    no_light_shadow,          // the light has no LightShadow component
-    shadows_off,              // LightShadow::enabled is false
-    light_off,                // no intensity
-    no_visible_receiver,      // nothing that a camera sees is within the light's reach
-    no_caster,                // nothing can darken what is seen
-    content_unchanged,        // the map of an earlier frame still holds
-    resolution_clamped,       // the device's limit is below the wish
-    map_shrunk,               // the wished size could not be allocated, a smaller one could
+    no_light_shadow,      // the light has no LightShadow component
+    shadows_off,          // LightShadow::enabled is false
+    light_off,            // no intensity
+    no_visible_receiver,  // nothing that a camera sees is within the light's reach
+    no_caster,            // nothing can darken what is seen
+    content_unchanged,    // the map of an earlier frame still holds
+    resolution_clamped,   // the device's limit is below the wish
+    map_shrunk,           // the wished size could not be allocated, a smaller one could
     map_allocation_failed,
     target_incomplete,
     depth_program_failed,
     lighting_program_failed,
-    cone_clamped,             // a spot wider than one map can hold
+    cone_clamped,  // a spot wider than one map can hold
     buffer_failed,
     sampler_failed,
-    fit_degenerate            // no finite volume to render
+    fit_degenerate  // no finite volume to render
 };
 const char* reason_code(Reason reason);
 
@@ -43,19 +43,19 @@ struct LightReport {
     LightKind kind = LightKind::point;
     LightState state = LightState::skipped;
     Reason reason = Reason::none;
-    double predicted_error_px = 0.0;   // worst shadow-edge error over its views
-    std::uint32_t views = 0;           // rendered or reused
-    std::uint32_t views_drawn = 0;     // drawn this frame
-    std::uint64_t texels = 0;          // of the map
-    std::uint64_t bytes = 0;           // everything the light holds
+    double predicted_error_px = 0.0;  // worst shadow-edge error over its views
+    std::uint32_t views = 0;          // rendered or reused
+    std::uint32_t views_drawn = 0;    // drawn this frame
+    std::uint64_t texels = 0;         // of the map
+    std::uint64_t bytes = 0;          // everything the light holds
     std::uint32_t draws = 0, clears = 0;
     std::uint64_t triangles = 0;
-    double cpu_us = 0.0;               // of the shadow stages, what this light alone took
-    std::optional<double> gpu_us;      // shadow and lighting pass; empty: not measured
+    double cpu_us = 0.0;           // of the shadow stages, what this light alone took
+    std::optional<double> gpu_us;  // shadow and lighting pass; empty: not measured
 };
 
 struct FrameReport {
-    std::vector<LightReport> lights;   // one per LightItem, same order
+    std::vector<LightReport> lights;  // one per LightItem, same order
     std::vector<DroppedEntity> dropped;
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;

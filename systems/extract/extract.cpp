@@ -24,11 +24,15 @@ std::string name_of(const ecs::Registry& registry, ecs::Entity e) {
 
 DropReason drop_reason(TransformFault fault) {
     switch (fault) {
-        case TransformFault::zero_rotation: return DropReason::zero_rotation;
-        case TransformFault::parent_missing: return DropReason::parent_missing;
-        case TransformFault::parent_cycle: return DropReason::parent_cycle;
+        case TransformFault::zero_rotation:
+            return DropReason::zero_rotation;
+        case TransformFault::parent_missing:
+            return DropReason::parent_missing;
+        case TransformFault::parent_cycle:
+            return DropReason::parent_cycle;
         case TransformFault::none:
-        case TransformFault::not_finite: break;
+        case TransformFault::not_finite:
+            break;
     }
     return DropReason::non_finite_transform;
 }
@@ -37,7 +41,8 @@ DropReason drop_reason(TransformFault fault) {
 glm::dmat3 orientation(const glm::dmat3& basis) {
     const glm::dvec3 back = basis[2];
     if (!(glm::length(back) > 0.0)) return glm::dmat3(1.0);
-    const glm::dvec3 z = glm::normalize(back / glm::max(std::abs(back.x), glm::max(std::abs(back.y), std::abs(back.z))));
+    const glm::dvec3 z =
+        glm::normalize(back / glm::max(std::abs(back.x), glm::max(std::abs(back.y), std::abs(back.z))));
     const glm::dvec3 across = glm::cross(basis[1], z);
     if (!(glm::length(across) > 0.0)) return math::basis_from_back(z);
     const glm::dvec3 x = glm::normalize(across);
@@ -90,10 +95,18 @@ LightItem light_item(const ecs::Registry& registry, ecs::Entity e, const Light& 
     return item;
 }
 
-ConsumerItem consumer_item(const ecs::Registry& registry, ecs::Entity e, const Camera& camera, const WorldTransform& world,
-                           glm::uvec2 viewport_px) {
-    return {e, name_of(registry, e), world.translation_ws_m, orientation(world.basis), camera.projection, camera.fov_y_rad,
-            camera.half_height_m, camera.near_m, camera.far_m, viewport_px};
+ConsumerItem consumer_item(const ecs::Registry& registry, ecs::Entity e, const Camera& camera,
+                           const WorldTransform& world, glm::uvec2 viewport_px) {
+    return {e,
+            name_of(registry, e),
+            world.translation_ws_m,
+            orientation(world.basis),
+            camera.projection,
+            camera.fov_y_rad,
+            camera.half_height_m,
+            camera.near_m,
+            camera.far_m,
+            viewport_px};
 }
 
 template <class Item>
@@ -117,8 +130,10 @@ bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor,
     const ecs::Changes changes = registry.changes<T>(cursor);
     bool anew = !changes.complete;
     for (const ecs::Change& change : changes.entries) {
-        if (structural || change.kind != ecs::ChangeKind::changed) anew = true;
-        else moved_.push_back(change.entity);
+        if (structural || change.kind != ecs::ChangeKind::changed)
+            anew = true;
+        else
+            moved_.push_back(change.entity);
     }
     return anew;
 }
@@ -174,17 +189,20 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
     snapshot.lights.clear();
     snapshot.consumers.clear();
     unusable_.clear();
-    registry.each<MeshRef, WorldTransform>([&](ecs::Entity e, const MeshRef&, const WorldTransform&) {
-        list_instance(registry, library, e, snapshot);
-    });
+    registry.each<MeshRef, WorldTransform>(
+        [&](ecs::Entity e, const MeshRef&, const WorldTransform&) { list_instance(registry, library, e, snapshot); });
     registry.each<Light, WorldTransform>([&](ecs::Entity e, const Light& light, const WorldTransform& world) {
-        if (usable(light)) snapshot.lights.push_back(light_item(registry, e, light, world));
-        else unusable_.push_back({e, name_of(registry, e), DropReason::absurd_light});
+        if (usable(light))
+            snapshot.lights.push_back(light_item(registry, e, light, world));
+        else
+            unusable_.push_back({e, name_of(registry, e), DropReason::absurd_light});
     });
     registry.each<Camera, WorldTransform>([&](ecs::Entity e, const Camera& camera, const WorldTransform& world) {
         if (!camera.active) return;
-        if (usable(camera)) snapshot.consumers.push_back(consumer_item(registry, e, camera, world, viewport_px_));
-        else unusable_.push_back({e, name_of(registry, e), DropReason::absurd_camera});
+        if (usable(camera))
+            snapshot.consumers.push_back(consumer_item(registry, e, camera, world, viewport_px_));
+        else
+            unusable_.push_back({e, name_of(registry, e), DropReason::absurd_camera});
     });
     sort_by_entity(snapshot.instances);
     sort_by_entity(snapshot.lights);
@@ -219,7 +237,8 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
 }
 
 /// Entities whose WorldTransform alone changed, updated in place. False if one cannot be used any more.
-bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
+bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library,
+                            SceneSnapshot& snapshot) {
     for (const ecs::Entity e : moved_) {
         const WorldTransform* world = registry.get<WorldTransform>(e);
         if (!world) continue;
@@ -275,9 +294,10 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
         snapshot.changed_instances.clear();
         make_lists(registry, library, transforms, snapshot);
     }
-    std::sort(snapshot.changed_instances.begin(), snapshot.changed_instances.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return snapshot.instances[a].gpu_slot < snapshot.instances[b].gpu_slot;
-    });
+    std::sort(snapshot.changed_instances.begin(), snapshot.changed_instances.end(),
+              [&](std::uint32_t a, std::uint32_t b) {
+                  return snapshot.instances[a].gpu_slot < snapshot.instances[b].gpu_slot;
+              });
 }
 
 }  // namespace gnomon

@@ -26,20 +26,20 @@ private:
     };
     template <class T>
     bool read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, bool structural);
-    void make_lists(const ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
-                    SceneSnapshot& snapshot);
+    void make_lists(const ecs::Registry& registry, const assets::MeshLibrary& library,
+                    const TransformReport& transforms, SceneSnapshot& snapshot);
     void list_instance(const ecs::Registry& registry, const assets::MeshLibrary& library, ecs::Entity entity,
                        SceneSnapshot& snapshot);
     void assign_slots(SceneSnapshot& snapshot);
     bool touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
     Cursors cursors_;
-    std::vector<ecs::Entity> moved_;             // since the last frame, maybe repeated
-    std::vector<std::uint32_t> instance_of_;     // entity index -> index into snapshot.instances, kNone
-    std::vector<ecs::Entity> slot_owner_;        // gpu_slot -> entity
-    std::vector<std::uint32_t> slot_of_;         // entity index -> gpu_slot, kNone
-    std::vector<DroppedEntity> unusable_;        // found while making the lists
-    std::vector<QuarantinedEntity> quarantined_; // as last seen
+    std::vector<ecs::Entity> moved_;              // since the last frame, maybe repeated
+    std::vector<std::uint32_t> instance_of_;      // entity index -> index into snapshot.instances, kNone
+    std::vector<ecs::Entity> slot_owner_;         // gpu_slot -> entity
+    std::vector<std::uint32_t> slot_of_;          // entity index -> gpu_slot, kNone
+    std::vector<DroppedEntity> unusable_;         // found while making the lists
+    std::vector<QuarantinedEntity> quarantined_;  // as last seen
     glm::uvec2 viewport_px_{0, 0};
     bool started_ = false;
 };

@@ -34,9 +34,12 @@ std::vector<glm::vec4> plane_normals(const assets::MeshLibrary& library) {
 
 gl::Wrap wrap(assets::TextureWrap w) {
     switch (w) {
-        case assets::TextureWrap::repeat: return gl::Wrap::repeat;
-        case assets::TextureWrap::mirror: return gl::Wrap::mirror;
-        case assets::TextureWrap::clamp: return gl::Wrap::clamp;
+        case assets::TextureWrap::repeat:
+            return gl::Wrap::repeat;
+        case assets::TextureWrap::mirror:
+            return gl::Wrap::mirror;
+        case assets::TextureWrap::clamp:
+            return gl::Wrap::clamp;
     }
     return gl::Wrap::repeat;
 }
@@ -54,7 +57,7 @@ MaterialRecord material_record(const assets::Material& m) {
 
 InstanceRecord instance_record(const InstanceItem& item) {
     const math::TwoFloat3 t = math::split(item.translation_ws_m);
-    const auto column = [&](int i, float (&out)[4]) {
+    const auto column = [&](int i, float(&out)[4]) {
         for (int row = 0; row < 3; ++row) out[row] = static_cast<float>(item.basis[i][row]);
         out[3] = t.high[i];
     };
@@ -80,7 +83,8 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
     GpuScene scene;
     scene.device_ = &device;
     const auto failed = [](const char* what, gl::Failure failure) {
-        return Error{std::string("the GPU could not hold ") + what + " (" + gl::to_text(failure) + ")", {}, {}, "gpu.scene"};
+        return Error{
+            std::string("the GPU could not hold ") + what + " (" + gl::to_text(failure) + ")", {}, {}, "gpu.scene"};
     };
 
     std::vector<assets::Vertex> vertices;
@@ -104,7 +108,8 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
     };
     gl::Failure f = keep(scene.vertices_, fixed_buffer(device, "scene vertices", vertices));
     if (f == gl::Failure::none) f = keep(scene.indices_, fixed_buffer(device, "scene indices", indices));
-    if (f == gl::Failure::none) f = keep(scene.triangle_normals_, fixed_buffer(device, "triangle normals", plane_normals(library)));
+    if (f == gl::Failure::none)
+        f = keep(scene.triangle_normals_, fixed_buffer(device, "triangle normals", plane_normals(library)));
     if (f != gl::Failure::none) return failed("the scene's meshes", f);
 
     const std::uint32_t stride = aligned(sizeof(MaterialRecord), device.info().uniform_alignment);
@@ -125,7 +130,8 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
     f = add_texture({"white", gl::TextureKind::flat, gl::Format::srgb8_a8, 1, 1, 1, 1}, kWhite);
     for (const assets::Texture& t : library.textures) {
         if (f != gl::Failure::none) break;
-        f = add_texture({"texture " + t.name, gl::TextureKind::flat, gl::Format::srgb8_a8, t.width, t.height, 1, 0}, t.rgba);
+        f = add_texture({"texture " + t.name, gl::TextureKind::flat, gl::Format::srgb8_a8, t.width, t.height, 1, 0},
+                        t.rgba);
     }
     if (f != gl::Failure::none) return failed("the scene's textures", f);
 
@@ -185,7 +191,8 @@ GpuScene::~GpuScene() { release(); }
 
 void GpuScene::release() {
     if (!device_) return;
-    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_}) device_->destroy(b);
+    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_})
+        device_->destroy(b);
     for (const gl::TextureHandle t : textures_) device_->destroy(t);
     for (const gl::SamplerHandle s : samplers_) device_->destroy(s);
     device_ = nullptr;

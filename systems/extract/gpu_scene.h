@@ -20,8 +20,8 @@ static_assert(sizeof(InstanceRecord) == 64);
 /// Matches MaterialBlock in shaders/shared/material.glsl (std140).
 struct MaterialRecord {
     float base_colour[4];
-    float emissive[4];                       // rgb
-    float metallic, roughness, alpha_cutoff; // alpha_cutoff < 0: not masked
+    float emissive[4];                        // rgb
+    float metallic, roughness, alpha_cutoff;  // alpha_cutoff < 0: not masked
     float has_texture;
 };
 static_assert(sizeof(MaterialRecord) == 48);
@@ -44,7 +44,7 @@ public:
 
     struct MeshRange {
         std::int32_t base_vertex = 0;
-        std::uint32_t first_index = 0;       // of the mesh in the common index buffer
+        std::uint32_t first_index = 0;  // of the mesh in the common index buffer
         std::uint32_t first_submesh = 0, submesh_count = 0;
         std::uint64_t triangles = 0;
     };
@@ -53,7 +53,7 @@ public:
         std::uint32_t material = 0;
     };
     struct MaterialInfo {
-        gl::TextureHandle texture{};         // a white texel if the material has none
+        gl::TextureHandle texture{};  // a white texel if the material has none
         gl::SamplerHandle sampler{};
         std::uint32_t uniform_offset = 0;
         assets::AlphaMode alpha_mode = assets::AlphaMode::opaque;
@@ -68,7 +68,9 @@ public:
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }
     gl::BufferHandle instances() const { return instances_; }
-    gl::BufferHandle triangle_normals() const { return triangle_normals_; }  // vec4 per triangle of `indices`, model space
+    gl::BufferHandle triangle_normals() const {
+        return triangle_normals_;
+    }  // vec4 per triangle of `indices`, model space
     gl::BufferHandle material_uniforms() const { return material_uniforms_; }
 
 private:

@@ -26,42 +26,50 @@ struct ConsumerItem {
     double fov_y_rad = 0.9;
     double half_height_m = 5.0;
     double near_m = 0.05;
-    double far_m = 1.0e9;         // may be infinite for perspective
+    double far_m = 1.0e9;  // may be infinite for perspective
     glm::uvec2 viewport_px{1280, 720};
 };
 
 struct LightItem {
     ecs::Entity entity = {};
-    std::string name = {};        // unique within the snapshot
+    std::string name = {};  // unique within the snapshot
     LightKind kind = LightKind::point;
     glm::dvec3 position_ws_m{0.0};
     glm::dmat3 rotation_ws{1.0};  // columns right, up, back; the light shines along -back
     glm::vec3 colour{1.0f};
     float intensity = 0.0f;
-    double range_m = 0.0;         // 0: unlimited
+    double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    bool has_shadow = false;      // a LightShadow component exists
+    bool has_shadow = false;  // a LightShadow component exists
     LightShadow shadow = {};
-    std::uint64_t version = 0;    // grows whenever any of the above changed
+    std::uint64_t version = 0;  // grows whenever any of the above changed
 };
 
 /// One placed mesh.
 struct InstanceItem {
     ecs::Entity entity = {};
     std::uint32_t mesh = 0;
-    std::uint32_t gpu_slot = 0;   // index of its record in the instance buffer; stable while the entity lives
+    std::uint32_t gpu_slot = 0;  // index of its record in the instance buffer; stable while the entity lives
     glm::dmat3 basis{1.0};
     glm::dvec3 translation_ws_m{0.0};
-    math::Aabb bounds_ws = {};    // finite, not empty
+    math::Aabb bounds_ws = {};  // finite, not empty
     bool casts = false;
     bool receives = true;
     bool visible = true;
-    bool mirrored = false;        // negative determinant
-    std::uint64_t version = 0;    // grows whenever any of the above changed
+    bool mirrored = false;      // negative determinant
+    std::uint64_t version = 0;  // grows whenever any of the above changed
 };
 
-enum class DropReason : std::uint8_t { non_finite_transform, zero_rotation, parent_missing, parent_cycle, unknown_mesh,
-                                       zero_scale, absurd_light, absurd_camera };
+enum class DropReason : std::uint8_t {
+    non_finite_transform,
+    zero_rotation,
+    parent_missing,
+    parent_cycle,
+    unknown_mesh,
+    zero_scale,
+    absurd_light,
+    absurd_camera
+};
 const char* reason_code(DropReason reason);
 
 /// An entity that could not be used this frame, and why. The others are unaffected.
@@ -79,8 +87,8 @@ struct SceneSnapshot {
     std::vector<InstanceItem> instances;
     std::vector<DroppedEntity> dropped;
     std::vector<std::uint32_t> changed_instances;  // indices of those to upload this frame, by rising gpu_slot
-    std::uint32_t gpu_slot_count = 0;          // upper bound of all gpu_slots
-    std::uint64_t version = 0;                 // grows whenever anything changed
+    std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
+    std::uint64_t version = 0;                     // grows whenever anything changed
 };
 
 }  // namespace gnomon

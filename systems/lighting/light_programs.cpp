@@ -15,9 +15,12 @@ std::string row_source(const shadow::ProgramRow* row) {
 
 const char* output_name(RowOutput output) {
     switch (output) {
-        case RowOutput::picture: return "light";
-        case RowOutput::visibility: return "visibility";
-        case RowOutput::blended: return "blended light";
+        case RowOutput::picture:
+            return "light";
+        case RowOutput::visibility:
+            return "visibility";
+        case RowOutput::blended:
+            return "blended light";
     }
     return "light";
 }
@@ -43,7 +46,8 @@ void LightPrograms::make(Entry& entry, const std::string& label, const char* ver
 gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput output) {
     shadow::ProgramRow row = wanted;
     if (row.filter_file.empty()) row = {row.kind_define, {}, {}, 0.0f};  // unshadowed is one program per kind
-    auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) { return e.output == output && e.row == row; });
+    auto found =
+        std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) { return e.output == output && e.row == row; });
     if (found == rows_.end()) found = rows_.insert(rows_.end(), {row, output, {}});
     Entry& entry = found->entry;
     if (!is_due(entry)) return entry.program;
@@ -55,9 +59,12 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput
     }
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
-    const std::string label = std::string(output_name(output)) + " " + std::string(row.kind_define) + " " + std::string(row.filter_file);
-    if (output == RowOutput::blended) make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
-    else make(entry, label, "shared/fullscreen.vert", "lighting/light.frag", defines, &row);
+    const std::string label =
+        std::string(output_name(output)) + " " + std::string(row.kind_define) + " " + std::string(row.filter_file);
+    if (output == RowOutput::blended)
+        make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
+    else
+        make(entry, label, "shared/fullscreen.vert", "lighting/light.frag", defines, &row);
     return entry.program;
 }
 
@@ -66,7 +73,9 @@ gl::ProgramHandle LightPrograms::plain(Entry& entry, const char* label, const ch
     return entry.program;
 }
 
-gl::ProgramHandle LightPrograms::surface() { return plain(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag"); }
+gl::ProgramHandle LightPrograms::surface() {
+    return plain(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag");
+}
 gl::ProgramHandle LightPrograms::blended_base() {
     return plain(blended_base_, "blended base", "lighting/surface.vert", "lighting/blended.frag");
 }

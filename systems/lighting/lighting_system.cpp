@@ -42,7 +42,11 @@ AmbientRecord ambient_for(const SceneSnapshot& scene) {
 }
 
 LightingSystem::LightingSystem(gl::Device& device)
-    : device_(device), programs_(device), targets_(device), items_(device, "surface draw items"), uniforms_(device, "lighting uniforms") {}
+    : device_(device),
+      programs_(device),
+      targets_(device),
+      items_(device, "surface draw items"),
+      uniforms_(device, "lighting uniforms") {}
 
 LightingSystem::~LightingSystem() {
     device_.destroy(point_sampler_);
@@ -56,8 +60,12 @@ gl::Rect LightingSystem::viewport() const {
 bool LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
     programs_.next_frame();
     if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return false;
-    if (!point_sampler_) point_sampler_ = device_.create_sampler({"surface", false, false, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
-    if (!mip_sampler_) mip_sampler_ = device_.create_sampler({"luminance", true, true, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
+    if (!point_sampler_)
+        point_sampler_ =
+            device_.create_sampler({"surface", false, false, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
+    if (!mip_sampler_)
+        mip_sampler_ =
+            device_.create_sampler({"luminance", true, true, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
     const std::uint32_t alignment = device_.info().uniform_alignment;
     ambient_offset_ = aligned(sizeof(shadow::CameraRecord), alignment);
     exposure_offset_ = ambient_offset_ + aligned(sizeof(AmbientRecord), alignment);
@@ -68,8 +76,8 @@ bool LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSn
            uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * inputs.lights.size());
 }
 
-void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
-                                  const ConsumerItem& consumer) {
+void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first,
+                                  std::uint32_t count, const ConsumerItem& consumer) {
     const InstanceItem& head = scene.instances[visible_[first]];
     const GpuScene::MeshRange& mesh = gpu.mesh(head.mesh);
     for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
@@ -78,12 +86,19 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
         // Blended instances are drawn one by one, sorted; others in one go.
         const std::uint32_t step = blend ? 1 : count;
         for (std::uint32_t i = 0; i < count; i += step) {
-            SurfaceDraw draw{submesh.material, submesh.first_index, submesh.index_count, mesh.base_vertex,
-                             static_cast<std::uint32_t>(draw_items_.size()), step, head.mirrored, 0.0};
+            SurfaceDraw draw{submesh.material,
+                             submesh.first_index,
+                             submesh.index_count,
+                             mesh.base_vertex,
+                             static_cast<std::uint32_t>(draw_items_.size()),
+                             step,
+                             head.mirrored,
+                             0.0};
             for (std::uint32_t k = 0; k < step; ++k)
                 draw_items_.push_back({scene.instances[visible_[first + i + k]].gpu_slot, submesh.first_index / 3});
             if (blend) {
-                draw.distance_m = glm::distance(math::centre(scene.instances[visible_[first + i]].bounds_ws), consumer.position_ws_m);
+                draw.distance_m =
+                    glm::distance(math::centre(scene.instances[visible_[first + i]].bounds_ws), consumer.position_ws_m);
                 blended_.push_back(draw);
             } else {
                 draws_.push_back(draw);
@@ -100,14 +115,18 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     const math::Frustum frustum = consumer_frustum(consumer);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
-        if (item.visible && item.gpu_slot < gpu.capacity() && math::may_overlap(frustum, item.bounds_ws)) visible_.push_back(i);
+        if (item.visible && item.gpu_slot < gpu.capacity() && math::may_overlap(frustum, item.bounds_ws))
+            visible_.push_back(i);
     }
-    const auto key = [&scene](std::uint32_t i) { return std::pair(scene.instances[i].mesh * 2 + (scene.instances[i].mirrored ? 1u : 0u), i); };
+    const auto key = [&scene](std::uint32_t i) {
+        return std::pair(scene.instances[i].mesh * 2 + (scene.instances[i].mirrored ? 1u : 0u), i);
+    };
     std::sort(visible_.begin(), visible_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     for_each_mesh_run(scene, visible_, [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
         // Mirrored instances of a mesh follow the others: their front faces wind the other way.
         const auto begin = visible_.begin() + first;
-        const auto middle = std::find_if(begin, begin + count, [&](std::uint32_t i) { return scene.instances[i].mirrored; });
+        const auto middle =
+            std::find_if(begin, begin + count, [&](std::uint32_t i) { return scene.instances[i].mirrored; });
         const auto plain = static_cast<std::uint32_t>(middle - begin);
         if (plain > 0) add_mesh_run(scene, gpu, first, plain, consumer);
         if (plain < count) add_mesh_run(scene, gpu, first + plain, count - plain, consumer);
@@ -121,8 +140,8 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     });
 }
 
-void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const LightingSettings& settings,
-                            gl::CommandList& list) {
+void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
+                            const LightingSettings& settings, gl::CommandList& list) {
     const AmbientRecord ambient = ambient_for(scene);
     ExposureRecord exposure;
     exposure.top_mip = static_cast<float>(kLuminanceTopMip);
@@ -132,7 +151,8 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
     put(uniform_scratch_, ambient_offset_, &ambient, sizeof ambient);
     put(uniform_scratch_, exposure_offset_, &exposure, sizeof exposure);
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
-        put(uniform_scratch_, lights_offset_ + i * light_stride_, &inputs.lights[i].record, sizeof(shadow::LightRecord));
+        put(uniform_scratch_, lights_offset_ + i * light_stride_, &inputs.lights[i].record,
+            sizeof(shadow::LightRecord));
     list.update(items_.handle(), 0, std::span<const DrawItem>(draw_items_));
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(uniform_scratch_));
 }
@@ -156,7 +176,8 @@ void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list)
     list.add(gl::BeginTimer{kSurfaceTimer});
     list.add(gl::BeginPass{targets_.surface_target, viewport(), true, 0.0f, true, {}});
     std::uint32_t bound = 0xffffffffu;
-    gl::PipelineState state{programs_.surface(), gl::CullMode::none, false, gl::DepthTest::greater, true, false, gl::Blend::off};
+    gl::PipelineState state{programs_.surface(), gl::CullMode::none, false, gl::DepthTest::greater, true, false,
+                            gl::Blend::off};
     bool first = true;
     for (const SurfaceDraw& draw : draws_) {
         gl::PipelineState wanted = state;
@@ -168,7 +189,8 @@ void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list)
         first = false;
         if (draw.material != bound) bind_material(gpu, draw.material, list);
         bound = draw.material;
-        list.add(gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
+        list.add(
+            gl::DrawMeshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count});
     }
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{kSurfaceTimer});
@@ -184,7 +206,8 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
 }
 
 void LightingSystem::bind_light(const shadow::LightingLight& light, std::uint32_t index, gl::CommandList& list) const {
-    list.add(gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
+    list.add(
+        gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
     if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
 }
 
@@ -197,8 +220,8 @@ LightingSystem::RowProgram LightingSystem::row_program(const shadow::ProgramRow&
     return {programs_.row(unshadowed, output), true};
 }
 
-void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, gl::CommandList& list,
-                                   FrameReport& report) {
+void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
+                                   gl::CommandList& list, FrameReport& report) {
     list.add(gl::BeginGroup{"lights"});
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
@@ -213,7 +236,8 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         list.add(gl::BeginTimer{lighting_timer(light.light)});
         list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
         list.add(gl::SetScissor{light.screen});
-        list.add(gl::SetPipeline{{row.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
+        list.add(gl::SetPipeline{
+            {row.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
         bind_surface_textures(list);
         bind_light(light, i, list);
         list.add(gl::DrawTriangle{});
@@ -229,12 +253,18 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
     list.add(gl::BeginGroup{"blended"});
     list.add(gl::BeginPass{targets_.blended_target, viewport(), false, 0.0f, false, {}});
     for (const SurfaceDraw& draw : blended_) {
-        gl::PipelineState state{programs_.blended_base(), gpu.material(draw.material).double_sided ? gl::CullMode::none : gl::CullMode::back,
-                                draw.mirrored, gl::DepthTest::greater, false, false, gl::Blend::alpha};
+        gl::PipelineState state{programs_.blended_base(),
+                                gpu.material(draw.material).double_sided ? gl::CullMode::none : gl::CullMode::back,
+                                draw.mirrored,
+                                gl::DepthTest::greater,
+                                false,
+                                false,
+                                gl::Blend::alpha};
         list.add(gl::SetPipeline{state});
         bind_scene(gpu, list);
         bind_material(gpu, draw.material, list);
-        const gl::DrawMeshes meshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item, draw.item_count};
+        const gl::DrawMeshes meshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item,
+                                    draw.item_count};
         list.add(meshes);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
             state.program = row_program(inputs.lights[i].row, RowOutput::blended).program;
@@ -254,14 +284,16 @@ void LightingSystem::record_finish(gl::CommandList& list) {
     list.add(gl::BeginGroup{"exposure"});
     list.add(gl::BeginTimer{kFinishTimer});
     list.add(gl::BeginPass{targets_.luminance_target, {0, 0, side, side}, false, 0.0f, false, {}});
-    list.add(gl::SetPipeline{{programs_.luminance(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(gl::SetPipeline{
+        {programs_.luminance(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     list.add(gl::BindTexture{0, targets_.depth, point_sampler_});
     list.add(gl::BindTexture{1, targets_.light_sum, point_sampler_});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::GenerateMips{targets_.luminance});
     list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});
-    list.add(gl::SetPipeline{{programs_.tonemap(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(gl::SetPipeline{
+        {programs_.tonemap(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     list.add(gl::BindTexture{0, targets_.light_sum, point_sampler_});
     list.add(gl::BindTexture{1, targets_.luminance, mip_sampler_});
     list.add(gl::BindTexture{2, targets_.depth, point_sampler_});
@@ -286,7 +318,8 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     return true;
 }
 
-bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list) {
+bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light,
+                                       gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
     const shadow::LightingLight& item = inputs.lights[light];
     const gl::ProgramHandle program = programs_.row(item.row, RowOutput::visibility);

@@ -43,16 +43,16 @@ public:
     LightingSystem(const LightingSystem&) = delete;
     LightingSystem& operator=(const LightingSystem&) = delete;
 
-    /// Records the picture of one consumer. Lights whose program fails are drawn unshadowed, or not at all, and reported.
-    /// False if the buffers for the picture could not be had: nothing was recorded then.
+    /// Records the picture of one consumer. Lights whose program fails are drawn unshadowed, or not at all, and
+    /// reported. False if the buffers for the picture could not be had: nothing was recorded then.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
 
-    /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of the
-    /// last record() of the same inputs. False if it cannot be done.
+    /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of
+    /// the last record() of the same inputs. False if it cannot be done.
     bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list);
 
-    gl::TextureHandle picture_texture() const { return targets_.picture; }     // srgb8_a8
+    gl::TextureHandle picture_texture() const { return targets_.picture; }  // srgb8_a8
     gl::TargetHandle picture_target() const { return targets_.picture_target; }
     gl::TextureHandle visibility_texture() const { return targets_.visibility; }  // r32f
     glm::uvec2 size_px() const { return targets_.size_px(); }

@@ -8,8 +8,8 @@ bool LightingTargets::make(gl::TextureHandle& texture, const char* label, gl::Fo
     return static_cast<bool>(texture);
 }
 
-bool LightingTargets::make(gl::TargetHandle& target, const char* label, std::initializer_list<gl::TextureHandle> colours,
-                           gl::TextureHandle depth_texture) {
+bool LightingTargets::make(gl::TargetHandle& target, const char* label,
+                           std::initializer_list<gl::TextureHandle> colours, gl::TextureHandle depth_texture) {
     gl::TargetDesc desc{label, {}, {depth_texture, -1}};
     for (const gl::TextureHandle c : colours) desc.colours.push_back({c, -1});
     target = device_.create_target(desc).handle;
@@ -19,18 +19,17 @@ bool LightingTargets::make(gl::TargetHandle& target, const char* label, std::ini
 bool LightingTargets::resize(glm::uvec2 size) {
     if (size == size_px_ && picture_target) return true;
     release();
-    const bool made = make(depth, "surface depth", gl::Format::d32f, size.x, size.y) &&
-                      make(colour, "surface colour", gl::Format::srgb8_a8, size.x, size.y) &&
-                      make(normals, "surface normals", gl::Format::rgba16_snorm, size.x, size.y) &&
-                      make(material, "surface material", gl::Format::rgba8, size.x, size.y) &&
-                      make(light_sum, "light sum", gl::Format::rgba16f, size.x, size.y) &&
-                      make(luminance, "luminance", gl::Format::rg32f, kLuminanceSide_px, kLuminanceSide_px, 0) &&
-                      make(picture, "picture", gl::Format::srgb8_a8, size.x, size.y) &&
-                      make(surface_target, "surfaces", {colour, normals, material, light_sum}, depth) &&
-                      make(light_target, "light sum", {light_sum}, {}) &&
-                      make(blended_target, "blended", {light_sum}, depth) &&
-                      make(luminance_target, "luminance", {luminance}, {}) &&
-                      make(picture_target, "picture", {picture}, {});
+    const bool made =
+        make(depth, "surface depth", gl::Format::d32f, size.x, size.y) &&
+        make(colour, "surface colour", gl::Format::srgb8_a8, size.x, size.y) &&
+        make(normals, "surface normals", gl::Format::rgba16_snorm, size.x, size.y) &&
+        make(material, "surface material", gl::Format::rgba8, size.x, size.y) &&
+        make(light_sum, "light sum", gl::Format::rgba16f, size.x, size.y) &&
+        make(luminance, "luminance", gl::Format::rg32f, kLuminanceSide_px, kLuminanceSide_px, 0) &&
+        make(picture, "picture", gl::Format::srgb8_a8, size.x, size.y) &&
+        make(surface_target, "surfaces", {colour, normals, material, light_sum}, depth) &&
+        make(light_target, "light sum", {light_sum}, {}) && make(blended_target, "blended", {light_sum}, depth) &&
+        make(luminance_target, "luminance", {luminance}, {}) && make(picture_target, "picture", {picture}, {});
     if (!made) {
         release();
         return false;
@@ -51,7 +50,8 @@ bool LightingTargets::ensure_visibility() {
 }
 
 void LightingTargets::release() {
-    for (gl::TargetHandle* t : {&surface_target, &light_target, &blended_target, &luminance_target, &picture_target, &visibility_target}) {
+    for (gl::TargetHandle* t :
+         {&surface_target, &light_target, &blended_target, &luminance_target, &picture_target, &visibility_target}) {
         device_.destroy(*t);
         *t = {};
     }

@@ -17,19 +17,21 @@ public:
     LightingTargets(const LightingTargets&) = delete;
     LightingTargets& operator=(const LightingTargets&) = delete;
 
-    /// True if everything exists at this size. On failure the former size stays usable if it is the same; otherwise nothing.
+    /// True if everything exists at this size. On failure the former size stays usable if it is the same; otherwise
+    /// nothing.
     bool resize(glm::uvec2 size_px);
     /// Made when first asked for: nobody pays for a visibility picture that nobody reads.
     bool ensure_visibility();
     glm::uvec2 size_px() const { return size_px_; }
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{};
-    gl::TargetHandle surface_target{}, light_target{}, blended_target{}, luminance_target{}, picture_target{}, visibility_target{};
+    gl::TargetHandle surface_target{}, light_target{}, blended_target{}, luminance_target{}, picture_target{},
+        visibility_target{};
 
 private:
     void release();
-    bool make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width, std::uint32_t height,
-              std::uint32_t mips = 1);
+    bool make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width,
+              std::uint32_t height, std::uint32_t mips = 1);
     bool make(gl::TargetHandle& target, const char* label, std::initializer_list<gl::TextureHandle> colours,
               gl::TextureHandle depth_texture);
 

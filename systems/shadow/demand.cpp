@@ -29,7 +29,8 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, s
     const double wished_error_px = max_error_px > 0.0f ? static_cast<double>(max_error_px) : 1.0;
     const std::uint32_t most_px = std::min(limit_px, kLargestAutomatic_px);
     const double wish_px = std::ceil(std::max(viewport_px.x, viewport_px.y) * kTexelsPerPixel / wished_error_px);
-    const auto bounded_px = static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
+    const auto bounded_px =
+        static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
     return std::min(std::bit_ceil(bounded_px), most_px);
 }
 
@@ -46,11 +47,13 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         demand.filter = light.shadow.filter;
         const LightKindRow& kind = light_kind_row(light.kind);
         demand.view_count = kind.layers;
-        const std::uint32_t limit_px = kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
+        const std::uint32_t limit_px =
+            kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
         if (light.shadow.resolution_px == 0) {
             demand.resolution_px = automatic_resolution(viewport_px, light.shadow.max_error_px, limit_px);
         } else {
-            demand.resolution_px = std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
+            demand.resolution_px =
+                std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
         if (light.kind == LightKind::spot && light.outer_cone_rad > kWidestMap_rad) demand.note = Reason::cone_clamped;

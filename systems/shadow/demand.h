@@ -11,8 +11,8 @@ namespace gnomon::shadow {
 /// picture's larger side, within [256, min(limit_px, 8192)]. max_error_px not above 0, or NaN, counts as 1.
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, std::uint32_t limit_px);
 
-/// Texels per pixel of the picture's larger side, for one cascade, spot view or cube face, at a wish of one pixel: what is
-/// seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
+/// Texels per pixel of the picture's larger side, for one cascade, spot view or cube face, at a wish of one pixel: what
+/// is seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
 inline constexpr double kTexelsPerPixel = 1.5;
 
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.

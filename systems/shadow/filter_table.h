@@ -9,11 +9,11 @@ namespace gnomon::shadow {
 /// One way of looking a depth map up. To add one: a file under shaders/shadow/filters, an enumerator, a row.
 struct FilterRow {
     ShadowFilter id;
-    std::string_view name;       // as in --set filter=
-    std::string_view file;       // under shaders/
-    std::uint32_t taps;          // texture fetches per pixel
-    float reach_texel;           // E: half-width of the footprint that decides a pixel, in texels
-    bool linear_sampler;         // compare results blended by hardware
+    std::string_view name;  // as in --set filter=
+    std::string_view file;  // under shaders/
+    std::uint32_t taps;     // texture fetches per pixel
+    float reach_texel;      // E: half-width of the footprint that decides a pixel, in texels
+    bool linear_sampler;    // compare results blended by hardware
 };
 
 /// In the order of ShadowFilter.

@@ -58,7 +58,8 @@ double predict_error_px(const ShadowView& view, const ConsumerItem& consumer, st
     for (const glm::dvec3& p : points_ws) {
         const double depth_m = -glm::dot(p - consumer.position_ws_m, consumer.rotation_ws[2]);
         if (!(depth_m > 0.0)) continue;
-        const double pixel_m = perspective_camera ? footprint * std::max(depth_m, consumer.near_m) : footprint;
+        const double pixel_m =
+            perspective_camera ? footprint * std::max({depth_m, consumer.near_m, view.seen_from_m}) : footprint;
         const double texel_m =
             view.projection == ViewProjection::orthographic ? texel : texel * glm::distance(p, view.anchor_ws_m);
         worst_px = std::max(worst_px, kOneTapShare * texel_m / pixel_m + kPixelCentre_px);
@@ -75,11 +76,16 @@ void fit_views(const SceneSnapshot& scene, ShadowFrame& frame) {
         const ShadowDemand& demand = frame.demands[d];
         const LightTime time(frame, demand.light);
         const LightItem& light = scene.lights[demand.light];
-        const auto points = std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
-        const FitInput input{light, demand, scene,
+        const auto points =
+            std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
+        const FitInput input{light,
+                             demand,
+                             scene,
                              std::span(frame.receiver_items).subspan(sets.receivers.first, sets.receivers.count),
-                             std::span(frame.caster_items).subspan(sets.casters.first, sets.casters.count), points,
-                             filter_row(demand.filter).reach_texel};
+                             std::span(frame.caster_items).subspan(sets.casters.first, sets.casters.count),
+                             points,
+                             filter_row(demand.filter).reach_texel,
+                             frame.fit_scratch};
         const std::size_t first = frame.views.size();
         if (!light_kind_row(light.kind).fit(input, frame.views)) {
             frame.views.resize(first);
@@ -92,7 +98,8 @@ void fit_views(const SceneSnapshot& scene, ShadowFrame& frame) {
             assign_casters(scene, sets, view, frame);
             for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
                 view.consumer_mask |= 1u << c;
-                view.predicted_error_px = std::max(view.predicted_error_px, predict_error_px(view, scene.consumers[c], points));
+                view.predicted_error_px =
+                    std::max(view.predicted_error_px, predict_error_px(view, scene.consumers[c], points));
             }
         }
     }

@@ -13,7 +13,8 @@ void fit_views(const SceneSnapshot& scene, ShadowFrame& frame);
 
 /// How far a shadow edge may be off in this view's map, in pixels of `consumer`, over the given receiver points:
 /// 0.71 texel diagonal plus half a pixel (a one-tap edge error is at most 0.71 m + 0.5 px, m the
-/// longest extent of a texel on screen), for receivers that face light and camera. 0 without points in front of the camera.
+/// longest extent of a texel on screen), for receivers that face light and camera. 0 without points in front of the
+/// camera.
 double predict_error_px(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws);
 
 }  // namespace gnomon::shadow

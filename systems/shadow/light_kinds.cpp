@@ -9,8 +9,8 @@ namespace {
 constexpr std::uint32_t kCascades = 4;
 
 constexpr LightKindRow kRows[] = {
-    {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/kinds/directional.glsl", gl::TextureKind::array,
-     kCascades, fit_directional},
+    {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/kinds/directional.glsl",
+     gl::TextureKind::array, kCascades, fit_directional},
     {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot},
     {LightKind::point, "point", "LIGHT_POINT", "shadow/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point},
 };

@@ -15,10 +15,11 @@ struct FitInput {
     const LightItem& light;
     const ShadowDemand& demand;
     const SceneSnapshot& scene;
-    std::span<const std::uint32_t> receivers;        // indices into scene.instances
+    std::span<const std::uint32_t> receivers;  // indices into scene.instances
     std::span<const std::uint32_t> casters;
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
     float reach_texel = 0.5f;                        // the filter's E
+    FitScratch& scratch;                             // so that a fit allocates nothing in steady state
 };
 
 /// Appends the light's views (without casters and predicted error). False if no finite volume exists.
@@ -27,11 +28,11 @@ using FitFunction = bool (*)(const FitInput& input, std::vector<ShadowView>& vie
 
 struct LightKindRow {
     LightKind kind;
-    std::string_view name;       // as in --stats
-    std::string_view define;     // for the shaders
-    std::string_view file;       // under shaders/
+    std::string_view name;    // as in --stats
+    std::string_view define;  // for the shaders
+    std::string_view file;    // under shaders/
     gl::TextureKind texture;
-    std::uint32_t layers;        // of the map
+    std::uint32_t layers;  // of the map
     FitFunction fit;
 };
 

@@ -40,7 +40,8 @@ MapStore::~MapStore() {
 }
 
 const LightHistory* MapStore::find(ecs::Entity light) const {
-    const auto it = std::find_if(lights_.begin(), lights_.end(), [&](const LightHistory& h) { return h.entity == light; });
+    const auto it =
+        std::find_if(lights_.begin(), lights_.end(), [&](const LightHistory& h) { return h.entity == light; });
     return it == lights_.end() ? nullptr : &*it;
 }
 
@@ -134,7 +135,8 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
         const LightTime time(frame, frame.demands[d].light);
         if (sets.skip != Reason::none) {
             // Seen by nobody just now: the map is held for a while, in case the camera turns back.
-            if (frame.demands[d].skip == Reason::none && find(scene.lights[frame.demands[d].light].entity) == nullptr) continue;
+            if (frame.demands[d].skip == Reason::none && find(scene.lights[frame.demands[d].light].entity) == nullptr)
+                continue;
             if (frame.demands[d].skip != Reason::none) continue;
             LightHistory& history = entry(scene.lights[frame.demands[d].light].entity);
             if (frame_ - history.last_wanted_frame <= kHoldFrames) continue;

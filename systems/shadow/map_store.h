@@ -15,10 +15,10 @@ struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    std::vector<gl::TargetHandle> targets;       // one per layer
-    std::vector<std::uint64_t> content;          // per layer: signature of what was drawn, 0: nothing
-    std::uint32_t wanted_px = 0;                 // size asked for when the map was made
-    Reason failure = Reason::none;               // why there is no map, or a smaller one
+    std::vector<gl::TargetHandle> targets;  // one per layer
+    std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
+    std::uint32_t wanted_px = 0;            // size asked for when the map was made
+    Reason failure = Reason::none;          // why there is no map, or a smaller one
     std::uint64_t retry_frame = 0;
     std::uint64_t last_wanted_frame = 0;
 };

@@ -51,8 +51,8 @@ LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
     // KHR_lights_punctual's own guard against inner == outer.
     constexpr double kLeastConeWidth = 0.001;
-    record.cone = {static_cast<float>(cos_outer), static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)),
-                   0.0f, 0.0f};
+    record.cone = {static_cast<float>(cos_outer),
+                   static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)), 0.0f, 0.0f};
     return record;
 }
 
@@ -62,9 +62,9 @@ CameraRecord camera_record(const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
     const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
     const double half_x = half_y * aspect(c);
-    const glm::dmat4 projection =
-        orthographic ? math::reversed_orthographic(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m)
-                     : math::reversed_perspective(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m);
+    const glm::dmat4 projection = orthographic
+                                      ? math::reversed_orthographic(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m)
+                                      : math::reversed_perspective(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m);
     const math::TwoFloat3 anchor = math::split(c.position_ws_m);
     CameraRecord record;
     record.clip_from_anchor = glm::mat4(projection * glm::dmat4(glm::transpose(c.rotation_ws)));
@@ -88,7 +88,7 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
     const glm::dvec3 p = (light.position_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
     const double r = light.range_m;
     const bool orthographic = c.projection == CameraProjection::orthographic;
-    const double front_m = -p.z + r;   // farthest part of the sphere along the view
+    const double front_m = -p.z + r;  // farthest part of the sphere along the view
     if (!(front_m > c.near_m)) return {};
     if (!orthographic && !(-p.z - r > c.near_m)) return whole;  // the sphere reaches the near plane
     const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
@@ -105,8 +105,8 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
     const glm::dvec2 from = glm::clamp(glm::floor((low * 0.5 + 0.5) * size) - 1.0, glm::dvec2(0.0), size);
     const glm::dvec2 to = glm::clamp(glm::ceil((high * 0.5 + 0.5) * size) + 1.0, glm::dvec2(0.0), size);
     if (!(from.x < to.x && from.y < to.y)) return {};
-    return {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y), static_cast<std::int32_t>(to.x - from.x),
-            static_cast<std::int32_t>(to.y - from.y)};
+    return {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),
+            static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
 }
 
 void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers, ShadowFrame& frame) {

@@ -13,12 +13,15 @@ namespace {
 
 constexpr std::uint32_t kOpaque = 0, kMasked = 1;
 
-bool is_drawn(const ShadowFrame& frame, std::size_t view) { return frame.slots[view].target && !frame.slots[view].reuse; }
+bool is_drawn(const ShadowFrame& frame, std::size_t view) {
+    return frame.slots[view].target && !frame.slots[view].reuse;
+}
 
 bool has_masked(const GpuScene& gpu, std::uint32_t mesh) {
     const auto& range = gpu.mesh(mesh);
     for (std::uint32_t s = 0; s < range.submesh_count; ++s)
-        if (gpu.material(gpu.submesh(range.first_submesh + s).material).alpha_mode == assets::AlphaMode::mask) return true;
+        if (gpu.material(gpu.submesh(range.first_submesh + s).material).alpha_mode == assets::AlphaMode::mask)
+            return true;
     return false;
 }
 
@@ -110,7 +113,8 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint3
             first = submesh.first_index;
             length = submesh.index_count;
         } else if (material.alpha_mode == assets::AlphaMode::mask) {
-            gl::PipelineState state{programs_[kMasked], gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off};
+            gl::PipelineState state{programs_[kMasked], gl::CullMode::none, false, gl::DepthTest::greater, true, true,
+                                    gl::Blend::off};
             list.add(gl::SetPipeline{state});
             list.add(gl::BindTexture{0, material.texture, material.sampler});
             list.add(gl::BindUniforms{2, gpu.material_uniforms(), material.uniform_offset, sizeof(MaterialRecord)});
@@ -163,7 +167,8 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, Shad
         list.add(gl::BeginGroup{"shadow " + scene.lights[light].name + " " + std::to_string(view.layer)});
         list.add(gl::BeginTimer{shadow_timer(light)});
         list.add(gl::BeginPass{slot.target, {0, 0, size, size}, true, 0.0f, false, {}});
-        list.add(gl::SetPipeline{{programs_[kOpaque], gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off}});
+        list.add(gl::SetPipeline{
+            {programs_[kOpaque], gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off}});
         list.add(gl::BindUniforms{0, views_.handle(), view_offset, sizeof(DepthViewRecord)});
         list.add(gl::BindStorage{0, gpu.instances()});
         list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});

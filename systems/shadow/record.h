@@ -23,7 +23,8 @@ public:
     /// its light's sets[i].skip says why. Call before record().
     void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
-    /// Stage 7, first half: one pass per view that is not reused, in order; counts go to the report, times to frame.cpu_us.
+    /// Stage 7, first half: one pass per view that is not reused, in order; counts go to the report, times to
+    /// frame.cpu_us.
     void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                 FrameReport& report);
 
@@ -39,7 +40,7 @@ private:
                   gl::CommandList& list, LightReport& report);
 
     gl::Device& device_;
-    gl::ProgramHandle programs_[2]{};   // opaque, masked
+    gl::ProgramHandle programs_[2]{};  // opaque, masked
     Retry retries_[2];
     std::uint64_t frame_ = 0;
     GrowingBuffer items_, views_;

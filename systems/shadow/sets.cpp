@@ -19,7 +19,8 @@ public:
         const double half = std::tan(std::min(light.outer_cone_rad, kWidestMap_rad));
         const double far_m = light.range_m > 0.0 ? light.range_m : std::numeric_limits<double>::infinity();
         // A cone wider than one map also lights what the pyramid misses: then only the range limits.
-        if (light.outer_cone_rad <= kWidestMap_rad) cone_ = pyramid(light.position_ws_m, light.rotation_ws, half, far_m);
+        if (light.outer_cone_rad <= kWidestMap_rad)
+            cone_ = pyramid(light.position_ws_m, light.rotation_ws, half, far_m);
     }
 
     bool touches(const math::Aabb& box) const {
@@ -53,13 +54,16 @@ void select_receivers(const SceneSnapshot& scene, std::span<const math::Frustum>
         if (points > 0) frame.receiver_items.push_back(i);
     }
     sets.receivers.count = static_cast<std::uint32_t>(frame.receiver_items.size()) - sets.receivers.first;
-    sets.receiver_points.count = static_cast<std::uint32_t>(frame.receiver_points_ws.size()) - sets.receiver_points.first;
+    sets.receiver_points.count =
+        static_cast<std::uint32_t>(frame.receiver_points_ws.size()) - sets.receiver_points.first;
 }
 
 /// Casters of a sun: in the box swept from the receivers toward the light.
-void select_swept_casters(const SceneSnapshot& scene, const LightItem& light, const PotentialSets& sets, ShadowFrame& frame) {
+void select_swept_casters(const SceneSnapshot& scene, const LightItem& light, const PotentialSets& sets,
+                          ShadowFrame& frame) {
     const glm::dmat3 basis = math::basis_from_back(light.rotation_ws[2]);
-    const auto points = std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
+    const auto points =
+        std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
     math::Aabb swept;
     for (const glm::dvec3& p : points) swept = math::extended(swept, (p - points.front()) * basis);
     swept.max.z = std::numeric_limits<double>::infinity();
@@ -71,14 +75,16 @@ void select_swept_casters(const SceneSnapshot& scene, const LightItem& light, co
 }
 
 /// Casters of a local light: within its reach and nearer than the farthest receiver point.
-void select_near_casters(const SceneSnapshot& scene, const LightItem& light, const Reach& reach, const PotentialSets& sets,
-                         ShadowFrame& frame) {
+void select_near_casters(const SceneSnapshot& scene, const LightItem& light, const Reach& reach,
+                         const PotentialSets& sets, ShadowFrame& frame) {
     double farthest_m = 0.0;
-    const auto points = std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
+    const auto points =
+        std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
     for (const glm::dvec3& p : points) farthest_m = std::max(farthest_m, glm::distance(p, light.position_ws_m));
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
-        if (item.casts && reach.touches(item.bounds_ws) && math::distance(item.bounds_ws, light.position_ws_m) <= farthest_m)
+        if (item.casts && reach.touches(item.bounds_ws) &&
+            math::distance(item.bounds_ws, light.position_ws_m) <= farthest_m)
             frame.caster_items.push_back(i);
     }
 }
@@ -104,8 +110,10 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
             if (sets.receivers.count == 0) {
                 sets.skip = Reason::no_visible_receiver;
             } else {
-                if (light.kind == LightKind::directional) select_swept_casters(scene, light, sets, frame);
-                else select_near_casters(scene, light, reach, sets, frame);
+                if (light.kind == LightKind::directional)
+                    select_swept_casters(scene, light, sets, frame);
+                else
+                    select_near_casters(scene, light, reach, sets, frame);
                 sets.casters.count = static_cast<std::uint32_t>(frame.caster_items.size()) - sets.casters.first;
                 if (sets.casters.count == 0) sets.skip = Reason::no_caster;
             }

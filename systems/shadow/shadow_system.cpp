@@ -26,8 +26,8 @@ bool ShadowSystem::samplers_ready() {
     return samplers_.nearest && samplers_.linear;
 }
 
-const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows, gl::CommandList& list,
-                                        FrameReport& report) {
+const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows,
+                                        gl::CommandList& list, FrameReport& report) {
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);

@@ -26,9 +26,9 @@ struct IndexRange {
 
 /// Struct 2. What one light deserves this frame; or why it gets nothing.
 struct ShadowDemand {
-    std::uint32_t light = 0;          // index into SceneSnapshot::lights
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights
     Reason skip = Reason::none;
-    Reason note = Reason::none;       // a degradation that is known already (resolution_clamped, cone_clamped)
+    Reason note = Reason::none;  // a degradation that is known already (resolution_clamped, cone_clamped)
     ShadowFilter filter = ShadowFilter::hard;
     std::uint32_t resolution_px = 0;  // edge of the map or of a cube face
     std::uint32_t view_count = 0;
@@ -37,9 +37,10 @@ struct ShadowDemand {
 /// Struct 3. Who is seen and lit (PSR), who can darken them (PSC). One per demand, same order.
 struct PotentialSets {
     Reason skip = Reason::none;
-    IndexRange receivers;             // into ShadowFrame::receiver_items
-    IndexRange casters;               // into ShadowFrame::caster_items, all views of the light
-    IndexRange receiver_points;       // into ShadowFrame::receiver_points_ws: corners of receivers clipped to what is seen and reached
+    IndexRange receivers;        // into ShadowFrame::receiver_items
+    IndexRange casters;          // into ShadowFrame::caster_items, all views of the light
+    IndexRange receiver_points;  // into ShadowFrame::receiver_points_ws: corners of receivers clipped to what is seen
+                                 // and reached
 };
 
 enum class ViewProjection : std::uint8_t { orthographic, perspective, cube_face };
@@ -47,20 +48,21 @@ enum class ViewProjection : std::uint8_t { orthographic, perspective, cube_face 
 /// Struct 4. One depth picture: a cascade, a spot's view, a cube face. All hard numerics end here.
 struct ShadowView {
     std::uint32_t demand = 0;
-    std::uint32_t layer = 0;             // cascade or face
+    std::uint32_t layer = 0;  // cascade or face
     ViewProjection projection = ViewProjection::orthographic;
-    glm::dvec3 anchor_ws_m{0.0};         // fixed to the light, never to a camera
-    glm::mat4 clip_from_anchor{1.0f};    // reversed depth in [0,1]
-    glm::mat4 map_from_anchor{1.0f};     // texture coordinates instead of clip
+    glm::dvec3 anchor_ws_m{0.0};       // fixed to the light, never to a camera
+    glm::mat4 clip_from_anchor{1.0f};  // reversed depth in [0,1]
+    glm::mat4 map_from_anchor{1.0f};   // texture coordinates instead of clip
     glm::dvec3 axis_u{1.0, 0.0, 0.0}, axis_v{0.0, 1.0, 0.0}, axis_back{0.0, 0.0, 1.0};  // world, unit
-    double texel_u = 0.0, texel_v = 0.0; // edge of a texel: metres (orthographic) or tangent at distance 1
-    double near_m = 0.0, far_m = 0.0;    // along -axis_back from the anchor's plane; perspective: from the light
+    double texel_u = 0.0, texel_v = 0.0;  // edge of a texel: metres (orthographic) or tangent at distance 1
+    double near_m = 0.0, far_m = 0.0;     // along -axis_back from the anchor's plane; perspective: from the light
     double depth_alpha = 0.0, depth_beta = 0.0;  // perspective: depth = alpha + beta / distance
-    glm::dvec2 half_extent_m{0.0};       // orthographic: half of the map's sides along axis_u and axis_v
-    glm::dvec2 centre_ls_m{0.0};         // orthographic: the map's centre from the anchor, along axis_u and axis_v
+    glm::dvec2 half_extent_m{0.0};               // orthographic: half of the map's sides along axis_u and axis_v
+    glm::dvec2 centre_ls_m{0.0};  // orthographic: the map's centre from the anchor, along axis_u and axis_v
+    double seen_from_m = 0.0;     // cascades: nearest view distance this one serves
     double predicted_error_px = 0.0;
     std::uint32_t consumer_mask = 0;
-    IndexRange casters;                  // into ShadowFrame::view_caster_items
+    IndexRange casters;  // into ShadowFrame::view_caster_items
 };
 
 /// Struct 5. Where the view lives, and whether last frame's content still holds.
@@ -114,19 +116,19 @@ static_assert(sizeof(CameraRecord) == 160);
 /// Which program evaluates a light: one row of the light-kind table and one of the filter table.
 /// Names are paths under shaders/ and live as long as the program; empty filter: unshadowed.
 struct ProgramRow {
-    std::string_view kind_define;    // LIGHT_DIRECTIONAL, …
+    std::string_view kind_define;  // LIGHT_DIRECTIONAL, …
     std::string_view kind_file, filter_file;
-    float reach_texel = 0.0f;        // the filter's footprint half-width E
+    float reach_texel = 0.0f;  // the filter's footprint half-width E
     bool operator==(const ProgramRow&) const = default;
 };
 
 /// Struct 6. One light as one consumer's lighting needs it: GPU-ready, with the textures to bind.
 struct LightingLight {
-    std::uint32_t light = 0;         // index into SceneSnapshot::lights and FrameReport::lights
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
     ProgramRow row;
     gl::TextureHandle map{};
     gl::SamplerHandle sampler{};
-    gl::Rect screen{};               // pixels the light can reach; empty: none
+    gl::Rect screen{};  // pixels the light can reach; empty: none
     LightRecord record;
 };
 struct LightingInputs {
@@ -135,19 +137,26 @@ struct LightingInputs {
     std::vector<LightingLight> lights;
 };
 
+/// Reused storage of the fits; holds nothing between them.
+struct FitScratch {
+    std::vector<glm::dvec3> points_ws;
+    std::vector<glm::dvec2> points, hull;
+};
+
 /// Everything of one frame between snapshot and commands. Storage is reused from frame to frame.
 struct ShadowFrame {
-    std::vector<ShadowDemand> demands;               // one per light
-    std::vector<math::Frustum> seen;                 // one per consumer: what it sees
-    std::vector<PotentialSets> sets;                 // one per demand
-    std::vector<std::uint32_t> receiver_items;       // indices into SceneSnapshot::instances
+    std::vector<ShadowDemand> demands;          // one per light
+    std::vector<math::Frustum> seen;            // one per consumer: what it sees
+    std::vector<PotentialSets> sets;            // one per demand
+    std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
     std::vector<std::uint32_t> caster_items;
     std::vector<glm::dvec3> receiver_points_ws;
     std::vector<ShadowView> views;
     std::vector<std::uint32_t> view_caster_items;
-    std::vector<ShadowSlot> slots;                   // one per view
-    std::vector<LightingInputs> inputs;              // one per consumer
-    std::vector<double> cpu_us;                      // one per light: what the stages spent on it alone
+    std::vector<ShadowSlot> slots;       // one per view
+    std::vector<LightingInputs> inputs;  // one per consumer
+    FitScratch fit_scratch;
+    std::vector<double> cpu_us;  // one per light: what the stages spent on it alone
 };
 
 }  // namespace gnomon::shadow

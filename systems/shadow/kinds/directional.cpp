@@ -11,7 +11,8 @@
 
 /// Directional light: cascades along the first consumer's view, each an orthographic view around the smallest rotated
 /// rectangle of the receivers seen in its slice, as the light sees them. Depth runs from the receiver nearest the
-/// light to the farthest; casters nearer still are flattened onto the near plane by depth clamping and cast all the same.
+/// light to the farthest; casters nearer still are flattened onto the near plane by depth clamping and cast all the
+/// same.
 namespace gnomon::shadow {
 namespace {
 
@@ -51,18 +52,16 @@ double split_m(const DepthRange& seen, std::uint32_t i, std::uint32_t n, bool pe
 
 /// One orthographic view around `points_ws`. False if they span nothing finite.
 bool fit_rectangle(const glm::dmat3& basis, std::span<const glm::dvec3> points_ws, double size_px, double reach_texel,
-                   ShadowView& view) {
-    // Local storage: the hull of a few hundred points at most, a few times per sun and frame.
-    std::vector<glm::dvec2> points, hull;
-    points.reserve(points_ws.size());
+                   FitScratch& scratch, ShadowView& view) {
+    scratch.points.clear();
     DepthRange depth;
     const glm::dvec3 origin_ws = points_ws.front();
     for (const glm::dvec3& p_ws : points_ws) {
         const glm::dvec3 p = (p_ws - origin_ws) * basis;
-        points.emplace_back(p.x, p.y);
+        scratch.points.emplace_back(p.x, p.y);
         depth.include(p.z);
     }
-    const Rectangle rectangle = smallest_rectangle(points, hull);
+    const Rectangle rectangle = smallest_rectangle(scratch.points, scratch.hull);
     const glm::dvec2 extent = rectangle.max - rectangle.min;
     const double largest = std::max({extent.x, extent.y, depth.highest - depth.lowest});
     if (!(largest > 0.0) || !std::isfinite(largest)) return false;
@@ -73,7 +72,8 @@ bool fit_rectangle(const glm::dmat3& basis, std::span<const glm::dvec3> points_w
     view.axis_back = basis[2];
 
     const double margin_px = std::ceil(reach_texel) + 1.0;  // filter footprint, and snapping
-    const glm::dvec2 padded = glm::max(extent, glm::dvec2(largest * kLeastExtent)) * (size_px / (size_px - 2.0 * margin_px));
+    const glm::dvec2 padded =
+        glm::max(extent, glm::dvec2(largest * kLeastExtent)) * (size_px / (size_px - 2.0 * margin_px));
     view.texel_u = padded.x / size_px;
     view.texel_v = padded.y / size_px;
     const double range_m = std::max(depth.highest - depth.lowest, largest * kLeastExtent);
@@ -92,8 +92,9 @@ bool fit_rectangle(const glm::dmat3& basis, std::span<const glm::dvec3> points_w
 
     const glm::dmat4 view_from_anchor(glm::transpose(glm::dmat3(view.axis_u, view.axis_v, view.axis_back)));
     const glm::dmat4 clip_from_anchor =
-        math::reversed_orthographic(c.x - 0.5 * padded.x, c.x + 0.5 * padded.x, c.y - 0.5 * padded.y, c.y + 0.5 * padded.y,
-                                    view.near_m, view.far_m) * view_from_anchor;
+        math::reversed_orthographic(c.x - 0.5 * padded.x, c.x + 0.5 * padded.x, c.y - 0.5 * padded.y,
+                                    c.y + 0.5 * padded.y, view.near_m, view.far_m) *
+        view_from_anchor;
     view.clip_from_anchor = glm::mat4(clip_from_anchor);
     view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);
     return true;
@@ -120,7 +121,7 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     // Several consumers share the cascades: the last one then holds whatever any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
 
-    std::vector<glm::dvec3> points_ws;
+    std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     std::uint32_t layer = 0;
     double from_m = seen.lowest;
     for (std::uint32_t i = 1; i <= input.demand.view_count; ++i) {
@@ -136,8 +137,9 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         }
         ShadowView view;
         view.layer = layer;
-        if (!points_ws.empty() &&
-            fit_rectangle(basis, points_ws, input.demand.resolution_px, static_cast<double>(input.reach_texel), view)) {
+        view.seen_from_m = alone ? from_m : 0.0;
+        if (!points_ws.empty() && fit_rectangle(basis, points_ws, input.demand.resolution_px,
+                                                static_cast<double>(input.reach_texel), input.scratch, view)) {
             views.push_back(view);
             ++layer;
         }

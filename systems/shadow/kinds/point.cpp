@@ -25,7 +25,9 @@ const CubeFace& cube_face(std::uint32_t face) {
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     const LightItem& light = input.light;
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-    const auto include = [&](const math::Aabb& box) { nearest = std::min(nearest, math::distance(box, light.position_ws_m)); };
+    const auto include = [&](const math::Aabb& box) {
+        nearest = std::min(nearest, math::distance(box, light.position_ws_m));
+    };
     for (const std::uint32_t i : input.casters) include(input.scene.instances[i].bounds_ws);
     for (const std::uint32_t i : input.receivers) include(input.scene.instances[i].bounds_ws);
     for (const glm::dvec3& p_ws : input.receiver_points_ws)

@@ -40,8 +40,8 @@ Rectangle along(const glm::dvec2& axis_u, std::span<const glm::dvec2> points) {
     return r;
 }
 
-/// Sides of equal area (those of any triangle, opposite sides of anything) must not take turns by rounding: the first in
-/// the hull's order stays unless another is clearly smaller.
+/// Sides of equal area (those of any triangle, opposite sides of anything) must not take turns by rounding: the first
+/// in the hull's order stays unless another is clearly smaller.
 constexpr double kClearlyLess = 1.0 - 1.0 / (1 << 20);
 
 }  // namespace

@@ -12,8 +12,8 @@ struct Rectangle {
 };
 
 /// Smallest-area rectangle that holds all points: one side lies on an edge of their convex hull
-/// (Freeman & Shapira 1975), up to 2^-20 of the area. Total: one point or a line give a rectangle of zero area. `points` is reordered.
-/// An empty span gives an inverted rectangle (min > max).
+/// (Freeman & Shapira 1975), up to 2^-20 of the area. Total: one point or a line give a rectangle of zero area.
+/// `points` is reordered. An empty span gives an inverted rectangle (min > max).
 Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch);
 
 }  // namespace gnomon::shadow

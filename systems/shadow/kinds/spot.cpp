@@ -47,7 +47,8 @@ bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {
     view.far_m = range.far_m;
     const double size_px = input.demand.resolution_px;
     const double margin_px = std::ceil(static_cast<double>(input.reach_texel)) + 1.0;
-    const double half = std::tan(std::min(light.outer_cone_rad, kWidestMap_rad)) * size_px / (size_px - 2.0 * margin_px);
+    const double half =
+        std::tan(std::min(light.outer_cone_rad, kWidestMap_rad)) * size_px / (size_px - 2.0 * margin_px);
     view.texel_u = view.texel_v = 2.0 * half / size_px;
     view.depth_alpha = -range.near_m / (range.far_m - range.near_m);
     view.depth_beta = range.near_m * range.far_m / (range.far_m - range.near_m);
