@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/accuracy.h"
+#include "systems/shadow/light_kinds.h"
 
 namespace gnomon::bench {
 namespace {
@@ -12,23 +13,11 @@ Json to_json(const Spread& spread) {
     return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"count", spread.count}};
 }
 
-const char* to_text(LightKind kind) {
-    switch (kind) {
-        case LightKind::directional:
-            return "directional";
-        case LightKind::spot:
-            return "spot";
-        case LightKind::point:
-            return "point";
-    }
-    return "";
-}
-
 Json to_json(const LightAccuracy& light) {
     const oracle::Metrics& m = light.metrics;
     Json json;
     json["name"] = light.report.name;
-    json["kind"] = to_text(light.report.kind);
+    json["kind"] = shadow::light_kind_row(light.report.kind).name;
     json["state"] = gnomon::to_text(light.report.state);
     json["reason"] = reason_code(light.report.reason);
     json["scored_px"] = m.scored;

@@ -3,30 +3,19 @@
 #include <span>
 
 #include "sample_game/picture_files.h"
+#include "systems/shadow/light_kinds.h"
 
 namespace gnomon::game {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* kind_text(LightKind kind) {
-    switch (kind) {
-        case LightKind::directional:
-            return "directional";
-        case LightKind::spot:
-            return "spot";
-        case LightKind::point:
-            break;
-    }
-    return "point";
-}
-
 /// Unknown is null, never 0.
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 Json light_stats(const LightReport& light) {
     return {{"name", light.name},
-            {"kind", kind_text(light.kind)},
+            {"kind", shadow::light_kind_row(light.kind).name},
             {"state", to_text(light.state)},
             {"reason", reason_code(light.reason)},
             {"predicted_error_px", light.predicted_error_px},
