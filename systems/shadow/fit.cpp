@@ -67,15 +67,21 @@ double predict_error_px(const ShadowView& view, const ConsumerItem& consumer, st
     return worst_px;
 }
 
-void fit_views(const SceneSnapshot& scene, ShadowFrame& frame) {
+void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& frame) {
+    const HeldLight none;
     frame.views.clear();
+    frame.next_history.lights.clear();
     frame.view_caster_items.clear();
     for (std::uint32_t d = 0; d < frame.demands.size(); ++d) {
         PotentialSets& sets = frame.sets[d];
-        if (sets.skip != Reason::none) continue;
         const ShadowDemand& demand = frame.demands[d];
+        if (demand.skip != Reason::none) continue;
         const LightTime time(frame, demand.light);
         const LightItem& light = scene.lights[demand.light];
+        const HeldLight* last = find(held, light.entity, frame.next_history.lights.size());
+        HeldLight& next = frame.next_history.lights.emplace_back(last ? *last : none);
+        next.light = light.entity;
+        if (sets.skip != Reason::none) continue;
         const auto points =
             std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
         const FitInput input{light,
@@ -85,7 +91,9 @@ void fit_views(const SceneSnapshot& scene, ShadowFrame& frame) {
                              std::span(frame.caster_items).subspan(sets.casters.first, sets.casters.count),
                              points,
                              filter_row(demand.filter).reach_texel,
-                             frame.fit_scratch};
+                             frame.fit_scratch,
+                             last ? *last : none,
+                             next};
         const std::size_t first = frame.views.size();
         if (!light_kind_row(light.kind).fit(input, frame.views)) {
             frame.views.resize(first);

@@ -20,10 +20,12 @@ struct FitInput {
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
     float reach_texel = 0.5f;                        // the filter's E
     FitScratch& scratch;                             // so that a fit allocates nothing in steady state
+    const HeldLight& held;                           // what this light's last fit left
+    HeldLight& next;                                 // output, starts as a copy of `held`: see history.h
 };
 
 /// Appends the light's views (without casters and predicted error). False if no finite volume exists.
-/// Pure: same input, same output; any finite input gives finite matrices.
+/// Pure: same input, history included, same output; any finite input gives finite matrices.
 using FitFunction = bool (*)(const FitInput& input, std::vector<ShadowView>& views);
 
 struct LightKindRow {
@@ -35,6 +37,9 @@ struct LightKindRow {
     std::uint32_t layers;  // of the map
     FitFunction fit;
 };
+
+/// A sun seen from an eye is looked up as a spot is.
+inline constexpr std::string_view kPerspectiveSunFile = "shadow/kinds/spot.glsl";
 
 /// In the order of LightKind. To add a kind: systems/shadow/kinds/x.cpp, shaders/shadow/kinds/x.glsl, a row here.
 std::span<const LightKindRow> light_kind_table();

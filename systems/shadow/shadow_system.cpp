@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "systems/shadow/demand.h"
 #include "systems/shadow/fit.h"
@@ -38,7 +39,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuSce
         for (ShadowDemand& demand : frame_.demands)
             if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
     select_sets(scene, frame_);
-    fit_views(scene, frame_);
+    fit_views(scene, history_, frame_);
     maps_.assign_slots(scene, frame_);
     recorder_.prepare(scene, gpu, frame_);
     publish_lights(scene, samplers_, frame_);
@@ -48,7 +49,10 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuSce
     return frame_;
 }
 
-void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) { maps_.commit(scene, frame_, drawn); }
+void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) {
+    maps_.commit(scene, frame_, drawn);
+    std::swap(history_, frame_.next_history);
+}
 
 void ShadowSystem::write_report(const SceneSnapshot& scene, FrameReport& report) const {
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {

@@ -40,6 +40,7 @@ private:
     DepthRecorder recorder_;
     CompareSamplers samplers_;
     ShadowFrame frame_;
+    History history_;
 };
 
 }  // namespace gnomon::shadow

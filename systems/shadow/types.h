@@ -13,6 +13,7 @@
 #include "engine/math/aabb.h"
 #include "engine/math/frustum.h"
 #include "systems/report.h"
+#include "systems/shadow/history.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
 /// nothing is changed after its stage.
@@ -28,10 +29,12 @@ struct IndexRange {
 struct ShadowDemand {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights
     Reason skip = Reason::none;
-    Reason note = Reason::none;  // a degradation that is known already (resolution_clamped, cone_clamped)
+    Reason note = Reason::none;  // a degradation that is known already (resolution_clamped, cone_clamped, …)
     ShadowFilter filter = ShadowFilter::hard;
     std::uint32_t resolution_px = 0;  // edge of the map or of a cube face
     std::uint32_t view_count = 0;
+    bool perspective_sun = false;       // one view from an eye instead of cascades
+    double near_m = 0.0, far_m = 0.0;   // asked for, from the light or a sun's eye; 0: fitted
 };
 
 /// Struct 3. Who is seen and lit (PSR), who can darken them (PSC). One per demand, same order.
@@ -74,6 +77,7 @@ struct ShadowSlot {
 };
 
 inline constexpr std::uint32_t kMaxViews = 8;  // kMaxViews in shaders/shadow/light_block.glsl
+static_assert(kMaxViews == kHeldViews);
 
 /// Matches ViewRecord in shaders/shadow/light_block.glsl (std140).
 struct ViewRecord {
@@ -155,6 +159,7 @@ struct ShadowFrame {
     std::vector<std::uint32_t> view_caster_items;
     std::vector<ShadowSlot> slots;       // one per view
     std::vector<LightingInputs> inputs;  // one per consumer
+    History next_history;  // what the fits hand to the next frame
     FitScratch fit_scratch;
     std::vector<double> cpu_us;  // one per light: what the stages spent on it alone
 };

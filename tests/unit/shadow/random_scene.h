@@ -82,7 +82,7 @@ inline ShadowFrame fitted(const SceneSnapshot& scene) {
     ShadowFrame frame;
     decide_demand(scene, device, true, frame.demands);
     select_sets(scene, frame);
-    fit_views(scene, frame);
+    fit_views(scene, {}, frame);
     return frame;
 }
 
