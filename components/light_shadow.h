@@ -10,6 +10,10 @@ enum class ShadowFilter : std::uint8_t { hard, hardware_2x2, pcf_3x3, count };
 /// `constant` adds bias_m along the light and nothing else (to compare with).
 enum class BiasMode : std::uint8_t { automatic, constant };
 
+/// How a light projects onto its map. A sun's is orthographic, a spot's and a point's perspective; a sun may be given one
+/// perspective view instead. What a kind cannot do is reported (projection_unsupported), its own is used.
+enum class LightProjection : std::uint8_t { automatic, orthographic, perspective };
+
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
     bool enabled = true;
@@ -18,6 +22,14 @@ struct LightShadow {
     float max_error_px = 1.0f;         // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;
     float bias_m = 0.0f;               // used by BiasMode::constant; metres along the light, >= 0
+    LightProjection projection = LightProjection::automatic;
+    /// A sun's eye stands this far from the middle of what is seen, toward the light; 0: so far that eye_angle_rad
+    /// holds all that is seen. Perspective views look from it, near_m and far_m are counted from it.
+    float eye_distance_m = 0.0f;
+    float eye_angle_rad = 0.785398163f;  // full opening angle of a sun's perspective view; above 0, at most 160 degrees
+    /// Depth range of every view, from the light or a sun's eye; 0: fitted. Receivers outside are lit, casters beyond
+    /// far_m cast nothing, casters before near_m still cast.
+    float near_m = 0.0f, far_m = 0.0f;
     bool economy = true;               // false: redraw every view every frame, change nothing else
     bool operator==(const LightShadow&) const = default;
 };

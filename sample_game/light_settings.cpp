@@ -16,23 +16,63 @@ constexpr double kMaxError_px = 1.0e4;
 constexpr double kMaxBias_m = 1.0e6;
 constexpr double kSliderResolution_px = 4096.0, kSliderError_px = 16.0, kSliderBias_m = 0.2;
 
-std::string number_text(double value) {
+// Distances of a scene, as --set takes them: a hundred million kilometres.
+constexpr double kMaxDistance_m = 1.0e11;
+constexpr double kSliderDistance_m = 200.0;
+constexpr double kDegree_rad = 0.017453292519943295;
+constexpr double kMaxEyeAngle_deg = 160.0;  // what one perspective map can hold (kWidestMap_rad to either side)
+
+template <class Number>
+std::string number_text(Number value) {
     std::array<char, 32> text{};
     const auto result = std::to_chars(text.data(), text.data() + text.size(), value);
     return {text.data(), result.ptr};
 }
 
-std::optional<bool> read_switch(std::string_view text) {
-    if (text == "on") return true;
-    if (text == "off") return false;
-    return std::nullopt;
+template <bool LightShadow::*field>
+bool set_switch(LightShadow& shadow, std::string_view text) {
+    if (text != "on" && text != "off") return false;
+    shadow.*field = text == "on";
+    return true;
 }
-std::string switch_text(bool on) { return on ? "on" : "off"; }
+template <bool LightShadow::*field>
+std::string get_switch(const LightShadow& shadow) {
+    return shadow.*field ? "on" : "off";
+}
 
-bool set_enabled(LightShadow& shadow, std::string_view text) {
-    const auto on = read_switch(text);
-    if (on) shadow.enabled = *on;
-    return on.has_value();
+/// A distance in metres; 0 stands for a word of its own in the setting's meaning.
+template <float LightShadow::*field>
+bool set_distance(LightShadow& shadow, std::string_view text) {
+    const auto value = read_number(text);
+    if (!value || !(*value >= 0.0 && *value <= kMaxDistance_m)) return false;
+    shadow.*field = static_cast<float>(*value);
+    return true;
+}
+template <float LightShadow::*field>
+std::string get_float(const LightShadow& shadow) {
+    return number_text(shadow.*field);
+}
+
+/// The words of an enumeration, in its order.
+template <class Enum>
+constexpr std::array<std::string_view, 0> kWords{};
+template <>
+constexpr std::array<std::string_view, 3> kWords<LightProjection>{"automatic", "orthographic", "perspective"};
+
+template <class Enum>
+std::string_view word(std::size_t index) {
+    return index < kWords<Enum>.size() ? kWords<Enum>[index] : std::string_view{};
+}
+template <auto field, class Enum>
+bool set_word(LightShadow& shadow, std::string_view text) {
+    const auto found = std::find(kWords<Enum>.begin(), kWords<Enum>.end(), text);
+    if (found == kWords<Enum>.end()) return false;
+    shadow.*field = static_cast<Enum>(found - kWords<Enum>.begin());
+    return true;
+}
+template <auto field, class Enum>
+std::string get_word(const LightShadow& shadow) {
+    return std::string(word<Enum>(static_cast<std::size_t>(shadow.*field)));
 }
 
 bool set_filter(LightShadow& shadow, std::string_view text) {
@@ -41,6 +81,9 @@ bool set_filter(LightShadow& shadow, std::string_view text) {
     return row != nullptr;
 }
 std::string get_filter(const LightShadow& shadow) { return std::string(shadow::filter_row(shadow.filter).name); }
+std::string_view filter_name(std::size_t index) {
+    return index < shadow::filter_table().size() ? shadow::filter_table()[index].name : std::string_view{};
+}
 
 bool set_resolution(LightShadow& shadow, std::string_view text) {
     const auto value = read_count(text);
@@ -48,6 +91,7 @@ bool set_resolution(LightShadow& shadow, std::string_view text) {
     shadow.resolution_px = static_cast<std::uint32_t>(*value);
     return true;
 }
+std::string get_resolution(const LightShadow& shadow) { return std::to_string(shadow.resolution_px); }
 
 bool set_max_error(LightShadow& shadow, std::string_view text) {
     const auto value = read_number(text);
@@ -68,30 +112,108 @@ bool set_bias(LightShadow& shadow, std::string_view text) {
     return true;
 }
 std::string get_bias(const LightShadow& shadow) {
-    return shadow.bias == BiasMode::automatic ? "automatic" : number_text(static_cast<double>(shadow.bias_m));
+    return shadow.bias == BiasMode::automatic ? "automatic" : number_text(shadow.bias_m);
 }
 
-bool set_economy(LightShadow& shadow, std::string_view text) {
-    const auto on = read_switch(text);
-    if (on) shadow.economy = *on;
-    return on.has_value();
+bool set_eye_angle(LightShadow& shadow, std::string_view text) {
+    const auto value_deg = read_number(text);
+    if (!value_deg || !(*value_deg <= kMaxEyeAngle_deg)) return false;
+    const auto angle_rad = static_cast<float>(*value_deg * kDegree_rad);
+    if (!(angle_rad > 0.0f)) return false;
+    shadow.eye_angle_rad = angle_rad;
+    return true;
 }
+std::string get_eye_angle(const LightShadow& shadow) {
+    // The shorter text where it reads back to the same angle.
+    const double angle_deg = static_cast<double>(shadow.eye_angle_rad) / kDegree_rad;
+    const auto shorter_deg = static_cast<float>(angle_deg);
+    const bool same = static_cast<float>(static_cast<double>(shorter_deg) * kDegree_rad) == shadow.eye_angle_rad;
+    return same ? number_text(shorter_deg) : number_text(angle_deg);
+}
+
+using S = LightShadow;
+constexpr auto kToggle = SettingEditor::toggle;
+constexpr auto kChoice = SettingEditor::choice;
+constexpr auto kNumber = SettingEditor::number;
 
 constexpr std::array kSettings{
-    LightSetting{"enabled", "on | off", "whether the light casts shadows", set_enabled,
-                 [](const LightShadow& s) { return switch_text(s.enabled); }, SettingEditor::toggle},
-    LightSetting{"filter", "a filter, see below", "how the map is read", set_filter, get_filter,
-                 SettingEditor::filter},
-    LightSetting{"resolution", "0 ... 65536 (px)", "edge of one map or cube face; 0: chosen by the system",
-                 set_resolution, [](const LightShadow& s) { return std::to_string(s.resolution_px); },
-                 SettingEditor::number, kSliderResolution_px, true},
-    LightSetting{"max_error_px", "above 0 ... 10000 (px)", "how far a shadow edge may be off on screen", set_max_error,
-                 [](const LightShadow& s) { return number_text(static_cast<double>(s.max_error_px)); }, SettingEditor::number,
-                 kSliderError_px},
-    LightSetting{"bias", "automatic | 0 ... 1e6 (m)", "offset against self-shadowing; metres along the light", set_bias,
-                 get_bias, SettingEditor::number, kSliderBias_m, false, "automatic"},
-    LightSetting{"economy", "on | off", "off: redraw every map every frame, change nothing else", set_economy,
-                 [](const LightShadow& s) { return switch_text(s.economy); }, SettingEditor::toggle},
+    LightSetting{.key = "enabled",
+                 .values = "on | off",
+                 .meaning = "whether the light casts shadows",
+                 .set = set_switch<&S::enabled>,
+                 .get = get_switch<&S::enabled>,
+                 .editor = kToggle},
+    LightSetting{.key = "filter",
+                 .values = "a filter, see below",
+                 .meaning = "how the map is read",
+                 .set = set_filter,
+                 .get = get_filter,
+                 .editor = kChoice,
+                 .choice = filter_name},
+    LightSetting{.key = "resolution",
+                 .values = "0 ... 65536 (px)",
+                 .meaning = "edge of one map or cube face; 0: chosen by the system",
+                 .set = set_resolution,
+                 .get = get_resolution,
+                 .editor = kNumber,
+                 .slider_most = kSliderResolution_px,
+                 .whole = true},
+    LightSetting{.key = "max_error_px",
+                 .values = "above 0 ... 10000 (px)",
+                 .meaning = "how far a shadow edge may be off on screen",
+                 .set = set_max_error,
+                 .get = get_float<&S::max_error_px>,
+                 .editor = kNumber,
+                 .slider_most = kSliderError_px},
+    LightSetting{.key = "bias",
+                 .values = "automatic | 0 ... 1e6 (m)",
+                 .meaning = "offset against self-shadowing; metres along the light",
+                 .set = set_bias,
+                 .get = get_bias,
+                 .editor = kNumber,
+                 .slider_most = kSliderBias_m,
+                 .automatic = "automatic"},
+    LightSetting{.key = "projection",
+                 .values = "automatic | orthographic | perspective",
+                 .meaning = "of the map; perspective gives a sun one view from an eye",
+                 .set = set_word<&S::projection, LightProjection>,
+                 .get = get_word<&S::projection, LightProjection>,
+                 .editor = kChoice,
+                 .choice = word<LightProjection>},
+    LightSetting{.key = "eye_distance_m",
+                 .values = "0 ... 1e11 (m)",
+                 .meaning = "a sun's eye from the middle of what is seen; 0: the angle holds all that is seen",
+                 .set = set_distance<&S::eye_distance_m>,
+                 .get = get_float<&S::eye_distance_m>,
+                 .editor = kNumber,
+                 .slider_most = kSliderDistance_m},
+    LightSetting{.key = "eye_angle_deg",
+                 .values = "above 0 ... 160 (degrees)",
+                 .meaning = "full opening angle of a sun's perspective view",
+                 .set = set_eye_angle,
+                 .get = get_eye_angle,
+                 .editor = kNumber,
+                 .slider_most = kMaxEyeAngle_deg},
+    LightSetting{.key = "near_m",
+                 .values = "0 ... 1e11 (m)",
+                 .meaning = "depth range starts here, from the light or a sun's eye; 0: fitted",
+                 .set = set_distance<&S::near_m>,
+                 .get = get_float<&S::near_m>,
+                 .editor = kNumber,
+                 .slider_most = kSliderDistance_m},
+    LightSetting{.key = "far_m",
+                 .values = "0 ... 1e11 (m)",
+                 .meaning = "depth range ends here; beyond it is lit; 0: fitted",
+                 .set = set_distance<&S::far_m>,
+                 .get = get_float<&S::far_m>,
+                 .editor = kNumber,
+                 .slider_most = kSliderDistance_m},
+    LightSetting{.key = "economy",
+                 .values = "on | off",
+                 .meaning = "off: redraw every map every frame, change nothing else",
+                 .set = set_switch<&S::economy>,
+                 .get = get_switch<&S::economy>,
+                 .editor = kToggle},
 };
 
 Error bad(std::string message, const char* rule) { return {.message = "--set: " + on_one_line(message), .rule = rule}; }
@@ -126,7 +248,7 @@ std::string list_settings() {
         text.resize(std::max(width, text.size()), ' ');
         return text;
     };
-    constexpr std::size_t kKeyWidth = 14, kValueWidth = 28;
+    constexpr std::size_t kKeyWidth = 16, kValueWidth = 40;
     std::string text = "Keys of --set KEY=VALUE (for every light with a shadow):\n";
     for (const LightSetting& s : kSettings) {
         text += "  " + padded(s.key, kKeyWidth) + padded(s.values, kValueWidth) + s.meaning;

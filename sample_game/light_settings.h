@@ -11,8 +11,8 @@
 /// The fields of LightShadow by name: one row per key, for --set, --list and anything else that edits them.
 namespace gnomon::game {
 
-/// How a panel edits a setting: on or off, one of the filters' names, or a number of 0 to LightSetting::slider_most.
-enum class SettingEditor : std::uint8_t { toggle, filter, number };
+/// How a panel edits a setting: on or off, one of LightSetting::choice's words, or a number of 0 to slider_most.
+enum class SettingEditor : std::uint8_t { toggle, choice, number };
 
 struct LightSetting {
     const char* key;
@@ -22,6 +22,7 @@ struct LightSetting {
     bool (*set)(LightShadow& shadow, std::string_view text);
     std::string (*get)(const LightShadow& shadow);  // a text that `set` reads back to the same value
     SettingEditor editor;
+    std::string_view (*choice)(std::size_t index) = nullptr;  // of a choice: its words; empty beyond the last
     double slider_most = 0.0;         // of a number: where a slider ends; `set` takes more
     bool whole = false;               // of a number: only whole ones
     const char* automatic = nullptr;  // of a number: the word that `set` takes as well

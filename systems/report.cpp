@@ -52,6 +52,12 @@ const char* reason_code(Reason reason) {
             return "sampler_failed";
         case Reason::fit_degenerate:
             return "fit_degenerate";
+        case Reason::projection_unsupported:
+            return "projection_unsupported";
+        case Reason::eye_invalid:
+            return "eye_invalid";
+        case Reason::range_invalid:
+            return "range_invalid";
     }
     return "unknown";
 }

@@ -33,7 +33,10 @@ enum class Reason : std::uint8_t {
     cone_clamped,  // a spot wider than one map can hold
     buffer_failed,
     sampler_failed,
-    fit_degenerate  // no finite volume to render
+    fit_degenerate,          // no finite volume to render
+    projection_unsupported,  // this kind of light has no such projection, its own is used
+    eye_invalid,             // a sun's eye distance or angle is absurd, it stays orthographic
+    range_invalid            // near_m and far_m are no range, the fitted one is used
 };
 const char* reason_code(Reason reason);
 

@@ -8,7 +8,6 @@
 
 #include "sample_game/gui/gui.h"
 #include "sample_game/light_settings.h"
-#include "systems/shadow/filter_table.h"
 
 namespace gnomon::game {
 namespace {
@@ -22,11 +21,11 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
             if (!ImGui::Checkbox(setting.key, &on)) return {};
             return on ? "on" : "off";
         }
-        case SettingEditor::filter: {
+        case SettingEditor::choice: {
             std::string chosen;
             if (!ImGui::BeginCombo(setting.key, now.c_str())) return {};
-            for (const shadow::FilterRow& row : shadow::filter_table()) {
-                const std::string name(row.name);
+            for (std::size_t i = 0; !setting.choice(i).empty(); ++i) {
+                const std::string name(setting.choice(i));
                 if (ImGui::Selectable(name.c_str(), name == now)) chosen = name;
             }
             ImGui::EndCombo();

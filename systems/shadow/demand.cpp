@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/range_override.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -21,6 +23,27 @@ Reason wanted(const LightItem& light, bool shadows) {
     const float brightest = std::max({light.colour.r, light.colour.g, light.colour.b});
     if (!(light.intensity * brightest > 0.0f)) return Reason::light_off;
     return Reason::none;
+}
+
+/// Which projection and depth range the light's views have; what cannot be had is noted and left out.
+void decide_projection(const LightItem& light, ShadowDemand& demand) {
+    const LightProjection wish = light.shadow.projection;
+    const bool sun = light.kind == LightKind::directional;
+    if (is_range(light.shadow)) {
+        demand.near_m = static_cast<double>(light.shadow.near_m);
+        demand.far_m = static_cast<double>(light.shadow.far_m);
+    } else {
+        demand.note = Reason::range_invalid;
+    }
+    if (sun && !is_eye(light.shadow)) {
+        demand.note = Reason::eye_invalid;
+        demand.near_m = demand.far_m = 0.0;  // they would be counted from the eye
+    } else if (sun && wish == LightProjection::perspective) {
+        demand.perspective_sun = true;
+        demand.view_count = 1;
+    } else if (!sun && wish == LightProjection::orthographic) {
+        demand.note = Reason::projection_unsupported;
+    }
 }
 
 }  // namespace
@@ -56,6 +79,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
                 std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
+        decide_projection(light, demand);
         if (light.kind == LightKind::spot && light.outer_cone_rad > kWidestMap_rad) demand.note = Reason::cone_clamped;
         demands.push_back(demand);
     }

@@ -138,7 +138,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             const LightKindRow& kind = light_kind_row(light.kind);
             const FilterRow& filter = filter_row(demand.filter);
             LightingLight& out = inputs.lights[demand.light];
-            out.row.kind_file = kind.file;
+            out.row.kind_file = demand.perspective_sun ? kPerspectiveSunFile : kind.file;
             out.row.filter_file = filter.file;
             out.row.reach_texel = filter.reach_texel;
             out.map = slot.texture;

@@ -17,7 +17,7 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
         vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
         point = point_2d(i, projected, bias.depth, reach_texel);
         // A cascade draws only what can darken its own depth range: beyond it, the next one knows better.
-        point.covered = point.covered && (projected.z >= 0.0 && projected.z <= 1.0);
+        point.covered = point.covered && projected.z <= 1.0;
     }
     return point;
 }

@@ -12,14 +12,14 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, point.map.z));
 }
 
-// Beyond the far plane depth is negative; clamped to 0 it is lit unless something nearer is stored.
+// Beyond the far plane depth is negative: not covered. Before the near plane it is clamped onto it.
 // Nearer than `margin_texel` to the border a filter would read past it: not covered.
 ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_texel) {
     ShadowPoint point;
     point.texel_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
     vec3 map = projected.xyz / projected.w;
     vec2 margin = margin_texel * point.texel_uv;
-    point.covered = projected.w > 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
+    point.covered = projected.w > 0.0 && map.z >= 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
     point.layer = float(view);
     return point;

@@ -44,7 +44,7 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
     Bias bias = perspective_bias(view, n_map, tangents, position_la * map_axes, reach_texel, rounding_m);
     if (light.options.y != 0) bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
     ShadowPoint point;
-    point.covered = z_m > 0.0;
+    point.covered = z_m > 0.0 && view.numeric.z + view.axis_back.w / z_m >= 0.0;
     point.position = position_la + normal * bias.along_normal_m;
     float step_m = largest(point.position) * view.axis_u.w;
     point.step_u = axis_u * step_m;

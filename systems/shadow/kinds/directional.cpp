@@ -4,10 +4,13 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
-#include "engine/math/projection.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/kinds/orthographic_view.h"
+#include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/kinds/rectangle.h"
+#include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/range_override.h"
 
 /// Directional light: cascades along the first consumer's view, each an orthographic view around the smallest rotated
 /// rectangle of the receivers seen in its slice, as the light sees them. Depth runs from the receiver nearest the
@@ -50,9 +53,38 @@ double split_m(const DepthRange& seen, std::uint32_t i, std::uint32_t n, bool pe
     return kLogarithmicShare * start * std::pow(seen.highest / start, share) + (1.0 - kLogarithmicShare) * uniform;
 }
 
+/// The depth range that the demand asks for, counted from the sun's eye.
+void override_from_eye(const ShadowDemand& demand, const SunEye& eye, OrthographicBox& box) {
+    const double eye_at_m = -glm::dot(eye.position_ws_m - box.anchor_ws_m, box.axes[2]);
+    double near_m = box.near_m - eye_at_m, far_m = box.far_m - eye_at_m;
+    override_range(demand, near_m, far_m);
+    box.near_m = near_m + eye_at_m;
+    box.far_m = far_m + eye_at_m;
+}
+
+/// One perspective view from the sun's eye.
+bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::vector<ShadowView>& views) {
+    const SunEye eye = sun_eye(basis, input.receiver_points_ws, input.light.shadow);
+    DepthRange depth;
+    for (const glm::dvec3& p : input.receiver_points_ws) depth.include(glm::dot(eye.position_ws_m - p, basis[2]));
+    double nearest = depth.lowest;
+    for (const std::uint32_t i : input.casters) {
+        const math::Aabb& box = input.scene.instances[i].bounds_ws;
+        const double reach = glm::dot(math::half_extent(box), glm::abs(basis[2]));
+        nearest = std::min(nearest, glm::dot(eye.position_ws_m - math::centre(box), basis[2]) - reach);
+    }
+    const PerspectiveRange range = overridden(input.demand, perspective_range(nearest, depth.highest));
+    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
+    const double tan_half = std::tan(0.5 * static_cast<double>(input.light.shadow.eye_angle_rad));
+    views.push_back(perspective_view(eye.position_ws_m, basis, tan_half, range, input.demand.resolution_px,
+                                     static_cast<double>(input.reach_texel)));
+    return true;
+}
+
 /// One orthographic view around `points_ws`. False if they span nothing finite.
-bool fit_rectangle(const glm::dmat3& basis, std::span<const glm::dvec3> points_ws, double size_px, double reach_texel,
-                   FitScratch& scratch, ShadowView& view) {
+bool fit_rectangle(const FitInput& input, const glm::dmat3& basis, const SunEye* eye,
+                   std::span<const glm::dvec3> points_ws, ShadowView& view) {
+    FitScratch& scratch = input.scratch;
     scratch.points.clear();
     DepthRange depth;
     const glm::dvec3 origin_ws = points_ws.front();
@@ -66,37 +98,28 @@ bool fit_rectangle(const glm::dmat3& basis, std::span<const glm::dvec3> points_w
     const double largest = std::max({extent.x, extent.y, depth.highest - depth.lowest});
     if (!(largest > 0.0) || !std::isfinite(largest)) return false;
 
-    view.projection = ViewProjection::orthographic;
-    view.axis_u = basis[0] * rectangle.axis_u.x + basis[1] * rectangle.axis_u.y;
-    view.axis_v = basis[1] * rectangle.axis_u.x - basis[0] * rectangle.axis_u.y;
-    view.axis_back = basis[2];
+    OrthographicBox box;
+    box.axes[0] = basis[0] * rectangle.axis_u.x + basis[1] * rectangle.axis_u.y;
+    box.axes[1] = basis[1] * rectangle.axis_u.x - basis[0] * rectangle.axis_u.y;
+    box.axes[2] = basis[2];
 
-    const double margin_px = std::ceil(reach_texel) + 1.0;  // filter footprint, and snapping
-    const glm::dvec2 padded =
-        glm::max(extent, glm::dvec2(largest * kLeastExtent)) * (size_px / (size_px - 2.0 * margin_px));
-    view.texel_u = padded.x / size_px;
-    view.texel_v = padded.y / size_px;
+    const double size_px = input.demand.resolution_px;
+    const double margin_px = std::ceil(static_cast<double>(input.reach_texel)) + 1.0;  // filter footprint, and snapping
+    box.half_extent_m =
+        0.5 * glm::max(extent, glm::dvec2(largest * kLeastExtent)) * (size_px / (size_px - 2.0 * margin_px));
     const double range_m = std::max(depth.highest - depth.lowest, largest * kLeastExtent);
     const double slack_m = range_m * kDepthSlack;
 
     const glm::dvec2 middle = 0.5 * (rectangle.min + rectangle.max);
-    const glm::dvec3 centre_ws = origin_ws + view.axis_u * middle.x + view.axis_v * middle.y +
-                                 view.axis_back * (0.5 * (depth.lowest + depth.highest));
-    view.anchor_ws_m = lattice_anchor(centre_ws, largest);
-    const glm::dvec3 offset = centre_ws - view.anchor_ws_m;
-    const glm::dvec3 c(glm::dot(offset, view.axis_u), glm::dot(offset, view.axis_v), glm::dot(offset, view.axis_back));
-    view.near_m = -c.z - 0.5 * range_m - slack_m;
-    view.far_m = -c.z + 0.5 * range_m + slack_m;
-    view.half_extent_m = 0.5 * padded;
-    view.centre_ls_m = glm::dvec2(c);
-
-    const glm::dmat4 view_from_anchor(glm::transpose(glm::dmat3(view.axis_u, view.axis_v, view.axis_back)));
-    const glm::dmat4 clip_from_anchor =
-        math::reversed_orthographic(c.x - 0.5 * padded.x, c.x + 0.5 * padded.x, c.y - 0.5 * padded.y,
-                                    c.y + 0.5 * padded.y, view.near_m, view.far_m) *
-        view_from_anchor;
-    view.clip_from_anchor = glm::mat4(clip_from_anchor);
-    view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);
+    const glm::dvec3 centre_ws = origin_ws + box.axes[0] * middle.x + box.axes[1] * middle.y +
+                                 box.axes[2] * (0.5 * (depth.lowest + depth.highest));
+    box.anchor_ws_m = lattice_anchor(centre_ws, largest);
+    const glm::dvec3 c = (centre_ws - box.anchor_ws_m) * box.axes;
+    box.centre_m = glm::dvec2(c);
+    box.near_m = -c.z - 0.5 * range_m - slack_m;
+    box.far_m = -c.z + 0.5 * range_m + slack_m;
+    if (eye) override_from_eye(input.demand, *eye, box);
+    view = orthographic_view(box, size_px);
     return true;
 }
 
@@ -111,6 +134,9 @@ ConsumerItem slice(ConsumerItem consumer, double from_m, double to_m) {
 
 bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
+    if (input.demand.perspective_sun) return fit_perspective_sun(input, basis, views);
+    const bool counts_from_eye = input.demand.near_m > 0.0 || input.demand.far_m > 0.0;
+    const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
     const ConsumerItem& consumer = input.scene.consumers.front();
     const bool perspective = consumer.projection == CameraProjection::perspective;
     DepthRange seen;
@@ -136,10 +162,9 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
                 math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws);
         }
         ShadowView view;
-        view.layer = layer;
-        view.seen_from_m = alone ? from_m : 0.0;
-        if (!points_ws.empty() && fit_rectangle(basis, points_ws, input.demand.resolution_px,
-                                                static_cast<double>(input.reach_texel), input.scratch, view)) {
+        if (!points_ws.empty() && fit_rectangle(input, basis, counts_from_eye ? &eye : nullptr, points_ws, view)) {
+            view.layer = layer;
+            view.seen_from_m = alone ? from_m : 0.0;
             views.push_back(view);
             ++layer;
         }

@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/projection.h"
-#include "systems/shadow/kinds/perspective_range.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/range_override.h"
 
 /// Point light: six 90-degree views of a cube map with common near and far.
 namespace gnomon::shadow {
@@ -34,7 +34,7 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
         farthest = std::max(farthest, glm::distance(p_ws, light.position_ws_m));
     if (light.range_m > 0.0) farthest = std::min(farthest, light.range_m);
     // A face measures along its own axis: a point at distance r lies between r / sqrt(3) and r.
-    const PerspectiveRange range = perspective_range(nearest / std::sqrt(3.0), farthest);
+    const PerspectiveRange range = overridden(input.demand, perspective_range(nearest / std::sqrt(3.0), farthest));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
 
     const glm::dmat4 projection = math::reversed_perspective(-1.0, 1.0, -1.0, 1.0, range.near_m, range.far_m);

@@ -16,6 +16,11 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .max_error_px = 0.3f,
                     .bias = BiasMode::constant,
                     .bias_m = 0.0125f,
+                    .projection = LightProjection::perspective,
+                    .eye_distance_m = 12.3f,
+                    .eye_angle_rad = 0.7f,
+                    .near_m = 0.1f,
+                    .far_m = 333.3f,
                     .economy = false};
     LightShadow copy;
     for (const LightSetting& setting : light_settings())
@@ -41,7 +46,12 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"filter=soft", "set.value"},      {"resolution=-1", "set.value"},
                 {"resolution=65537", "set.value"}, {"max_error_px=0", "set.value"},
                 {"max_error_px=nan", "set.value"}, {"max_error_px=1e-60", "set.value"},
-                {"bias=-1", "set.value"},          {"economy=1", "set.value"}};
+                {"bias=-1", "set.value"},          {"economy=1", "set.value"},
+                {"projection=flat", "set.value"},  {"projection=", "set.value"},
+                {"eye_distance_m=-1", "set.value"}, {"eye_angle_deg=0", "set.value"},
+                {"eye_angle_deg=161", "set.value"}, {"eye_angle_deg=1e-60", "set.value"},
+                {"near_m=-0.1", "set.value"},      {"far_m=inf", "set.value"},
+                {"far_m=2e11", "set.value"},       {"near_m=nan", "set.value"}};
     for (const auto& row : rows) {
         LightShadow shadow;
         const auto error = apply_setting(shadow, row.text);
