@@ -118,7 +118,7 @@ void validate_sparse(const Document& document, std::size_t i) {
     }
 }
 
-void validate_accessor(const Document& document, std::size_t i) {
+void validate_accessor(const Document& document, std::size_t i, std::size_t buffer_bytes) {
     const auto& accessor = document.model.accessors[i];
     if (component_bytes(accessor.componentType) == 0) {
         fail("accessor.component_type", pointer("accessors", i, "componentType"),
@@ -136,6 +136,10 @@ void validate_accessor(const Document& document, std::size_t i) {
         if (!fits(view.byteLength, accessor.byteOffset, accessor.count, stride, size)) {
             fail("accessor.out_of_range", pointer("accessors", i), "reaches past the end of its buffer view");
         }
+    } else if (accessor.count > kMaxUnbackedElements + buffer_bytes) {
+        fail("accessor.unbacked", pointer("accessors", i, "count"),
+             std::to_string(accessor.count) + " elements without a buffer view, in a file whose buffers hold " +
+                 std::to_string(buffer_bytes) + " bytes");
     }
     if (accessor.sparse.isSparse) validate_sparse(document, i);
 }
@@ -206,7 +210,8 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
         with_component(sparse.indices.componentType, [&]<class I>(I) {
             std::size_t next_allowed = 0;
             for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
-                const auto element = static_cast<std::size_t>(load<I>(indices + i * sizeof(I)));  // NOLINT(bugprone-signed-char-misuse): indices are unsigned
+                const auto element = static_cast<std::size_t>(
+                    load<I>(indices + i * sizeof(I)));  // NOLINT(bugprone-signed-char-misuse): indices are unsigned
                 if (element < next_allowed || element >= accessor.count) {
                     fail("accessor.sparse_index", where + "/sparse/indices", "must rise and stay below the count");
                 }
@@ -222,7 +227,9 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
 
 void validate_ranges(const Document& document) {
     for (std::size_t i = 0; i < document.model.bufferViews.size(); ++i) validate_view(document, i);
-    for (std::size_t i = 0; i < document.model.accessors.size(); ++i) validate_accessor(document, i);
+    std::size_t buffer_bytes = 0;
+    for (const BufferData& buffer : document.buffers) buffer_bytes += buffer.bytes.size();
+    for (std::size_t i = 0; i < document.model.accessors.size(); ++i) validate_accessor(document, i, buffer_bytes);
 }
 
 std::span<const std::byte> view_bytes(const Document& document, int index, const std::string& pointer) {

@@ -30,6 +30,11 @@ inline constexpr std::size_t kMaxTriangles = 16'000'000;
 /// Vertices, indices and texels that stay in memory, and the expanded size of any one accessor.
 inline constexpr std::size_t kMaxDecodedBytes = 512 * kMiB;
 
+/// An accessor without a buffer view is zero wherever its sparse part says nothing. It stands beside other accessors of
+/// the same count, which take at least a byte per element; so it may have as many elements as the file's buffers have
+/// bytes, and these few more. Without this, 300 bytes of text make the loader fill half a gigabyte with zeros.
+inline constexpr std::size_t kMaxUnbackedElements = 65'536;
+
 inline constexpr std::uint32_t kMaxImageEdge_px = 8192;
 /// One allocation of the image decoder: 8192² texels of 4 × 16 bit and one filter byte per row, with slack.
 inline constexpr std::size_t kMaxImageAllocation = 544 * kMiB;

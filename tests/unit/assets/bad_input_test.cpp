@@ -138,6 +138,10 @@ std::vector<BadInput> buffer_inputs() {
              d["accessors"][0].erase("bufferView");
              d["accessors"][0]["count"] = std::uint64_t{1} << 50;
          })},
+        {"MillionsOfElementsWithoutAView", "accessor.unbacked", "/accessors/0/count", spoilt([](json& d) {
+             d["accessors"][0].erase("bufferView");
+             d["accessors"][0]["count"] = 8'000'000;
+         })},
         {"CountOfZero", "accessor.empty", "/accessors/1/count",
          spoilt([](json& d) { d["accessors"][1]["count"] = 0; })},
         {"UnknownComponentType", "accessor.component_type", "/accessors/0/componentType",
@@ -189,24 +193,34 @@ std::vector<BadInput> mesh_inputs() {
              builder.doc["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normal;
              return builder.gltf();
          }},
-        {"TooManyVertices", "total.decoded_bytes", kPosition, spoilt([](json& d) {
-             d["accessors"][0].erase("bufferView");
-             d["accessors"][0]["count"] = 20'000'000;
-         })},
-        {"MoreIndicesThanMemory", "total.triangles", "/meshes/0/primitives/0", spoilt([](json& d) {
-             d["accessors"][1].erase("bufferView");
-             d["accessors"][1]["componentType"] = kUByte;
-             d["accessors"][1]["count"] = limits::kMaxDecodedBytes;
-         })},
+        {"TooManyVertices", "total.decoded_bytes", kPosition,
+         [] {
+             GltfBuilder builder = triangle();
+             const std::size_t count = limits::kMaxDecodedBytes / sizeof(assets::Vertex) + 1;
+             const Bytes positions(4 * count);  // three bytes each and one of padding
+             builder.doc["extensionsUsed"] = {"KHR_mesh_quantization"};
+             builder.doc["accessors"][0] = {{"bufferView", builder.add_view(positions.data(), positions.size(), 4)},
+                                            {"componentType", kByte},
+                                            {"count", count},
+                                            {"type", "VEC3"}};
+             return builder.glb();
+         }},
+        {"TooManyTrianglesInOnePrimitive", "total.triangles", "/meshes/0/primitives/0",
+         [] {
+             GltfBuilder builder = triangle();
+             const std::vector<std::uint8_t> zeros(3 * (limits::kMaxTriangles + 1));
+             builder.doc["meshes"][0]["primitives"][0]["indices"] = builder.add_accessor(zeros, "SCALAR");
+             return builder.glb();
+         }},
         {"TooManyTriangles", "total.triangles", "/meshes/0/primitives/1",
          [] {
              GltfBuilder builder = triangle();
-             const int many =
-                 builder.push("accessors", {{"componentType", kUByte}, {"count", 30'000'000}, {"type", "SCALAR"}});
+             const std::vector<std::uint8_t> zeros(30'000'000);
+             const int many = builder.add_accessor(zeros, "SCALAR");
              json& primitives = builder.doc["meshes"][0]["primitives"];
              primitives[0]["indices"] = many;
              primitives.push_back(primitives[0]);
-             return builder.gltf();
+             return builder.glb();
          }},
     };
 }
@@ -314,6 +328,11 @@ TEST(BadInputControl, TheUnspoiltTriangleLoads) {
     EXPECT_TRUE(deepest) << to_line(deepest.error());
     EXPECT_TRUE(load(positions({0, 0, 0, 1e6F, 0, 0, 0, 1, 0})()));
     EXPECT_TRUE(load(sparse({1, 2}, [](json&) {})()));
+    const auto zeros = load(spoilt([](json& d) {
+        d["accessors"][0].erase("bufferView");
+        d["accessors"][0]["count"] = limits::kMaxUnbackedElements;
+    })());
+    EXPECT_TRUE(zeros) << to_line(zeros.error());
 }
 
 }  // namespace
