@@ -4,31 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <string>
 
 #include "engine/assets/gltf_loader.h"
+#include "tests/data/data_files.h"
 
 namespace gnomon::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path kVerdicts = fs::path(GNOMON_SOURCE_DIR) / "tests/unit/assets/data_verdicts.txt";
-
-std::map<std::string, std::string> recorded_verdicts() {
-    std::map<std::string, std::string> verdicts;
-    std::ifstream stream(kVerdicts);
-    for (std::string line; std::getline(stream, line);) {
-        const std::size_t space = line.rfind(' ');
-        if (line.empty() || line[0] == '#' || space == std::string::npos) continue;
-        verdicts[line.substr(0, space)] = line.substr(space + 1);
-    }
-    return verdicts;
-}
 
 void check_invariants(const assets::SceneData& scene, const std::string& name) {
     EXPECT_FALSE(scene.materials.empty()) << name;
@@ -61,35 +44,30 @@ void check_invariants(const assets::SceneData& scene, const std::string& name) {
 }
 
 TEST(DataFolder, EveryFileLoadsOrEndsInItsRecordedRule) {
-    const fs::path folder = GNOMON_DATA_DIR;
-    if (!fs::is_directory(folder)) GTEST_SKIP() << "no test data at " << folder;
-    std::map<std::string, std::string> verdicts;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        const std::string extension = entry.path().extension().string();
-        if (extension != ".gltf" && extension != ".glb") continue;
-        const std::string name = fs::relative(entry.path(), folder).generic_string();
-        const auto result = assets::load_gltf(entry.path());
-        verdicts[name] = result ? "ok" : result.error().rule;
+    const std::vector<std::string> files = data_files();
+    if (files.empty()) GTEST_SKIP() << "no test data at " << data_folder();
+    Watchdog watchdog;
+    Verdicts loaded, expected = recorded_verdicts();
+    for (auto& [name, verdict] : expected)
+        if (is_picture(verdict)) verdict = "loads";
+    for (const std::string& name : files) {
+        watchdog.watch(name);
+        const auto result = assets::load_gltf(data_folder() / name);
+        loaded[name] = result ? "loads" : result.error().rule;
         if (result) {
             check_invariants(result.value(), name);
         } else {
             const std::string line = to_line(result.error());
             EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-            EXPECT_THAT(line, testing::StartsWith(entry.path().string()));
+            EXPECT_THAT(line, testing::StartsWith((data_folder() / name).string()));
         }
     }
-    if (std::getenv("GNOMON_RECORD_VERDICTS") != nullptr) {
-        std::ofstream stream(kVerdicts);
-        stream << "# Verdict of the glTF door on each file of the test data: ok, or the rule that refuses it.\n"
-                  "# Written by GNOMON_RECORD_VERDICTS=1 unit_assets --gtest_filter='DataFolder.*'\n";
-        for (const auto& [name, verdict] : verdicts) stream << name << ' ' << verdict << '\n';
-    }
-    EXPECT_EQ(verdicts, recorded_verdicts());
+    EXPECT_EQ(loaded, expected);
 }
 
 TEST(DataFolder, SponzaLoadsWithItsTopologyWellWithinItsBudget) {
-    const fs::path sponza = fs::path(GNOMON_DATA_DIR) / "sponza-crytek/Sponza.gltf";
-    if (!fs::exists(sponza)) GTEST_SKIP() << "no " << sponza;
+    const std::filesystem::path sponza = data_folder() / "sponza-crytek/Sponza.gltf";
+    if (!std::filesystem::exists(sponza)) GTEST_SKIP() << "no " << sponza;
     const auto start = std::chrono::steady_clock::now();
     const auto result = assets::load_gltf(sponza);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
