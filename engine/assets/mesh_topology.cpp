@@ -137,8 +137,8 @@ std::uint32_t boundary_edges(const OpenMesh::TriConnectivity& mesh, const EdgePa
     return count - cuts;
 }
 
-/// Pieces that hang together by edges, non-manifold ones included.
-std::uint32_t components(const OpenMesh::TriConnectivity& mesh, const EdgePairing& pairing) {
+/// Faces in pieces that hang together by edges, non-manifold ones included.
+DisjointSets face_pieces(const OpenMesh::TriConnectivity& mesh, const EdgePairing& pairing) {
     DisjointSets faces(mesh.n_faces());
     for (const auto edge : mesh.edges()) {
         if (mesh.is_boundary(edge)) continue;
@@ -146,9 +146,22 @@ std::uint32_t components(const OpenMesh::TriConnectivity& mesh, const EdgePairin
                     static_cast<std::uint32_t>(mesh.face_handle(mesh.halfedge_handle(edge, 1)).idx()));
     }
     for (const auto& [a, b] : pairing.cut_neighbours) faces.unite(a / 3, b / 3);
-    std::uint32_t count = 0;
-    for (std::uint32_t f = 0; f < mesh.n_faces(); ++f) count += faces.find(f) == f ? 1U : 0U;
-    return count;
+    return faces;
+}
+
+/// Six times the volume that each piece encloses, by its first face; negative where it is wound inward.
+std::vector<double> volumes(const Mesh& mesh, const std::vector<std::uint32_t>& welded,
+                            const std::vector<WeldedFace>& faces, DisjointSets& pieces) {
+    std::vector<glm::dvec3> places(welded.size());
+    for (std::size_t v = 0; v < welded.size(); ++v) places[welded[v]] = glm::dvec3(mesh.vertices[v].position_ms);
+    std::vector<double> sums(faces.size(), 0.0);
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const std::uint32_t first = pieces.find(f);
+        const glm::dvec3& origin = places[faces[first][0]];  // of the piece itself: nothing large cancels
+        const glm::dvec3 a = places[faces[f][0]] - origin, b = places[faces[f][1]] - origin;
+        sums[first] += glm::dot(a, glm::cross(b, places[faces[f][2]] - origin));
+    }
+    return sums;
 }
 
 }  // namespace
@@ -162,8 +175,15 @@ Topology analyse_topology(const Mesh& mesh) {
     const OpenMesh::TriConnectivity manifold = ManifoldBuilder(faces.size(), pairing).build();
     topology.non_manifold_edges = pairing.non_manifold_edges;
     topology.boundary_edges = boundary_edges(manifold, pairing);
-    topology.components = components(manifold, pairing);
     topology.closed = !faces.empty() && topology.boundary_edges == 0 && topology.non_manifold_edges == 0;
+    topology.outward = topology.closed;
+    DisjointSets pieces = face_pieces(manifold, pairing);
+    const std::vector<double> volume = volumes(mesh, welded, faces, pieces);
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        if (pieces.find(f) != f) continue;
+        ++topology.components;
+        topology.outward = topology.outward && volume[f] > 0.0;
+    }
     return topology;
 }
 

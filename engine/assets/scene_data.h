@@ -31,6 +31,7 @@ struct Submesh {
 /// What OpenMesh found, over positions welded by identical bits.
 struct Topology {
     bool closed = false;              // no boundary edge, no non-manifold edge, at least one face, consistently oriented
+    bool outward = false;             // closed, and every component encloses a positive volume: front faces point out
     std::uint32_t boundary_edges = 0;
     std::uint32_t non_manifold_edges = 0;  // edges shared by more than two faces or with inconsistent winding
     std::uint32_t degenerate_faces = 0;    // zero area or repeated (welded) vertices

@@ -96,8 +96,12 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
         range.first_submesh = static_cast<std::uint32_t>(scene.submeshes_.size());
         range.submesh_count = static_cast<std::uint32_t>(mesh.submeshes.size());
         range.triangles = mesh.indices.size() / 3;
-        for (const assets::Submesh& s : mesh.submeshes)
+        range.solid = mesh.topology.outward;
+        for (const assets::Submesh& s : mesh.submeshes) {
             scene.submeshes_.push_back({range.first_index + s.first_index, s.index_count, s.material});
+            const assets::Material& material = library.materials[s.material];
+            range.solid = range.solid && material.alpha_mode == assets::AlphaMode::opaque && !material.double_sided;
+        }
         scene.meshes_.push_back(range);
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());

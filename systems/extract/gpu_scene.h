@@ -47,6 +47,8 @@ public:
         std::uint32_t first_index = 0;  // of the mesh in the common index buffer
         std::uint32_t first_submesh = 0, submesh_count = 0;
         std::uint64_t triangles = 0;
+        bool solid = false;  // closed and wound outward, all of it opaque and single-sided: no ray from outside meets a
+                             // back face first
     };
     struct SubmeshRange {
         std::uint32_t first_index = 0, index_count = 0;

@@ -25,6 +25,10 @@ bool has_masked(const GpuScene& gpu, std::uint32_t mesh) {
     return false;
 }
 
+gl::PipelineState depth_state(gl::ProgramHandle program) {
+    return {program, gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off};
+}
+
 void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {
     frame.sets[demand].skip = reason;
     for (std::size_t v = 0; v < frame.views.size(); ++v)
@@ -87,18 +91,38 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
             if (is_drawn(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
 }
 
-void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint32_t first_item, std::uint32_t count,
-                             gl::CommandList& list, LightReport& report) {
+/// From outside a solid the nearest surface is always a front face: its back faces need not be drawn. From inside,
+/// where the light is in its box, there are only back faces.
+gl::PipelineState DepthRecorder::opaque_state(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowView& view,
+                                              std::span<const std::uint32_t> run) const {
+    gl::PipelineState state = depth_state(programs_[kOpaque]);
+    const InstanceItem& head = scene.instances[run.front()];
+    if (!gpu.mesh(head.mesh).solid) return state;
+    const bool distant = view.projection == ViewProjection::orthographic;
+    for (const std::uint32_t i : run) {
+        const InstanceItem& item = scene.instances[i];
+        const bool outside = distant || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
+        if (!outside || item.mirrored != head.mirrored) return state;
+    }
+    state.cull = gl::CullMode::back;
+    state.front_is_clockwise = head.mirrored;
+    return state;
+}
+
+void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque,
+                             std::uint32_t count, gl::CommandList& list, LightReport& report) {
     const GpuScene::MeshRange& range = gpu.mesh(mesh);
-    const auto draw = [&](std::uint32_t first_index, std::uint32_t index_count) {
-        list.add(gl::DrawMeshes{first_index, index_count, range.base_vertex, first_item, count});
+    const auto draw = [&](const gl::PipelineState& state, std::uint32_t first_index, std::uint32_t index_count) {
+        if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
+        pipeline_ = state;
+        list.add(gl::DrawMeshes{first_index, index_count, range.base_vertex, next_item_, count});
         ++report.draws;
         report.triangles += std::uint64_t{index_count} / 3 * count;
     };
     // Opaque submeshes side by side are one draw; blended ones let light through and are left out.
     std::uint32_t first = 0, length = 0;
     const auto flush = [&] {
-        if (length > 0) draw(first, length);
+        if (length > 0) draw(opaque, first, length);
         length = 0;
     };
     for (std::uint32_t s = 0; s < range.submesh_count; ++s) {
@@ -113,14 +137,9 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint3
             first = submesh.first_index;
             length = submesh.index_count;
         } else if (material.alpha_mode == assets::AlphaMode::mask) {
-            gl::PipelineState state{programs_[kMasked], gl::CullMode::none, false, gl::DepthTest::greater, true, true,
-                                    gl::Blend::off};
-            list.add(gl::SetPipeline{state});
             list.add(gl::BindTexture{0, material.texture, material.sampler});
             list.add(gl::BindUniforms{2, gpu.material_uniforms(), material.uniform_offset, sizeof(MaterialRecord)});
-            draw(submesh.first_index, submesh.index_count);
-            state.program = programs_[kOpaque];
-            list.add(gl::SetPipeline{state});
+            draw(depth_state(programs_[kMasked]), submesh.first_index, submesh.index_count);
         }
     }
     flush();
@@ -129,8 +148,9 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint3
 void DepthRecorder::draw_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
                               const ShadowView& view, gl::CommandList& list, LightReport& report) {
     const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t, std::uint32_t count) {
-        draw_run(gpu, mesh, next_item_, count, list, report);
+    pipeline_ = {};
+    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
+        draw_run(gpu, mesh, opaque_state(scene, gpu, view, casters.subspan(first, count)), count, list, report);
         next_item_ += count;
     });
 }
@@ -167,8 +187,6 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, Shad
         list.add(gl::BeginGroup{"shadow " + scene.lights[light].name + " " + std::to_string(view.layer)});
         list.add(gl::BeginTimer{shadow_timer(light)});
         list.add(gl::BeginPass{slot.target, {0, 0, size, size}, true, 0.0f, false, {}});
-        list.add(gl::SetPipeline{
-            {programs_[kOpaque], gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off}});
         list.add(gl::BindUniforms{0, views_.handle(), view_offset, sizeof(DepthViewRecord)});
         list.add(gl::BindStorage{0, gpu.instances()});
         list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});

@@ -36,7 +36,9 @@ private:
     Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
     void draw_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const ShadowView& view,
                    gl::CommandList& list, LightReport& report);
-    void draw_run(const GpuScene& gpu, std::uint32_t mesh, std::uint32_t first_item, std::uint32_t count,
+    gl::PipelineState opaque_state(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowView& view,
+                                   std::span<const std::uint32_t> run) const;
+    void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t count,
                   gl::CommandList& list, LightReport& report);
 
     gl::Device& device_;
@@ -47,6 +49,7 @@ private:
     std::vector<DrawItem> item_scratch_;
     std::vector<std::byte> view_scratch_;
     std::uint32_t next_item_ = 0;
+    gl::PipelineState pipeline_;  // of the pass being recorded
 };
 
 }  // namespace gnomon::shadow

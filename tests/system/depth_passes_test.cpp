@@ -7,6 +7,7 @@ namespace gnomon {
 namespace {
 
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -219,6 +220,67 @@ TEST_F(DepthPasses, ReusedMapsAreStillBoundForLighting) {
     EXPECT_EQ(device.texture(map)->label, "shadow map lamp");
     step();
     EXPECT_EQ(bound_map(), map);
+}
+
+class SolidCasters : public DepthPasses {
+protected:
+    /// How the depth passes cull, one entry per pipeline that they set.
+    std::vector<gl::CullMode> culling() const {
+        std::vector<gl::CullMode> modes;
+        for (const Pass& pass : depth_passes())
+            for (const gl::PipelineState& state : pass.pipelines) modes.push_back(state.cull);
+        return modes;
+    }
+    ecs::Entity add_solid(const glm::dvec3& at_m) { return world.add_mesh(kSolidBox, at_m, true); }
+};
+
+TEST_F(SolidCasters, AreDrawnWithoutTheirBackFaces) {
+    world.registry.destroy(stage.box);
+    add_solid({0, 1, 0});
+    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})
+        world.add_light(kind, kLightPlace_m, kind == LightKind::spot ? "spot" : kind == LightKind::point ? "point" : "sun");
+    step();
+    EXPECT_THAT(culling(), Not(IsEmpty()));
+    EXPECT_THAT(culling(), Each(gl::CullMode::back));
+    for (const Pass& pass : depth_passes())
+        for (const gl::PipelineState& state : pass.pipelines) EXPECT_FALSE(state.front_is_clockwise);
+}
+
+TEST_F(SolidCasters, AreDrawnFromBothSidesWhereNothingIsKnownOfTheirTopology) {
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none));
+}
+
+TEST_F(SolidCasters, AreDrawnFromBothSidesByALightInside) {
+    world.registry.destroy(stage.box);
+    add_solid({0.2, 3, 0});
+    add_solid({2, 1, 0});
+    world.add_light(LightKind::spot, {0, 3.3, 0.1}, "lamp");
+    step();
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none)) << "both are one draw";
+}
+
+TEST_F(SolidCasters, WindTheOtherWayWhenMirrored) {
+    world.registry.destroy(stage.box);
+    const ecs::Entity mirrored = add_solid({0, 1, 0});
+    world.registry.patch<Transform>(mirrored, [](Transform& t) { t.scale.x = -1.0; });
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    ASSERT_THAT(depth_passes().at(0).pipelines, SizeIs(1));
+    EXPECT_EQ(depth_passes().at(0).pipelines[0].cull, gl::CullMode::back);
+    EXPECT_TRUE(depth_passes().at(0).pipelines[0].front_is_clockwise);
+    add_solid({2, 1, 0});
+    step();
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none)) << "one draw holds both windings";
+}
+
+TEST_F(SolidCasters, ShareThePipelineWithTheirLike) {
+    add_solid({1, 1, 0});
+    world.add_mesh(kMaskedBox, {-1, 1, 0}, true);
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none, gl::CullMode::none, gl::CullMode::back));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
+#include "engine/assets/mesh_topology.h"
 
 namespace gnomon {
 namespace {
@@ -53,12 +54,15 @@ assets::MeshLibrary test_library() {
     assets::Mesh plane;
     plane.name = "plane";
     add_face(plane, {}, {0, 0, 10}, {10, 0, 0});
-    library.meshes = {plane, box("box"), box("masked"), box("blended"), box("mixed")};
+    library.meshes = {plane, box("box"), box("masked"), box("blended"), box("mixed"), box("solid")};
     const std::array<std::uint32_t, 4> materials = {kOpaqueMaterial, kOpaqueMaterial, kMaskedMaterial, kBlendedMaterial};
     for (std::size_t m = 0; m < materials.size(); ++m)
         library.meshes[m].submeshes = {{0, static_cast<std::uint32_t>(library.meshes[m].indices.size()), materials[m]}};
     const auto half = static_cast<std::uint32_t>(library.meshes[kMixedBox].indices.size() / 2);
     library.meshes[kMixedBox].submeshes = {{0, half, kOpaqueMaterial}, {half, half, kMaskedMaterial}};
+    assets::Mesh& solid = library.meshes[kSolidBox];
+    solid.submeshes = {{0, static_cast<std::uint32_t>(solid.indices.size()), kOpaqueMaterial}};
+    solid.topology = assets::analyse_topology(solid);
     return library;
 }
 

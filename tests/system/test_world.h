@@ -13,10 +13,10 @@
 namespace gnomon {
 
 /// Meshes of the test library.
-inline constexpr std::uint32_t kPlane = 0, kBox = 1, kMaskedBox = 2, kBlendedBox = 3, kMixedBox = 4;
+inline constexpr std::uint32_t kPlane = 0, kBox = 1, kMaskedBox = 2, kBlendedBox = 3, kMixedBox = 4, kSolidBox = 5;
 
-/// A flat square of 20 m at y = 0, facing up; boxes of 1 m around their origin: opaque, masked, blended, and one whose
-/// first half is opaque and whose second is masked.
+/// A flat square of 20 m at y = 0, facing up; boxes of 1 m around their origin: opaque, masked, blended, one whose
+/// first half is opaque and whose second is masked, and one that is known to be solid: its topology was analysed.
 assets::MeshLibrary test_library();
 
 /// A registry with short ways to fill it.

@@ -184,6 +184,41 @@ TEST(Topology, DropsFacesWithRepeatedVerticesButKeepsSlivers) {
     EXPECT_EQ(topology.non_manifold_edges, 0U);
 }
 
+Mesh turned_inside_out(Mesh mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) std::swap(mesh.indices[i], mesh.indices[i + 1]);
+    return mesh;
+}
+
+TEST(Topology, TellsOutwardFromInwardWinding) {
+    const bool outward = analyse_topology(cube()).outward;
+    const bool inward = analyse_topology(turned_inside_out(cube())).outward;
+    EXPECT_TRUE(outward);
+    EXPECT_FALSE(inward);
+    EXPECT_TRUE(analyse_topology(turned_inside_out(cube())).closed);
+}
+
+TEST(Topology, CallsAMeshOutwardOnlyIfEveryComponentIs) {
+    EXPECT_TRUE(analyse_topology(joined(cube(), cube(), {3, 0, 0})).outward);
+    EXPECT_FALSE(analyse_topology(joined(cube(), turned_inside_out(cube()), {3, 0, 0})).outward);
+}
+
+TEST(Topology, TellsWindingFarFromTheOriginOfTheModel) {
+    Mesh far_off = joined(Mesh{}, cube(), {1e6f, -1e6f, 1e6f});
+    EXPECT_TRUE(analyse_topology(far_off).outward);
+    EXPECT_FALSE(analyse_topology(turned_inside_out(far_off)).outward);
+}
+
+TEST(Topology, CallsNothingOutwardThatEnclosesNothing) {
+    const std::vector<glm::vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const Topology two_sides = analyse_topology(mesh_of(corners, {0, 1, 2, 0, 2, 1}));
+    EXPECT_TRUE(two_sides.closed);
+    EXPECT_FALSE(two_sides.outward);
+    Mesh open = cube();
+    open.indices.resize(open.indices.size() - 3);
+    EXPECT_FALSE(analyse_topology(open).outward);
+    EXPECT_FALSE(analyse_topology(Mesh{}).outward);
+}
+
 TEST(Topology, AnswersForNothing) {
     for (const Mesh& mesh : {Mesh{}, mesh_of({{0, 0, 0}}, {}), mesh_of({{0, 0, 0}}, {0, 0, 0})}) {
         const Topology topology = analyse_topology(mesh);
