@@ -22,6 +22,9 @@ set(GNOMON_ENGINE_HEADERS
   engine/gl/handles.h
   engine/gl/shader_source.h
   engine/math/aabb.h
+  engine/math/bounds_tree.h
+  engine/math/cone.h
+  engine/math/convex_polygon.h
   engine/math/frustum.h
   engine/math/projection.h
   engine/platform/context.h)

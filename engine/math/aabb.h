@@ -27,6 +27,9 @@ inline glm::dvec3 half_extent(const Aabb& b) { return 0.5 * (b.max - b.min); }
 Aabb merged(const Aabb& a, const Aabb& b);
 Aabb extended(const Aabb& a, const glm::dvec3& point);
 
+/// What both hold; empty if they do not meet.
+inline Aabb intersection(const Aabb& a, const Aabb& b) { return {glm::max(a.min, b.min), glm::min(a.max, b.max)}; }
+
 /// Closed boxes: touching counts as overlap. An empty box overlaps nothing.
 bool overlaps(const Aabb& a, const Aabb& b);
 

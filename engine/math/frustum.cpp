@@ -29,13 +29,13 @@ struct Segment {
     glm::dvec3 b;
 };
 
-/// The frustum's planes relative to the box's centre, with how far outside still counts as on the plane.
+/// The planes that cut the box, relative to its centre, with how far outside still counts as on the plane.
 struct Clipper {
     struct Slab {
         Plane plane;
         double tolerance = 0.0;
     };
-    Slab slabs[6];
+    Slab slabs[kMaxClipPlanes];
     std::uint32_t count = 0;
     glm::dvec3 centre{0.0};
     glm::dvec3 half{0.0};
@@ -93,19 +93,21 @@ struct Clipper {
     }
 };
 
-std::optional<Clipper> make_clipper(const Frustum& f, const Aabb& box) {
+/// Nothing if a plane has the whole box outside, or a number is not finite.
+std::optional<Clipper> make_clipper(std::span<const Plane> planes, const Aabb& box) {
     Clipper c;
     c.centre = math::centre(box);
     c.half = half_extent(box);
-    if (!is_finite(c.centre) || !is_finite(c.half)) return std::nullopt;
-    c.count = f.plane_count;
+    if (!is_finite(c.centre) || !is_finite(c.half) || planes.size() > kMaxClipPlanes) return std::nullopt;
     const glm::dvec3 farthest_abs = glm::max(glm::abs(box.min), glm::abs(box.max));
     double largest = std::max({farthest_abs.x, farthest_abs.y, farthest_abs.z});
-    for (std::uint32_t i = 0; i < f.plane_count; ++i) {
-        const Plane& plane = f.planes[i];
+    for (const Plane& plane : planes) {
         const double tolerance = kRounding * magnitude(plane, farthest_abs);
         if (!std::isfinite(tolerance)) return std::nullopt;
-        c.slabs[i] = {{plane.normal, glm::dot(plane.normal, c.centre) + plane.offset}, tolerance};
+        const double at_centre = glm::dot(plane.normal, c.centre) + plane.offset;
+        const double reach = glm::dot(glm::abs(plane.normal), c.half);
+        if (at_centre + reach < -tolerance) return std::nullopt;
+        if (at_centre - reach < 0.0) c.slabs[c.count++] = {{plane.normal, at_centre}, tolerance};
     }
     c.half_tolerance = glm::dvec3(kRounding * largest);
     return c;
@@ -156,32 +158,39 @@ Frustum orthographic_frustum(const glm::dvec3& position, const glm::dmat3& rotat
     return f;
 }
 
-bool may_overlap(const Frustum& f, const Aabb& box) {
-    if (is_empty(box)) return false;
+Overlap overlap(std::span<const Plane> planes, const Aabb& box) {
+    if (is_empty(box)) return Overlap::outside;
     const glm::dvec3 farthest_abs = glm::max(glm::abs(box.min), glm::abs(box.max));
-    for (std::uint32_t i = 0; i < f.plane_count; ++i) {
-        const Plane& plane = f.planes[i];
-        const glm::dvec3& n = plane.normal;
-        const glm::dvec3 innermost(n.x > 0.0 ? box.max.x : box.min.x, n.y > 0.0 ? box.max.y : box.min.y,
-                                   n.z > 0.0 ? box.max.z : box.min.z);
+    Overlap result = Overlap::inside;
+    for (const Plane& plane : planes) {
+        const glm::dvec3 at_min = plane.normal * box.min, at_max = plane.normal * box.max;
+        const glm::dvec3 highest = glm::max(at_min, at_max), lowest = glm::min(at_min, at_max);
+        const double tolerance = kRounding * magnitude(plane, farthest_abs);
         // NaN (an infinite box, a broken plane) decides nothing, so the box stays.
-        if (glm::dot(n, innermost) + plane.offset < -kRounding * magnitude(plane, farthest_abs)) return false;
+        if (highest.x + highest.y + highest.z + plane.offset < -tolerance) return Overlap::outside;
+        if (!(lowest.x + lowest.y + lowest.z + plane.offset >= -tolerance)) result = Overlap::partial;
     }
-    return true;
+    return result;
 }
+
+bool may_overlap(const Frustum& f, const Aabb& box) { return overlap(planes_of(f), box) != Overlap::outside; }
 
 // A vertex of box ∩ frustum is where three planes meet: three of the box (a corner), two of the box and one of the
 // frustum or three and two the other way round (an edge of one crossing a face of the other), or three of the frustum
 // (its corner, an end of its edges). So the corners and the clipped edges of both are all there is.
-std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out) {
+std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector<glm::dvec3>& out) {
     if (is_empty(box) || !math::is_finite(box)) return 0;
-    const std::optional<Clipper> clipper = make_clipper(f, box);
+    const std::optional<Clipper> clipper = make_clipper(planes, box);
     if (!clipper) return 0;
     const std::size_t before = out.size();
     const auto push = [&](const glm::dvec3& p) { out.push_back(glm::clamp(clipper->centre + p, box.min, box.max)); };
 
     const std::array<glm::dvec3, 8> local = corners({-clipper->half, clipper->half});
     const std::array<glm::dvec3, 8> exact = corners(box);
+    if (clipper->count == 0) {
+        out.insert(out.end(), exact.begin(), exact.end());
+        return exact.size();
+    }
     for (unsigned i = 0; i < local.size(); ++i) {
         if (clipper->contains(local[i])) out.push_back(exact[i]);
         for (unsigned bit = 1; bit < local.size(); bit <<= 1) {

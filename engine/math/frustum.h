@@ -34,15 +34,29 @@ Frustum perspective_frustum(const glm::dvec3& position, const glm::dmat3& rotati
 Frustum orthographic_frustum(const glm::dvec3& position, const glm::dmat3& rotation, double half_width,
                              double half_height, double near_m, double far_m);
 
+inline std::span<const Plane> planes_of(const Frustum& f) { return {f.planes, f.plane_count}; }
+
+/// `outside` only if the box lies wholly outside one plane, `inside` only if wholly inside all, both up to 2^-48 of the
+/// size of the plane equation's terms; NaN planes decide nothing. Empty boxes: outside.
+enum class Overlap : std::uint8_t { outside, partial, inside };
+Overlap overlap(std::span<const Plane> planes, const Aabb& box);
+
 /// False only if the box lies wholly outside one plane (conservative, also against rounding and NaN planes).
 /// Empty boxes: false.
 bool may_overlap(const Frustum& f, const Aabb& box);
 
-/// Vertices of the convex polytope box ∩ frustum, some of them possibly more than once, in no particular order.
-/// Appends to `out` and returns the number added; 0 if the intersection is empty, or the box or a plane is not finite.
+/// What clip_box can take at once: a camera's 6 planes, the 4 of a light's view, and 6 more.
+inline constexpr std::size_t kMaxClipPlanes = 16;
+
+/// Vertices of the convex polytope box ∩ planes, some of them possibly more than once, in no particular order.
+/// Appends to `out` and returns the number added; 0 if the intersection is empty, or the box or a plane is not finite,
+/// or there are more than kMaxClipPlanes. Planes that do not cut the box cost next to nothing.
 /// Holds for flat boxes, boxes around the whole frustum, and frusta without a far plane. Scale-free: scaling box and
 /// offsets by a power of two scales the result exactly. Points lie in the box, and inside each plane up to 2^-48 of
 /// the size of the plane equation's terms.
-std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out);
+std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector<glm::dvec3>& out);
+inline std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out) {
+    return clip_box(planes_of(f), box, out);
+}
 
 }  // namespace gnomon::math

@@ -11,6 +11,7 @@
 #include "components/name.h"
 #include "components/shadow_caster.h"
 #include "engine/math/frustum.h"
+#include "systems/extract/scene_tree.h"
 
 namespace gnomon {
 namespace {
@@ -278,7 +279,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     if (viewport_px != viewport_px_) {
         viewport_px_ = viewport_px;
         for (ConsumerItem& consumer : snapshot.consumers) consumer.viewport_px = viewport_px;
-        ++snapshot.version;
+        snapshot.tree_version = ++snapshot.version;
     }
     // A mesh scaled to nothing, or back to something, changes who is listed at all.
     for (const ecs::Entity e : moved_) {
@@ -293,6 +294,9 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     if (anew || !touch_moved(registry, library, snapshot)) {
         snapshot.changed_instances.clear();
         make_lists(registry, library, transforms, snapshot);
+        build_tree(snapshot);
+    } else {
+        refit_tree(snapshot);
     }
     std::sort(snapshot.changed_instances.begin(), snapshot.changed_instances.end(),
               [&](std::uint32_t a, std::uint32_t b) {

@@ -1,0 +1,75 @@
+#include "engine/math/convex_polygon.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+namespace gnomon::math {
+namespace {
+
+/// Twice the area of the triangle, positive if it turns left.
+double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// From here on it is cheaper to look for the outermost points first than to sort all.
+constexpr std::size_t kManyPoints = 64;
+
+/// Moves the points that are not clearly inside the octagon to the front and returns them.
+std::span<glm::dvec2> outer_points(std::span<glm::dvec2> points) {
+    static constexpr std::array<glm::dvec2, 8> kDirections = {
+        {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
+    std::array<glm::dvec2, 8> outermost;
+    std::array<double, 8> farthest;
+    outermost.fill(points.front());
+    for (std::size_t i = 0; i < 8; ++i) farthest[i] = glm::dot(kDirections[i], points.front());
+    for (const glm::dvec2& p : points)
+        for (std::size_t i = 0; i < 8; ++i) {
+            const double at = glm::dot(kDirections[i], p);
+            if (at > farthest[i]) {
+                farthest[i] = at;
+                outermost[i] = p;
+            }
+        }
+    const auto outside = [&](const glm::dvec2& p) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            const glm::dvec2 &a = outermost[i], &b = outermost[(i + 1) % 8];
+            if (a != b && !(cross(a, b, p) > 0.0)) return true;
+        }
+        return false;
+    };
+    const auto kept = std::partition(points.begin(), points.end(), outside) - points.begin();
+    return points.first(std::max<std::size_t>(static_cast<std::size_t>(kept), 1));  // none where all are one point
+}
+
+}  // namespace
+
+void convex_hull(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull) {
+    hull.clear();
+    if (points.empty()) return;
+    if (points.size() >= kManyPoints) points = outer_points(points);
+    std::sort(points.begin(), points.end(),
+              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    const auto extend = [&hull](const glm::dvec2& p, std::size_t floor) {
+        while (hull.size() >= floor + 2 && !(cross(hull[hull.size() - 2], hull.back(), p) > 0.0)) hull.pop_back();
+        hull.push_back(p);
+    };
+    for (const glm::dvec2& p : points) extend(p, 0);
+    const std::size_t lower = hull.size() - 1;
+    for (std::size_t i = points.size(); i-- > 0;) extend(points[i], lower);
+    if (hull.size() > 1) hull.pop_back();
+}
+
+void clip_polygon(const glm::dvec2& normal, double offset, std::vector<glm::dvec2>& polygon,
+                  std::vector<glm::dvec2>& scratch) {
+    scratch.swap(polygon);
+    polygon.clear();
+    for (std::size_t i = 0; i < scratch.size(); ++i) {
+        const glm::dvec2 &a = scratch[i], &b = scratch[(i + 1) % scratch.size()];
+        const double at_a = glm::dot(normal, a) + offset, at_b = glm::dot(normal, b) + offset;
+        if (at_a >= 0.0) polygon.push_back(a);
+        if ((at_a >= 0.0) != (at_b >= 0.0)) polygon.push_back(a + (b - a) * std::clamp(at_a / (at_a - at_b), 0.0, 1.0));
+    }
+}
+
+}  // namespace gnomon::math

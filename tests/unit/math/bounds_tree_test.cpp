@@ -1,0 +1,192 @@
+#include "engine/math/bounds_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "tests/unit/allocation_counter.h"
+#include "tests/unit/math/random_seed.h"
+
+namespace gnomon::math {
+namespace {
+
+class Boxes {
+public:
+    explicit Boxes(std::uint64_t seed) : random_(seed) {}
+    Aabb box(double reach, double size) {
+        const glm::dvec3 centre = vector(reach), half = glm::abs(vector(size));
+        return {centre - half, centre + half};
+    }
+    std::vector<Aabb> boxes(std::size_t count) {
+        std::vector<Aabb> all;
+        for (std::size_t i = 0; i < count; ++i) all.push_back(box(100.0, 1.0));
+        return all;
+    }
+    glm::dvec3 vector(double reach) {
+        std::uniform_real_distribution<double> number(-reach, reach);
+        return {number(random_), number(random_), number(random_)};
+    }
+
+private:
+    std::mt19937_64 random_;
+};
+
+void build(BoundsTree& tree, const std::vector<Aabb>& boxes) {
+    tree.build(static_cast<std::uint32_t>(boxes.size()), [&](std::uint32_t i) { return boxes[i]; });
+}
+
+/// Overlap with a box, as the tree asks for it.
+auto touching(const Aabb& volume) {
+    return [volume](const Aabb& box) {
+        if (!overlaps(volume, box)) return Overlap::outside;
+        return merged(volume, box) == volume ? Overlap::inside : Overlap::partial;
+    };
+}
+
+std::vector<std::uint32_t> found(const BoundsTree& tree, const Aabb& volume) {
+    std::vector<std::uint32_t> items;
+    tree.visit(touching(volume), [&](std::uint32_t i) { items.push_back(i); });
+    std::sort(items.begin(), items.end());
+    return items;
+}
+
+std::vector<std::uint32_t> wanted(const std::vector<Aabb>& boxes, const Aabb& volume) {
+    std::vector<std::uint32_t> items;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i)
+        if (overlaps(volume, boxes[i])) items.push_back(i);
+    return items;
+}
+
+TEST(BoundsTree, FindsWhatLookingAtEveryBoxFinds) {
+    Boxes random(print_seed());
+    for (const std::size_t count : {0u, 1u, 2u, 4u, 5u, 17u, 300u}) {
+        const std::vector<Aabb> boxes = random.boxes(count);
+        BoundsTree tree;
+        build(tree, boxes);
+        EXPECT_EQ(tree.size(), count);
+        for (int round = 0; round < 200; ++round) {
+            const Aabb volume = random.box(120.0, 60.0);
+            EXPECT_EQ(found(tree, volume), wanted(boxes, volume));
+        }
+    }
+}
+
+TEST(BoundsTree, FindsTheSameAfterAnyMovesAsATreeBuiltAnew) {
+    Boxes random(print_seed());
+    for (const std::size_t moves : {1u, 5u, 400u}) {
+        std::vector<Aabb> boxes = random.boxes(400);
+        BoundsTree tree;
+        build(tree, boxes);
+        for (int round = 0; round < 60; ++round) {
+            for (std::size_t k = 0; k < moves; ++k) {
+                const std::size_t i = (k * 37 + static_cast<std::size_t>(round) * 11) % boxes.size();
+                boxes[i] = random.box(100.0 + round, 1.0 + round % 7);
+                tree.move(static_cast<std::uint32_t>(i), boxes[i]);
+            }
+            tree.refit();
+            const Aabb volume = random.box(120.0, 60.0);
+            ASSERT_EQ(found(tree, volume), wanted(boxes, volume)) << moves << " moves, round " << round;
+        }
+    }
+}
+
+TEST(BoundsTree, AMoveThatIsNotRefittedIsAMistakeTheseTestsNotice) {
+    Boxes random(3);
+    std::vector<Aabb> boxes = random.boxes(100);
+    BoundsTree tree;
+    build(tree, boxes);
+    boxes[7] = {glm::dvec3(500.0), glm::dvec3(501.0)};
+    tree.move(7, boxes[7]);
+    EXPECT_NE(found(tree, boxes[7]), wanted(boxes, boxes[7]));
+    tree.refit();
+    EXPECT_EQ(found(tree, boxes[7]), wanted(boxes, boxes[7]));
+}
+
+/// How many boxes a search looks at.
+std::size_t cost(const BoundsTree& tree, const Aabb& volume) {
+    std::size_t looks = 0;
+    const auto classify = touching(volume);
+    tree.visit(
+        [&](const Aabb& box) {
+            ++looks;
+            return classify(box);
+        },
+        [](std::uint32_t) {});
+    return looks;
+}
+
+TEST(BoundsTree, LooksAtFewBoxes) {
+    Boxes random(5);
+    BoundsTree tree;
+    build(tree, random.boxes(100000));
+    EXPECT_LT(cost(tree, {glm::dvec3(0.0), glm::dvec3(2.0)}), 300u);
+    EXPECT_EQ(cost(tree, {glm::dvec3(-200.0), glm::dvec3(200.0)}), 1u) << "all inside: one look at the root";
+    EXPECT_EQ(cost(tree, {glm::dvec3(300.0), glm::dvec3(301.0)}), 1u);
+}
+
+TEST(BoundsTree, IsBuiltAgainWhenMovesHaveMadeItLoose) {
+    Boxes random(6);
+    std::vector<Aabb> boxes = random.boxes(2000);
+    BoundsTree tree, fresh;
+    build(tree, boxes);
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) tree.move(i, boxes[i] = random.box(100.0, 1.0));
+    tree.refit();
+    build(fresh, boxes);
+    const Aabb volume{glm::dvec3(0.0), glm::dvec3(20.0)};
+    EXPECT_EQ(cost(tree, volume), cost(fresh, volume));
+}
+
+TEST(BoundsTree, OneThatFliesOffLeavesTheTreeAsItIs) {
+    Boxes random(8);
+    std::vector<Aabb> boxes = random.boxes(2000);
+    BoundsTree tree;
+    build(tree, boxes);
+    const Aabb volume{glm::dvec3(0.0), glm::dvec3(20.0)};
+    const std::size_t before = cost(tree, volume);
+    tree.move(9, {glm::dvec3(1e8), glm::dvec3(1e8 + 1.0)});
+    tree.refit();
+    EXPECT_LE(cost(tree, volume), before + 30);
+}
+
+TEST(BoundsTree, EmptyBoxesAreNeverFoundAndMayComeBack) {
+    std::vector<Aabb> boxes(9);
+    boxes[3] = {glm::dvec3(0.0), glm::dvec3(1.0)};
+    BoundsTree tree;
+    build(tree, boxes);
+    const Aabb everything{glm::dvec3(-1e9), glm::dvec3(1e9)};
+    EXPECT_EQ(found(tree, everything), std::vector<std::uint32_t>{3});
+    tree.move(3, {});
+    tree.move(5, {glm::dvec3(7.0), glm::dvec3(7.0)});
+    tree.refit();
+    EXPECT_EQ(found(tree, everything), std::vector<std::uint32_t>{5});
+}
+
+TEST(BoundsTree, EqualBoxesAreTakenApartAllTheSame) {
+    const std::vector<Aabb> boxes(1000, Aabb{glm::dvec3(1.0), glm::dvec3(2.0)});
+    BoundsTree tree;
+    build(tree, boxes);
+    EXPECT_EQ(found(tree, boxes[0]).size(), boxes.size());
+    EXPECT_TRUE(found(tree, {glm::dvec3(3.0), glm::dvec3(4.0)}).empty());
+}
+
+TEST(BoundsTree, AllocatesNothingOnceItHasHeldAsMany) {
+    Boxes random(9);
+    std::vector<Aabb> boxes = random.boxes(500);
+    const std::vector<Aabb> others = random.boxes(400);
+    BoundsTree tree;
+    const auto use = [&] {
+        build(tree, boxes);
+        for (std::uint32_t i = 0; i < others.size(); ++i) tree.move(i, others[i]);
+        tree.refit();
+        build(tree, others);
+    };
+    use();
+    use();
+    const std::size_t before = allocation_count();
+    use();
+    EXPECT_EQ(allocation_count(), before);
+}
+
+}  // namespace
+}  // namespace gnomon::math
