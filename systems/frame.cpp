@@ -47,7 +47,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const gl::SubmitResult result = device_.submit(commands_);
     shadows_->commit(snapshot_, result.failure == gl::Failure::none);
     if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
-    report_.failure = result.failure;
+    if (result.failure != gl::Failure::none) report_.failure = result.failure;
     collect_timings();
 }
 

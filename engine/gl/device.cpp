@@ -93,8 +93,6 @@ const char* to_text(Failure failure) {
             return "compile_failed";
         case Failure::link_failed:
             return "link_failed";
-        case Failure::map_failed:
-            return "map_failed";
         case Failure::context_lost:
             return "context_lost";
     }

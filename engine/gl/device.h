@@ -76,6 +76,7 @@ struct TargetDesc {
     bool operator==(const TargetDesc&) const = default;
 };
 
+/// No device maps memory: uploads and readbacks are copies, so there is no pointer that could be null.
 enum class Failure : std::uint8_t {
     none,
     out_of_memory,
@@ -83,7 +84,6 @@ enum class Failure : std::uint8_t {
     incomplete_target,
     compile_failed,
     link_failed,
-    map_failed,
     context_lost
 };
 const char* to_text(Failure failure);

@@ -110,11 +110,15 @@ DeviceInfo RecordingDevice::default_info() {
 }
 
 void RecordingDevice::fail_call(std::uint64_t index, Failure failure) { failing_calls_[index] = failure; }
+void RecordingDevice::fail_from(std::uint64_t index, Failure failure, bool submissions) {
+    lasting_fault_ = {index, failure, submissions};
+}
 void RecordingDevice::fail_label(std::string text, Failure failure) {
     failing_labels_.emplace_back(std::move(text), failure);
 }
 void RecordingDevice::stop_failing() {
     failing_calls_.clear();
+    lasting_fault_.reset();
     failing_labels_.clear();
 }
 std::uint64_t RecordingDevice::calls() const { return calls_; }
@@ -169,9 +173,18 @@ void RecordingDevice::check_leaks() {
 
 const DeviceInfo& RecordingDevice::info() const { return info_; }
 
-std::optional<Failure> RecordingDevice::injected(const std::string* label) {
-    const std::uint64_t index = calls_++;
+std::optional<Failure> RecordingDevice::injected(Call call, const std::string* label) {
+    const std::optional<Failure> failure = lost_ ? Failure::context_lost : scheduled(calls_, call, label);
+    ++calls_;
+    if (failure == Failure::context_lost) lost_ = true;
+    return failure;
+}
+
+std::optional<Failure> RecordingDevice::scheduled(std::uint64_t index, Call call, const std::string* label) const {
     if (const auto at = failing_calls_.find(index); at != failing_calls_.end()) return at->second;
+    if (lasting_fault_ && index >= lasting_fault_->first && (call == Call::creation || lasting_fault_->submissions)) {
+        return lasting_fault_->failure;
+    }
     if (label == nullptr) return std::nullopt;
     for (const auto& [text, failure] : failing_labels_) {
         if (label->find(text) != std::string::npos) return failure;
@@ -201,7 +214,7 @@ Created<H> RecordingDevice::refuse(Kind kind, const std::string& label, std::uin
 
 Created<TextureHandle> RecordingDevice::create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) {
     const auto kind = Kind::create_texture;
-    const std::optional<Failure> failure = injected(&desc.label);
+    const std::optional<Failure> failure = injected(Call::creation, &desc.label);
     const Failure checked = check_texture(desc, info_, pixels.size());
     if (checked != Failure::none) {
         find(Misuse::bad_description, quoted(desc.label, "size, layers, mips or pixels"));
@@ -212,7 +225,7 @@ Created<TextureHandle> RecordingDevice::create_texture(const TextureDesc& desc, 
 }
 
 Created<SamplerHandle> RecordingDevice::create_sampler(const SamplerDesc& desc) {
-    if (const auto failure = injected(nullptr)) {
+    if (const auto failure = injected(Call::creation, nullptr)) {
         return refuse<SamplerHandle>(Kind::create_sampler, desc.label, 0, *failure);
     }
     return admit<SamplerHandle>(Kind::create_sampler, objects_.samplers, desc.label, desc, 0);
@@ -220,7 +233,7 @@ Created<SamplerHandle> RecordingDevice::create_sampler(const SamplerDesc& desc) 
 
 Created<BufferHandle> RecordingDevice::create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) {
     const auto kind = Kind::create_buffer;
-    const std::optional<Failure> failure = injected(nullptr);
+    const std::optional<Failure> failure = injected(Call::creation, nullptr);
     const Failure checked = check_buffer(desc, bytes.size());
     if (checked != Failure::none) {
         find(Misuse::bad_description, quoted(desc.label, "size or bytes"));
@@ -234,7 +247,7 @@ Created<BufferHandle> RecordingDevice::create_buffer(const BufferDesc& desc, std
 
 Created<ProgramHandle> RecordingDevice::create_program(const ProgramDesc& desc) {
     const auto kind = Kind::create_program;
-    const std::optional<Failure> failure = injected(&desc.label);
+    const std::optional<Failure> failure = injected(Call::creation, &desc.label);
     if (desc.vertex.empty()) {
         find(Misuse::bad_description, quoted(desc.label, "no vertex source"));
         return refuse<ProgramHandle>(kind, desc.label, 0, failure.value_or(Failure::compile_failed));
@@ -245,7 +258,7 @@ Created<ProgramHandle> RecordingDevice::create_program(const ProgramDesc& desc) 
 
 Created<TargetHandle> RecordingDevice::create_target(const TargetDesc& desc) {
     const auto kind = Kind::create_target;
-    const std::optional<Failure> failure = injected(&desc.label);
+    const std::optional<Failure> failure = injected(Call::creation, &desc.label);
     Failure checked = Failure::none;
     const auto check = [&](const Attachment& attachment, bool as_depth) {
         const TextureDesc* texture = find_value(objects_.textures, attachment.texture.id);
@@ -302,7 +315,7 @@ void RecordingDevice::destroy(ProgramHandle h) { remove(Kind::destroy_program, o
 void RecordingDevice::destroy(TargetHandle h) { remove(Kind::destroy_target, objects_.targets, h.id); }
 
 SubmitResult RecordingDevice::submit(const CommandList& list) {
-    const Failure failure = injected(nullptr).value_or(Failure::none);
+    const Failure failure = injected(Call::submission, nullptr).value_or(Failure::none);
     const std::uint64_t submission = submitted_++;
     const std::vector<std::uint32_t> timers = check_list(list, info_, objects_, findings_);
     if (timing_ != TimingMode::off) {

@@ -92,7 +92,10 @@ public:
 
     /// Fails the call whose number (counted over all create_* and submit calls from construction, first is 0) is
     /// `index`.
+    /// A call that fails by context_lost loses the context: every later one fails alike, for good.
     void fail_call(std::uint64_t index, Failure failure);
+    /// Fails that call and every later one until stop_failing(); without `submissions`, submit calls succeed.
+    void fail_from(std::uint64_t index, Failure failure, bool submissions);
     /// Fails every create_texture, create_target and create_program whose label contains `text`.
     void fail_label(std::string text, Failure failure);
     void stop_failing();
@@ -132,7 +135,9 @@ public:
     void finish() override;
 
 private:
-    std::optional<Failure> injected(const std::string* label);
+    enum class Call : std::uint8_t { creation, submission };
+    std::optional<Failure> injected(Call call, const std::string* label);
+    std::optional<Failure> scheduled(std::uint64_t index, Call call, const std::string* label) const;
     void find(Misuse misuse, std::string detail);
     void log(ResourceCall::Kind kind, std::uint32_t id, std::string label, std::uint64_t bytes, bool failed);
     template <class H, class Map, class Value>
@@ -147,7 +152,14 @@ private:
     std::uint32_t next_id_ = 1;  // one row of ids for all kinds: a handle cast to another kind is unknown
     std::uint64_t calls_ = 0;
     std::uint64_t submitted_ = 0;
+    struct LastingFault {
+        std::uint64_t first;
+        Failure failure;
+        bool submissions;
+    };
     std::map<std::uint64_t, Failure> failing_calls_;
+    std::optional<LastingFault> lasting_fault_;
+    bool lost_ = false;
     std::vector<std::pair<std::string, Failure>> failing_labels_;
     std::vector<ResourceCall> log_;
     std::vector<CommandList> lists_;

@@ -39,7 +39,12 @@ void LightPrograms::make(Entry& entry, const std::string& label, const char* ver
     files.push_back({"row.glsl", row_text});
     const auto v = gl::expand_shader(files, vertex, defines);
     const auto f = gl::expand_shader(files, fragment, defines);
-    if (v && f) entry.program = device_.create_program({label, v.value(), f.value()}).handle;
+    failure_ = gl::Failure::compile_failed;
+    if (v && f) {
+        const auto made = device_.create_program({label, v.value(), f.value()});
+        entry.program = made.handle;
+        failure_ = made.failure;
+    }
     if (!entry.program) entry.retry.failed(frame_);
 }
 
@@ -68,22 +73,24 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput
     return entry.program;
 }
 
-gl::ProgramHandle LightPrograms::plain(Entry& entry, const char* label, const char* vertex, const char* fragment) {
-    if (is_due(entry)) make(entry, label, vertex, fragment, {}, nullptr);
+gl::ProgramHandle LightPrograms::needed(Entry& entry, const char* label, const char* vertex, const char* fragment) {
+    if (!entry.program) make(entry, label, vertex, fragment, {}, nullptr);
     return entry.program;
 }
 
 gl::ProgramHandle LightPrograms::surface() {
-    return plain(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag");
+    return needed(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag");
 }
 gl::ProgramHandle LightPrograms::blended_base() {
-    return plain(blended_base_, "blended base", "lighting/surface.vert", "lighting/blended.frag");
+    if (is_due(blended_base_))
+        make(blended_base_, "blended base", "lighting/surface.vert", "lighting/blended.frag", {}, nullptr);
+    return blended_base_.program;
 }
 gl::ProgramHandle LightPrograms::luminance() {
-    return plain(luminance_, "luminance", "shared/fullscreen.vert", "lighting/luminance.frag");
+    return needed(luminance_, "luminance", "shared/fullscreen.vert", "lighting/luminance.frag");
 }
 gl::ProgramHandle LightPrograms::tonemap() {
-    return plain(tonemap_, "tonemap", "shared/fullscreen.vert", "lighting/tonemap.frag");
+    return needed(tonemap_, "tonemap", "shared/fullscreen.vert", "lighting/tonemap.frag");
 }
 
 }  // namespace gnomon::lighting

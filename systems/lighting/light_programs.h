@@ -13,7 +13,8 @@ namespace gnomon::lighting {
 enum class RowOutput : std::uint8_t { picture, visibility, blended };
 
 /// Programs of the lighting system, made when first called for; one per (row, output). Owns them.
-/// One that could not be made is tried again after Retry::kFrames. Finding one that exists allocates nothing.
+/// One that could not be made is tried again after Retry::kFrames; one that no picture can do without, whenever it is
+/// called for: there is no frame to be spared. Finding one that exists allocates nothing.
 class LightPrograms {
 public:
     explicit LightPrograms(gl::Device& device) : device_(device) {}
@@ -30,6 +31,7 @@ public:
     gl::ProgramHandle blended_base();
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
+    gl::Failure failure() const { return failure_; }  // of the last creation
 
 private:
     struct Entry {
@@ -44,12 +46,13 @@ private:
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
     void make(Entry& entry, const std::string& label, const char* vertex, const char* fragment,
               std::span<const std::string> defines, const shadow::ProgramRow* row);
-    gl::ProgramHandle plain(Entry& entry, const char* label, const char* vertex, const char* fragment);
+    gl::ProgramHandle needed(Entry& entry, const char* label, const char* vertex, const char* fragment);
 
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, blended_base_, luminance_, tonemap_;
     std::uint64_t frame_ = 0;
+    gl::Failure failure_ = gl::Failure::none;
 };
 
 }  // namespace gnomon::lighting

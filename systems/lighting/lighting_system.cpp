@@ -57,23 +57,28 @@ gl::Rect LightingSystem::viewport() const {
     return {0, 0, static_cast<std::int32_t>(size_px().x), static_cast<std::int32_t>(size_px().y)};
 }
 
-bool LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
-    programs_.next_frame();
-    if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return false;
-    if (!point_sampler_)
-        point_sampler_ =
-            device_.create_sampler({"surface", false, false, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
-    if (!mip_sampler_)
-        mip_sampler_ =
-            device_.create_sampler({"luminance", true, true, false, gl::Wrap::clamp, gl::Wrap::clamp}).handle;
+/// Makes what is missing of all that no picture can do without; why not, if it cannot.
+gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
+    if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return targets_.failure();
+    const auto ensure = [&](gl::SamplerHandle& sampler, const gl::SamplerDesc& desc) {
+        if (sampler) return gl::Failure::none;
+        const auto made = device_.create_sampler(desc);
+        sampler = made.handle;
+        return made.failure;
+    };
+    gl::Failure failure = ensure(point_sampler_, {.label = "surface"});
+    if (failure == gl::Failure::none)
+        failure = ensure(mip_sampler_, {.label = "luminance", .linear = true, .mipmaps = true});
+    if (failure != gl::Failure::none) return failure;
     const std::uint32_t alignment = device_.info().uniform_alignment;
     ambient_offset_ = aligned(sizeof(shadow::CameraRecord), alignment);
     exposure_offset_ = ambient_offset_ + aligned(sizeof(AmbientRecord), alignment);
     lights_offset_ = exposure_offset_ + aligned(sizeof(ExposureRecord), alignment);
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
-    return point_sampler_ && mip_sampler_ && programs_.surface() && programs_.luminance() && programs_.tonemap() &&
-           items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
-           uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * inputs.lights.size());
+    if (!programs_.surface() || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
+    const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
+                      uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * inputs.lights.size());
+    return room ? gl::Failure::none : gl::Failure::out_of_memory;
 }
 
 void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first,
@@ -248,7 +253,8 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
     list.add(gl::EndGroup{});
 }
 
-void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list) {
+void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
+                                    FrameReport& report) {
     if (blended_.empty() || !programs_.blended_base()) return;
     list.add(gl::BeginGroup{"blended"});
     list.add(gl::BeginPass{targets_.blended_target, viewport(), false, 0.0f, false, {}});
@@ -267,7 +273,13 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
                                     draw.item_count};
         list.add(meshes);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-            state.program = row_program(inputs.lights[i].row, RowOutput::blended).program;
+            const RowProgram row = row_program(inputs.lights[i].row, RowOutput::blended);
+            LightReport& light = report.lights[inputs.lights[i].light];
+            if (row.fell_back && light.state != LightState::skipped) {
+                light.state = LightState::degraded;  // its shadow still falls on all that is not blended
+                light.reason = Reason::lighting_program_failed;
+            }
+            state.program = row.program;
             if (!state.program || inputs.lights[i].screen.width <= 0) continue;
             state.blend = gl::Blend::add;
             list.add(gl::SetPipeline{state});
@@ -309,11 +321,18 @@ void LightingSystem::record_finish(gl::CommandList& list) {
 bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                             const LightingSettings& settings, gl::CommandList& list, FrameReport& report) {
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
-    if (!prepare(inputs, scene)) return false;
+    programs_.next_frame();
+    report.failure = prepare(inputs, scene);
+    if (report.failure != gl::Failure::none) {
+        // What was freed is only given back when the device has done its work: then there may be room.
+        device_.finish();
+        report.failure = prepare(inputs, scene);
+        if (report.failure != gl::Failure::none) return false;
+    }
     upload(inputs, scene, settings, list);
     record_surfaces(gpu, list);
     record_lights(inputs, scene, list, report);
-    record_blended(inputs, gpu, list);
+    record_blended(inputs, gpu, list, report);
     record_finish(list);
     return true;
 }

@@ -44,7 +44,8 @@ public:
     LightingSystem& operator=(const LightingSystem&) = delete;
 
     /// Records the picture of one consumer. Lights whose program fails are drawn unshadowed, or not at all, and
-    /// reported. False if the buffers for the picture could not be had: nothing was recorded then.
+    /// reported. False if something that no picture can do without could not be had: nothing was recorded then, and
+    /// report.failure says why.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
 
@@ -74,7 +75,7 @@ private:
         bool fell_back = false;
     };
     RowProgram row_program(const shadow::ProgramRow& row, RowOutput output);
-    bool prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
+    gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
                       const ConsumerItem& consumer);
@@ -83,7 +84,8 @@ private:
     void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
     void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, gl::CommandList& list,
                        FrameReport& report);
-    void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list);
+    void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
+                        FrameReport& report);
     void record_finish(gl::CommandList& list);
     void bind_surface_textures(gl::CommandList& list) const;
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;

@@ -4,7 +4,9 @@ namespace gnomon::lighting {
 
 bool LightingTargets::make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width,
                            std::uint32_t height, std::uint32_t mips) {
-    texture = device_.create_texture({label, gl::TextureKind::flat, format, width, height, 1, mips}, {}).handle;
+    const auto made = device_.create_texture({label, gl::TextureKind::flat, format, width, height, 1, mips}, {});
+    texture = made.handle;
+    failure_ = made.failure;
     return static_cast<bool>(texture);
 }
 
@@ -12,7 +14,9 @@ bool LightingTargets::make(gl::TargetHandle& target, const char* label,
                            std::initializer_list<gl::TextureHandle> colours, gl::TextureHandle depth_texture) {
     gl::TargetDesc desc{label, {}, {depth_texture, -1}};
     for (const gl::TextureHandle c : colours) desc.colours.push_back({c, -1});
-    target = device_.create_target(desc).handle;
+    const auto made = device_.create_target(desc);
+    target = made.handle;
+    failure_ = made.failure;
     return static_cast<bool>(target);
 }
 

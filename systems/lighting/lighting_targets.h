@@ -23,6 +23,7 @@ public:
     /// Made when first asked for: nobody pays for a visibility picture that nobody reads.
     bool ensure_visibility();
     glm::uvec2 size_px() const { return size_px_; }
+    gl::Failure failure() const { return failure_; }  // of the last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{};
     gl::TargetHandle surface_target{}, light_target{}, blended_target{}, luminance_target{}, picture_target{},
@@ -37,6 +38,7 @@ private:
 
     gl::Device& device_;
     glm::uvec2 size_px_{0, 0};
+    gl::Failure failure_ = gl::Failure::none;
 };
 
 }  // namespace gnomon::lighting

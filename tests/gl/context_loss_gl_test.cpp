@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
 #include "tests/soak/soak_world.h"
+#include "tests/system/fault_scenes.h"
 #include "tests/unit/math/random_seed.h"
 
 // The device's memory is never the only place where anything lives: after the context is gone, a new one shows the
@@ -43,33 +46,39 @@ struct Gpu {
 };
 
 /// The pictures of `kFrames` frames of a world in motion; the context is destroyed before frame `lost_before`.
-std::vector<Picture> film(std::uint64_t seed, int lost_before) {
-    const assets::MeshLibrary library = test_library();
-    SoakWorld world(seed);
-    std::optional<Gpu> gpu = Gpu::make(library);
+std::vector<Picture> film(const FaultScene& scene, int lost_before) {
+    std::optional<Gpu> gpu = Gpu::make(*scene.library);
     std::vector<Picture> pictures;
-    constexpr int kSettling = 100;  // until there are lights and casters
-    for (int i = 0; i < kSettling; ++i) world.churn();
     for (int i = 0; i < kFrames; ++i) {
         if (i == lost_before) {
             if (gpu) gpu->lose();
-            gpu = Gpu::make(library);
+            gpu = Gpu::make(*scene.library);
         }
         if (!gpu) {
             ADD_FAILURE() << "no context";
             return pictures;
         }
-        for (int k = 0; k < 3; ++k) world.churn();
-        gpu->frame->run(world.registry(), {.viewport_px = {64, 64}, .exposure_ev = {}});
+        scene.play(i);
+        gpu->frame->run(*scene.registry, {.viewport_px = {64, 64}, .exposure_ev = {}});
         EXPECT_STREQ(gl::to_text(gpu->frame->report().failure), "none") << "frame " << i;
         EXPECT_TRUE(gpu->frame->read_picture(pictures.emplace_back())) << "frame " << i;
     }
     return pictures;
 }
 
-TEST(ContextLoss, ANewContextShowsTheSamePicturesFromTheSameWorld) {
-    const std::uint64_t seed = print_seed();
-    const std::vector<Picture> unbroken = film(seed, kFrames), broken = film(seed, kLostBefore);
+/// A world that changes at random, the same way for the same seed. Plays once.
+FaultScene random_scene(std::uint64_t seed) {
+    const auto world = std::make_shared<SoakWorld>(seed);
+    constexpr int kSettling = 100;  // until there are lights and casters
+    for (int i = 0; i < kSettling; ++i) world->churn();
+    const auto play = [world](int) {
+        for (int k = 0; k < 3; ++k) world->churn();
+    };
+    return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry()}, play};
+}
+
+void expect_unbroken(const std::function<FaultScene()>& scene) {
+    const std::vector<Picture> unbroken = film(scene(), kFrames), broken = film(scene(), kLostBefore);
     ASSERT_EQ(unbroken.size(), static_cast<std::size_t>(kFrames));
     ASSERT_EQ(broken.size(), unbroken.size());
     for (std::size_t i = 0; i < unbroken.size(); ++i) EXPECT_EQ(broken[i], unbroken[i]) << "frame " << i;
@@ -77,6 +86,13 @@ TEST(ContextLoss, ANewContextShowsTheSamePicturesFromTheSameWorld) {
     int changes = 0;
     for (std::size_t i = 1; i < unbroken.size(); ++i) changes += unbroken[i] != unbroken[i - 1];
     EXPECT_GT(changes, kFrames / 2);
+}
+
+TEST(ContextLoss, ANewContextShowsTheSamePicturesOfTheBuiltInScene) { expect_unbroken(courtyard_scene); }
+
+TEST(ContextLoss, ANewContextShowsTheSamePicturesOfARandomWorld) {
+    const std::uint64_t seed = print_seed();
+    expect_unbroken([seed] { return random_scene(seed); });
 }
 
 }  // namespace

@@ -97,9 +97,31 @@ TEST_F(RecordingTest, TheChosenCallFailsOnceAndLeavesNothing) {
 }
 
 TEST_F(RecordingTest, ASubmissionCanFail) {
-    device.fail_call(device.calls(), Failure::context_lost);
-    EXPECT_EQ(device.submit({}).failure, Failure::context_lost);
+    device.fail_call(device.calls(), Failure::out_of_memory);
+    EXPECT_EQ(device.submit({}).failure, Failure::out_of_memory);
     EXPECT_EQ(device.submit({}).failure, Failure::none);
+}
+
+TEST_F(RecordingTest, ALostContextStaysLost) {
+    device.fail_call(device.calls(), Failure::context_lost);
+    EXPECT_EQ(device.create_texture({.label = "b"}, {}).failure, Failure::context_lost);
+    device.stop_failing();
+    EXPECT_EQ(device.create_sampler({.label = "c"}).failure, Failure::context_lost);
+    EXPECT_EQ(device.submit({}).failure, Failure::context_lost);
+}
+
+TEST_F(RecordingTest, ALastingFaultCanSpareSubmissions) {
+    device.fail_from(device.calls() + 1, Failure::out_of_memory, false);
+    EXPECT_TRUE(device.create_sampler({.label = "before"}));
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_EQ(device.create_buffer({.label = "a", .size = 4}, {}).failure, Failure::out_of_memory);
+        EXPECT_EQ(device.submit({}).failure, Failure::none);
+    }
+    device.fail_from(device.calls(), Failure::invalid_value, true);
+    EXPECT_EQ(device.submit({}).failure, Failure::invalid_value);
+    device.stop_failing();
+    EXPECT_EQ(device.submit({}).failure, Failure::none);
+    EXPECT_TRUE(device.create_buffer({.label = "a", .size = 4}, {}));
 }
 
 TEST_F(RecordingTest, DestroyingCountsAsNoCall) {

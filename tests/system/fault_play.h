@@ -1,0 +1,70 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/gl/device_recording.h"
+#include "systems/frame.h"
+#include "tests/system/fault_scenes.h"
+
+namespace gnomon {
+
+/// How long a fault lasts: for one call, or until the last faulty frame is over, for whatever creates or for all calls.
+enum class FaultSpan : std::uint8_t { once, creations, all_calls };
+
+struct Fault {
+    std::uint64_t call = 0;
+    gl::Failure failure = gl::Failure::out_of_memory;
+    FaultSpan span = FaultSpan::once;
+};
+
+/// Plays a scene on recording devices, first without any fault, then as often as wanted with one each.
+class FaultPlay {
+public:
+    explicit FaultPlay(FaultScene scene);
+
+    /// create_* and submit calls of set-up and the faulty frames, if nothing fails.
+    std::size_t calls() const { return calls_.size(); }
+    bool is_submission(std::uint64_t call) const { return calls_.at(call).is_submission; }
+
+    /// Fails the test unless, with this fault, set-up is refused whole or every frame is delivered, each light that
+    /// lost something says so, the shadows come back, and nothing is misused or left behind.
+    void check(const Fault& fault);
+
+    static constexpr int kFaultyFrames = 3, kMostFramesToRecover = 60;
+
+private:
+    struct Call {
+        int frame;  // -1: set-up
+        bool is_submission;
+        std::string label;
+    };
+    /// What one light got of one frame.
+    struct LightOutcome {
+        std::string name;
+        LightKind kind;
+        LightState state;
+        Reason reason;
+        std::uint64_t bytes;
+        bool samples_map;  // in its own pass
+    };
+    /// A device and what lives on it.
+    struct Host {
+        std::unique_ptr<gl::RecordingDevice> device = std::make_unique<gl::RecordingDevice>();
+        std::unique_ptr<Frame> frame;
+    };
+
+    bool set_up(Host& host, const Fault& fault);
+    std::vector<LightOutcome> run_frame(Host& host, int index);
+    void expect_delivered(const Host& host, int index, const Fault& fault, const std::vector<LightOutcome>& lights);
+    void expect_consistent(const std::vector<LightOutcome>& lights, int index, bool picture) const;
+    void expect_named(const std::vector<LightOutcome>& lights, const Call& call) const;
+    void expect_recovery(Host& host);
+    static void expect_nothing_left(Host& host);
+
+    FaultScene scene_;
+    std::vector<Call> calls_;
+    std::vector<std::vector<LightOutcome>> sound_;  // by frame
+};
+
+}  // namespace gnomon

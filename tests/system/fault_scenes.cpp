@@ -1,0 +1,46 @@
+#include "tests/system/fault_scenes.h"
+
+#include <stdexcept>
+
+#include "sample_game/motion.h"
+#include "sample_game/scene_source.h"
+#include "sample_game/spawn.h"
+#include "tests/system/test_world.h"
+
+namespace gnomon {
+namespace {
+
+constexpr double kFrame_s = 1.0 / 60.0;
+
+}  // namespace
+
+FaultScene box_scene() {
+    const auto world = std::make_shared<TestWorld>();
+    const TestWorld::Stage stage = world->add_stage();
+    world->add_mesh(kMaskedBox, {1.5, 1, 0}, true);
+    world->add_mesh(kBlendedBox, {-1.5, 1, 0}, false);
+    world->add_light(LightKind::directional, kLightPlace_m, "sun");
+    world->add_light(LightKind::spot, kLightPlace_m, "spot");
+    world->add_light(LightKind::point, {0, 4, 0}, "point");
+    const auto newcomer = std::make_shared<ecs::Entity>();
+    const auto play = [world, newcomer, box = stage.box](int frame) {
+        if (frame == 0 && world->registry.alive(*newcomer)) world->registry.destroy(*newcomer);
+        if (frame == 1) *newcomer = world->add_mesh(kBox, {0, 1, 1.5}, true);
+        world->move(box, {0.01 * frame, 1, 0});
+    };
+    return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
+}
+
+FaultScene courtyard_scene() {
+    auto data = game::load_game_scene();
+    if (!data) throw std::runtime_error(to_line(data.error()));
+    const auto library = std::make_shared<assets::MeshLibrary>();
+    const auto registry = std::make_shared<ecs::Registry>();
+    const game::SpawnedScene scene = game::spawn_scene(std::move(data).value(), *registry, *library);
+    const auto play = [registry, moving = scene.moving](int frame) {
+        game::apply_motion(moving, frame * kFrame_s, *registry);
+    };
+    return {library, registry, play};
+}
+
+}  // namespace gnomon

@@ -1,0 +1,24 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "engine/assets/mesh_library.h"
+#include "engine/ecs/registry.h"
+
+namespace gnomon {
+
+/// A world in motion that can be played again and again from its first frame, each time in the same way.
+struct FaultScene {
+    std::shared_ptr<const assets::MeshLibrary> library;
+    std::shared_ptr<ecs::Registry> registry;
+    std::function<void(int frame)> play;  // brings the world to that frame, from the one before or to the first
+};
+
+/// A plane, boxes of every kind of material, a light of each kind; frame 1 brings one box more than the instance
+/// buffer holds.
+FaultScene box_scene();
+
+/// The built-in scene as the game loads it: sun, guard lamp and lantern with their shadows, all that moves moving.
+FaultScene courtyard_scene();
+
+}  // namespace gnomon
