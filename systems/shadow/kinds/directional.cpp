@@ -60,6 +60,9 @@ void override_from_eye(const ShadowDemand& demand, const SunEye& eye, Orthograph
     override_range(demand, near_m, far_m);
     box.near_m = near_m + eye_at_m;
     box.far_m = far_m + eye_at_m;
+    // A range that its own place rounds away.
+    const double least_m = (std::abs(box.near_m) + std::abs(box.far_m)) * kLeastExtent;
+    box.far_m = std::max(box.far_m, box.near_m + least_m);
 }
 
 /// One perspective view from the sun's eye.
