@@ -2,6 +2,7 @@
 
 #include "components/light_shadow.h"
 #include "engine/gl/device_gl45.h"
+#include "sample_game/debug_request.h"
 #include "sample_game/light_settings.h"
 #include "sample_game/number_text.h"
 #include "sample_game/picture_files.h"
@@ -34,6 +35,10 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
             for (const std::string& setting : line.settings) apply_setting(shadow, setting);
         });
     }
+    std::vector<std::string> shadowed;
+    for (const NamedEntity& light : world->scene.lights)
+        if (world->registry.has<LightShadow>(light.entity)) shadowed.push_back(light.name);
+    if (auto error = check_debug_light(line.debug, shadowed)) return *error;
     return world;
 }
 

@@ -26,7 +26,7 @@ struct GameWorld {
     std::vector<std::string> warnings;  // of the loader, one line each
 };
 
-/// Loads, spawns, applies --set, chooses the camera.
+/// Loads, spawns, applies --set, chooses the camera, finds the light of --debug.
 Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
 
 /// Whether every output named on the command line can be written; makes the folder of --visibility.

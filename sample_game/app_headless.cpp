@@ -12,7 +12,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
     Renderer renderer = std::move(made).value();
 
     std::unique_ptr<Gui> gui;
-    if (world.game) {
+    if (world.game || line.debug.view) {
         auto drawn = Gui::create(*renderer.device);
         if (!drawn) return drawn.error();
         gui = std::move(drawn).value();
@@ -20,6 +20,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
     FrameSettings settings;
     settings.viewport_px = line.size_px;
     settings.exposure_ev = line.exposure_ev;
+    settings.debug = line.debug;
     StatsFile stats(renderer.device->info().name);
     const bool to_the_end = line.demo && !line.frames && !line.time_s;
     const std::uint64_t frames = line.frames.value_or(1);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <glm/geometric.hpp>
 #include <thread>
@@ -7,6 +8,7 @@
 #include "engine/platform/context.h"
 #include "sample_game/app.h"
 #include "sample_game/fly_camera.h"
+#include "sample_game/gamepad.h"
 #include "sample_game/gui/gui.h"
 
 namespace gnomon::game {
@@ -87,26 +89,59 @@ void update_capture(const platform::Input& input, platform::Window& window, bool
     window.capture_mouse(captured);
 }
 
-/// One frame's worth of whatever runs: the game, or the motion of a scene and a walk through it.
-void advance(GameWorld& world, const CommandLine& line, const platform::Input& input, bool captured, double dt_s,
-             std::uint64_t frame, SceneClock& clock, FlyCamera& walker, const SceneSnapshot& last, Gui& gui) {
-    const bool stop_or_go = std::exchange(gui.toggle_motion, false);
-    if (world.game) {
-        GameInput wish = to_game_input(input, captured);
-        wish.toggle_pause = wish.toggle_pause != stop_or_go;
-        if (line.frames) world.game->play_demo_until(frame_time_s(line, frame, *line.frames));
-        else if (line.demo) world.game->advance_demo(frame > 0 ? dt_s : line.time_s.value_or(0.0));
-        else if (frame > 0) world.game->advance(dt_s, wish);
-        world.game->apply(world.registry);
-        return;
+/// Whatever runs in the window: the game, or the motion of a scene and a walk through it.
+class Play {
+public:
+    Play(GameWorld& world, const CommandLine& line)
+        : world_(world), line_(line), walker_(walking_speed(world.scene.bounds_ws)), clock_(line) {}
+
+    /// Goes on to the next frame. `look`: whether the mouse turns the head. `stop_or_go`: asked for by the panel.
+    void advance(const platform::Input& input, bool look, bool stop_or_go, double dt_s, const SceneSnapshot& last) {
+        if (world_.game)
+            advance_game(input, look, stop_or_go, dt_s);
+        else
+            advance_scene(input, look, stop_or_go, dt_s, last);
+        pads_ = input.gamepads;
+        ++frame_;
     }
-    if (pressed(input, platform::Key::p) != stop_or_go) clock.toggle_pause();
-    if (frame > 0) {
-        clock.advance(dt_s);
-        if (!last.consumers.empty()) walker.update(input, captured, dt_s, last.consumers.front(), world.registry);
+    /// Frames so far.
+    std::uint64_t frame() const { return frame_; }
+    bool moving() const { return world_.game ? world_.game->state().phase == Phase::playing : clock_.runs(); }
+    /// Scene time of the last frame.
+    double time_s() const {
+        return world_.game && !line_.frames ? world_.game->state().time_s() : clock_.time_s(frame_ - 1);
     }
-    if (frame == 0 || clock.runs()) apply_motion(world.scene.moving, clock.time_s(frame), world.registry);
-}
+
+private:
+    void advance_game(const platform::Input& input, bool look, bool stop_or_go, double dt_s) {
+        if (line_.frames) {
+            world_.game->play_demo_until(frame_time_s(line_, frame_, *line_.frames));
+        } else if (line_.demo) {
+            world_.game->advance_demo(frame_ > 0 ? dt_s : line_.time_s.value_or(0.0));
+        } else if (frame_ > 0) {
+            GameInput wish = together(to_game_input(input, look), gamepad_input(pads_, input.gamepads, dt_s));
+            wish.toggle_pause = wish.toggle_pause != stop_or_go;
+            world_.game->advance(dt_s, wish);
+        }
+        world_.game->apply(world_.registry);
+    }
+    void advance_scene(const platform::Input& input, bool look, bool stop_or_go, double dt_s,
+                       const SceneSnapshot& last) {
+        if (pressed(input, platform::Key::p) != stop_or_go) clock_.toggle_pause();
+        if (frame_ > 0) {
+            clock_.advance(dt_s);
+            if (!last.consumers.empty()) walker_.update(input, look, dt_s, last.consumers.front(), world_.registry);
+        }
+        if (frame_ == 0 || clock_.runs()) apply_motion(world_.scene.moving, clock_.time_s(frame_), world_.registry);
+    }
+
+    GameWorld& world_;
+    const CommandLine& line_;
+    FlyCamera walker_;
+    SceneClock clock_;
+    std::array<platform::Gamepad, platform::kMaxGamepads> pads_ = {};  // of the frame before
+    std::uint64_t frame_ = 0;
+};
 
 }  // namespace
 
@@ -123,15 +158,15 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
     if (!drawn) return drawn.error();
     Gui& gui = *drawn.value();
     StatsFile stats(renderer.device->info().name);
-    FlyCamera walker(walking_speed(world.scene.bounds_ws));
-    SceneClock clock(line);
+    gui.panel.debug = line.debug;
+    Play play(world, line);
     TitleMeter title;
     bool captured = false;
     Clock::time_point last = Clock::now();
-    std::uint64_t frame = 0;
-    while (!line.frames || frame < *line.frames) {
+    while (!line.frames || play.frame() < *line.frames) {
         const platform::Input& input = window.poll();
-        if (frame > 0 && wants_out(input)) break;  // the first frame is always drawn: there is something to write
+        if (play.frame() > 0 && wants_out(input))
+            break;  // the first frame is always drawn: there is something to write
         if (input.framebuffer_width == 0 || input.framebuffer_height == 0) {
             std::this_thread::sleep_for(kMinimisedPause);
             continue;
@@ -139,25 +174,26 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         const double dt_s = line.frames ? kFixedStep_s : std::min(seconds(Clock::now() - last), kLongestStep_s);
         last = Clock::now();
         if (pressed(input, platform::Key::f1)) {
-            gui.panel = !gui.panel;
-            set_timing(*renderer.device, gui.panel || line.stats);  // the panel shows times per light
+            gui.panel.shown = !gui.panel.shown;
+            set_timing(*renderer.device, gui.panel.shown || line.stats);  // the panel shows times per light
         }
-        update_capture(input, window, gui.panel, captured);
-        advance(world, line, input, captured, dt_s, frame, clock, walker, renderer.frame->snapshot(),
-                gui);
+        if (pressed(input, platform::Key::f2)) next_depth_view(world, gui.panel.debug);
+        update_capture(input, window, gui.panel.shown, captured);
+        play.advance(input, captured, std::exchange(gui.panel.toggle_motion, false), dt_s, renderer.frame->snapshot());
         settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
-        settings.shadows = gui.shadows;
+        settings.shadows = gui.panel.shadows;
+        settings.debug = gui.panel.debug;
+        gui.panel.moving = play.moving();
         renderer.frame->run(world.registry, settings);
+        if (renderer.frame->report().failure == gl::Failure::context_lost)
+            return Error{.message = "the graphics context was lost, and the window with it", .rule = "gl.context_lost"};
         gui.draw(world, *renderer.frame, settings.viewport_px, &input, dt_s, true);
         window.present();
-        if (frame == 0) log_warnings(world, renderer.frame->report(), log);
-        if (line.stats) {
-            const GameState* game = world.game ? &world.game->state() : nullptr;
-            const double time_s = game && !line.frames ? game->time_s() : clock.time_s(frame);
-            stats.add(renderer.frame->report(), frame, time_s, game);
-        }
+        if (play.frame() == 1) log_warnings(world, renderer.frame->report(), log);
+        if (line.stats)
+            stats.add(renderer.frame->report(), play.frame() - 1, play.time_s(),
+                      world.game ? &world.game->state() : nullptr);
         title.frame_done(window, world.game ? to_text(world.game->state().phase) : "", renderer.device->info().name);
-        ++frame;
     }
     return write_outputs(line, *renderer.frame, settings.viewport_px, stats);
 }

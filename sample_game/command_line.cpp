@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 
+#include "sample_game/debug_request.h"
 #include "sample_game/light_settings.h"
 #include "sample_game/number_text.h"
 
@@ -17,7 +18,7 @@ constexpr double kFramesPerSecond = 60.0;
 
 /// What was typed, before it is understood.
 struct Typed {
-    std::string scene, camera, size, frames, time, exposure, stats, screenshot, visibility;
+    std::string scene, camera, size, frames, time, exposure, stats, screenshot, visibility, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -42,11 +43,13 @@ void declare(CLI::App& app, Typed& typed) {
         ->expected(1)
         ->allow_extra_args(false)
         ->take_all();
-    app.add_flag("--list", typed.list, "print every key, filter and value that --set knows, and exit");
+    app.add_option("--debug", typed.debug, "NAME[:LIGHT[:MAP]]: a debug view over the picture, see --list");
+    app.add_flag("--list", typed.list, "print what --set and --debug know, and exit");
     app.footer(
         "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses,\n"
-        "F1 shows the lights and their settings, Esc quits.\n"
-        "The game, in a window without --scene, --camera, --frames and --time: cross the courtyard to the gate unseen;\n"
+        "F1 shows the lights and their settings, F2 their depth maps one light after the other, Esc quits.\n"
+        "The game, in a window without --scene, --camera, --frames and --time: cross the courtyard to the gate "
+        "unseen;\n"
         "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
 }
 
@@ -105,13 +108,18 @@ Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
     line.headless = typed.headless;
     line.demo = typed.demo;
     line.settings = typed.settings;
-    if (typed.list) line.print = list_settings();
+    if (typed.list) line.print = list_settings() + list_debug_views();
     if (app.count("--size") > 0)
         if (auto error = read_size(typed.size, line.size_px)) return *error;
     if (auto error = read_numbers(typed, app, line)) return *error;
     if (auto error = read_names(typed, app, line)) return *error;
     if (line.demo && (line.scene || line.camera))
         return wrong("--demo plays the built-in scene with its own camera: neither --scene nor --camera go with it");
+    if (app.count("--debug") > 0) {
+        Result<debug::Request> debug = read_debug_request(typed.debug);
+        if (!debug) return debug.error();
+        line.debug = std::move(debug).value();
+    }
     LightShadow any;
     for (const std::string& setting : typed.settings)
         if (auto error = apply_setting(any, setting)) return *error;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "systems/debug/debug_view.h"
 
 namespace gnomon::game {
 
@@ -21,11 +22,12 @@ struct CommandLine {
     std::optional<double> time_s;         // scene time of the last frame
     std::optional<float> exposure_ev;     // empty: automatic
     std::optional<std::filesystem::path> stats, screenshot, visibility;
+    debug::Request debug;               // its light is not checked against a scene
     std::vector<std::string> settings;  // KEY=VALUE, each known to be right
     std::string print;                  // not empty (--help, --list): print it and exit with 0
 };
 
-/// Errors: rules "command_line" and those of apply_setting(); the message is one line.
+/// Errors: rules "command_line" and those of apply_setting() and read_debug_request(); the message is one line.
 Result<CommandLine> parse_command_line(int argc, const char* const* argv);
 
 /// Whether the game is played: --demo, or a window without --scene, --camera, --frames and --time.

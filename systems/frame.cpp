@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "systems/debug/debug_painter.h"
 #include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
 #include "systems/shadow/shadow_system.h"
@@ -20,7 +21,8 @@ Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, GpuScene sc
       library_(library),
       gpu_scene_(std::move(scene)),
       shadows_(std::make_unique<shadow::ShadowSystem>(device)),
-      lighting_(std::make_unique<lighting::LightingSystem>(device)) {}
+      lighting_(std::make_unique<lighting::LightingSystem>(device)),
+      debug_(std::make_unique<debug::DebugPainter>(device)) {}
 
 Frame::~Frame() = default;
 
@@ -37,6 +39,8 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const shadow::ShadowFrame& shadows = shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
     has_picture_ = !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                                                 {settings.exposure_ev}, commands_, report_);
+    if (has_picture_)
+        debug_->record(settings.debug, snapshot_, shadows, lighting_->picture_target(), settings.viewport_px, commands_);
     if (has_picture_ && settings.present) {
         const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
                            static_cast<std::int32_t>(settings.viewport_px.y)};
@@ -73,6 +77,8 @@ void Frame::collect_timings() {
 gl::TargetHandle Frame::picture_target() const {
     return has_picture_ ? lighting_->picture_target() : gl::TargetHandle{};
 }
+
+const std::vector<debug::Label>& Frame::debug_labels() const { return debug_->labels(); }
 
 bool Frame::read_picture(std::vector<std::uint8_t>& rgba) {
     if (!has_picture_) return false;

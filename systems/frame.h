@@ -10,6 +10,7 @@
 #include "engine/core/result.h"
 #include "engine/ecs/registry.h"
 #include "engine/gl/device.h"
+#include "systems/debug/debug_view.h"
 #include "systems/extract/extract.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
@@ -21,6 +22,9 @@ namespace gnomon {
 namespace shadow {
 class ShadowSystem;
 }
+namespace debug {
+class DebugPainter;
+}
 namespace lighting {
 class LightingSystem;
 }
@@ -30,6 +34,7 @@ struct FrameSettings {
     std::optional<float> exposure_ev;  // EV100; empty: automatic
     bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
     bool present = false;              // copy the picture to the window at the end
+    debug::Request debug = {};         // drawn over the picture; none by default
 };
 
 /// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.
@@ -53,6 +58,9 @@ public:
     /// What read_picture() reads: draw overlays into it, in a list of your own, after run(). {0}: no picture was drawn.
     gl::TargetHandle picture_target() const;
 
+    /// What the debug view of the last frame has to say; empty without one.
+    const std::vector<debug::Label>& debug_labels() const;
+
     /// Visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats, bottom row
     /// first, with the meaning of --visibility in the README. False: nothing to read.
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
@@ -69,6 +77,7 @@ private:
     SceneSnapshot snapshot_;
     std::unique_ptr<shadow::ShadowSystem> shadows_;
     std::unique_ptr<lighting::LightingSystem> lighting_;
+    std::unique_ptr<debug::DebugPainter> debug_;
     FrameReport report_;
     gl::CommandList commands_;
     bool has_picture_ = false;

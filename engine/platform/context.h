@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -54,14 +55,27 @@ enum class Key : std::uint8_t {
     count
 };
 
+/// Buttons as they lie on an Xbox pad, whatever is printed on this one.
+enum class PadButton : std::uint8_t { a, b, x, y, left_bumper, right_bumper, back, start, left, right, count };
+
+/// A gamepad now. Axes are what the driver says, at best -1 to 1: it may rest off 0, and may be NaN.
+struct Gamepad {
+    bool present = false;                                                // all else is 0 without
+    float left_x = 0.0f, left_y = 0.0f, right_x = 0.0f, right_y = 0.0f;  // right and down are positive
+    float left_trigger = -1.0f, right_trigger = -1.0f;                   // -1 free, 1 pressed
+    std::array<bool, static_cast<std::size_t>(PadButton::count)> down = {};
+};
+inline constexpr std::size_t kMaxGamepads = 16;  // GLFW_JOYSTICK_LAST + 1
+
 /// Input since the last poll. Positions in pixels, y down.
 struct Input {
     bool down[static_cast<std::size_t>(Key::count)] = {};
     bool pressed[static_cast<std::size_t>(Key::count)] = {};  // went down since the last poll
     double mouse_dx = 0.0, mouse_dy = 0.0;
     double mouse_x = 0.0, mouse_y = 0.0;
-    bool mouse_button = false;  // any button is down
-    bool mouse_pressed = false; // a button went down since the last poll, even if it is up again
+    bool mouse_button = false;                        // any button is down
+    bool mouse_pressed = false;                       // a button went down since the last poll, even if it is up again
+    std::array<Gamepad, kMaxGamepads> gamepads = {};  // by the slot they are plugged into
     bool close_requested = false;
     std::uint32_t framebuffer_width = 0, framebuffer_height = 0;
 };

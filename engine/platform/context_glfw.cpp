@@ -48,6 +48,39 @@ constexpr std::array kKeys = {KeyName{GLFW_KEY_W, Key::w},
                               KeyName{GLFW_KEY_TAB, Key::tab},
                               KeyName{GLFW_KEY_ENTER, Key::enter}};
 
+struct PadButtonName {
+    int glfw;
+    PadButton button;
+};
+constexpr std::array kPadButtons = {PadButtonName{GLFW_GAMEPAD_BUTTON_A, PadButton::a},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_B, PadButton::b},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_X, PadButton::x},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_Y, PadButton::y},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_LEFT_BUMPER, PadButton::left_bumper},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER, PadButton::right_bumper},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_BACK, PadButton::back},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_START, PadButton::start},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_DPAD_LEFT, PadButton::left},
+                                    PadButtonName{GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, PadButton::right}};
+static_assert(kMaxGamepads == GLFW_JOYSTICK_LAST + 1);
+
+/// Not present: nothing is plugged in there, or nothing that GLFW knows the layout of.
+Gamepad read_gamepad(int slot) {
+    Gamepad pad;
+    GLFWgamepadstate state;
+    if (glfwGetGamepadState(slot, &state) != GLFW_TRUE) return pad;
+    pad.present = true;
+    pad.left_x = state.axes[GLFW_GAMEPAD_AXIS_LEFT_X];
+    pad.left_y = state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y];
+    pad.right_x = state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X];
+    pad.right_y = state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y];
+    pad.left_trigger = state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER];
+    pad.right_trigger = state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER];
+    for (const PadButtonName& name : kPadButtons)
+        pad.down[static_cast<std::size_t>(name.button)] = state.buttons[name.glfw] == GLFW_PRESS;
+    return pad;
+}
+
 /// What GLFW says about the last call that failed, on one line.
 Error glfw_error(std::string what, std::string rule) {
     const char* description = nullptr;
@@ -79,6 +112,8 @@ public:
         input_.mouse_dx = input_.mouse_dy = 0.0;
         input_.mouse_pressed = false;
         glfwPollEvents();
+        for (std::size_t slot = 0; slot < kMaxGamepads; ++slot)
+            input_.gamepads[slot] = read_gamepad(static_cast<int>(slot));
         input_.close_requested = glfwWindowShouldClose(window_) == GLFW_TRUE;
         read_size();
         return input_;

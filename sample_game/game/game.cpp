@@ -8,6 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <utility>
 
+#include "sample_game/game/footing.h"
 #include "sample_game/motion.h"
 #include "sample_game/scene_poses.h"
 
@@ -15,7 +16,7 @@ namespace gnomon::game {
 namespace {
 
 constexpr double kWalk_m_per_s = 2.6, kRun_m_per_s = 4.2;
-constexpr double kRadius_m = 0.3, kStepOver_m = 0.25, kHeight_m = 1.75;
+constexpr double kRadius_m = 0.3, kHeight_m = 1.75;
 constexpr double kMaxPitch_rad = 1.2;
 constexpr double kFullLight_lx = 60.0;
 constexpr double kCaughtAfter_s = 2.0, kForgottenAfter_s = 4.0;  // in full light; from almost caught to unseen
@@ -79,20 +80,23 @@ void Game::step(const GameInput& input) {
         state_.light = measured_light();
         return;
     }
-    if (input.toggle_pause && state_.phase == Phase::playing) state_.phase = Phase::paused;
-    else if (input.toggle_pause && state_.phase == Phase::paused) state_.phase = Phase::playing;
+    if (input.toggle_pause && state_.phase == Phase::playing)
+        state_.phase = Phase::paused;
+    else if (input.toggle_pause && state_.phase == Phase::paused)
+        state_.phase = Phase::playing;
     if (state_.phase != Phase::playing) return;
 
     ++state_.steps;
-    state_.sun_hours =
-        std::clamp(state_.sun_hours + input.sun * kHoursPerSecond * kStep_s, kEarliest_h, kLatest_h);
+    state_.sun_hours = std::clamp(state_.sun_hours + input.sun * kHoursPerSecond * kStep_s, kEarliest_h, kLatest_h);
     place();
     walk(input);
     state_.light = measured_light();
     const double change = state_.light > kHiddenLight ? state_.light / kCaughtAfter_s : -1.0 / kForgottenAfter_s;
     state_.seen = std::clamp(state_.seen + change * kStep_s, 0.0, 1.0);
-    if (state_.seen >= 1.0) state_.phase = Phase::lost;
-    else if (holds(level_.goal, state_.feet_m)) state_.phase = Phase::won;
+    if (state_.seen >= 1.0)
+        state_.phase = Phase::lost;
+    else if (holds(level_.goal, state_.feet_m))
+        state_.phase = Phase::won;
 }
 
 void Game::walk(const GameInput& input) {
@@ -101,10 +105,13 @@ void Game::walk(const GameInput& input) {
     glm::dvec3 wish = heading(state_.yaw_rad) * input.forward + sideways(state_.yaw_rad) * input.right;
     if (const double length = glm::length(wish); length > 1.0) wish /= length;
     const glm::dvec3 to = state_.feet_m + wish * ((input.run ? kRun_m_per_s : kWalk_m_per_s) * kStep_s);
-    const double ground = level_.start_m.y;
+    const double step_top = state_.feet_m.y + kStepLimit_m;
     const glm::dvec2 free =
-        pushed_out({to.x, to.z}, kRadius_m, ground + kStepOver_m, ground + kHeight_m, level_.solids, poses_);
-    state_.feet_m = {free.x, ground, free.y};
+        pushed_out({to.x, to.z}, kRadius_m, step_top, state_.feet_m.y + kHeight_m, level_.solids, poses_);
+    const double ground = ground_below(free, kRadius_m, step_top, level_.start_m.y, level_.solids, poses_);
+    const Footing footing = stepped({state_.feet_m.y, state_.fall_m_per_s}, ground);
+    state_.feet_m = {free.x, footing.height_m, free.y};
+    state_.fall_m_per_s = footing.fall_m_per_s;
 }
 
 /// Everything to where it is at the state's time.
@@ -136,8 +143,8 @@ double Game::measured_light() const {
 
 glm::dvec3 Game::camera_m() const {
     const glm::dvec3 eye = state_.feet_m + glm::dvec3(0.0, kEye_m, 0.0);
-    const glm::dvec3 look = heading(state_.yaw_rad) * std::cos(state_.pitch_rad) +
-                            glm::dvec3(0.0, std::sin(state_.pitch_rad), 0.0);
+    const glm::dvec3 look =
+        heading(state_.yaw_rad) * std::cos(state_.pitch_rad) + glm::dvec3(0.0, std::sin(state_.pitch_rad), 0.0);
     const glm::dvec3 wish = eye + sideways(state_.yaw_rad) * kShoulder_m - look * kBehind_m;
     const double way = glm::length(wish - eye);
     const double free = free_way(eye, wish, level_.solids, poses_);

@@ -17,7 +17,7 @@ const char* to_text(Phase phase);
 
 /// What the player does during one step.
 struct GameInput {
-    double forward = 0.0, right = 0.0;  // -1 ... 1
+    double forward = 0.0, right = 0.0;      // -1 ... 1
     double yaw_rad = 0.0, pitch_rad = 0.0;  // turn of the head in this step; left and up are positive
     bool run = false;
     double sun = 0.0;  // -1 ... 1: turns the time of day
@@ -26,12 +26,13 @@ struct GameInput {
 
 struct GameState {
     Phase phase = Phase::playing;
-    std::uint64_t steps = 0;     // played; scene time is steps / 60
+    std::uint64_t steps = 0;  // played; scene time is steps / 60
     glm::dvec3 feet_m{0.0};
+    double fall_m_per_s = 0.0;  // of the feet, down
     double yaw_rad = 0.0, pitch_rad = 0.0;
-    double light = 0.0;          // the meter: 0 dark, 1 fully lit
-    double seen = 0.0;           // 1: caught
-    double sun_hours = 0.0;      // since dusk
+    double light = 0.0;      // the meter: 0 dark, 1 fully lit
+    double seen = 0.0;       // 1: caught
+    double sun_hours = 0.0;  // since dusk
     double time_s() const { return static_cast<double>(steps) * kStep_s; }
     bool operator==(const GameState&) const = default;
 };

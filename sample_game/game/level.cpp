@@ -6,29 +6,29 @@
 #include <optional>
 #include <string>
 
+#include "sample_game/game/stairs.h"
+
 namespace gnomon::game {
 namespace {
 
 /// Solid as a whole: the box of the node's mesh.
-constexpr std::array kWholeSolids{
-    "wall_north", "wall_west", "wall_east",    "column_0", "column_1", "column_2",   "column_3",      "column_4",
-    "column_5",   "stairs",    "fence_posts",  "crate_a",  "crate_b",  "barrel_a",   "barrel_b",      "pedestal",
-    "ball",       "pot",       "cart_box",     "screen_a", "screen_b", "parapet_s",  "parapet_e",     "gate_post_n",
-    "gate_post_s"};
+constexpr std::array kWholeSolids{"wall_north",  "wall_west", "wall_east", "column_0",    "column_1",
+                                  "column_2",    "column_3",  "column_4",  "column_5",    "handrail",
+                                  "fence_posts", "crate_a",   "crate_b",   "barrel_a",    "barrel_b",
+                                  "pedestal",    "ball",      "pot",       "cart_box",    "screen_a",
+                                  "screen_b",    "parapet_s", "parapet_e", "gate_post_n", "gate_post_s"};
 
 /// Solid in part: what stands on the ground, in the node's frame. The rest hangs above the player's head.
 struct PartSolid {
     const char* node;
     double min_x, max_x, min_z, max_z, max_y;
 };
-constexpr std::array kPartSolids{PartSolid{"gallows", -1.75, -1.57, -0.09, 0.09, 0.3},
-                                 PartSolid{"tree_trunk", -0.2, 0.2, -0.2, 0.2, 2.5},
-                                 PartSolid{"guard_mast", -0.11, 0.11, -0.11, 0.11, 0.0},
-                                 PartSolid{"cloth_line", -1.53, -1.47, -0.03, 0.03, 0.0},
-                                 PartSolid{"cloth_line", 1.47, 1.53, -0.03, 0.03, 0.0},
-                                 PartSolid{"sign_frame", -0.64, -0.56, -0.04, 0.04, 0.0},
-                                 PartSolid{"sign_frame", 0.56, 0.64, -0.04, 0.04, 0.0},
-                                 PartSolid{"turnstile_arms", -0.1, 0.1, -0.1, 0.1, 1.5}};
+constexpr std::array kPartSolids{
+    PartSolid{"gallows", -1.75, -1.57, -0.09, 0.09, 0.3},   PartSolid{"tree_trunk", -0.2, 0.2, -0.2, 0.2, 2.5},
+    PartSolid{"guard_mast", -0.11, 0.11, -0.11, 0.11, 0.0}, PartSolid{"cloth_line", -1.53, -1.47, -0.03, 0.03, 0.0},
+    PartSolid{"cloth_line", 1.47, 1.53, -0.03, 0.03, 0.0},  PartSolid{"sign_frame", -0.64, -0.56, -0.04, 0.04, 0.0},
+    PartSolid{"sign_frame", 0.56, 0.64, -0.04, 0.04, 0.0},  PartSolid{"turnstile_arms", -0.1, 0.1, -0.1, 0.1, 1.5}};
+constexpr const char* kStairs = "stairs";
 constexpr double kFarBelow_m = -20.0;
 constexpr std::array kLamps{"lantern", "guard_lamp"};
 
@@ -66,6 +66,10 @@ Result<Level> courtyard_level(const assets::SceneData& scene) {
         const math::Aabb& box = scene.meshes[static_cast<std::size_t>(scene.nodes[*node].mesh)].bounds_ms;
         level.solids.push_back({*node, box.min, box.max});
     }
+    const auto stairs = find_node(scene, kStairs);
+    if (!stairs || scene.nodes[*stairs].mesh == assets::kNone) return missing(kStairs);
+    for (const Solid& tread : treads_of(scene.meshes[static_cast<std::size_t>(scene.nodes[*stairs].mesh)], *stairs))
+        level.solids.push_back(tread);
     for (const PartSolid& part : kPartSolids) {
         const auto node = find_node(scene, part.node);
         if (!node) return missing(part.node);

@@ -21,9 +21,9 @@ struct Level {
     Occluders occluders;
     std::vector<Solid> solids = {};
     std::vector<Lamp> lamps = {};
-    glm::dvec3 start_m{0.0};      // the player's feet
-    double start_yaw_rad = 0.0;   // 0 looks along -Z, counter-clockwise seen from above
-    math::Aabb goal;              // reached when the feet are in it
+    glm::dvec3 start_m{0.0};              // the player's feet
+    double start_yaw_rad = 0.0;           // 0 looks along -Z, counter-clockwise seen from above
+    math::Aabb goal;                      // reached when the feet are in it
     std::int32_t player = assets::kNone;  // node of the body, if the scene has one
     std::int32_t sun = assets::kNone;     // node that the time of day turns
 };

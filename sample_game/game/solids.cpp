@@ -29,6 +29,13 @@ Placed placed(const Solid& solid, std::span<const WorldTransform> poses) {
     return p;
 }
 
+/// A place on the ground in the solid's own frame.
+glm::dvec2 in_plan(const Placed& p, const glm::dvec2& at_ws_m) {
+    const glm::dvec3 at =
+        glm::transpose(p.turn) * glm::dvec3(at_ws_m.x - p.origin_ws_m.x, 0.0, at_ws_m.y - p.origin_ws_m.z);
+    return {at.x, at.z};
+}
+
 /// The way out of a rectangle for a circle at `centre`; zero if they do not overlap.
 glm::dvec2 way_out(const glm::dvec2& centre, double radius, const glm::dvec2& min, const glm::dvec2& max) {
     const glm::dvec2 nearest = glm::clamp(centre, min, max), away = centre - nearest;
@@ -51,10 +58,8 @@ glm::dvec2 pushed_out(glm::dvec2 centre_m, double radius_m, double low_m, double
         for (const Solid& solid : solids) {
             const Placed p = placed(solid, poses);
             if (p.origin_ws_m.y + p.max_m.y < low_m || p.origin_ws_m.y + p.min_m.y > high_m) continue;
-            const glm::dvec3 at =
-                glm::transpose(p.turn) * (glm::dvec3(centre_m.x, p.origin_ws_m.y, centre_m.y) - p.origin_ws_m);
             const glm::dvec2 out =
-                way_out({at.x, at.z}, radius_m, {p.min_m.x, p.min_m.z}, {p.max_m.x, p.max_m.z});
+                way_out(in_plan(p, centre_m), radius_m, {p.min_m.x, p.min_m.z}, {p.max_m.x, p.max_m.z});
             if (out == glm::dvec2(0.0)) continue;
             const glm::dvec3 out_ws = p.turn * glm::dvec3(out.x, 0.0, out.y);
             centre_m += glm::dvec2(out_ws.x, out_ws.z);
@@ -63,6 +68,20 @@ glm::dvec2 pushed_out(glm::dvec2 centre_m, double radius_m, double low_m, double
         if (!moved) break;
     }
     return centre_m;
+}
+
+double ground_below(glm::dvec2 centre_m, double radius_m, double reach_m, double floor_m, std::span<const Solid> solids,
+                    std::span<const WorldTransform> poses) {
+    double ground_m = floor_m;
+    for (const Solid& solid : solids) {
+        const Placed p = placed(solid, poses);
+        const double top_m = p.origin_ws_m.y + p.max_m.y;
+        if (!(top_m > ground_m && top_m <= reach_m)) continue;
+        const glm::dvec2 at = in_plan(p, centre_m);
+        const glm::dvec2 nearest = glm::clamp(at, {p.min_m.x, p.min_m.z}, {p.max_m.x, p.max_m.z});
+        if (glm::distance(at, nearest) < radius_m) ground_m = top_m;
+    }
+    return ground_m;
 }
 
 double free_way(const glm::dvec3& from_ws_m, const glm::dvec3& to_ws_m, std::span<const Solid> solids,

@@ -37,10 +37,12 @@ void Gui::draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platfor
     ImGuiIO& io = ImGui::GetIO();
     io.DisplaySize = {static_cast<float>(size_px.x), static_cast<float>(size_px.y)};
     io.DeltaTime = std::max(static_cast<float>(dt_s), kLeastStep_s);
-    if (input && panel) feed(io, *input);
+    if (input && panel.shown) feed(io, *input);
     ImGui::NewFrame();
     if (world.game) draw_game_overlay(world.game->state(), glm::vec2(size_px));
-    if (panel) draw_light_panel(world, frame.report(), shadows, toggle_motion);
+    draw_debug_labels(frame.debug_labels(), glm::vec2(size_px));
+    panel.debug.area = {};
+    if (panel.shown) draw_light_panel(world, frame.report(), size_px, panel);
     ImGui::Render();
 
     list_.clear();

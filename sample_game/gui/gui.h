@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <memory>
+#include <span>
 
 #include "engine/core/result.h"
 #include "engine/gl/device.h"
@@ -12,7 +13,16 @@
 
 namespace gnomon::game {
 
-/// What is drawn over the picture: the game's meters and words, and the panel of lights that F1 shows.
+/// What the panel shows and switches; whoever runs the frame acts on it.
+struct PanelState {
+    bool shown = false;
+    bool shadows = true;         // for FrameSettings
+    bool moving = true;          // to be set before draw()
+    bool toggle_motion = false;  // asked for; whoever acts on it clears it
+    debug::Request debug = {};   // for FrameSettings
+};
+
+/// What is drawn over the picture: the game's meters and words, those of debug views, and the panel of lights (F1).
 class Gui {
 public:
     /// Error: rule "gui.device". `device` must outlive it.
@@ -26,9 +36,7 @@ public:
     void draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
               bool present);
 
-    bool panel = false;           // shown
-    bool shadows = true;          // for FrameSettings
-    bool toggle_motion = false;   // the panel's button was pressed; whoever acts on it clears it
+    PanelState panel;
 
 private:
     struct Closer {
@@ -45,7 +53,14 @@ private:
 /// The game's meters and, unless it is being played, its state in large letters.
 void draw_game_overlay(const GameState& state, glm::vec2 size_px);
 
-/// The panel: switches, the report, and every row of light_settings() for each light that has a LightShadow.
-void draw_light_panel(GameWorld& world, const FrameReport& report, bool& shadows, bool& toggle_motion);
+/// The words of a debug view, over the picture and under the panel.
+void draw_debug_labels(std::span<const debug::Label> labels, glm::vec2 size_px);
+
+/// Shows the depth maps of the light after the one shown, then none.
+void next_depth_view(const GameWorld& world, debug::Request& debug);
+
+/// The panel: switches, the report, and for each light that has a LightShadow every row of light_settings() and its
+/// depth maps, which are shown beside the panel if there is room.
+void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, PanelState& state);
 
 }  // namespace gnomon::game

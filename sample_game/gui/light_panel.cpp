@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -49,26 +50,51 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
     return setting.whole ? std::to_string(std::lround(value)) : std::to_string(value);
 }
 
-void draw_settings(GameWorld& world) {
+/// Which of the light's depth maps are shown. `views`: how many it has now.
+void draw_depth_choice(const std::string& light, std::uint32_t views, debug::Request& debug) {
+    bool shown = debug.view && debug.light == light;
+    if (ImGui::Checkbox("show depth maps", &shown))
+        debug = shown ? debug::Request{.view = debug::find_view("depth"), .light = light} : debug::Request{};
+    if (!shown || views < 2) return;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
+    if (!ImGui::BeginCombo("map", debug.layer ? std::to_string(*debug.layer).c_str() : "all")) return;
+    if (ImGui::Selectable("all", !debug.layer)) debug.layer.reset();
+    for (std::uint32_t i = 0; i < views; ++i)
+        if (ImGui::Selectable(std::to_string(i).c_str(), debug.layer == i)) debug.layer = i;
+    ImGui::EndCombo();
+}
+
+std::uint32_t view_count(const FrameReport& report, ecs::Entity light) {
+    for (const LightReport& row : report.lights)
+        if (row.entity == light) return row.views;
+    return 0;
+}
+
+void draw_settings(GameWorld& world, const FrameReport& report, debug::Request& debug) {
     for (const NamedEntity& light : world.scene.lights) {
         const LightShadow* shadow = world.registry.get<LightShadow>(light.entity);
         if (!shadow || !ImGui::CollapsingHeader(light.name.c_str())) continue;
         ImGui::PushID(light.name.c_str());
+        draw_depth_choice(light.name, view_count(report, light.entity), debug);
         LightShadow changed = *shadow;
         for (const LightSetting& setting : light_settings()) {
             const std::string text = edited(setting, changed);
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.meaning);
             if (!text.empty()) setting.set(changed, text);  // a value that it does not take changes nothing
         }
-        if (!(changed == *shadow)) world.registry.patch<LightShadow>(light.entity, [&](LightShadow& s) { s = changed; });
+        if (!(changed == *shadow))
+            world.registry.patch<LightShadow>(light.entity, [&](LightShadow& s) { s = changed; });
         ImGui::PopID();
     }
 }
 
 void time_cell(const std::optional<double>& time_us) {
     ImGui::TableNextColumn();
-    if (time_us) ImGui::Text("%.0f", *time_us);
-    else ImGui::TextUnformatted("-");
+    if (time_us)
+        ImGui::Text("%.0f", *time_us);
+    else
+        ImGui::TextUnformatted("-");
 }
 
 void draw_report(const FrameReport& report) {
@@ -101,19 +127,42 @@ void draw_report(const FrameReport& report) {
     ImGui::EndTable();
 }
 
+/// The picture to the right of the current window; all of it if less than a third remains.
+gl::Rect beside_panel(glm::uvec2 size_px) {
+    const auto right_px = static_cast<std::int32_t>(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x);
+    const glm::ivec2 size(size_px);
+    const std::int32_t left_px = std::max(right_px, 0);
+    if (3 * (size.x - left_px) < size.x) return {};
+    return {left_px, 0, size.x - left_px, size.y};
+}
+
 }  // namespace
 
-void draw_light_panel(GameWorld& world, const FrameReport& report, bool& shadows, bool& toggle_motion) {
+void next_depth_view(const GameWorld& world, debug::Request& debug) {
+    const auto& lights = world.scene.lights;
+    const auto shown = std::find_if(lights.begin(), lights.end(),
+                                    [&](const NamedEntity& light) { return debug.view && light.name == debug.light; });
+    const auto next =
+        std::find_if(shown == lights.end() ? lights.begin() : shown + 1, lights.end(),
+                     [&](const NamedEntity& light) { return world.registry.has<LightShadow>(light.entity); });
+    debug = next == lights.end() ? debug::Request{}
+                                 : debug::Request{.view = debug::find_view("depth"), .light = next->name};
+}
+
+void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, PanelState& state) {
     const ImVec2 at{12.0f, 12.0f};
     ImGui::SetNextWindowPos(at, ImGuiCond_Once);
     if (ImGui::Begin("Lights and shadows (F1)", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-        ImGui::Checkbox("shadows", &shadows);
+        ImGui::Checkbox("shadows", &state.shadows);
         ImGui::SameLine();
-        if (ImGui::Button("stop or go (P)")) toggle_motion = true;
+        bool moving = state.moving;
+        if (ImGui::Checkbox("movement (P)", &moving)) state.toggle_motion = true;
         ImGui::SameLine();
-        ImGui::Text("frame %.2f ms, of it shadows %.2f ms on the CPU", report.cpu_us * 1e-3, report.shadow_cpu_us * 1e-3);
+        ImGui::Text("frame %.2f ms, of it shadows %.2f ms on the CPU", report.cpu_us * 1e-3,
+                    report.shadow_cpu_us * 1e-3);
         draw_report(report);
-        draw_settings(world);
+        draw_settings(world, report, state.debug);
+        state.debug.area = beside_panel(size_px);
     }
     ImGui::End();
 }

@@ -65,7 +65,9 @@ gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
 }  // namespace
 
 Overlay::Overlay(gl::Device& device)
-    : device_(device), vertices_(device, "overlay vertices"), indices_(device, "overlay indices"),
+    : device_(device),
+      vertices_(device, "overlay vertices"),
+      indices_(device, "overlay indices"),
       items_(device, "overlay items") {}
 
 Overlay::~Overlay() {
@@ -113,8 +115,9 @@ void Overlay::record(const ImDrawData& data, gl::TargetHandle target, glm::uvec2
     list.update(vertices_.handle(), 0, std::span<const OverlayVertex>(vertices));
     list.update(indices_.handle(), 0, std::span<const std::uint32_t>(indices));
     list.update(items_.handle(), 0, std::span<const glm::uvec2>(item));
-    list.add(gl::BeginPass{.target = target,
-                           .viewport = {0, 0, static_cast<std::int32_t>(size_px.x), static_cast<std::int32_t>(size_px.y)}});
+    list.add(
+        gl::BeginPass{.target = target,
+                      .viewport = {0, 0, static_cast<std::int32_t>(size_px.x), static_cast<std::int32_t>(size_px.y)}});
     list.add(gl::SetPipeline{{.program = program_, .blend = gl::Blend::alpha}});
     list.add(gl::BindTexture{0, font_, sampler_});
     list.add(gl::BindMeshes{vertices_.handle(), indices_.handle(), items_.handle()});

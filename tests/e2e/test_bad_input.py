@@ -24,6 +24,8 @@ class BadInput(GameTest):
             ["--exposure", "bright"], ["--exposure", "nan"], ["--exposure", "1e9"], ["--exposure", "5 "],
             ["--camera", "nobody"], ["--camera", "3"], ["--camera", "-1"], ["--camera", "18446744073709551616"],
             ["--camera", "line\nbreak"],
+            ["--debug", ""], ["--debug", "depth"], ["--debug", "depth:"], ["--debug", "depth:nobody"], ["--debug", "deep:sun"],
+            ["--debug", "depth:sun:9"], ["--debug", "depth:sun:"], ["--debug", "depth:sun:0:0"],
         ]
         for row in rows:
             with self.subTest(row=row):

@@ -112,14 +112,14 @@ class Flags(GameTest):
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         text = done.stdout.decode()
         for word in ("enabled", "filter", "resolution", "max_error_px", "bias", "economy", "hard", "hardware_2x2",
-                     "pcf_3x3", "automatic"):
+                     "pcf_3x3", "automatic", "depth"):
             self.assertRegex(text, r"\b%s\b" % word)
 
     def test_help_is_no_error(self):
         done = self.call("--help")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         for flag in ("--scene", "--camera", "--size", "--headless", "--frames", "--time", "--exposure", "--stats",
-                     "--screenshot", "--visibility", "--set", "--list"):
+                     "--screenshot", "--visibility", "--set", "--debug", "--list"):
             self.assertIn(flag, done.stdout.decode())
 
 

@@ -14,10 +14,10 @@ W, H = (int(n) for n in SMALL.split("x"))
 
 
 class WindowTest(GameTest):
-    def play(self, script, *args):
+    def play(self, script, *args, size=SMALL):
         """Runs the game in a window, calls script(window id), and returns the picture it wrote when it ended."""
         file = self.path("w%d.png" % len(os.listdir(self.folder)))
-        game = subprocess.Popen([self.game, "--size", SMALL, "--exposure", "6", "--screenshot", file] + list(args),
+        game = subprocess.Popen([self.game, "--size", size, "--exposure", "6", "--screenshot", file] + list(args),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         try:
             script(self.find_window(game))
@@ -57,6 +57,6 @@ def main_in_display():
         sys.exit(77)
     if INSIDE not in os.environ:
         # A display of our own, so that nobody's desktop gets our key presses.
-        command = ["xvfb-run", "-a", "-s", "-screen 0 800x600x24", sys.executable] + sys.argv
+        command = ["xvfb-run", "-a", "-s", "-screen 0 1280x720x24", sys.executable] + sys.argv
         sys.exit(subprocess.run(command, env=dict(os.environ, **{INSIDE: "1"}), check=False).returncode)
     main()

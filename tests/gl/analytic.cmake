@@ -1,6 +1,7 @@
 # Scenes of boxes and planes, whose shadows are known in closed form.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_analytic LABEL gl SOURCES
+    debug_depth_gl_test.cpp
     projection_gl_test.cpp
     shadow_blending_gl_test.cpp
     shadow_cube_gl_test.cpp

@@ -5,6 +5,7 @@
 #include "engine/gl/device_recording.h"
 #include "engine/gl/shader_source.h"
 #include "shaders/embedded.h"
+#include "systems/debug/debug_view.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
@@ -22,7 +23,8 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     return rows;
 }
 
-/// The sources of every program, as the lighting system itself hands them to a device; and the depth programs'.
+/// The sources of every program, as the lighting system itself hands them to a device; the depth programs' and
+/// the debug views'.
 inline std::vector<gl::ProgramDesc> all_programs() {
     std::vector<gl::ProgramDesc> programs;
     gl::RecordingDevice device;
@@ -47,6 +49,11 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
         if (vertex && fragment)
             programs.push_back({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()});
+    }
+    for (const debug::ViewRow& view : debug::view_table()) {
+        const auto vertex = gl::expand_shader(shader_files(), "shared/fullscreen.vert", {});
+        const auto fragment = gl::expand_shader(shader_files(), view.fragment, {});
+        if (vertex && fragment) programs.push_back({std::string(view.fragment), vertex.value(), fragment.value()});
     }
     return programs;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "systems/debug/depth_tiles.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/lighting/lighting_system.h"
 #include "tests/gl/gl_test_context.h"
@@ -59,6 +60,22 @@ Block light_block() {
     return block;
 }
 
+Block depth_tiles_block() {
+    using debug::DepthTile;
+    using debug::DepthTiles;
+    Block block{GL_UNIFORM_BLOCK, "DepthTiles", 0, sizeof(DepthTiles), {{"options", offsetof(DepthTiles, options)}}};
+    for (std::size_t i = 0; i < debug::kMaxTiles; ++i) {
+        const std::string tile = "tiles[" + std::to_string(i) + "].";
+        const std::size_t at = offsetof(DepthTiles, tiles) + i * sizeof(DepthTile);
+        block.members.push_back({tile + "place", at + offsetof(DepthTile, place)});
+        block.members.push_back({tile + "depth", at + offsetof(DepthTile, depth)});
+        block.members.push_back({tile + "right", at + offsetof(DepthTile, right)});
+        block.members.push_back({tile + "up", at + offsetof(DepthTile, up)});
+        block.members.push_back({tile + "forward", at + offsetof(DepthTile, forward)});
+    }
+    return block;
+}
+
 std::vector<Block> expected_blocks() {
     using lighting::AmbientRecord;
     using lighting::ExposureRecord;
@@ -66,6 +83,7 @@ std::vector<Block> expected_blocks() {
     using shadow::DepthViewRecord;
     return {
         light_block(),
+        depth_tiles_block(),
         {GL_UNIFORM_BLOCK,
          "CameraBlock",
          0,

@@ -13,7 +13,7 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto programs = all_programs();
     const std::size_t rows = shadow::light_kind_table().size() * (shadow::filter_table().size() + 1);
     constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 2;
-    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth);
+    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + debug::view_table().size());
     std::set<std::string> sources;
     for (const gl::ProgramDesc& desc : programs) {
         ASSERT_NE(desc.fragment, "") << desc.label;

@@ -259,6 +259,68 @@ TEST(Courtyard, TheCameraStandsBehindThePlayerAndNeverInAWall) {
     EXPECT_LT(Game(level).camera_m().x, -12.0);
 }
 
+/// Where the flight of stairs begins, looking up along it.
+Level before_the_stairs() {
+    Level level = courtyard();
+    level.lamps.clear();
+    level.start_m = {4.6, 0.0, -3.4};
+    level.start_yaw_rad = -kHalfPi;
+    return level;
+}
+
+TEST(Courtyard, TheStairsAreWalkedUpAndDownAgainAtTheSpeedOfTheFlat) {
+    constexpr double kLanding_m = 8 * 0.18;
+    for (const bool run : {false, true}) {
+        Game game(before_the_stairs());
+        double last_m = 0.0;
+        for (int i = 0; i < 90; ++i) {
+            game.step({.forward = 1.0, .run = run});
+            EXPECT_GE(game.state().feet_m.y, last_m);
+            EXPECT_LT(game.state().feet_m.y - last_m, 0.06) << "the camera jerks";
+            last_m = game.state().feet_m.y;
+        }
+        EXPECT_NEAR(last_m, kLanding_m, 1e-6);
+        EXPECT_NEAR(game.state().feet_m.x, run ? 9.7 : 4.6 + 1.5 * 2.6, 0.02);  // run: at the wall
+        for (int i = 0; i < 180; ++i) game.step({.forward = -1.0, .run = run});
+        EXPECT_EQ(game.state().feet_m.y, 0.0);
+        EXPECT_LT(game.state().feet_m.x, 5.0);
+    }
+}
+
+TEST(Courtyard, OffTheLandingTheWalkerFallsAndItsRailHolds) {
+    Game walker(before_the_stairs());
+    play(walker, {.forward = 1.0}, 1.6);
+    ASSERT_GT(walker.state().feet_m.y, 1.4);
+    Game other = walker;
+    play(walker, {.right = -1.0}, 1.5);
+    EXPECT_EQ(walker.state().feet_m.y, 0.0);
+    EXPECT_LT(walker.state().feet_m.z, -4.8);
+    play(other, {.right = 1.0}, 3.0);
+    EXPECT_NEAR(other.state().feet_m.y, 1.44, 1e-6);
+    EXPECT_LT(other.state().feet_m.z, -2.5);
+}
+
+TEST(Courtyard, WhatIsHigherThanAStepStaysAWallFromEverySide) {
+    Level level = before_the_stairs();
+    level.start_m = {9.0, 0.0, -0.5};
+    level.start_yaw_rad = 0.0;  // the landing's side, 1.44 m high
+    Game game(level);
+    play(game, {.forward = 1.0}, 3.0);
+    EXPECT_EQ(game.state().feet_m.y, 0.0);
+    EXPECT_GT(game.state().feet_m.z, -2.2);
+}
+
+TEST(Courtyard, AFallStandsStillWhilePaused) {
+    Game game(before_the_stairs());
+    play(game, {.forward = 1.0}, 1.6);
+    for (int i = 0; i < 120 && game.state().fall_m_per_s == 0.0; ++i) game.step({.right = -1.0});
+    ASSERT_GT(game.state().fall_m_per_s, 0.0);
+    game.step({.toggle_pause = true});
+    const GameState paused = game.state();
+    play(game, {.right = -1.0}, 1.0);
+    EXPECT_EQ(game.state(), paused);
+}
+
 TEST(Courtyard, ASceneWithoutThePlayerIsNoLevel) {
     const auto scene = load_scene(std::nullopt);
     ASSERT_TRUE(scene);

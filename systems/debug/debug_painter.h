@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/gl/device.h"
+#include "systems/debug/debug_view.h"
+#include "systems/growing_buffer.h"
+#include "systems/retry.h"
+
+namespace gnomon::debug {
+
+/// Draws debug views. Makes its device objects when the first is asked for, and owns them.
+class DebugPainter {
+public:
+    explicit DebugPainter(gl::Device& device) : device_(device), block_(device, "debug view") {}
+    ~DebugPainter();
+    DebugPainter(const DebugPainter&) = delete;
+    DebugPainter& operator=(const DebugPainter&) = delete;
+
+    /// Records the requested view over `target`, a picture of `size_px`, and keeps its labels. Records nothing, and has
+    /// no labels, without a view or if the device cannot make what it takes.
+    void record(const Request& request, const SceneSnapshot& scene, const shadow::ShadowFrame& frame,
+                gl::TargetHandle target, glm::uvec2 size_px, gl::CommandList& list);
+
+    /// Of the last record().
+    const std::vector<Label>& labels() const { return labels_; }
+
+private:
+    struct Program {
+        std::string_view fragment;
+        gl::ProgramHandle handle{};
+        Retry retry = {};
+    };
+    gl::ProgramHandle program(std::string_view fragment);
+
+    gl::Device& device_;
+    GrowingBuffer block_;
+    gl::SamplerHandle raw_{};
+    std::vector<Program> programs_;
+    std::vector<Label> labels_;
+    std::uint64_t records_ = 0;  // the clock of the retries
+};
+
+}  // namespace gnomon::debug

@@ -1,0 +1,66 @@
+#pragma once
+#include <array>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/gl/commands.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+/// Pictures of what the frame knows, drawn over its own: one row of a table, one C++ file and one shader per view.
+namespace gnomon::debug {
+
+struct ViewRow;
+
+/// What to show. Part of FrameSettings.
+struct Request {
+    const ViewRow* view = nullptr;            // null: nothing, which costs nothing
+    std::string light = {};                   // by name, of views that show one light
+    std::optional<std::uint32_t> layer = {};  // one of its maps only; empty: all
+    gl::Rect area = {};                       // of the picture, in pixels, y up; without width: the whole picture
+};
+
+/// Words for the application to draw: views draw pictures only.
+struct Label {
+    glm::ivec2 at_px{0};  // upper left corner of the text, from the picture's lower left
+    std::string text;
+};
+
+/// What a view may look at.
+struct ViewInput {
+    const SceneSnapshot& scene;
+    const shadow::ShadowFrame& frame;
+    const Request& request;
+    gl::Rect area;  // where to draw, within the picture, not empty
+};
+
+/// One triangle over the area, by shared/fullscreen.vert and the row's shader.
+struct Drawing {
+    std::vector<std::byte> block;             // the shader's uniform block, binding 0; not empty
+    std::array<gl::TextureHandle, 2> maps{};  // units 0 and 1, read raw: no comparison, no filter; {0}: not bound
+    std::vector<Label> labels;
+};
+
+/// Pure: same input, same drawing. Empty: there is nothing to show.
+using ViewFunction = std::optional<Drawing> (*)(const ViewInput& input);
+
+struct ViewRow {
+    std::string_view name;      // --debug NAME, or NAME:LIGHT
+    bool of_light;              // needs Request::light
+    std::string_view meaning;   // one line
+    std::string_view fragment;  // under shaders/
+    ViewFunction draw;
+};
+
+/// To add a view: systems/debug/x.cpp, shaders/debug/x.frag, a row here.
+std::span<const ViewRow> view_table();
+/// Null: no such view.
+const ViewRow* find_view(std::string_view name);
+
+std::optional<Drawing> draw_depth(const ViewInput& input);
+
+}  // namespace gnomon::debug

@@ -1,0 +1,52 @@
+"""Debug views, headless: --debug."""
+from depth_view import TITLE, Region, background, grey, nothing
+from game import GameTest, Picture, main
+
+WIDTH, HEIGHT = 640, 360
+
+
+class Debug(GameTest):
+    def view(self, request, *args):
+        file = self.path(request.replace(":", "_") + ".png")
+        self.run_game("--size", "%dx%d" % (WIDTH, HEIGHT), "--frames", 2, "--time", 3, "--debug", request, "--screenshot",
+                      file, *args)
+        return Picture(file)
+
+    def test_a_lantern_is_unfolded_in_a_cross_of_six_faces(self):
+        picture = self.view("depth:lantern")
+        edge = min(WIDTH // 4, (HEIGHT - TITLE) // 3)
+        left, top = (WIDTH - 4 * edge) // 2, TITLE + (HEIGHT - TITLE - 3 * edge) // 2
+        cell = lambda column, row: Region(picture, left + column * edge + 1, top + row * edge + 1, edge - 2, edge - 2)
+        for column, row in ((1, 0), (0, 1), (1, 1), (2, 1), (3, 1), (1, 2)):
+            face = cell(column, row)
+            self.assertGreater(face.share(lambda p: grey(p) or nothing(p)), 0.97, (column, row))
+            self.assertGreater(face.shades(), 5, (column, row))
+        for column, row in ((0, 0), (2, 0), (3, 0), (0, 2), (2, 2), (3, 2)):
+            self.assertGreater(cell(column, row).share(background), 0.99, (column, row))
+        # The sky is above, and the ground below: near under the lamp, farther to its sides.
+        self.assertGreater(cell(1, 0).share(nothing), 0.2)
+        self.assertLess(cell(1, 2).share(nothing), 0.05)
+
+    def test_a_spot_is_one_map_and_a_sun_several_and_one_can_be_chosen(self):
+        edge = HEIGHT - TITLE
+        spot = Region(self.view("depth:guard_lamp"), (WIDTH - edge) // 2, TITLE, edge, edge)
+        self.assertGreater(spot.share(lambda p: grey(p) or nothing(p)), 0.99)
+        self.assertGreater(spot.shades(), 30)
+        sun, one = self.view("depth:sun"), self.view("depth:sun:1")
+        alone = Region(one, (WIDTH - edge) // 2, TITLE, edge, edge)
+        self.assertGreater(alone.shades(), 30)
+        self.assertGreater(sun.mean_difference(one), 10.0)
+
+    def test_a_view_of_maps_that_are_reused_is_the_same_as_of_maps_just_drawn(self):
+        first = self.view("depth:guard_lamp", "--set", "economy=off")
+        self.assertEqual(first.rgba, self.view("depth:guard_lamp").rgba)
+
+    def test_a_light_without_a_map_says_so_and_the_run_goes_on(self):
+        off = self.view("depth:sun", "--set", "enabled=off")
+        self.assertGreater(Region(off, 0, TITLE, WIDTH, HEIGHT - TITLE).share(background), 0.99)
+        words = sum(1 for i in range(0, 4 * WIDTH * TITLE, 4) if off.rgba[i] > 200)
+        self.assertGreater(words, 100)
+
+
+if __name__ == "__main__":
+    main()
