@@ -56,5 +56,5 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/GnomonConfig.cmake.in
   ${PROJECT_BINARY_DIR}/GnomonConfig.cmake INSTALL_DESTINATION ${GNOMON_PACKAGE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/GnomonConfig.cmake ${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake
-  DESTINATION ${GNOMON_PACKAGE_DIR})
+  ${PROJECT_SOURCE_DIR}/cmake/find_libraries.cmake DESTINATION ${GNOMON_PACKAGE_DIR})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon)
