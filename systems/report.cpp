@@ -44,8 +44,6 @@ const char* reason_code(Reason reason) {
             return "depth_program_failed";
         case Reason::lighting_program_failed:
             return "lighting_program_failed";
-        case Reason::cone_clamped:
-            return "cone_clamped";
         case Reason::buffer_failed:
             return "buffer_failed";
         case Reason::sampler_failed:

@@ -30,7 +30,6 @@ enum class Reason : std::uint8_t {
     target_incomplete,
     depth_program_failed,
     lighting_program_failed,
-    cone_clamped,  // a spot wider than one map can hold
     buffer_failed,
     sampler_failed,
     fit_degenerate,          // no finite volume to render

@@ -6,7 +6,16 @@
 float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
 #ifdef SHADOWED
     ShadowPoint point = shadow_point(position_ca, normal, error_m, SHADOW_REACH_TEXEL);
-    return point.covered ? shadow_filter(point) : 1.0;
+    float visible = point.covered ? shadow_filter(point) : 1.0;
+#ifdef SHADOW_FADES
+    // A second lookup that the first one fades into: shadow_fade_share() of it.
+    float share = shadow_fade_share();
+    if (share > 0.0) {
+        ShadowPoint other = shadow_fade_point(position_ca, normal, error_m, SHADOW_REACH_TEXEL);
+        visible = mix(visible, other.covered ? shadow_filter(other) : 1.0, share);
+    }
+#endif
+    return visible;
 #else
     return 1.0;
 #endif

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/range_override.h"
@@ -46,6 +47,11 @@ void decide_projection(const LightItem& light, ShadowDemand& demand) {
     }
 }
 
+void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {
+    demand.faces_eighths = next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
+    demand.view_count = cone_layers(demand.faces_eighths);
+}
+
 }  // namespace
 
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, std::uint32_t limit_px) {
@@ -57,7 +63,7 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, s
     return std::min(std::bit_ceil(bounded_px), most_px);
 }
 
-void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows,
+void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,
                    std::vector<ShadowDemand>& demands) {
     demands.clear();
     glm::uvec2 viewport_px{1, 1};
@@ -80,7 +86,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
         decide_projection(light, demand);
-        if (light.kind == LightKind::spot && light.outer_cone_rad > kWidestMap_rad) demand.note = Reason::cone_clamped;
+        if (light.kind == LightKind::spot) decide_cone(light, find(held, light.entity, i), demand);
         demands.push_back(demand);
     }
 }

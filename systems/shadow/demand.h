@@ -16,8 +16,8 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, s
 inline constexpr double kTexelsPerPixel = 1.5;
 
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
-/// `shadows` false treats every light as disabled.
-void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows,
+/// `shadows` false treats every light as disabled. `held`: what the fits left last frame.
+void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,
                    std::vector<ShadowDemand>& demands);
 
 }  // namespace gnomon::shadow

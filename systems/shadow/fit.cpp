@@ -1,71 +1,29 @@
 #include "systems/shadow/fit.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <limits>
 
-#include "engine/math/frustum.h"
-#include "systems/extract/volumes.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
+#include "systems/shadow/predicted_error.h"
+#include "systems/shadow/view_casters.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Whether a caster can darken anything within one cascade's map: it overlaps the map's rectangle and is not
-/// wholly behind the far plane. Nearer than the near plane it still counts.
-bool before_rectangle(const ShadowView& view, const math::Aabb& box_ws) {
-    const glm::dvec3 centre = math::centre(box_ws) - view.anchor_ws_m, half = math::half_extent(box_ws);
-    const auto reach = [&](const glm::dvec3& axis) { return glm::dot(half, glm::abs(axis)); };
-    return std::abs(glm::dot(centre, view.axis_u) - view.centre_ls_m.x) <= view.half_extent_m.x + reach(view.axis_u) &&
-           std::abs(glm::dot(centre, view.axis_v) - view.centre_ls_m.y) <= view.half_extent_m.y + reach(view.axis_v) &&
-           -glm::dot(centre, view.axis_back) - reach(view.axis_back) <= view.far_m;
-}
-
-/// Casters of a view: those of the light that can show in it.
-void assign_casters(const SceneSnapshot& scene, const PotentialSets& sets, ShadowView& view, ShadowFrame& frame) {
-    view.casters.first = static_cast<std::uint32_t>(frame.view_caster_items.size());
-    const math::Frustum face =
-        view.projection == ViewProjection::cube_face
-            ? pyramid(view.anchor_ws_m, glm::dmat3(view.axis_u, view.axis_v, view.axis_back), 1.0, view.far_m)
-            : math::Frustum{};
-    for (std::uint32_t i = 0; i < sets.casters.count; ++i) {
-        const std::uint32_t item = frame.caster_items[sets.casters.first + i];
-        const math::Aabb& box_ws = scene.instances[item].bounds_ws;
-        const bool shows = view.projection == ViewProjection::orthographic ? before_rectangle(view, box_ws)
-                                                                           : math::may_overlap(face, box_ws);
-        if (shows) frame.view_caster_items.push_back(item);
+/// What the view's texels mean on the screen of the consumer that sees them largest.
+void state_error(const SceneSnapshot& scene, std::span<const glm::dvec3> points_ws, double reach_texel,
+                 ShadowView& view) {
+    for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
+        view.consumer_mask |= 1u << c;
+        const ViewError error = predict_error(view, scene.consumers[c], points_ws, reach_texel);
+        view.texel_m = std::max(view.texel_m, error.texel_m);
+        view.texel_extent_px = std::max(view.texel_extent_px, error.extent_px);
+        view.predicted_error_px = std::max(view.predicted_error_px, error.edge_px);
     }
-    // One draw per mesh needs equal meshes side by side; entity order within.
-    const auto begin = frame.view_caster_items.begin() + view.casters.first;
-    std::sort(begin, frame.view_caster_items.end(), [&scene](std::uint32_t a, std::uint32_t b) {
-        const std::uint32_t mesh_a = scene.instances[a].mesh, mesh_b = scene.instances[b].mesh;
-        return mesh_a != mesh_b ? mesh_a < mesh_b : a < b;
-    });
-    view.casters.count = static_cast<std::uint32_t>(frame.view_caster_items.size()) - view.casters.first;
 }
 
 }  // namespace
-
-double predict_error_px(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws) {
-    constexpr double kOneTapShare = 0.71, kPixelCentre_px = 0.5;
-    const double footprint = pixel_footprint(consumer);
-    const bool perspective_camera = consumer.projection == CameraProjection::perspective;
-    const double texel = std::hypot(view.texel_u, view.texel_v);
-    double worst_px = 0.0;
-    for (const glm::dvec3& p : points_ws) {
-        const double depth_m = -glm::dot(p - consumer.position_ws_m, consumer.rotation_ws[2]);
-        if (!(depth_m > 0.0)) continue;
-        const double pixel_m =
-            perspective_camera ? footprint * std::max({depth_m, consumer.near_m, view.seen_from_m}) : footprint;
-        const double texel_m =
-            view.projection == ViewProjection::orthographic ? texel : texel * glm::distance(p, view.anchor_ws_m);
-        worst_px = std::max(worst_px, kOneTapShare * texel_m / pixel_m + kPixelCentre_px);
-    }
-    return worst_px;
-}
 
 void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& frame) {
     const HeldLight none;
@@ -90,6 +48,8 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
                              std::span(frame.receiver_items).subspan(sets.receivers.first, sets.receivers.count),
                              std::span(frame.caster_items).subspan(sets.casters.first, sets.casters.count),
                              points,
+                             std::span(frame.beams).subspan(sets.beams.first, sets.beams.count),
+                             frame.receiver_points_ws,
                              filter_row(demand.filter).reach_texel,
                              frame.fit_scratch,
                              last ? *last : none,
@@ -100,15 +60,12 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
             sets.skip = Reason::fit_degenerate;
             continue;
         }
+        if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
         for (std::size_t v = first; v < frame.views.size(); ++v) {
             ShadowView& view = frame.views[v];
             view.demand = d;
-            assign_casters(scene, sets, view, frame);
-            for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
-                view.consumer_mask |= 1u << c;
-                view.predicted_error_px =
-                    std::max(view.predicted_error_px, predict_error_px(view, scene.consumers[c], points));
-            }
+            select_view_casters(scene, view, frame);
+            state_error(scene, points, static_cast<double>(input.reach_texel), view);
         }
     }
 }

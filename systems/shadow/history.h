@@ -22,8 +22,9 @@ namespace gnomon::shadow {
 /// One cascade, spot view or cube face as it was last fitted.
 struct HeldView {
     bool used = false;          // the numbers below come from a fit
-    glm::ivec2 extent_step{0};  // sides of the map: step_size() metres (sun) or tangents (local light)
-    glm::dvec2 low{0.0};        // its lower corner, in the kind's own fixed axes: metres (sun) or tangents
+    glm::ivec2 extent_step{0};  // sun: sides of the map, step_size() metres
+    glm::dvec2 low{0.0};        // lower corner of the map, in the kind's own fixed axes: metres (sun) or tangents
+    glm::dvec2 high{0.0};       // local light: upper corner
     int near_step = 0;          // local light: near plane
     int far_step = 0;           // local light: far plane; sun: depth range
     double near_m = 0.0;        // sun: where the depth range starts, in the kind's own fixed axes
@@ -33,15 +34,18 @@ struct HeldView {
 /// Views are indexed by cascade or face, not by their order in this frame.
 inline constexpr std::size_t kHeldViews = 8;
 
-/// Which maps serve a spot: one perspective view, faces of a cube around it, or both while one fades into the other.
-enum class ConeMap : std::uint8_t { one_view, both, faces };
+/// How a spot goes from one perspective view to faces of a cube around it and back: not at once.
+struct ConeFade {
+    bool used = false;
+    bool prefers_faces = false;  // the side of the hysteresis that its cone is on
+    int faces_eighths = 0;       // share of the faces in what is seen; 0 and 8: only one of the two exists
+    bool operator==(const ConeFade&) const = default;
+};
 
 struct HeldLight {
     ecs::Entity light = {};
     std::array<HeldView, kHeldViews> views;
-    ConeMap cone_map = ConeMap::one_view;
-    bool prefers_faces = false;       // spot: the side of the hysteresis its cone is on
-    std::uint32_t faces_eighths = 0;  // spot: share of the faces in the fade, 0 to 8
+    ConeFade cone;
     bool operator==(const HeldLight&) const = default;
 };
 

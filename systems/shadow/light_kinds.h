@@ -18,10 +18,16 @@ struct FitInput {
     std::span<const std::uint32_t> receivers;  // indices into scene.instances
     std::span<const std::uint32_t> casters;
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
+    std::span<const Beam> beams;                     // of a local light: one for each of light_openings()
+    std::span<const glm::dvec3> frame_points_ws;     // what Beam::receiver_points is a range of
     float reach_texel = 0.5f;                        // the filter's E
     FitScratch& scratch;                             // so that a fit allocates nothing in steady state
     const HeldLight& held;                           // what this light's last fit left
     HeldLight& next;                                 // output, starts as a copy of `held`: see history.h
+
+    std::span<const glm::dvec3> points_of(const Beam& beam) const {
+        return frame_points_ws.subspan(beam.receiver_points.first, beam.receiver_points.count);
+    }
 };
 
 /// Appends the light's views (without casters and predicted error). False if no finite volume exists.
@@ -49,8 +55,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views);
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views);
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views);
 
-/// Half angle a single perspective map can hold; a wider spot is clamped to it and reported (cone_clamped).
-/// At 80 degrees a texel at the rim is 1/cos^2 = 33 times stretched against the centre.
+/// Half angle a single perspective map can hold at most: there, a texel at the rim is 1 / cos^2 = 33 times stretched
+/// against the centre.
 inline constexpr double kWidestMap_rad = 1.3962634015954636;
 
 /// OpenGL's cube-map table (GL 4.5 core, table 8.19): where a face looks and how its texture axes lie.

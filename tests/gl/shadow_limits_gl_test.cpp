@@ -70,35 +70,20 @@ TEST_F(ShadowLimits, BehindASpotAndOutsideItsConeThereIsNoLight) {
     EXPECT_GT(behind, 10 * kSome);
 }
 
-TEST_F(ShadowLimits, OutsideTheMapOfAConeWiderThanAnyMapItIsLit) {
-    constexpr double kRim_rad = 1.3962634;  // the widest map: 80 degrees
+TEST_F(ShadowLimits, AConeOfAlmostAHalfSpaceCastsShadowsOutToItsRim) {
+    constexpr double kOneView_rad = 1.3962634;  // 80 degrees: no single perspective view would hold more
     add_ground(40.0);
-    const double height_m = 1.0, rim_m = height_m * std::tan(kRim_rad);
-    add_box({1.0, 0.2, -0.5}, {1.8, 0.6, 0.5});                          // within the map
-    add_box({rim_m * 1.6, 0.0, -4.0}, {rim_m * 1.6 + 0.5, 0.8, 4.0});    // beyond its rim: no shadow
+    const double height_m = 1.0, rim_m = height_m * std::tan(kOneView_rad);
+    truth.margin_m = 0.12;
+    add_box({1.0, 0.2, -0.5}, {1.8, 0.6, 0.5});
+    add_box({rim_m * 1.6, 0.0, -4.0}, {rim_m * 1.6 + 0.5, 0.8, 4.0});
     add_light(spot(1.55f), {0.0, height_m, 0.0}, kDown, {.filter = ShadowFilter::hard, .resolution_px = 2048});
     look_down(14.0);
     draw();
     const LightReport& report = frame().report().lights.front();
-    EXPECT_EQ(report.state, LightState::degraded);
-    EXPECT_EQ(report.reason, Reason::cone_clamped);
-    const ConsumerItem& camera = frame().snapshot().consumers.front();
-    const auto field = visibility();
-    std::size_t lit = 0;
-    for (std::uint32_t y = 0; y < settings.viewport_px.y; ++y)
-        for (std::uint32_t x = 0; x < settings.viewport_px.x; ++x) {
-            const glm::dvec3 p = boxes::pixel_ray(camera, x, y).origin;
-            const bool behind_the_far_box = p.x > rim_m * 1.6 + 1.0 && std::abs(p.z) < 4.0;
-            if (!behind_the_far_box) continue;
-            ++lit;
-            EXPECT_EQ(field[y * settings.viewport_px.x + x], 1.0f) << x << ", " << y;
-        }
-    EXPECT_GT(lit, kSome);
-    // Within the map there is a shadow, so that lit means more than no map at all.
-    truth.cards.front().half_u_m = {0.0, 0.0, 4.0};
-    truth.cards.front().half_v_m = {4.5, 0.0, 0.0};
-    truth.boxes.pop_back();
-    expect_true(kSome / 6, kSome);
+    EXPECT_EQ(report.state, LightState::rendered);
+    EXPECT_EQ(report.views, 1u) << "both boxes stand to one side, and only there does anything cast";
+    expect_true(kSome, 10 * kSome);
 }
 
 TEST_F(ShadowLimits, ANaNInOneEntityLeavesTheRestOfThePictureAsIfItWereNotThere) {

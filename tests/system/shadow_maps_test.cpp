@@ -63,7 +63,7 @@ TEST_F(ShadowMaps, APointGetsOneCube) {
     EXPECT_EQ(map.kind, gl::TextureKind::cube);
     EXPECT_THAT(map_labels(device), SizeIs(1 + 6));
     EXPECT_EQ(light("lamp").texels, 6 * std::uint64_t{map.width} * map.height);
-    EXPECT_EQ(light("lamp").views, 6u);
+    EXPECT_EQ(light("lamp").views, 4u) << "nothing is seen overhead nor on the camera's side";
 }
 
 TEST_F(ShadowMaps, ASunGetsOneArrayOfFourLayers) {
@@ -222,13 +222,27 @@ TEST_F(ShadowMaps, AResolutionBeyondTheDeviceIsClampedAndReported) {
     }
 }
 
-TEST_F(ShadowMaps, AConeWiderThanAMapIsReported) {
+TEST_F(ShadowMaps, AWideConeIsServedByFacesAroundIt) {
     const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     world.registry.patch<Light>(lamp, [](Light& l) { l.outer_cone_rad = 1.55f; });
     step();
-    EXPECT_EQ(light("lamp").state, LightState::degraded);
-    EXPECT_STREQ(reason_code(light("lamp").reason), "cone_clamped");
-    EXPECT_THAT(depth_passes(), SizeIs(1));
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+    EXPECT_EQ(map_of("lamp").layers, 5u);
+    EXPECT_GE(light("lamp").views, 1u);
+    EXPECT_THAT(depth_passes(), SizeIs(light("lamp").views));
+}
+
+TEST_F(ShadowMaps, AConeThatOpensFadesFromOneMapToFacesAndKeepsNoneTooMany) {
+    const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    EXPECT_EQ(map_of("lamp").layers, 1u);
+    world.registry.patch<Light>(lamp, [](Light& l) { l.outer_cone_rad = 1.2f; });
+    for (int i = 0; i < 7; ++i) {
+        step();
+        EXPECT_EQ(map_of("lamp").layers, 6u);
+    }
+    step();
+    EXPECT_EQ(map_of("lamp").layers, 5u);
 }
 
 TEST_F(ShadowMaps, SeveralLightsOfMixedKindsEachHaveTheirOwn) {

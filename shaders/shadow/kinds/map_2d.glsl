@@ -21,6 +21,6 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
     vec2 margin = margin_texel * point.texel_uv;
     point.covered = projected.w > 0.0 && map.z >= 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
-    point.layer = float(view);
+    point.layer = light.views[view].numeric.w;
     return point;
 }

@@ -1,4 +1,4 @@
-// Point light: a cube of six perspective views with common near and far. A face stores projected depth of
+// Point light: a cube of up to six perspective views with common near and far. A face stores projected depth of
 // its own axis, so the lookup needs only the largest coordinate, z.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
@@ -13,9 +13,20 @@ struct ShadowPoint {
 
 float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
+// Faces in OpenGL's order. One that was not drawn has no caster where it would be seen; it may hold anything.
+bool is_drawn(vec3 direction) {
+    vec3 size = abs(direction);
+    bool x_major = size.x >= size.y && size.x >= size.z;
+    bool y_major = !x_major && size.y >= size.z;
+    float along = x_major ? direction.x : (y_major ? direction.y : direction.z);
+    int face = (x_major ? 0 : (y_major ? 2 : 4)) + (along < 0.0 ? 1 : 0);
+    return (light.options.w >> face & 1) != 0;
+}
+
 // A tap that leaves the face is compared by the depth of the face it lands on.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     vec3 direction = point.position + offset_texel.x * point.step_u + offset_texel.y * point.step_v;
+    if (!is_drawn(direction)) return 1.0;
     ViewRecord view = light.views[0];
     float depth = view.numeric.z + view.axis_back.w / largest(direction);
     return texture(shadow_map, vec4(direction, clamp(depth + point.bias_depth, 0.0, 1.0)));

@@ -3,11 +3,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "engine/math/projection.h"
+#include "systems/shadow/kinds/held_fit.h"
+#include "systems/shadow/kinds/local_content.h"
+#include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/range_override.h"
 
-/// Point light: six 90-degree views of a cube map with common near and far.
+/// Point light: views of those faces of a cube map in which a receiver is seen and a caster stands. Near and far are
+/// common, since a filter's tap may cross a seam, and held in steps (held_fit.h).
 namespace gnomon::shadow {
 
 const CubeFace& cube_face(std::uint32_t face) {
@@ -22,40 +25,47 @@ const CubeFace& cube_face(std::uint32_t face) {
     return kFaces[face % 6];
 }
 
-bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
-    const LightItem& light = input.light;
-    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-    const auto include = [&](const math::Aabb& box) {
-        nearest = std::min(nearest, math::distance(box, light.position_ws_m));
-    };
-    for (const std::uint32_t i : input.casters) include(input.scene.instances[i].bounds_ws);
-    for (const std::uint32_t i : input.receivers) include(input.scene.instances[i].bounds_ws);
-    for (const glm::dvec3& p_ws : input.receiver_points_ws)
-        farthest = std::max(farthest, glm::distance(p_ws, light.position_ws_m));
-    if (light.range_m > 0.0) farthest = std::min(farthest, light.range_m);
-    // A face measures along its own axis: a point at distance r lies between r / sqrt(3) and r.
-    const PerspectiveRange range = overridden(input.demand, perspective_range(nearest / std::sqrt(3.0), farthest));
-    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
+namespace {
 
-    const glm::dmat4 projection = math::reversed_perspective(-1.0, 1.0, -1.0, 1.0, range.near_m, range.far_m);
-    for (std::uint32_t face = 0; face < 6; ++face) {
-        ShadowView view;
-        view.projection = ViewProjection::cube_face;
-        view.layer = face;
-        view.anchor_ws_m = light.position_ws_m;
-        view.axis_u = cube_face(face).axis_u;
-        view.axis_v = cube_face(face).axis_v;
-        view.axis_back = cube_face(face).axis_back;
-        view.near_m = range.near_m;
-        view.far_m = range.far_m;
-        view.texel_u = view.texel_v = 2.0 / static_cast<double>(input.demand.resolution_px);
-        view.depth_alpha = -range.near_m / (range.far_m - range.near_m);
-        view.depth_beta = range.near_m * range.far_m / (range.far_m - range.near_m);
-        const glm::dmat4 view_from_anchor(glm::transpose(glm::dmat3(view.axis_u, view.axis_v, view.axis_back)));
-        view.clip_from_anchor = glm::mat4(projection * view_from_anchor);
-        view.map_from_anchor = glm::mat4(math::texture_from_clip() * projection * view_from_anchor);
-        views.push_back(view);
+constexpr double kOneTap_texel = 0.5;  // half-width of a filter that reads the nearest texel and no other
+
+ShadowView face_view(const FitInput& input, std::uint32_t face, const PerspectiveRange& range) {
+    const CubeFace& f = cube_face(face);
+    ShadowView view = perspective_view(input.light.position_ws_m, {f.axis_u, f.axis_v, f.axis_back}, TangentRectangle{},
+                                       range, input.demand.resolution_px);
+    view.projection = ViewProjection::cube_face;
+    view.layer = face;
+    view.held = true;
+    return view;
+}
+
+}  // namespace
+
+bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
+    const LightOpenings openings = light_openings(input.light, input.demand);
+    std::array<LocalContent, 6> faces;
+    double nearest_m = HUGE_VAL, farthest_m = 0.0;
+    bool any = false;
+    for (std::uint32_t i = 0; i < openings.count; ++i) {
+        const TangentRectangle whole{openings.items[i].low, openings.items[i].high};
+        faces[i] = visible_content(input, input.beams[i], whole);
+        if (!faces[i].receivers) continue;
+        include_casters(input, input.beams[i], whole, faces[i]);
+        any = any || faces[i].casters;
+        nearest_m = std::min(nearest_m, faces[i].nearest_m);
+        farthest_m = std::max(farthest_m, faces[i].farthest_m);
     }
+    if (!any) return true;
+    HeldView next = input.held.views[0];
+    const PerspectiveRange range =
+        overridden(input.demand, held_range(nearest_m, farthest_m, input.held.views[0], next));
+    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
+    next.used = true;
+    input.next.views[0] = next;
+    // A filter that blends texels reads across seams on its own: what is seen but has no caster must then hold nothing.
+    const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
+    for (std::uint32_t face = 0; face < openings.count; ++face)
+        if (faces[face].receivers && (faces[face].casters || blends)) views.push_back(face_view(input, face, range));
     return true;
 }
 

@@ -1,45 +1,48 @@
 #include <cmath>
-#include <glm/geometric.hpp>
 
-#include "systems/shadow/kinds/perspective_view.h"
+#include "systems/shadow/kinds/cone_fade.h"
+#include "systems/shadow/kinds/held_fit.h"
+#include "systems/shadow/kinds/local_content.h"
+#include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/range_override.h"
 
-/// Spot light: one perspective view around the cone, near and far from the casters and receivers in it.
+/// Spot light: one perspective view of its cone, or the faces of a cube for a wide one (cone_fade.h). Each view is
+/// cropped to what is seen of the receivers in it, and its depth runs from the nearest caster or receiver to the
+/// farthest receiver; both in steps that are held (held_fit.h), so that a map stays valid while the camera walks.
 namespace gnomon::shadow {
 namespace {
 
-struct Span {
-    double lowest, highest;
-};
-
-/// Distance along the light's axis of the nearest and farthest point of a box.
-Span along_axis(const math::Aabb& box, const glm::dvec3& origin, const glm::dvec3& axis) {
-    const double middle = glm::dot(math::centre(box) - origin, axis);
-    const double reach = glm::dot(math::half_extent(box), glm::abs(axis));
-    return {middle - reach, middle + reach};
+/// One view, if there are both a receiver and a caster. False if its depth range is no range.
+bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam& beam, std::vector<ShadowView>& views) {
+    const TangentRectangle whole{opening.low, opening.high};
+    LocalContent content = visible_content(input, beam, whole);
+    if (!content.receivers) return true;
+    const HeldView& held = input.held.views[opening.held_as];
+    HeldView next = held;
+    const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
+    include_casters(input, beam, crop, content);
+    if (!content.casters) return true;
+    const PerspectiveRange range =
+        overridden(input.demand, held_range(content.nearest_m, content.farthest_m, held, next));
+    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
+    next.used = true;
+    input.next.views[opening.held_as] = next;
+    ShadowView view = perspective_view(input.light.position_ws_m, opening.axes, crop, range, input.demand.resolution_px,
+                                       static_cast<double>(input.reach_texel));
+    view.layer = opening.layer;
+    view.held = true;
+    views.push_back(view);
+    return true;
 }
 
 }  // namespace
 
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {
-    const LightItem& light = input.light;
-    const glm::dvec3 axis = -light.rotation_ws[2];
-    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-    for (const glm::dvec3& p_ws : input.receiver_points_ws) {
-        const double z = glm::dot(p_ws - light.position_ws_m, axis);
-        nearest = std::min(nearest, z);
-        farthest = std::max(farthest, z);
-    }
-    for (const std::uint32_t i : input.casters)
-        nearest = std::min(nearest, along_axis(input.scene.instances[i].bounds_ws, light.position_ws_m, axis).lowest);
-    if (light.range_m > 0.0) farthest = std::min(farthest, light.range_m);
-    const PerspectiveRange range = overridden(input.demand, perspective_range(nearest, farthest));
-    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
-
-    const double tan_half = std::tan(std::min(light.outer_cone_rad, kWidestMap_rad));
-    views.push_back(perspective_view(light.position_ws_m, light.rotation_ws, tan_half, range,
-                                     input.demand.resolution_px, static_cast<double>(input.reach_texel)));
+    input.next.cone = next_cone_fade(input.light.outer_cone_rad, input.held.cone);
+    const LightOpenings openings = light_openings(input.light, input.demand);
+    for (std::uint32_t i = 0; i < openings.count; ++i)
+        if (!fit_opening(input, openings.items[i], input.beams[i], views)) return false;
     return true;
 }
 

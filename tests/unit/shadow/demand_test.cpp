@@ -24,7 +24,7 @@ protected:
         }
     }
     const std::vector<ShadowDemand>& decide(bool shadows = true) {
-        decide_demand(scene, device, shadows, demands);
+        decide_demand(scene, device, shadows, {}, demands);
         return demands;
     }
     gl::DeviceInfo device;
@@ -100,9 +100,11 @@ TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {
     EXPECT_GT(demands[1].resolution_px, 1u);
 }
 
-TEST_F(DemandTest, AConeWiderThanOneMapIsNoted) {
+TEST_F(DemandTest, AWideConeGetsFiveFacesInsteadOfOneView) {
     scene.lights[1].outer_cone_rad = 1.5;
-    EXPECT_EQ(decide()[1].note, Reason::cone_clamped);
+    EXPECT_EQ(decide()[1].note, Reason::none);
+    EXPECT_EQ(demands[1].view_count, 5u);
+    EXPECT_EQ(demands[1].faces_eighths, 8);
 }
 
 TEST_F(DemandTest, WithoutCamerasItStaysTotal) {

@@ -53,7 +53,7 @@ public:
         light.position_ws_m = vector(12.0);
         light.rotation_ws = math::basis_from_back(light.position_ws_m + vector(4.0));
         light.range_m = number(0.0, 1.0) < 0.3 ? 0.0 : number(5.0, 40.0);
-        light.outer_cone_rad = number(0.1, 1.3);
+        light.outer_cone_rad = number(0.1, 1.55);
         s.lights.push_back(light);
         return s;
     }
@@ -76,13 +76,13 @@ inline void place(SceneSnapshot& s, double scale, const glm::dvec3& offset) {
     }
 }
 
-inline ShadowFrame fitted(const SceneSnapshot& scene) {
+inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}) {
     gl::DeviceInfo device;
     device.max_texture_px = device.max_cube_px = 16384;
     ShadowFrame frame;
-    decide_demand(scene, device, true, frame.demands);
+    decide_demand(scene, device, true, held, frame.demands);
     select_sets(scene, frame);
-    fit_views(scene, {}, frame);
+    fit_views(scene, held, frame);
     return frame;
 }
 

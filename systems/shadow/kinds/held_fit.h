@@ -1,0 +1,23 @@
+#pragma once
+#include "systems/shadow/history.h"
+#include "systems/shadow/kinds/perspective_range.h"
+#include "systems/shadow/kinds/perspective_view.h"
+
+/// Hysteresis of a local light's views: what is needed is rounded to steps, and what was chosen last stays as long as
+/// it is good enough. Any `held` is safe; a choice always holds what is needed. `next` takes the choice.
+namespace gnomon::shadow {
+
+/// A held choice may be this many steps (of 2^(1/4)) larger than the closest one: a factor of 1.41. An object that
+/// bobs across a step then moves nothing.
+inline constexpr int kHoldSteps = 2;
+
+/// The range of perspective_range(), rounded outward to steps. near >= far only if nothing lies before the light.
+PerspectiveRange held_range(double nearest_m, double farthest_m, const HeldView& held, HeldView& next);
+
+/// `needed` within `full`, rounded outward: each side becomes a step, placed on sixteenths of itself. A side that would
+/// not gain a step against the full one stays full. Cropped to no less than a 64th of the full side: a float matrix
+/// still places a texel of an 8192 px map there to a sixteenth.
+TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,
+                                HeldView& next);
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,95 @@
+#include "systems/shadow/predicted_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "systems/extract/volumes.h"
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Points on the border of a view count as inside.
+constexpr double kSlack = 1.0 / (1 << 20);
+
+bool is_perspective(const ConsumerItem& consumer) { return consumer.projection == CameraProjection::perspective; }
+
+double depth_from(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
+    return glm::dot(consumer.position_ws_m - p_ws, consumer.rotation_ws[2]);
+}
+
+double depth_from_light(const ShadowView& view, const glm::dvec3& p_ws) {
+    return glm::dot(view.anchor_ws_m - p_ws, view.axis_back);
+}
+
+bool orthographic(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
+
+/// How a small displacement at p shows in the picture, in pixels.
+glm::dvec2 on_screen(const ConsumerItem& consumer, const glm::dvec3& p_ws, const glm::dvec3& displacement_m) {
+    const double footprint = pixel_footprint(consumer);
+    const glm::dvec3 d = displacement_m * consumer.rotation_ws;
+    if (!is_perspective(consumer)) return glm::dvec2(d) / footprint;
+    const glm::dvec3 p = (p_ws - consumer.position_ws_m) * consumer.rotation_ws;
+    const double z_m = -p.z;
+    return (glm::dvec2(d) + glm::dvec2(p) * (d.z / z_m)) / (z_m * footprint);
+}
+
+/// The most pixels a metre covers at this depth, anywhere in the picture and in any direction.
+double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
+    const double footprint = pixel_footprint(consumer);
+    if (!is_perspective(consumer)) return 1.0 / footprint;
+    const double tan_y = std::tan(0.5 * consumer.fov_y_rad), tan_x = tan_y * aspect(consumer);
+    return std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y) / (depth_m * footprint);
+}
+
+bool within(const ShadowView& view, const glm::dvec3& p_ws) {
+    if (orthographic(view)) return true;
+    const glm::dvec3 p = p_ws - view.anchor_ws_m;
+    const double z_m = depth_from_light(view, p_ws);
+    const glm::dvec2 at(glm::dot(p, view.axis_u), glm::dot(p, view.axis_v));
+    const glm::dvec2 slack = kSlack * (view.tan_high - view.tan_low);
+    return z_m > 0.0 && glm::all(glm::greaterThanEqual(at, (view.tan_low - slack) * z_m)) &&
+           glm::all(glm::lessThanEqual(at, (view.tan_high + slack) * z_m));
+}
+
+}  // namespace
+
+double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
+                       const glm::dvec3& normal) {
+    const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
+    const glm::dvec3 ray = orthographic(view) ? -view.axis_back : (p_ws - view.anchor_ws_m) / z_m;
+    const double facing = glm::dot(ray, normal);
+    if (!(z_m > 0.0) || facing == 0.0 || (is_perspective(consumer) && !(depth_from(consumer, p_ws) > 0.0)))
+        return kInfinity;
+    const auto extent = [&](const glm::dvec3& across_m) {
+        return glm::length(on_screen(consumer, p_ws, across_m - ray * (glm::dot(across_m, normal) / facing)));
+    };
+    const glm::dvec3 u = view.axis_u * (view.texel_u * z_m), v = view.axis_v * (view.texel_v * z_m);
+    return std::max(extent(u + v), extent(u - v));
+}
+
+double edge_error_px(double extent_px, double reach_texel) {
+    constexpr double kSampling_texel = 0.5, kPixelCentres_px = 1.0;
+    return (kSampling_texel + reach_texel) * extent_px + kPixelCentres_px;
+}
+
+ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
+                        double reach_texel) {
+    const double texel = std::hypot(view.texel_u, view.texel_v);
+    ViewError error;
+    // Texel over pixel is a ratio of two linear functions of the point: largest at a corner.
+    for (const glm::dvec3& p_ws : points_ws) {
+        const double depth_m = depth_from(consumer, p_ws);
+        if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
+        const double served_m = std::max({depth_m, consumer.near_m, view.seen_from_m});
+        const double texel_m = orthographic(view) ? texel : texel * depth_from_light(view, p_ws);
+        error.texel_m = std::max(error.texel_m, texel_m);
+        error.extent_px = std::max(error.extent_px, kSteepestReceiver * texel_m * pixels_per_metre(consumer, served_m));
+    }
+    if (error.texel_m > 0.0) error.edge_px = edge_error_px(error.extent_px, reach_texel);
+    return error;
+}
+
+}  // namespace gnomon::shadow
