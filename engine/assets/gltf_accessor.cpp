@@ -13,8 +13,6 @@ namespace gnomon::assets::gltf {
 namespace {
 
 constexpr std::size_t kColumnAlignment = 4;  // matrix columns, glTF 2.0 section 3.6.2.4
-constexpr std::size_t kMinStride = 4;
-constexpr std::size_t kMaxStride = 252;
 
 std::size_t component_bytes(int component_type) {
     switch (component_type) {
@@ -74,9 +72,6 @@ std::size_t stride_bytes(const Document& document, const tinygltf::Accessor& acc
 void validate_view(const Document& document, std::size_t i) {
     const auto& view = document.model.bufferViews[i];
     if (view.byteLength == 0) fail("buffer_view.empty", pointer("bufferViews", i, "byteLength"), "must not be 0");
-    if (view.byteStride != 0 && (view.byteStride < kMinStride || view.byteStride > kMaxStride)) {
-        fail("buffer_view.stride", pointer("bufferViews", i, "byteStride"), "must lie between 4 and 252");
-    }
     const BufferData& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
     if (!buffer.available) return;  // an error as soon as something reads it
     if (view.byteOffset > buffer.bytes.size() || view.byteLength > buffer.bytes.size() - view.byteOffset) {
@@ -120,10 +115,6 @@ void validate_sparse(const Document& document, std::size_t i) {
 
 void validate_accessor(const Document& document, std::size_t i, std::size_t buffer_bytes) {
     const auto& accessor = document.model.accessors[i];
-    if (component_bytes(accessor.componentType) == 0) {
-        fail("accessor.component_type", pointer("accessors", i, "componentType"),
-             std::to_string(accessor.componentType) + " is not a component type");
-    }
     if (accessor.count == 0) fail("accessor.empty", pointer("accessors", i, "count"), "must not be 0");
     const std::size_t size = element_bytes(accessor);
     if (accessor.count > kMaxDecodedBytes / size) {

@@ -1,7 +1,9 @@
 #include "engine/assets/gltf_shape.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -287,12 +289,51 @@ private:
     std::string pointer_;
 };
 
+// glTF 2.0 table 3.6.2.2: BYTE, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT, UNSIGNED_INT, FLOAT.
+constexpr int kComponentTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
+// glTF 2.0 section 5.11.4; 0 stands for "tightly packed" in files that exist.
+constexpr std::size_t kStrideStep = 4, kMaxStride = 252;
+
+/// What tinygltf would refuse as well, but without saying where.
+void check_what_the_parser_refuses(const json& document) {
+    const json none = json::array();
+    const auto list = [&](const char* where) -> const json& {
+        const json::json_pointer path(where);
+        return document.contains(path) ? document.at(path) : none;
+    };
+    const json& accessors = list("/accessors");
+    for (std::size_t i = 0; i < accessors.size(); ++i) {
+        const auto type = accessors[i]["componentType"].get<int>();
+        if (std::find(std::begin(kComponentTypes), std::end(kComponentTypes), type) != std::end(kComponentTypes))
+            continue;
+        fail("accessor.component_type", pointer("accessors", i, "componentType"),
+             std::to_string(type) + " is not a component type");
+    }
+    const json& views = list("/bufferViews");
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const auto stride = views[i].value("byteStride", std::size_t{0});
+        if (stride % kStrideStep == 0 && stride <= kMaxStride) continue;
+        fail("buffer_view.stride", pointer("bufferViews", i, "byteStride"), "must be a multiple of 4 up to 252");
+    }
+    const json& cameras = list("/cameras");
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const auto type = cameras[i]["type"].get<std::string>();
+        if (!cameras[i].contains(type)) fail("property.missing", pointer("cameras", i), "\"" + type + "\" is missing");
+    }
+    const json& lights = list("/extensions/KHR_lights_punctual/lights");
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        if (lights[i]["type"] != "spot" || lights[i].contains("spot")) continue;
+        fail("property.missing", pointer("extensions", "KHR_lights_punctual", "lights", i), "\"spot\" is missing");
+    }
+}
+
 }  // namespace
 
 void check_shape(json& document) {
     if (!document.is_object()) fail("json.root", "", "the root is not an object");
     ShapeChecker checker(document);
     for (const Row& row : kRows) checker.check(row);
+    check_what_the_parser_refuses(document);
 }
 
 }  // namespace gnomon::assets::gltf

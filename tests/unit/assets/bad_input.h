@@ -16,6 +16,9 @@ struct BadInput {
     const char* file = "bad.gltf";
 };
 
+/// At least one for every rule that bytes alone can break; those about files on disk are in bad_uri_test.cpp.
+std::vector<BadInput> all_bad_inputs();
+
 inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 
 /// The good triangle after `change` has spoilt its document.

@@ -2,8 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
 #include <string>
-#include <vector>
 
 #include "engine/assets/gltf_limits.h"
 #include "tests/unit/assets/bad_input.h"
@@ -12,292 +16,6 @@ namespace gnomon::test {
 namespace {
 
 namespace limits = assets::gltf;
-
-std::vector<BadInput> framing_inputs() {
-    return {
-        {"EmptyFile", "json.syntax", "", text("")},
-        {"NoJson", "json.syntax", "", text("this is no glTF")},
-        {"TruncatedJson", "json.syntax", "", text(R"({"asset":{"version":"2.0")")},
-        {"TrailingText", "json.syntax", "", text(R"({"asset":{"version":"2.0"}} more)")},
-        {"InvalidUtf8", "json.syntax", "", text("{\"asset\":{\"version\":\"2.0\",\"generator\":\"\xC3\x28\"}}")},
-        {"NanInJson", "json.syntax", "", text(R"({"asset":{"version":"2.0"},"nodes":[{"scale":[NaN,1,1]}]})")},
-        {"NumberBeyondDouble", "json.number_range", "", text(R"({"asset":{"version":"2.0"},"scene":1e999})")},
-        {"RootIsAnArray", "json.root", "", text("[]")},
-        {"NestedTooDeep", "json.depth", "",
-         text(R"({"asset":{"version":"2.0"},"extras":)" + repeated("[", 100'000) + repeated("]", 100'000) + "}")},
-        {"TooManyValues", "json.too_many_values", "",
-         text(R"({"asset":{"version":"2.0"},"extras":[0)" + repeated(",0", limits::kMaxJsonValues) + "]}")},
-        {"WrongMagic", "glb.magic", "", spoilt_glb([](Bytes& b) { b[0] = std::byte{'x'}; }), "bad.glb"},
-        {"HeaderCutShort", "glb.truncated", "", spoilt_glb([](Bytes& b) { b.resize(15); })},
-        {"BodyCutShort", "glb.truncated", "", spoilt_glb([](Bytes& b) { b.resize(b.size() - 8); })},
-        {"LongerThanItsHeaderSays", "glb.length", "", spoilt_glb([](Bytes& b) { b.resize(b.size() + 4); })},
-        {"GlbVersion1", "glb.version", "", spoilt_glb([](Bytes& b) { put_u32(b, 4, 1); })},
-        {"ChunkTooLong", "glb.chunk_length", "", spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 0xFFFFFFF0U); })},
-        {"BinChunkTooLong", "glb.chunk_length", "", spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b), 0x1000); })},
-        {"ChunkNotAligned", "glb.chunk_alignment", "", spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 21); })},
-        {"FirstChunkIsNotJson", "glb.first_chunk", "", spoilt_glb([](Bytes& b) { put_u32(b, 16, 0x004E4942); })},
-        {"TwoJsonChunks", "glb.duplicate_chunk", "",
-         spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b) + 4, 0x4E4F534A); })},
-        {"ChunkHeaderCutShort", "glb.chunk_header", "", spoilt_glb([](Bytes& b) {
-             b.resize(b.size() + 4);
-             put_u32(b, 8, static_cast<std::uint32_t>(b.size()));
-         })},
-    };
-}
-
-std::vector<BadInput> shape_inputs() {
-    return {
-        {"NoAsset", "property.missing", "", spoilt([](json& d) { d.erase("asset"); })},
-        {"NoVersion", "property.missing", "/asset", spoilt([](json& d) { d["asset"].erase("version"); })},
-        {"Version1", "asset.version", "/asset/version", spoilt([](json& d) { d["asset"]["version"] = "1.0"; })},
-        {"MinVersion3", "asset.min_version", "/asset/minVersion",
-         spoilt([](json& d) { d["asset"]["minVersion"] = "3.0"; })},
-        {"UnknownRequiredExtension", "extension.unsupported", "/extensionsRequired/0",
-         spoilt([](json& d) { d["extensionsRequired"] = {"EXT_magic"}; })},
-        {"NodesIsAnObject", "property.type", "/nodes", spoilt([](json& d) { d["nodes"] = json::object(); })},
-        {"NodeIsANumber", "property.type", "/nodes/0", nodes({7})},
-        {"NameIsANumber", "property.type", "/nodes/0/name", nodes({{{"name", 7}}})},
-        {"ScaleOfTwo", "property.length", "/nodes/0/scale", nodes({{{"scale", {1, 2}}}})},
-        {"ScaleOfWords", "property.type", "/nodes/0/scale", nodes({{{"scale", {"a", "b", "c"}}}})},
-        {"FractionalIndex", "property.type", "/nodes/0/mesh", nodes({{{"mesh", 0.5}}})},
-        {"NegativeMesh", "reference.unresolved", "/nodes/0/mesh", nodes({{{"mesh", -1}}})},
-        {"UnknownMesh", "reference.unresolved", "/nodes/0/mesh", nodes({{{"mesh", 1}}})},
-        {"UnknownCamera", "reference.unresolved", "/nodes/0/camera", nodes({{{"camera", 0}}})},
-        {"UnknownLight", "reference.unresolved", "/nodes/0/extensions/KHR_lights_punctual/light",
-         nodes({{{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}})},
-        {"UnknownChild", "reference.unresolved", "/nodes/0/children/0", nodes({{{"children", {9}}}})},
-        {"UnknownScene", "reference.unresolved", "/scene", spoilt([](json& d) { d["scene"] = 0; })},
-        {"UnknownSceneNode", "reference.unresolved", "/scenes/0/nodes/0", spoilt([](json& d) {
-             d["scenes"] = {{{"nodes", {1e300}}}};
-         })},
-        {"UnknownMaterial", "reference.unresolved", "/meshes/0/primitives/0/material",
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["material"] = 0; })},
-        {"UnknownPosition", "reference.unresolved", "/meshes/0/primitives/0/attributes/POSITION",
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99; })},
-        {"UnknownIndices", "reference.unresolved", "/meshes/0/primitives/0/indices",
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["indices"] = std::uint64_t{1} << 40; })},
-        {"UnknownBuffer", "reference.unresolved", "/bufferViews/0/buffer",
-         spoilt([](json& d) { d["bufferViews"][0]["buffer"] = 1; })},
-        {"UnknownBufferView", "reference.unresolved", "/accessors/0/bufferView",
-         spoilt([](json& d) { d["accessors"][0]["bufferView"] = 2; })},
-        {"UnknownTexture", "reference.unresolved", "/materials/0/pbrMetallicRoughness/baseColorTexture/index",
-         spoilt([](json& d) {
-             d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
-         })},
-        {"UnknownImage", "reference.unresolved", "/textures/0/source", spoilt([](json& d) {
-             d["textures"] = json::array({{{"source", 3}}});
-         })},
-        {"NegativeOffset", "property.range", "/accessors/0/byteOffset",
-         spoilt([](json& d) { d["accessors"][0]["byteOffset"] = -4; })},
-        {"UnknownAccessorType", "property.choice", "/accessors/0/type",
-         spoilt([](json& d) { d["accessors"][0]["type"] = "VEC9"; })},
-        {"UnknownAlphaMode", "property.choice", "/materials/0/alphaMode", spoilt([](json& d) {
-             d["materials"] = json::array({{{"alphaMode", "GLOW"}}});
-         })},
-        {"TooManyNodes", "collection.too_large", "/nodes",
-         spoilt([](json& d) { d["nodes"] = json(limits::kMaxNodes + 1, json::object()); })},
-    };
-}
-
-std::vector<BadInput> buffer_inputs() {
-    return {
-        {"BufferTooShort", "buffer.too_short", "/buffers/0/byteLength", spoilt([](json& d) {
-             d["buffers"] = {{{"byteLength", 42}, {"uri", "data:;base64,AAAA"}}};
-         })},
-        {"BufferWithoutData", "buffer.no_data", "/accessors/0", spoilt([](json& d) {
-             d["buffers"] = json::array({{{"byteLength", 42}}});
-         })},
-        {"EmptyGlbBuffer", "buffer_view.out_of_range", "/bufferViews/0",
-         [] {
-             GltfBuilder builder = triangle();
-             builder.doc["buffers"] = json::array({{{"byteLength", 0}}});
-             return builder.glb();
-         }},
-        {"GlbBufferLongerThanItsChunk", "buffer.too_short", "/buffers/0/byteLength",
-         [] {
-             GltfBuilder builder = triangle();
-             builder.doc["buffers"] = json::array({{{"byteLength", builder.binary.size() + 100}}});
-             return builder.glb();
-         }},
-        {"ViewPastItsBuffer", "buffer_view.out_of_range", "/bufferViews/1",
-         spoilt([](json& d) { d["bufferViews"][1]["byteLength"] = 1000; })},
-        {"ViewOffsetOverflows", "buffer_view.out_of_range", "/bufferViews/0",
-         spoilt([](json& d) { d["bufferViews"][0]["byteOffset"] = (std::uint64_t{1} << 53); })},
-        {"EmptyView", "buffer_view.empty", "/bufferViews/0/byteLength",
-         spoilt([](json& d) { d["bufferViews"][0]["byteLength"] = 0; })},
-        {"StrideTooLarge", "gltf.parse", "", spoilt([](json& d) { d["bufferViews"][0]["byteStride"] = 256; })},
-        {"ElementsOverlap", "accessor.stride", "/accessors/0",
-         spoilt([](json& d) { d["bufferViews"][0]["byteStride"] = 8; })},
-        {"AccessorPastItsView", "accessor.out_of_range", "/accessors/0",
-         spoilt([](json& d) { d["accessors"][0]["count"] = 4; })},
-        {"AccessorOffsetPastItsView", "accessor.out_of_range", "/accessors/0",
-         spoilt([](json& d) { d["accessors"][0]["byteOffset"] = 1; })},
-        {"CountOverflows", "accessor.too_large", "/accessors/0/count",
-         spoilt([](json& d) { d["accessors"][0]["count"] = std::uint64_t{1} << 40; })},
-        {"HugeAccessorWithoutView", "accessor.too_large", "/accessors/0/count", spoilt([](json& d) {
-             d["accessors"][0].erase("bufferView");
-             d["accessors"][0]["count"] = std::uint64_t{1} << 50;
-         })},
-        {"MillionsOfElementsWithoutAView", "accessor.unbacked", "/accessors/0/count", spoilt([](json& d) {
-             d["accessors"][0].erase("bufferView");
-             d["accessors"][0]["count"] = 8'000'000;
-         })},
-        {"CountOfZero", "accessor.empty", "/accessors/1/count",
-         spoilt([](json& d) { d["accessors"][1]["count"] = 0; })},
-        {"UnknownComponentType", "accessor.component_type", "/accessors/0/componentType",
-         spoilt([](json& d) { d["accessors"][0]["componentType"] = 5124; })},
-        {"SparseCountOfZero", "accessor.sparse_count", "/accessors/0/sparse/count",
-         sparse({0}, [](json& a) { a["sparse"]["count"] = 0; })},
-        {"SparseCountAboveCount", "accessor.sparse_count", "/accessors/0/sparse/count",
-         sparse({0, 1, 2, 3}, [](json&) {})},
-        {"SparseIndicesOfFloats", "accessor.sparse_index_type", "/accessors/0/sparse/indices/componentType",
-         sparse({0}, [](json& a) { a["sparse"]["indices"]["componentType"] = kFloat; })},
-        {"SparseIndicesPastTheirView", "accessor.sparse_out_of_range", "/accessors/0/sparse/indices",
-         sparse({0}, [](json& a) { a["sparse"]["indices"]["byteOffset"] = 1; })},
-        {"SparseValuesPastTheirView", "accessor.sparse_out_of_range", "/accessors/0/sparse/values",
-         sparse({0}, [](json& a) { a["sparse"]["values"]["byteOffset"] = 4; })},
-        {"SparseIndexAboveCount", "accessor.sparse_index", "/accessors/0/sparse/indices", sparse({3}, [](json&) {})},
-        {"SparseIndicesNotRising", "accessor.sparse_index", "/accessors/0/sparse/indices",
-         sparse({1, 1}, [](json&) {})},
-        {"SparseWithoutValues", "property.missing", "/accessors/0/sparse",
-         sparse({0}, [](json& a) { a["sparse"].erase("values"); })},
-    };
-}
-
-std::vector<BadInput> mesh_inputs() {
-    const char* const kPosition = "/meshes/0/primitives/0/attributes/POSITION";
-    const char* const kIndices = "/meshes/0/primitives/0/indices";
-    return {
-        {"NoPosition", "primitive.no_position", "/meshes/0/primitives/0/attributes",
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["attributes"] = json::object(); })},
-        {"ModeSeven", "primitive.mode", "/meshes/0/primitives/0/mode",
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["mode"] = 7; })},
-        {"IndexPastTheVertices", "index.out_of_range", kIndices, indices<std::uint16_t>({0, 1, 3})},
-        {"IndexFarPastTheVertices", "index.out_of_range", kIndices, indices<std::uint32_t>({0, 1, 0xFFFFFFFEU})},
-        {"RestartByte", "index.restart", "/accessors/2", indices<std::uint8_t>({0, 1, 255})},
-        {"RestartShort", "index.restart", "/accessors/2", indices<std::uint16_t>({0, 1, 65535})},
-        {"RestartInt", "index.restart", "/accessors/2", indices<std::uint32_t>({0, 1, 0xFFFFFFFFU})},
-        {"IndicesOfFloats", "index.type", "/accessors/2", indices<float>({0, 1, 2})},
-        {"IndicesOfSignedBytes", "index.type", "/accessors/2", indices<std::int8_t>({0, 1, 2})},
-        {"IndicesOfVectors", "index.type", "/accessors/0",
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 0; })},
-        {"PositionOfShorts", "attribute.type", kPosition,
-         spoilt([](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1; })},
-        {"NanPosition", "accessor.not_finite", "/accessors/0", positions({0, 0, 0, kNan, 0, 0, 0, 1, 0})},
-        {"InfinitePosition", "accessor.not_finite", "/accessors/0", positions({0, 0, 0, 1, -kInfinity, 0, 0, 1, 0})},
-        {"PositionTooLarge", "position.too_large", kPosition, positions({0, 0, 0, 1.1e6F, 0, 0, 0, 1, 0})},
-        {"NormalsOfAnotherCount", "attribute.count", "/meshes/0/primitives/0/attributes/NORMAL",
-         [] {
-             GltfBuilder builder = triangle();
-             const int normal = builder.add_accessor<float>({0, 0, 1}, "VEC3");
-             builder.doc["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normal;
-             return builder.gltf();
-         }},
-        {"TooManyVertices", "total.decoded_bytes", kPosition,
-         [] {
-             GltfBuilder builder = triangle();
-             const std::size_t count = limits::kMaxDecodedBytes / sizeof(assets::Vertex) + 1;
-             const Bytes positions(4 * count);  // three bytes each and one of padding
-             builder.doc["extensionsUsed"] = {"KHR_mesh_quantization"};
-             builder.doc["accessors"][0] = {{"bufferView", builder.add_view(positions.data(), positions.size(), 4)},
-                                            {"componentType", kByte},
-                                            {"count", count},
-                                            {"type", "VEC3"}};
-             return builder.glb();
-         }},
-        {"TooManyTrianglesInOnePrimitive", "total.triangles", "/meshes/0/primitives/0",
-         [] {
-             GltfBuilder builder = triangle();
-             const std::vector<std::uint8_t> zeros(3 * (limits::kMaxTriangles + 1));
-             builder.doc["meshes"][0]["primitives"][0]["indices"] = builder.add_accessor(zeros, "SCALAR");
-             return builder.glb();
-         }},
-        {"TooManyTriangles", "total.triangles", "/meshes/0/primitives/1",
-         [] {
-             GltfBuilder builder = triangle();
-             const std::vector<std::uint8_t> zeros(30'000'000);
-             const int many = builder.add_accessor(zeros, "SCALAR");
-             json& primitives = builder.doc["meshes"][0]["primitives"];
-             primitives[0]["indices"] = many;
-             primitives.push_back(primitives[0]);
-             return builder.glb();
-         }},
-    };
-}
-
-std::vector<BadInput> node_inputs() {
-    return {
-        {"NodeIsItsOwnChild", "node.cycle", "/nodes/0", nodes({{{"children", {0}}}})},
-        {"NodeCycle", "node.cycle", "/nodes/0", nodes({{{"children", {1}}}, {{"children", {2}}}, {{"children", {0}}}})},
-        {"SecondParent", "node.second_parent", "/nodes/1/children/0",
-         nodes({{{"children", {2}}}, {{"children", {2}}}, json::object()})},
-        {"ChildListedTwice", "node.second_parent", "/nodes/0/children/1",
-         nodes({{{"children", {1, 1}}}, json::object()})},
-        {"ChainTooDeep", "node.too_deep", "/nodes/256", nodes(chain(limits::kMaxNodeDepth + 1))},
-        {"ChainMuchTooDeep", "node.too_deep", "/nodes/256", nodes(chain(100'000))},
-        {"SceneListsANodeTwice", "scene.node_twice", "/nodes/0", spoilt([](json& d) {
-             d["scenes"] = json::array({{{"nodes", {0, 0}}}});
-         })},
-        {"SceneListsAParentAndItsChild", "scene.node_twice", "/nodes/1", spoilt([](json& d) {
-             d["nodes"] = json::array({{{"children", {1}}}, json::object()});
-             d["scenes"] = json::array({{{"nodes", {0, 1}}}});
-         })},
-        {"ShearingMatrix", "node.matrix_not_decomposable", "/nodes/0/matrix",
-         nodes({{{"matrix", {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})},
-        {"ProjectiveMatrix", "node.matrix_not_affine", "/nodes/0/matrix",
-         nodes({{{"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})},
-        {"MatrixBesideTranslation", "node.matrix_and_trs", "/nodes/0/matrix",
-         nodes({{{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, {"translation", {0, 0, 0}}}})},
-        {"MatrixOverflows", "node.not_finite", "/nodes/0/matrix",
-         nodes({{{"matrix", {1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1}}}})},
-        {"RotationOfZero", "node.rotation", "/nodes/0/rotation", nodes({{{"rotation", {0, 0, 0, 0}}}})},
-        {"RotationOverflows", "node.rotation", "/nodes/0/rotation", nodes({{{"rotation", {1e200, 0, 0, 0}}}})},
-        {"OutOfTheWorld", "node.out_of_world", "/nodes/0", nodes({{{"translation", {2e10, 0, 0}}}})},
-        {"ScaledOutOfTheWorld", "node.out_of_world", "/nodes/0", nodes({{{"mesh", 0}, {"scale", {1e11, 1, 1}}}})},
-        {"ScalesMultiplyBeyondAllNumbers", "node.not_finite", "/nodes/1",
-         nodes({{{"scale", {1e200, 1, 1}}, {"children", {1}}}, {{"scale", {1e200, 1, 1}}}})},
-    };
-}
-
-std::vector<BadInput> light_and_camera_inputs() {
-    static const std::string type = std::string{kLight0} + "/type", spot = std::string{kLight0} + "/spot",
-                             intensity = std::string{kLight0} + "/intensity", range = std::string{kLight0} + "/range",
-                             colour = std::string{kLight0} + "/color";
-    const auto cone = [](double inner, double outer) {
-        return light({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}});
-    };
-    return {
-        {"UnknownLightType", "property.choice", type.c_str(), light({{"type", "area"}})},
-        {"SpotWithoutSpot", "gltf.parse", "", light({{"type", "spot"}})},
-        {"ConeInverted", "light.cone", spot.c_str(), cone(0.5, 0.4)},
-        {"ConeEmpty", "light.cone", spot.c_str(), cone(0.4, 0.4)},
-        {"ConeNegative", "light.cone", spot.c_str(), cone(-0.1, 0.4)},
-        {"ConeWiderThanAHalfSphere", "light.cone", spot.c_str(), cone(0, 1.6)},
-        {"IntensityNegative", "light.intensity", intensity.c_str(), light({{"type", "point"}, {"intensity", -1e308}})},
-        {"IntensityBeyondFloat", "light.intensity", intensity.c_str(), light({{"type", "point"}, {"intensity", 1e39}})},
-        {"RangeZero", "light.range", range.c_str(), light({{"type", "point"}, {"range", 0}})},
-        {"RangeNegative", "light.range", range.c_str(), light({{"type", "point"}, {"range", -2}})},
-        {"ColourNegative", "light.colour", colour.c_str(), light({{"type", "point"}, {"color", {1, -1, 0}}})},
-        {"UnknownCameraType", "property.choice", "/cameras/0/type", camera({{"type", "fisheye"}})},
-        {"CameraWithoutLens", "gltf.parse", "", camera({{"type", "perspective"}})},
-        {"FovZero", "camera.fov", "/cameras/0/perspective/yfov", camera(perspective(0, 1, 2))},
-        {"FovOfAFullTurn", "camera.fov", "/cameras/0/perspective/yfov", camera(perspective(3.2, 1, 2))},
-        {"NearZero", "camera.near", "/cameras/0/perspective/znear", camera(perspective(1, 0, 2))},
-        {"FarBeforeNear", "camera.far", "/cameras/0/perspective/zfar", camera(perspective(1, 2, 1))},
-        {"OrthographicSizeZero", "camera.size", "/cameras/0/orthographic/ymag", camera(orthographic(0, 0, 1))},
-        {"OrthographicNearNegative", "camera.near", "/cameras/0/orthographic/znear", camera(orthographic(1, -1, 1))},
-        {"OrthographicFarBeforeNear", "camera.far", "/cameras/0/orthographic/zfar", camera(orthographic(1, 2, 2))},
-        {"EmissionNegative", "material.range", "/materials/0/emissiveFactor", spoilt([](json& d) {
-             d["materials"] = json::array({{{"emissiveFactor", {0, -1, 0}}}});
-         })},
-        {"CutoffNegative", "material.range", "/materials/0/alphaCutoff", spoilt([](json& d) {
-             d["materials"] = json::array({{{"alphaCutoff", -0.5}}});
-         })},
-        {"FactorBeyondFloat", "material.range", "/materials/0/pbrMetallicRoughness/metallicFactor", spoilt([](json& d) {
-             d["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1e300}}}}};
-         })},
-    };
-}
 
 class BadInputs : public testing::TestWithParam<BadInput> {};
 
@@ -314,12 +32,7 @@ TEST_P(BadInputs, EndInTheirNamedErrorInOneLine) {
 
 std::string name_of(const testing::TestParamInfo<BadInput>& info) { return info.param.name; }
 
-INSTANTIATE_TEST_SUITE_P(Framing, BadInputs, testing::ValuesIn(framing_inputs()), name_of);
-INSTANTIATE_TEST_SUITE_P(Shape, BadInputs, testing::ValuesIn(shape_inputs()), name_of);
-INSTANTIATE_TEST_SUITE_P(Buffers, BadInputs, testing::ValuesIn(buffer_inputs()), name_of);
-INSTANTIATE_TEST_SUITE_P(Meshes, BadInputs, testing::ValuesIn(mesh_inputs()), name_of);
-INSTANTIATE_TEST_SUITE_P(Nodes, BadInputs, testing::ValuesIn(node_inputs()), name_of);
-INSTANTIATE_TEST_SUITE_P(LightsAndCameras, BadInputs, testing::ValuesIn(light_and_camera_inputs()), name_of);
+INSTANTIATE_TEST_SUITE_P(Crafted, BadInputs, testing::ValuesIn(all_bad_inputs()), name_of);
 
 TEST(BadInputControl, TheUnspoiltTriangleLoads) {
     EXPECT_TRUE(load(triangle().gltf()));
@@ -333,6 +46,36 @@ TEST(BadInputControl, TheUnspoiltTriangleLoads) {
         d["accessors"][0]["count"] = limits::kMaxUnbackedElements;
     })());
     EXPECT_TRUE(zeros) << to_line(zeros.error());
+}
+
+/// Every "word.word" in the text: in the loader's sources these are its rules.
+std::set<std::string> rules_in(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    static const std::regex kRule("\"([a-z][a-z0-9_]*\\.[a-z][a-z0-9_]*)\"");
+    std::set<std::string> rules;
+    for (std::sregex_iterator found(text.begin(), text.end(), kRule), end; found != end; ++found)
+        rules.insert((*found)[1]);
+    return rules;
+}
+
+TEST(BadInputTable, HoldsEveryRuleOfTheLoaderAndNoOther) {
+    const std::filesystem::path root = GNOMON_SOURCE_DIR;
+    std::set<std::string> rules;
+    for (const auto& entry : std::filesystem::directory_iterator(root / "engine/assets"))
+        if (entry.path().extension() == ".cpp") rules.merge(rules_in(entry.path()));
+    // What tinygltf or a library finds that the checks before it did not: no input is known that gets there, and the
+    // fuzzers look for one (GltfMutation).
+    EXPECT_EQ(rules.erase("gltf.parse"), 1U);
+    std::set<std::string> tried = rules_in(root / "tests/unit/assets/bad_uri_test.cpp");
+    tried.merge(rules_in(root / "tests/unit/assets/bad_resource_test.cpp"));
+    std::erase_if(tried, [](const std::string& word) {
+        return word.ends_with(".bin") || word.ends_with(".gltf") || word.ends_with(".glb");
+    });
+    for (const BadInput& input : all_bad_inputs()) tried.insert(input.rule);
+    EXPECT_THAT(tried, testing::ContainerEq(rules));
+    EXPECT_GE(all_bad_inputs().size(), 60U);
+    EXPECT_GE(rules.size(), 60U);
 }
 
 }  // namespace
