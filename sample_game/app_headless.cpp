@@ -1,27 +1,45 @@
+#include <utility>
+
 #include "engine/platform/context.h"
 #include "sample_game/app.h"
 #include "sample_game/gui/gui.h"
 
 namespace gnomon::game {
 
-std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log) {
+namespace {
+
+/// Everything that dies with a context.
+struct Stage {
+    std::unique_ptr<platform::Context> context;
+    Renderer renderer;
+    std::unique_ptr<Gui> gui;
+};
+
+Result<Stage> make_stage(const CommandLine& line, const GameWorld& world) {
     auto context = platform::make_headless_context(false);
     if (!context) return context.error();
-    auto made = make_renderer(line, world);
-    if (!made) return made.error();
-    Renderer renderer = std::move(made).value();
-
-    std::unique_ptr<Gui> gui;
+    auto renderer = make_renderer(line, world);
+    if (!renderer) return renderer.error();
+    Stage stage{std::move(context).value(), std::move(renderer).value(), nullptr};
     if (world.game || line.debug.view) {
-        auto drawn = Gui::create(*renderer.device);
+        auto drawn = Gui::create(*stage.renderer.device);
         if (!drawn) return drawn.error();
-        gui = std::move(drawn).value();
+        stage.gui = std::move(drawn).value();
     }
+    return stage;
+}
+
+}  // namespace
+
+std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log) {
+    auto made = make_stage(line, world);
+    if (!made) return made.error();
+    std::optional<Stage> stage = std::move(made).value();
     FrameSettings settings;
     settings.viewport_px = line.size_px;
     settings.exposure_ev = line.exposure_ev;
     settings.debug = line.debug;
-    StatsFile stats(renderer.device->info().name);
+    StatsFile stats(stage->renderer.device->info().name);
     const bool to_the_end = line.demo && !line.frames && !line.time_s;
     const std::uint64_t frames = line.frames.value_or(1);
     for (std::uint64_t i = 0; to_the_end ? !world.game->ended() : i < frames; ++i) {
@@ -32,13 +50,22 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         } else {
             apply_motion(world.scene.moving, time_s, world.registry);
         }
-        renderer.frame->run(world.registry, settings);
-        if (gui) gui->draw(world, *renderer.frame, line.size_px, nullptr, kStep_s, false);
-        if (i == 0) log_warnings(world, renderer.frame->report(), log);
+        stage->renderer.frame->run(world.registry, settings);
+        if (stage->renderer.frame->report().failure == gl::Failure::context_lost) {
+            log.warn("the graphics context was lost, and is made anew");
+            stage.reset();
+            auto again = make_stage(line, world);
+            if (!again) return again.error();
+            stage = std::move(again).value();
+            stage->renderer.frame->run(world.registry, settings);
+        }
+        Frame& frame = *stage->renderer.frame;
+        if (stage->gui) stage->gui->draw(world, frame, line.size_px, nullptr, kStep_s, false);
+        if (i == 0) log_warnings(world, frame.report(), log);
         if (line.stats) 
-            stats.add(renderer.frame->report(), i, time_s, world.game ? &world.game->state() : nullptr);
+            stats.add(frame.report(), i, time_s, world.game ? &world.game->state() : nullptr);
     }
-    return write_outputs(line, *renderer.frame, line.size_px, stats);
+    return write_outputs(line, *stage->renderer.frame, line.size_px, stats);
 }
 
 }  // namespace gnomon::game
