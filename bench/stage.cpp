@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "bench/everything_moving.h"
 #include "components/light_shadow.h"
 #include "engine/gl/device_gl45.h"
 #include "sample_game/light_settings.h"
@@ -28,7 +29,9 @@ std::optional<Error> Stage::load(const StageOptions& options) {
         if (node.parent == assets::kNone) node.translation_m += options.offset_m;
     scene_name_ = options.scene ? options.scene->string() : "built-in";
     spawned_ = game::spawn_scene(std::move(scene).value(), world_, library_);
-    game::apply_motion(spawned_.moving, options.time_s, world_);
+    time_s_ = options.time_s;
+    moving_ = everything_moving(spawned_, world_);
+    game::apply_motion(spawned_.moving, time_s_, world_);
     for (const std::string& setting : options.settings) {
         LightShadow probe;
         if (auto error = game::apply_setting(probe, setting)) return error;

@@ -35,12 +35,16 @@ public:
     ~Stage();
 
     void run_frame() { frame_->run(world_, settings_); }
+    /// Everything in the scene where it is at that time, see everything_moving(). Until then only what the file moves
+    /// has left its place.
+    void move_to(double time_s) { game::apply_motion(moving_, time_s, world_); }
     void show_shadows(bool on) { settings_.shadows = on; }
     void set_economy(bool on);
 
     Frame& frame() { return *frame_; }
     gl::Device& device() { return *device_; }
     const assets::MeshLibrary& library() const { return library_; }
+    double time_s() const { return time_s_; }  // of the scene when it was opened
     const std::string& scene_name() const { return scene_name_; }
     double load_s() const { return load_s_; }                       // file to entities
     std::uint32_t gl_complaints() const { return gl_complaints_; }  // debug messages of medium or high severity
@@ -55,10 +59,11 @@ private:
     ecs::Registry world_;
     assets::MeshLibrary library_;
     game::SpawnedScene spawned_;
+    std::vector<game::MovingEntity> moving_;
     FrameSettings settings_;
     std::unique_ptr<Frame> frame_;
     std::string scene_name_;
-    double load_s_ = 0.0;
+    double time_s_ = 0.0, load_s_ = 0.0;
     std::uint32_t gl_complaints_ = 0;
 };
 
