@@ -62,7 +62,7 @@ struct FrameReport {
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
-    gl::Failure failure = gl::Failure::none;  // of the submission
+    gl::Failure failure = gl::Failure::none;  // of what no picture can do without, or of the submission
     void clear() {
         lights.clear();
         dropped.clear();
