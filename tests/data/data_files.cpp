@@ -53,7 +53,8 @@ void record_verdicts(const Verdicts& verdicts) {
     for (const auto& [name, verdict] : verdicts) stream << name << ' ' << verdict << '\n';
 }
 
-Watchdog::Watchdog() : start_(std::chrono::steady_clock::now()), thread_([this] { run(); }) {}
+Watchdog::Watchdog(double most_process_s)
+    : most_process_s_(most_process_s), start_(std::chrono::steady_clock::now()), thread_([this] { run(); }) {}
 
 Watchdog::~Watchdog() {
     {
@@ -72,11 +73,13 @@ void Watchdog::watch(const std::string& file) {
 }
 
 void Watchdog::run() {
+    constexpr double kClockPerProcess = 6.0;
     std::unique_lock lock(mutex_);
     while (!wake_.wait_for(lock, std::chrono::milliseconds(200), [this] { return done_; })) {
         const std::chrono::duration<double> clock = std::chrono::steady_clock::now() - start_;
         const double process = process_s() - process_start_s_;
-        if (file_.empty() || (process < kMostProcess_s && clock.count() < kMostClock_s)) continue;
+        if (file_.empty() || (process < most_process_s_ && clock.count() < kClockPerProcess * most_process_s_))
+            continue;
         std::fprintf(stderr, "%s hangs: %.1f s of processor time, %.1f s by the clock\n", file_.c_str(), process,
                      clock.count());
         std::_Exit(EXIT_FAILURE);

@@ -73,7 +73,7 @@ using DataWatchdogDeathTest = testing::Test;
 
 TEST_F(DataWatchdogDeathTest, NamesTheFileThatHangs) {
     const auto hang = [] {
-        Watchdog watchdog;
+        Watchdog watchdog(0.5);
         watchdog.watch("slow.gltf");
         const volatile bool forever = true;
         while (forever) {
