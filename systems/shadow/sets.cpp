@@ -2,100 +2,188 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "engine/math/cone.h"
 #include "engine/math/frustum.h"
+#include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/beams.h"
+#include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/light_time.h"
+#include "systems/shadow/marks.h"
+#include "systems/shadow/swept_volume.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// What a light can reach, tested on boxes.
+using math::Overlap;
+
+/// What a light can reach, were nothing in the way.
 class Reach {
 public:
-    explicit Reach(const LightItem& light) : light_(light) {
-        if (light.kind != LightKind::spot) return;
-        const double half = std::tan(std::min(light.outer_cone_rad, kWidestMap_rad));
-        const double far_m = light.range_m > 0.0 ? light.range_m : std::numeric_limits<double>::infinity();
-        // A cone wider than one map also lights what the pyramid misses: then only the range limits.
-        if (light.outer_cone_rad <= kWidestMap_rad)
-            cone_ = pyramid(light.position_ws_m, light.rotation_ws, half, far_m);
+    explicit Reach(const LightItem& light) {
+        if (light.kind == LightKind::directional) return;
+        position_ws_m_ = light.position_ws_m;
+        if (light.range_m > 0.0) {
+            range_m_ = light.range_m;
+            around_ = {light.position_ws_m - light.range_m, light.position_ws_m + light.range_m};
+        }
+        if (light.kind == LightKind::spot)
+            cone_ = math::Cone{light.position_ws_m, -light.rotation_ws[2], light.outer_cone_rad};
     }
 
-    bool touches(const math::Aabb& box) const {
-        if (light_.kind == LightKind::directional) return true;
-        if (light_.range_m > 0.0 && !(math::distance(box, light_.position_ws_m) <= light_.range_m)) return false;
-        return cone_.plane_count == 0 || math::may_overlap(cone_, box);
+    Overlap overlap(const math::Aabb& box) const {
+        if (range_m_ && math::overlap_ball(position_ws_m_, *range_m_, box) == Overlap::outside) return Overlap::outside;
+        if (cone_ && math::overlap(*cone_, box) == Overlap::outside) return Overlap::outside;
+        return range_m_ || cone_ ? Overlap::partial : Overlap::inside;
+    }
+    /// The part of a box that may be reached.
+    math::Aabb clipped(const math::Aabb& box) const { return range_m_ ? math::intersection(box, around_) : box; }
+
+private:
+    glm::dvec3 position_ws_m_{0.0};
+    std::optional<double> range_m_;
+    math::Aabb around_;
+    std::optional<math::Cone> cone_;
+};
+
+IndexRange since(std::size_t first, std::size_t end) {
+    return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
+}
+
+/// One light's share of the stage.
+class Search {
+public:
+    Search(const SceneSnapshot& scene, const ShadowDemand& demand, ShadowFrame& frame)
+        : scene_(scene),
+          demand_(demand),
+          light_(scene.lights[demand.light]),
+          frame_(frame),
+          scratch_(frame.set_scratch),
+          reach_(light_) {}
+
+    PotentialSets run() {
+        const std::size_t receivers = frame_.receiver_items.size(), points = frame_.receiver_points_ws.size(),
+                          beams = frame_.beams.size();
+        find_candidates();
+        clear_marks(scratch_.receivers, scene_.instances.size());
+        if (light_.kind == LightKind::directional) look_along_sun();
+        for (const LightOpening& o : light_openings(light_, demand_).span()) look_through(o);
+        for_each_mark(scratch_.receivers, [&](std::uint32_t i) { frame_.receiver_items.push_back(i); });
+        PotentialSets sets;
+        sets.receivers = since(receivers, frame_.receiver_items.size());
+        sets.receiver_points = since(points, frame_.receiver_points_ws.size());
+        sets.beams = since(beams, frame_.beams.size());
+        return sets;
     }
 
 private:
+    /// Receivers whose bounds touch what a consumer sees and what the light reaches, consumer by consumer, by index.
+    void find_candidates() {
+        scratch_.candidates.clear();
+        for (std::uint32_t c = 0; c < frame_.seen.size(); ++c) {
+            clear_marks(scratch_.marks, scene_.instances.size());
+            const auto planes = math::planes_of(frame_.seen[c]);
+            const auto classify = [&](const math::Aabb& box) {
+                const Overlap seen = math::overlap(planes, box);
+                if (seen == Overlap::outside) return seen;
+                const Overlap reached = reach_.overlap(box);
+                return reached == Overlap::inside ? seen : reached;
+            };
+            visit_instances(scene_, classify, [&](std::uint32_t i) {
+                if (scene_.instances[i].visible && scene_.instances[i].receives) mark(scratch_.marks, i);
+            });
+            for_each_mark(scratch_.marks, [&](std::uint32_t i) { scratch_.candidates.push_back({i, c}); });
+        }
+    }
+
+    /// Appends the corners of the candidates within what their consumer sees and the given planes.
+    IndexRange clip_candidates(std::span<const math::Plane> opening) {
+        const std::size_t first = frame_.receiver_points_ws.size();
+        std::array<math::Plane, math::kMaxClipPlanes> planes;
+        for (const SetScratch::Candidate& candidate : scratch_.candidates) {
+            const auto seen = math::planes_of(frame_.seen[candidate.consumer]);
+            const auto middle = std::copy(seen.begin(), seen.end(), planes.begin());
+            const auto end = std::copy(opening.begin(), opening.end(), middle);
+            const math::Aabb box = reach_.clipped(scene_.instances[candidate.item].bounds_ws);
+            const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
+            if (math::clip_box(used, box, frame_.receiver_points_ws) > 0) mark(scratch_.receivers, candidate.item);
+        }
+        return since(first, frame_.receiver_points_ws.size());
+    }
+
+    void look_along_sun() {
+        const IndexRange range = clip_candidates({});
+        if (range.count == 0) return;
+        Beam beam =
+            parallel_beam(math::basis_from_back(light_.rotation_ws[2]), points(range), frame_.outlines, scratch_);
+        beam.receiver_points = range;
+        frame_.beams.push_back(beam);
+    }
+
+    void look_through(const LightOpening& opening) {
+        const auto sides = opening_planes(light_.position_ws_m, opening);
+        std::array<math::Plane, 5> planes;
+        const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
+        const glm::dvec3& back = light_.rotation_ws[2];
+        if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, light_.position_ws_m)};
+        const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4));
+        Beam beam;
+        if (range.count > 0)
+            beam = opening_beam(light_.position_ws_m, opening, points(range), frame_.outlines, scratch_);
+        beam.origin_ws_m = light_.position_ws_m;
+        beam.axes = opening.axes;
+        beam.receiver_points = range;
+        frame_.beams.push_back(beam);  // a face without receivers, too: its index is the face
+    }
+
+    std::span<const glm::dvec3> points(IndexRange range) const {
+        return std::span(frame_.receiver_points_ws).subspan(range.first, range.count);
+    }
+
+    const SceneSnapshot& scene_;
+    const ShadowDemand& demand_;
     const LightItem& light_;
-    math::Frustum cone_;
+    ShadowFrame& frame_;
+    SetScratch& scratch_;
+    Reach reach_;
 };
 
-/// Box of a world box in the light's own axes, relative to origin_ws.
-math::Aabb in_light_axes(const math::Aabb& box_ws, const glm::dmat3& light_basis, const glm::dvec3& origin_ws) {
-    const glm::dmat3 light_from_world = glm::transpose(light_basis);
-    return math::transformed({box_ws.min - origin_ws, box_ws.max - origin_ws}, light_from_world, glm::dvec3(0.0));
-}
-
-void select_receivers(const SceneSnapshot& scene, std::span<const math::Frustum> seen, const Reach& reach,
-                      PotentialSets& sets, ShadowFrame& frame) {
-    sets.receivers.first = static_cast<std::uint32_t>(frame.receiver_items.size());
-    sets.receiver_points.first = static_cast<std::uint32_t>(frame.receiver_points_ws.size());
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const InstanceItem& item = scene.instances[i];
-        if (!item.visible || !item.receives || !reach.touches(item.bounds_ws)) continue;
-        std::size_t points = 0;
-        for (const math::Frustum& frustum : seen)
-            if (math::may_overlap(frustum, item.bounds_ws))
-                points += math::clip_box(frustum, item.bounds_ws, frame.receiver_points_ws);
-        if (points > 0) frame.receiver_items.push_back(i);
+/// Casters that touch any of the light's beams.
+void select_casters(const SceneSnapshot& scene, PotentialSets& sets, ShadowFrame& frame) {
+    std::vector<std::uint64_t>& marks = frame.set_scratch.marks;
+    clear_marks(marks, scene.instances.size());
+    for (std::uint32_t b = sets.beams.first; b < sets.beams.first + sets.beams.count; ++b) {
+        const Beam& beam = frame.beams[b];
+        if (beam.outline.count == 0) continue;
+        const auto outline = std::span(frame.outlines).subspan(beam.outline.first, beam.outline.count);
+        const SweptVolume volume = swept_volume(beam, outline, seen_by_the_only_consumer(frame), 0.0);
+        visit_instances(
+            scene, [&](const math::Aabb& box) { return overlap(volume, box); },
+            [&](std::uint32_t i) {
+                if (scene.instances[i].casts) mark(marks, i);
+            });
     }
-    sets.receivers.count = static_cast<std::uint32_t>(frame.receiver_items.size()) - sets.receivers.first;
-    sets.receiver_points.count =
-        static_cast<std::uint32_t>(frame.receiver_points_ws.size()) - sets.receiver_points.first;
-}
-
-/// Casters of a sun: in the box swept from the receivers toward the light.
-void select_swept_casters(const SceneSnapshot& scene, const LightItem& light, const PotentialSets& sets,
-                          ShadowFrame& frame) {
-    const glm::dmat3 basis = math::basis_from_back(light.rotation_ws[2]);
-    const auto points =
-        std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
-    math::Aabb swept;
-    for (const glm::dvec3& p : points) swept = math::extended(swept, (p - points.front()) * basis);
-    swept.max.z = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const InstanceItem& item = scene.instances[i];
-        if (item.casts && math::overlaps(swept, in_light_axes(item.bounds_ws, basis, points.front())))
-            frame.caster_items.push_back(i);
-    }
-}
-
-/// Casters of a local light: within its reach and nearer than the farthest receiver point.
-void select_near_casters(const SceneSnapshot& scene, const LightItem& light, const Reach& reach,
-                         const PotentialSets& sets, ShadowFrame& frame) {
-    double farthest_m = 0.0;
-    const auto points =
-        std::span(frame.receiver_points_ws).subspan(sets.receiver_points.first, sets.receiver_points.count);
-    for (const glm::dvec3& p : points) farthest_m = std::max(farthest_m, glm::distance(p, light.position_ws_m));
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-        const InstanceItem& item = scene.instances[i];
-        if (item.casts && reach.touches(item.bounds_ws) &&
-            math::distance(item.bounds_ws, light.position_ws_m) <= farthest_m)
-            frame.caster_items.push_back(i);
-    }
+    sets.casters.first = static_cast<std::uint32_t>(frame.caster_items.size());
+    for_each_mark(marks, [&](std::uint32_t i) { frame.caster_items.push_back(i); });
+    sets.casters.count = static_cast<std::uint32_t>(frame.caster_items.size()) - sets.casters.first;
 }
 
 }  // namespace
+
+std::span<const math::Plane> seen_by_the_only_consumer(const ShadowFrame& frame) {
+    if (frame.seen.size() != 1) return {};
+    return math::planes_of(frame.seen.front());
+}
 
 void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
     frame.sets.clear();
     frame.receiver_items.clear();
     frame.caster_items.clear();
     frame.receiver_points_ws.clear();
+    frame.beams.clear();
+    frame.outlines.clear();
     frame.seen.clear();
     for (const ConsumerItem& consumer : scene.consumers) frame.seen.push_back(consumer_frustum(consumer));
     for (const ShadowDemand& demand : frame.demands) {
@@ -103,20 +191,10 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
         PotentialSets sets;
         sets.skip = demand.skip;
         if (demand.skip == Reason::none) {
-            const LightItem& light = scene.lights[demand.light];
-            const Reach reach(light);
-            select_receivers(scene, frame.seen, reach, sets, frame);
-            sets.casters.first = static_cast<std::uint32_t>(frame.caster_items.size());
-            if (sets.receivers.count == 0) {
-                sets.skip = Reason::no_visible_receiver;
-            } else {
-                if (light.kind == LightKind::directional)
-                    select_swept_casters(scene, light, sets, frame);
-                else
-                    select_near_casters(scene, light, reach, sets, frame);
-                sets.casters.count = static_cast<std::uint32_t>(frame.caster_items.size()) - sets.casters.first;
-                if (sets.casters.count == 0) sets.skip = Reason::no_caster;
-            }
+            sets = Search(scene, demand, frame).run();
+            select_casters(scene, sets, frame);
+            if (sets.casters.count == 0) sets.skip = Reason::no_caster;
+            if (sets.receivers.count == 0) sets.skip = Reason::no_visible_receiver;
         }
         frame.sets.push_back(sets);
     }
