@@ -33,7 +33,7 @@ struct Words {
     const char *large, *small;
     ImU32 colour;
 };
-Words words(Phase phase) {
+Words words_of(Phase phase) {
     switch (phase) {
         case Phase::paused:
             return {"PAUSED", "P goes on, R starts again", kFrame};
@@ -61,7 +61,7 @@ void draw_words(ImDrawList& list, const Words& text, glm::vec2 size_px) {
 
 }  // namespace
 
-void draw_game_overlay(const GameState& state, glm::vec2 size_px) {
+void draw_game_overlay(const GameState& state, glm::vec2 size_px, bool words) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const float margin = kMargin * size_px.y;
     const ImVec2 size{kBarWidth * size_px.x, std::max(kBarHeight * size_px.y, 8.0f)};
@@ -73,11 +73,13 @@ void draw_game_overlay(const GameState& state, glm::vec2 size_px) {
         draw_bar(list, *bar, at, size);
         at.y -= 1.5f * size.y;
     }
-    draw_words(list, words(state.phase), size_px);
+    if (!words) return;
+    draw_words(list, words_of(state.phase), size_px);
     if (state.phase == Phase::playing && state.time_s() < 6.0)
-        list.AddText({margin, margin}, kFrame,
-                     "Reach the gate unseen: keep out of the lamps' light.\n"
-                     "WASD walk, Shift run, click to look, P pause, R restart, Left/Right sun, F1 lights");
+        list.AddText(
+            {margin, margin}, kFrame,
+            "Reach the gate unseen: keep out of the lamps' light.\n"
+            "WASD walk, Shift run, click to look, P pause, R restart, Left/Right sun, F1 lights, F2 depth maps");
 }
 
 }  // namespace gnomon::game

@@ -39,7 +39,7 @@ void Gui::draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platfor
     io.DeltaTime = std::max(static_cast<float>(dt_s), kLeastStep_s);
     if (input && panel.shown) feed(io, *input);
     ImGui::NewFrame();
-    if (world.game) draw_game_overlay(world.game->state(), glm::vec2(size_px));
+    if (world.game) draw_game_overlay(world.game->state(), glm::vec2(size_px), !panel.shown);
     draw_debug_labels(frame.debug_labels(), glm::vec2(size_px));
     panel.debug.area = {};
     if (panel.shown) draw_light_panel(world, frame.report(), size_px, panel);

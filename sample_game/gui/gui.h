@@ -50,8 +50,8 @@ private:
     gl::CommandList list_;
 };
 
-/// The game's meters and, unless it is being played, its state in large letters.
-void draw_game_overlay(const GameState& state, glm::vec2 size_px);
+/// The game's meters and, with `words`, its state in large letters unless it is being played.
+void draw_game_overlay(const GameState& state, glm::vec2 size_px, bool words);
 
 /// The words of a debug view, over the picture and under the panel.
 void draw_debug_labels(std::span<const debug::Label> labels, glm::vec2 size_px);

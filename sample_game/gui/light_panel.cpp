@@ -50,11 +50,15 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
     return setting.whole ? std::to_string(std::lround(value)) : std::to_string(value);
 }
 
+/// The depth maps of `light`, or nothing if it is empty, where `now` is shown.
+debug::Request depth_of(const std::string& light, const debug::Request& now) {
+    return {.view = light.empty() ? nullptr : debug::find_view("depth"), .light = light, .area = now.area};
+}
+
 /// Which of the light's depth maps are shown. `views`: how many it has now.
 void draw_depth_choice(const std::string& light, std::uint32_t views, debug::Request& debug) {
     bool shown = debug.view && debug.light == light;
-    if (ImGui::Checkbox("show depth maps", &shown))
-        debug = shown ? debug::Request{.view = debug::find_view("depth"), .light = light} : debug::Request{};
+    if (ImGui::Checkbox("show depth maps", &shown)) debug = depth_of(shown ? light : std::string{}, debug);
     if (!shown || views < 2) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
@@ -145,8 +149,7 @@ void next_depth_view(const GameWorld& world, debug::Request& debug) {
     const auto next =
         std::find_if(shown == lights.end() ? lights.begin() : shown + 1, lights.end(),
                      [&](const NamedEntity& light) { return world.registry.has<LightShadow>(light.entity); });
-    debug = next == lights.end() ? debug::Request{}
-                                 : debug::Request{.view = debug::find_view("depth"), .light = next->name};
+    debug = depth_of(next == lights.end() ? std::string{} : next->name, debug);
 }
 
 void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, PanelState& state) {

@@ -20,11 +20,12 @@ class Debug(GameTest):
         for column, row in ((1, 0), (0, 1), (1, 1), (2, 1), (3, 1), (1, 2)):
             face = cell(column, row)
             self.assertGreater(face.share(lambda p: grey(p) or nothing(p)), 0.97, (column, row))
-            self.assertGreater(face.shades(), 5, (column, row))
+            self.assertGreater(face.shades(), 20 if row == 1 else 2, (column, row))
         for column, row in ((0, 0), (2, 0), (3, 0), (0, 2), (2, 2), (3, 2)):
             self.assertGreater(cell(column, row).share(background), 0.99, (column, row))
-        # The sky is above, and the ground below: near under the lamp, farther to its sides.
+        # Above are the lantern's roof, close to the light, and the sky; below is the ground.
         self.assertGreater(cell(1, 0).share(nothing), 0.2)
+        self.assertGreater(cell(1, 0).share(lambda p: p[0] < 5), 0.2)
         self.assertLess(cell(1, 2).share(nothing), 0.05)
 
     def test_a_spot_is_one_map_and_a_sun_several_and_one_can_be_chosen(self):
@@ -36,10 +37,6 @@ class Debug(GameTest):
         alone = Region(one, (WIDTH - edge) // 2, TITLE, edge, edge)
         self.assertGreater(alone.shades(), 30)
         self.assertGreater(sun.mean_difference(one), 10.0)
-
-    def test_a_view_of_maps_that_are_reused_is_the_same_as_of_maps_just_drawn(self):
-        first = self.view("depth:guard_lamp", "--set", "economy=off")
-        self.assertEqual(first.rgba, self.view("depth:guard_lamp").rgba)
 
     def test_a_light_without_a_map_says_so_and_the_run_goes_on(self):
         off = self.view("depth:sun", "--set", "enabled=off")

@@ -119,27 +119,27 @@ class Play(WindowTest):
         self.assertGreater(shown.mean_difference(hidden), 5.0)
 
     def test_f2_shows_one_light_after_the_other_beside_the_panel(self):
-        width, height = 1200, 700
+        width, height = 960, 540
 
         def shown(first, *keys):
             """What lies beside the panel, as a picture and as a region of it."""
             def script(window):
-                for key in ("p",) + keys:
+                for key in keys:
                     self.xdo("key", key)
-                    time.sleep(1.0)
-                self.wait_for(window, "paused")
+                # Each state that the title shows has been drawn; the panel takes two frames to find its size.
+                for state in ("paused", "playing", "paused"):
+                    self.xdo("key", "p")
+                    self.wait_for(window, state)
                 self.leave(window)
-            picture = self.play(script, *first, size="%dx%d" % (width, height))
+            picture = self.play(script, "--set", "resolution=256", *first, size="%dx%d" % (width, height))
             return picture, Region(picture, 0.75 * width, TITLE, 0.25 * width, height - TITLE)
         of_maps = lambda p: nothing(p) or background(p)
-        self.assertLess(shown((), "F1")[1].share(of_maps), 0.5)
         pictures = []
-        for first in ((), ("--debug", "depth:sun"), ("--debug", "depth:lantern")):
+        for first in ((), ("--debug", "depth:sun")):
             picture, region = shown(first, "F1", "F2")
             self.assertGreater(region.share(lambda p: grey(p) or nothing(p)), 0.95, first)
             pictures.append(picture)
-        for a in range(3):
-            self.assertGreater(pictures[a].mean_difference(pictures[a - 1]), 5.0)
+        self.assertGreater(pictures[0].mean_difference(pictures[1]), 5.0)
         self.assertLess(shown(("--debug", "depth:guard_lamp"), "F1", "F2")[1].share(of_maps), 0.5)
 
 

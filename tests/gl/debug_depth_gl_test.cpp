@@ -51,7 +51,7 @@ protected:
 TEST_F(DebugDepth, ASpotsWallIsAsGreyAsItIsFarAndBesideItIsNothing) {
     add_wall({0.0, 0.0, -8.0}, 6.0);
     add_wall({0.0, 0.0, -3.0}, 0.5);
-    add_light({.kind = LightKind::spot, .intensity = 1000.0f, .inner_cone_rad = 0.4, .outer_cone_rad = 0.7},
+    add_light({.kind = LightKind::spot, .intensity = 1000.0f, .inner_cone_rad = 0.4f, .outer_cone_rad = 0.7f},
               {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     draw();
     const std::string name = frame().snapshot().lights.front().name;
@@ -73,7 +73,7 @@ TEST_F(DebugDepth, ASpotsWallIsAsGreyAsItIsFarAndBesideItIsNothing) {
 TEST_F(DebugDepth, WhatNoCasterCoversIsBlue) {
     add_wall({0.0, 0.0, -3.0}, 0.5);
     place(add_mesh(game::make_box({-6.0, -6.0, -8.0}, {6.0, 6.0, -7.9})), {}, false);
-    add_light({.kind = LightKind::spot, .intensity = 1000.0f, .inner_cone_rad = 0.4, .outer_cone_rad = 0.7},
+    add_light({.kind = LightKind::spot, .intensity = 1000.0f, .inner_cone_rad = 0.4f, .outer_cone_rad = 0.7f},
               {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     draw();
     show(frame().snapshot().lights.front().name);
@@ -137,7 +137,7 @@ TEST_F(DebugDepth, ASunsCascadesAreLinearAsTheyAreAndOneCanBeShownAlone) {
 
 TEST_F(DebugDepth, AReusedMapShowsTheSamePicture) {
     add_wall({0.0, 0.0, -8.0}, 6.0);
-    add_light({.kind = LightKind::spot, .intensity = 1000.0f, .inner_cone_rad = 0.4, .outer_cone_rad = 0.7},
+    add_light({.kind = LightKind::spot, .intensity = 1000.0f, .inner_cone_rad = 0.4f, .outer_cone_rad = 0.7f},
               {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     draw();
     show(frame().snapshot().lights.front().name);
