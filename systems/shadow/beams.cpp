@@ -82,6 +82,10 @@ Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std
         slack = std::max(slack, -p.z > 0.0 ? kRounding * size / -p.z : std::numeric_limits<double>::infinity());
         scratch.points.push_back(glm::clamp(tangents, opening.low, opening.high));
     }
+    if (!(beam.far_m > kRounding * size)) {
+        beam.far_m = beam.reach_m = 0.0;
+        return beam;
+    }
     beam.far_m += kRounding * size;
     beam.reach_m += kRounding * size;
     const glm::dvec2 sides = opening.high - opening.low;

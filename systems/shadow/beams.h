@@ -20,7 +20,8 @@ Beam parallel_beam(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws
                    SetScratch& scratch);
 
 /// The beam through an opening to points within it. Where points are so near the light that rounding hides their
-/// direction, the outline is the whole opening.
+/// direction, the outline is the whole opening; where all are as near as that, nothing can come between: far_m and
+/// reach_m are 0, there is no outline.
 Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std::span<const glm::dvec3> points_ws,
                   std::vector<glm::dvec2>& outlines, SetScratch& scratch);
 

@@ -134,8 +134,8 @@ private:
             beam = opening_beam(light_.position_ws_m, opening, points(range), frame_.outlines, scratch_);
         beam.origin_ws_m = light_.position_ws_m;
         beam.axes = opening.axes;
-        beam.receiver_points = range;
-        frame_.beams.push_back(beam);  // a face without receivers, too: its index is the face
+        if (beam.outline.count > 0) beam.receiver_points = range;
+        frame_.beams.push_back(beam);  // without receivers, too: beams are in the order of the openings
     }
 
     std::span<const glm::dvec3> points(IndexRange range) const {

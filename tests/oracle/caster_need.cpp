@@ -1,0 +1,67 @@
+#include "tests/oracle/caster_need.h"
+
+#include <vector>
+
+#include "tests/oracle/fit_oracle.h"
+
+namespace gnomon::oracle {
+namespace {
+
+/// The i-th number of a sequence that fills [0, 1) evenly.
+double halton(int i, int base) {
+    double value = 0.0, share = 1.0;
+    for (; i > 0; i /= base) {
+        share /= base;
+        value += share * (i % base);
+    }
+    return value;
+}
+
+std::vector<Vector> visible_points(const SceneSnapshot& scene, const shadow::ShadowFrame& frame, std::uint32_t demand,
+                                   int samples) {
+    std::vector<Vector> points;
+    const shadow::IndexRange receivers = frame.sets[demand].receivers;
+    const LightItem& light = scene.lights[frame.demands[demand].light];
+    for (std::uint32_t r = receivers.first; r < receivers.first + receivers.count; ++r) {
+        const math::Aabb& box = scene.instances[frame.receiver_items[r]].bounds_ws;
+        for (int i = 1; i <= samples; ++i) {
+            const glm::dvec3 share(halton(i, 2), halton(i, 3), halton(i, 5));
+            const Vector p = exact(box.min + (box.max - box.min) * share);
+            if (!reaches(light, p, 0)) continue;
+            for (const ConsumerItem& consumer : scene.consumers)
+                if (sees(consumer, p, 0)) {
+                    points.push_back(p);
+                    break;
+                }
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+CasterNeed caster_need(const SceneSnapshot& scene, const shadow::ShadowFrame& frame, std::uint32_t demand, int samples) {
+    CasterNeed need;
+    const std::vector<Vector> points = visible_points(scene, frame, demand, samples);
+    const LightItem& light = scene.lights[frame.demands[demand].light];
+    const Real size_px = frame.demands[demand].resolution_px;
+    std::vector<Vector> held;
+    for (const shadow::ShadowView& view : frame.views) {
+        if (view.demand != demand) continue;
+        held.clear();
+        for (const Vector& p : points)
+            if (holds(view, p, size_px, 0)) held.push_back(p);
+        need.listed += static_cast<int>(view.casters.count);
+        for (std::uint32_t c = view.casters.first; c < view.casters.first + view.casters.count; ++c) {
+            const math::Aabb& box = scene.instances[frame.view_caster_items[c]].bounds_ws;
+            for (const Vector& p : held) {
+                if (!darkens(light, box, p, 0)) continue;
+                ++need.needed;
+                break;
+            }
+        }
+    }
+    return need;
+}
+
+}  // namespace gnomon::oracle

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <random>
+
+#include "systems/extract/snapshot.h"
+
+namespace gnomon::shadow {
+
+/// Scenes as hard as they come, one after the other from one seed: one light, one camera, a few boxes of any size and
+/// thickness, near, far, around and behind everything.
+class RandomFits {
+public:
+    explicit RandomFits(std::uint64_t seed) : random_(seed) {}
+
+    double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
+    /// Equally likely in every octave.
+    double size(double from, double to) { return std::exp2(number(std::log2(from), std::log2(to))); }
+    bool chance(double share) { return number(0.0, 1.0) < share; }
+    glm::dvec3 vector(double reach) { return {number(-reach, reach), number(-reach, reach), number(-reach, reach)}; }
+
+    /// Moderate: everything within some hundred metres, on a lattice of 2^-20 m, so that it can be moved and scaled
+    /// without rounding.
+    SceneSnapshot scene(LightKind kind);
+    /// Any finite numbers, from 1e-30 to 1e30, in the places of some of a moderate scene's.
+    SceneSnapshot wild_scene(LightKind kind);
+
+private:
+    InstanceItem box(std::uint32_t index);
+    ConsumerItem camera(const SceneSnapshot& scene);
+    LightItem light(LightKind kind, const SceneSnapshot& scene);
+    glm::dvec3 direction();
+
+    std::mt19937_64 random_;
+};
+
+/// The same scene `2^power` times as large, exactly.
+void scale(SceneSnapshot& scene, int power);
+/// The same scene elsewhere; exact for whole metres below 2^26 and a moderate scene.
+void move(SceneSnapshot& scene, const glm::dvec3& by_m);
+
+}  // namespace gnomon::shadow

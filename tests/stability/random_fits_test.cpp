@@ -1,0 +1,245 @@
+#include "tests/stability/random_fits.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
+#include "systems/shadow/demand.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/fit.h"
+#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/sets.h"
+#include "tests/oracle/fit_oracle.h"
+
+/// Random fits by the hundred thousand, judged point by point in long double. 20 000 of each kind in a short run, a million
+/// with GNOMON_LONG, any number with GNOMON_FITS. The seed is fixed; GNOMON_TEST_SEED sets another, `random` a random one.
+namespace gnomon::shadow {
+namespace {
+
+using oracle::Real;
+using oracle::Vector;
+
+std::uint64_t fit_count() {
+#if defined(__SANITIZE_ADDRESS__)
+    constexpr std::uint64_t kShort = 2000;
+#else
+    constexpr std::uint64_t kShort = 20000;
+#endif
+    if (const char* count = std::getenv("GNOMON_FITS")) return std::strtoull(count, nullptr, 10);
+    return std::getenv("GNOMON_LONG") ? 1000000 : kShort;
+}
+
+std::uint64_t fit_seed() {
+    const char* given = std::getenv("GNOMON_TEST_SEED");
+    std::uint64_t seed = 20240607;
+    if (given) seed = std::string_view(given) == "random" ? std::random_device{}() : std::strtoull(given, nullptr, 10);
+    std::cout << "seed " << seed << '\n';
+    return seed;
+}
+
+/// Points this share inside of what is seen and lit: closer, rounding of the camera itself decides.
+constexpr Real kInset = 1e-9L;
+/// A ray that passes less of a box than this touches a corner: rounding decides.
+constexpr Real kLeastPassage = 1e-6L;
+/// Every so many fits are made again elsewhere and at another size.
+constexpr std::uint64_t kMoveEvery = 8;
+
+struct Tally {
+    std::uint64_t fits = 0, views = 0, skipped = 0, points = 0, dark_points = 0, blockers = 0, listed = 0;
+    std::uint64_t not_finite = 0, outside = 0, missed = 0, deeper = 0, unflagged = 0;
+    std::uint64_t scaled = 0, scale_differs = 0, moved = 0, move_differs = 0;
+};
+
+class RandomFitsTest : public ::testing::TestWithParam<LightKind> {
+protected:
+    const ShadowFrame& fit(const SceneSnapshot& scene, ShadowFrame& frame) {
+        gl::DeviceInfo device;
+        device.max_texture_px = device.max_cube_px = 16384;
+        decide_demand(scene, device, true, {}, frame.demands);
+        select_sets(scene, frame);
+        fit_views(scene, {}, frame);
+        return frame;
+    }
+
+    static bool finite(const ShadowView& view) {
+        bool all = std::isfinite(view.near_m + view.far_m + view.texel_u + view.texel_v + view.depth_alpha + view.depth_beta +
+                                 view.predicted_error_px + view.seen_from_m) && view.near_m < view.far_m;
+        for (int i = 0; i < 3; ++i)
+            all = all && std::isfinite(view.anchor_ws_m[i] + view.axis_u[i] + view.axis_v[i] + view.axis_back[i]);
+        for (int c = 0; c < 4; ++c)
+            for (int r = 0; r < 4; ++r)
+                all = all && std::isfinite(view.clip_from_anchor[c][r]) && std::isfinite(view.map_from_anchor[c][r]);
+        return all;
+    }
+
+    void judge_numbers(const ShadowFrame& frame) {
+        tally.views += frame.views.size();
+        tally.skipped += frame.views.empty() ? 1 : 0;
+        for (const ShadowView& view : frame.views) tally.not_finite += finite(view) ? 0 : 1;
+        if (frame.views.empty() == (frame.sets[0].skip == Reason::none)) ++tally.unflagged;
+    }
+
+    /// A point of the box that the camera is likely to see: a corner, any, or where the edge of its sight meets the box.
+    Vector sample(const SceneSnapshot& scene, const math::Aabb& box) {
+        const double which = random.number(0.0, 1.0);
+        glm::dvec3 p(random.number(box.min.x, box.max.x), random.number(box.min.y, box.max.y), random.number(box.min.z, box.max.z));
+        if (which < 0.5) return oracle::exact(p);
+        if (which < 0.75) return oracle::exact(math::corners(box)[static_cast<std::size_t>(random.number(0.0, 8.0))]);
+        // Toward the rim of the picture, as far as the sight goes before it leaves the box.
+        const ConsumerItem& camera = scene.consumers[0];
+        const double tan_y = std::tan(0.5 * camera.fov_y_rad) * 0.999999;
+        glm::dvec3 rim(tan_y * 640.0 / 360.0 * random.number(-1.0, 1.0), random.chance(0.5) ? tan_y : -tan_y, -1.0);
+        const glm::dvec3 along = camera.rotation_ws * rim;
+        double last = 1e4;
+        for (int i = 0; i < 3; ++i) {
+            const double side = along[i] > 0.0 ? box.max[i] : box.min[i];
+            if (along[i] != 0.0) last = std::min(last, (side - camera.position_ws_m[i]) / along[i]);
+        }
+        const glm::dvec3 at = camera.position_ws_m + along * last;
+        return oracle::exact(glm::clamp(at, box.min, box.max));
+    }
+
+    void judge_point(const SceneSnapshot& scene, const ShadowFrame& frame, const Vector& p) {
+        const LightItem& light = scene.lights[0];
+        const Real size_px = frame.demands[0].resolution_px;
+        const Real reach = static_cast<Real>(filter_row(frame.demands[0].filter).reach_texel);
+        const oracle::Deciding by = oracle::deciding_views(frame.views, frame.demands[0], p, reach);
+        ++tally.points;
+        bool dark = false;
+        for (std::uint32_t c = 0; c < scene.instances.size(); ++c) {
+            if (!scene.instances[c].casts || !oracle::darkens(light, scene.instances[c].bounds_ws, p, kLeastPassage)) continue;
+            ++tally.blockers;
+            dark = true;
+            if (by.wants_view) tally.missed += by.view && lists(frame, *by.view, c) ? 0 : 1;
+            if (by.wants_single) tally.missed += lists(frame, *by.single, c) ? 0 : 1;
+            if (frame.views.empty()) ++tally.missed;
+        }
+        tally.dark_points += dark ? 1 : 0;
+        // A face that casts nothing on anything may be left out; a sun's maps hold whatever is seen.
+        const bool must_hold = dark || (light.kind == LightKind::directional && !frame.views.empty());
+        if (must_hold && by.wants_view && !(by.view && oracle::holds(*by.view, p, size_px, 0))) ++tally.outside;
+        if (by.wants_single && !oracle::holds(*by.single, p, size_px, 0)) ++tally.outside;
+    }
+
+    static bool lists(const ShadowFrame& frame, const ShadowView& view, std::uint32_t caster) {
+        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+        return std::find(casters.begin(), casters.end(), caster) != casters.end();
+    }
+
+    void judge_points(const SceneSnapshot& scene, const ShadowFrame& frame) {
+        for (const InstanceItem& receiver : scene.instances) {
+            if (!receiver.visible || !receiver.receives) continue;
+            for (int k = 0; k < 4; ++k) {
+                const Vector p = sample(scene, receiver.bounds_ws);
+                if (oracle::sees(scene.consumers[0], p, kInset) && oracle::reaches(scene.lights[0], p, kInset))
+                    judge_point(scene, frame, p);
+            }
+        }
+    }
+
+    /// What must be equal, bit for bit, at 2^power times the size.
+    void judge_scale(SceneSnapshot scene, const ShadowFrame& frame, int power) {
+        scale(scene, power);
+        const ShadowFrame& there = fit(scene, elsewhere);
+        ++tally.scaled;
+        const float by = std::exp2(static_cast<float>(power));
+        bool same = there.views.size() == frame.views.size() && there.caster_items == frame.caster_items &&
+                    there.receiver_items == frame.receiver_items && there.view_caster_items == frame.view_caster_items;
+        for (std::size_t v = 0; same && v < frame.views.size(); ++v) {
+            const ShadowView &a = frame.views[v], &b = there.views[v];
+            const bool flat = a.projection == ViewProjection::orthographic;
+            same = b.anchor_ws_m == a.anchor_ws_m * std::exp2(power) && b.near_m == a.near_m * std::exp2(power);
+            for (int c = 0; c < 4; ++c)
+                for (int r = 0; r < 4; ++r) {
+                    // Orthographic: columns that meet metres shrink. Perspective: the depth's constant grows.
+                    const float factor = flat ? (c < 3 ? 1.0f / by : 1.0f) : (c < 3 ? 1.0f : by);
+                    same = same && b.clip_from_anchor[c][r] == a.clip_from_anchor[c][r] * factor;
+                }
+        }
+        tally.scale_differs += same ? 0 : 1;
+    }
+
+    /// Elsewhere: the same casters and receivers, maps of the same size.
+    void judge_move(SceneSnapshot scene, const ShadowFrame& frame, const glm::dvec3& by_m) {
+        move(scene, by_m);
+        const ShadowFrame& there = fit(scene, elsewhere);
+        judge_points(scene, there);
+        ++tally.moved;
+        bool same = there.views.size() == frame.views.size();
+        for (std::size_t v = 0; same && v < frame.views.size(); ++v) {
+            const ShadowView &a = frame.views[v], &b = there.views[v];
+            const double area = b.texel_u * b.texel_v / (a.texel_u * a.texel_v);
+            same = area > 0.999 && area < 1.001;
+        }
+        tally.move_differs += same ? 0 : 1;
+    }
+
+    RandomFits random{fit_seed()};
+    Tally tally;
+    ShadowFrame here, elsewhere;
+};
+
+void print(const Tally& t, std::string_view kind) {
+    std::cout << kind << ": " << t.fits << " fits, " << t.views << " views, " << t.skipped << " skipped; " << t.points
+              << " points, " << t.dark_points << " with casters, " << t.blockers << " of those; not finite " << t.not_finite
+              << ", outside " << t.outside << ", missed " << t.missed << ", unflagged " << t.unflagged << "; scaled "
+              << t.scaled << ", differ " << t.scale_differs << "; moved " << t.moved << ", differ " << t.move_differs << '\n';
+}
+
+TEST_P(RandomFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlace) {
+    const std::uint64_t count = fit_count();
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const SceneSnapshot scene = random.scene(GetParam());
+        ++tally.fits;
+        judge_numbers(fit(scene, here));
+        judge_points(scene, here);
+        if (i % kMoveEvery == 0) judge_scale(scene, here, static_cast<int>(random.number(-13.0, 27.0)));
+        if (i % kMoveEvery == 1) judge_move(scene, here, glm::round(random.vector(random.size(1.0, 0x1p25))));
+    }
+    print(tally, light_kind_row(GetParam()).name);
+    EXPECT_EQ(tally.not_finite, 0u);
+    EXPECT_EQ(tally.unflagged, 0u);
+    EXPECT_EQ(tally.outside, 0u);
+    EXPECT_EQ(tally.missed, 0u);
+    EXPECT_EQ(tally.scale_differs, 0u);
+    // Where two choices are equal but for rounding, another place may take the other one.
+    EXPECT_LE(tally.move_differs, tally.moved / 100);
+    EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
+    EXPECT_GT(tally.blockers, count / 8);
+}
+
+TEST_P(RandomFitsTest, AnyFiniteInputGivesFiniteViewsOrAReason) {
+    const std::uint64_t count = fit_count() / 4;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const SceneSnapshot scene = random.wild_scene(GetParam());
+        ++tally.fits;
+        judge_numbers(fit(scene, here));
+    }
+    print(tally, light_kind_row(GetParam()).name);
+    EXPECT_EQ(tally.not_finite, 0u);
+    EXPECT_EQ(tally.unflagged, 0u);
+    EXPECT_GT(tally.views, count / 8);
+}
+
+TEST_P(RandomFitsTest, AMissingCasterAndAShiftedMapAreNoticed) {
+    for (int i = 0; i < 2000; ++i) {
+        const SceneSnapshot scene = random.scene(GetParam());
+        fit(scene, here);
+        for (ShadowView& view : here.views) {
+            view.casters.count /= 2;
+            for (int c = 0; c < 4; ++c) view.map_from_anchor[c][0] += view.map_from_anchor[c][3];
+        }
+        judge_points(scene, here);
+    }
+    EXPECT_GT(tally.missed, 100u);
+    EXPECT_GT(tally.outside, 100u);
+}
+
+INSTANTIATE_TEST_SUITE_P(EachKind, RandomFitsTest, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
+                         [](const auto& param) { return std::string(light_kind_row(param.param).name); });
+
+}  // namespace
+}  // namespace gnomon::shadow
