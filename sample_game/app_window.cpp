@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <thread>
 #include <utility>
@@ -59,7 +60,7 @@ public:
         if (state != state_ && !rate_.empty()) show(window, state, device);
         const double since_s = seconds(Clock::now() - start_);
         if (since_s < kTitleEvery_s) return;
-        const auto fps = static_cast<long>(static_cast<double>(frames_) / since_s + 0.5);
+        const auto fps = std::lround(static_cast<double>(frames_) / since_s);
         rate_ = std::to_string(fps) + " fps";
         show(window, state, device);
         frames_ = 0;
