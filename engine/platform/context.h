@@ -52,6 +52,7 @@ enum class Key : std::uint8_t {
     down,
     tab,
     enter,
+    backspace,
     count
 };
 
@@ -67,6 +68,9 @@ struct Gamepad {
 };
 inline constexpr std::size_t kMaxGamepads = 16;  // GLFW_JOYSTICK_LAST + 1
 
+/// Characters that one poll reports at most: more than a hand types, or a key repeats, in a slow frame.
+inline constexpr std::size_t kMaxTyped = 32;
+
 /// Input since the last poll. Positions in pixels, y down.
 struct Input {
     bool down[static_cast<std::size_t>(Key::count)] = {};
@@ -76,6 +80,8 @@ struct Input {
     bool mouse_button = false;                        // any button is down
     bool mouse_pressed = false;                       // a button went down since the last poll, even if it is up again
     std::array<Gamepad, kMaxGamepads> gamepads = {};  // by the slot they are plugged into
+    std::array<char32_t, kMaxTyped> typed = {};  // characters since the last poll, as the keyboard's layout has them
+    std::size_t typed_count = 0;
     bool close_requested = false;
     std::uint32_t framebuffer_width = 0, framebuffer_height = 0;
 };

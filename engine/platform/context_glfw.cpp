@@ -46,7 +46,9 @@ constexpr std::array kKeys = {KeyName{GLFW_KEY_W, Key::w},
                               KeyName{GLFW_KEY_UP, Key::up},
                               KeyName{GLFW_KEY_DOWN, Key::down},
                               KeyName{GLFW_KEY_TAB, Key::tab},
-                              KeyName{GLFW_KEY_ENTER, Key::enter}};
+                              KeyName{GLFW_KEY_ENTER, Key::enter},
+                              KeyName{GLFW_KEY_KP_ENTER, Key::enter},
+                              KeyName{GLFW_KEY_BACKSPACE, Key::backspace}};
 
 struct PadButtonName {
     int glfw;
@@ -94,6 +96,7 @@ public:
     explicit GlfwWindow(GLFWwindow* window) : window_(window) {
         glfwSetWindowUserPointer(window, this);
         glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int) { self(w).on_key(key, action); });
+        glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int codepoint) { self(w).on_character(codepoint); });
         glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { self(w).on_cursor(x, y); });
         glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int, int action, int) { self(w).on_button(action); });
         glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) { self(w).on_focus(focused); });
@@ -111,6 +114,7 @@ public:
         std::fill(std::begin(input_.pressed), std::end(input_.pressed), false);
         input_.mouse_dx = input_.mouse_dy = 0.0;
         input_.mouse_pressed = false;
+        input_.typed_count = 0;
         glfwPollEvents();
         for (std::size_t slot = 0; slot < kMaxGamepads; ++slot)
             input_.gamepads[slot] = read_gamepad(static_cast<int>(slot));
@@ -142,6 +146,9 @@ private:
         const auto key = static_cast<std::size_t>(at->key);
         input_.down[key] = action == GLFW_PRESS;
         if (action == GLFW_PRESS) input_.pressed[key] = true;  // stays true even if released before the poll ends
+    }
+    void on_character(char32_t character) {
+        if (input_.typed_count < kMaxTyped) input_.typed[input_.typed_count++] = character;
     }
     void on_cursor(double x, double y) {
         input_.mouse_dx += x - input_.mouse_x;

@@ -7,9 +7,34 @@ namespace {
 
 constexpr float kLeastStep_s = 1.0e-4f;  // ImGui wants time to pass
 
+/// Keys that edit a line of text.
+struct EditKey {
+    platform::Key key;
+    ImGuiKey imgui;
+};
+constexpr EditKey kEditKeys[] = {{platform::Key::left, ImGuiKey_LeftArrow},
+                                 {platform::Key::right, ImGuiKey_RightArrow},
+                                 {platform::Key::backspace, ImGuiKey_Backspace},
+                                 {platform::Key::enter, ImGuiKey_Enter}};
+
+/// ImGui took keys by tables of the application's own before it took events.
+#if IMGUI_VERSION_NUM >= 18700
+void set_key(ImGuiIO& io, ImGuiKey key, bool down) { io.AddKeyEvent(key, down); }
+#else
+void set_key(ImGuiIO& io, ImGuiKey key, bool down) {
+    io.KeyMap[key] = key;
+    io.KeysDown[key] = down;
+}
+#endif
+
 void feed(ImGuiIO& io, const platform::Input& input) {
     io.MousePos = {static_cast<float>(input.mouse_x), static_cast<float>(input.mouse_y)};
     io.MouseDown[0] = input.mouse_button || input.mouse_pressed;
+    for (const EditKey& edit : kEditKeys) {
+        const auto key = static_cast<std::size_t>(edit.key);
+        set_key(io, edit.imgui, input.down[key] || input.pressed[key]);
+    }
+    for (std::size_t i = 0; i < input.typed_count; ++i) io.AddInputCharacter(static_cast<unsigned int>(input.typed[i]));
 }
 
 }  // namespace
