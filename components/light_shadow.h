@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace gnomon {
@@ -13,6 +15,17 @@ enum class BiasMode : std::uint8_t { automatic, constant };
 /// How a light projects onto its map. A sun's is orthographic, a spot's and a point's perspective; a sun may be given one
 /// perspective view instead. What a kind cannot do is reported (projection_unsupported), its own is used.
 enum class LightProjection : std::uint8_t { automatic, orthographic, perspective };
+
+/// How a sun's cascades follow the camera. `tight`: the smallest rectangle around what is seen, fitted anew in every frame.
+/// `stable`: a constant size around each slice of the view, snapped to its own texels; what is seen does not matter.
+/// `quantised`: around what is seen, in the light's own axes, in steps; it stays until that no longer fits.
+enum class ShadowFit : std::uint8_t { tight, stable, quantised };
+
+/// Where a sun's cascades end along the view. `practical` mixes logarithmic and uniform ends by split_lambda; `seen`
+/// does the same over those depths alone at which receivers lie; `manual` takes split_m.
+enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen };
+
+inline constexpr std::size_t kMaxCascades = 8;
 
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
@@ -30,6 +43,13 @@ struct LightShadow {
     /// Depth range of every view, from the light or a sun's eye; 0: fitted. Receivers outside are lit, casters beyond
     /// far_m cast nothing, casters before near_m still cast.
     float near_m = 0.0f, far_m = 0.0f;
+    ShadowFit fit = ShadowFit::tight;  // of a sun's cascades; the mode that measures best (docs/accuracy.md)
+    std::uint32_t cascades = 0;        // of a sun; 0: four; at most kMaxCascades
+    CascadeSplits splits = CascadeSplits::practical;
+    float split_lambda = 0.7f;  // 0: uniform, 1: logarithmic
+    /// CascadeSplits::manual: metres along the view, rising; 0 ends the list. One cascade more than distances.
+    std::array<float, kMaxCascades - 1> split_m{};
+    float cascade_blend = 0.0f;  // share of a cascade that fades into the next one, 0 to 0.5
     bool economy = true;               // false: redraw every view every frame, change nothing else
     bool operator==(const LightShadow&) const = default;
 };

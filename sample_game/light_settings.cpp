@@ -59,6 +59,12 @@ constexpr std::array<std::string_view, 0> kWords{};
 template <>
 constexpr std::array<std::string_view, 3> kWords<LightProjection>{"automatic", "orthographic", "perspective"};
 
+template <>
+constexpr std::array<std::string_view, 3> kWords<ShadowFit>{"tight", "stable", "quantised"};
+template <>
+constexpr std::array<std::string_view, 5> kWords<CascadeSplits>{"practical", "uniform", "logarithmic", "manual",
+                                                                "seen"};
+
 template <class Enum>
 std::string_view word(std::size_t index) {
     return index < kWords<Enum>.size() ? kWords<Enum>[index] : std::string_view{};
@@ -131,10 +137,58 @@ std::string get_eye_angle(const LightShadow& shadow) {
     return same ? number_text(shorter_deg) : number_text(angle_deg);
 }
 
+bool set_cascades(LightShadow& shadow, std::string_view text) {
+    const auto value = read_count(text);
+    if (!value || *value > kMaxCascades) return false;
+    shadow.cascades = static_cast<std::uint32_t>(*value);
+    return true;
+}
+std::string get_cascades(const LightShadow& shadow) { return std::to_string(shadow.cascades); }
+
+/// A share of 0 to kMost hundredths.
+template <float LightShadow::*field, int kMost>
+bool set_share(LightShadow& shadow, std::string_view text) {
+    const auto value = read_number(text);
+    if (!value || !(*value >= 0.0 && *value <= 0.01 * kMost)) return false;
+    shadow.*field = static_cast<float>(*value);
+    return true;
+}
+
+/// Rising distances with commas between; a lone 0 for none.
+bool set_splits_m(LightShadow& shadow, std::string_view text) {
+    decltype(shadow.split_m) distances_m{};
+    if (text == "0") {
+        shadow.split_m = distances_m;
+        return true;
+    }
+    float last_m = 0.0f;
+    for (std::size_t count = 0; count < distances_m.size(); ++count) {
+        const std::size_t comma = std::min(text.find(','), text.size());
+        const auto value = read_number(text.substr(0, comma));
+        if (!value || !(*value <= kMaxDistance_m) || !(static_cast<float>(*value) > last_m)) return false;
+        last_m = distances_m[count] = static_cast<float>(*value);
+        if (comma == text.size()) {
+            shadow.split_m = distances_m;
+            return true;
+        }
+        text.remove_prefix(comma + 1);
+    }
+    return false;
+}
+std::string get_splits_m(const LightShadow& shadow) {
+    std::string text;
+    for (const float distance_m : shadow.split_m) {
+        if (distance_m == 0.0f) break;
+        text += (text.empty() ? "" : ",") + number_text(distance_m);
+    }
+    return text.empty() ? "0" : text;
+}
+
 using S = LightShadow;
 constexpr auto kToggle = SettingEditor::toggle;
 constexpr auto kChoice = SettingEditor::choice;
 constexpr auto kNumber = SettingEditor::number;
+constexpr auto kText = SettingEditor::text;
 
 constexpr std::array kSettings{
     LightSetting{.key = "enabled",
@@ -208,6 +262,48 @@ constexpr std::array kSettings{
                  .get = get_float<&S::far_m>,
                  .editor = kNumber,
                  .slider_most = kSliderDistance_m},
+    LightSetting{.key = "fit",
+                 .values = "tight | stable | quantised",
+                 .meaning = "how a sun's cascades follow the camera",
+                 .set = set_word<&S::fit, ShadowFit>,
+                 .get = get_word<&S::fit, ShadowFit>,
+                 .editor = kChoice,
+                 .choice = word<ShadowFit>},
+    LightSetting{.key = "cascades",
+                 .values = "0 ... 8",
+                 .meaning = "of a sun; 0: four",
+                 .set = set_cascades,
+                 .get = get_cascades,
+                 .editor = kNumber,
+                 .slider_most = kMaxCascades,
+                 .whole = true},
+    LightSetting{.key = "splits",
+                 .values = "practical | uniform | logarithmic | manual | seen",
+                 .meaning = "where a sun's cascades end along the view",
+                 .set = set_word<&S::splits, CascadeSplits>,
+                 .get = get_word<&S::splits, CascadeSplits>,
+                 .editor = kChoice,
+                 .choice = word<CascadeSplits>},
+    LightSetting{.key = "split_lambda",
+                 .values = "0 ... 1",
+                 .meaning = "practical and seen splits: 0 uniform, 1 logarithmic",
+                 .set = set_share<&S::split_lambda, 100>,
+                 .get = get_float<&S::split_lambda>,
+                 .editor = kNumber,
+                 .slider_most = 1.0},
+    LightSetting{.key = "split_m",
+                 .values = "0 | up to 7 rising distances, as 5,15,40 (m)",
+                 .meaning = "manual splits: one cascade more than distances",
+                 .set = set_splits_m,
+                 .get = get_splits_m,
+                 .editor = kText},
+    LightSetting{.key = "cascade_blend",
+                 .values = "0 ... 0.5",
+                 .meaning = "share of a cascade that fades into the next one",
+                 .set = set_share<&S::cascade_blend, 50>,
+                 .get = get_float<&S::cascade_blend>,
+                 .editor = kNumber,
+                 .slider_most = 0.5},
     LightSetting{.key = "economy",
                  .values = "on | off",
                  .meaning = "off: redraw every map every frame, change nothing else",

@@ -11,8 +11,9 @@
 /// The fields of LightShadow by name: one row per key, for --set, --list and anything else that edits them.
 namespace gnomon::game {
 
-/// How a panel edits a setting: on or off, one of LightSetting::choice's words, or a number of 0 to slider_most.
-enum class SettingEditor : std::uint8_t { toggle, choice, number };
+/// How a panel edits a setting: on or off, one of LightSetting::choice's words, a number of 0 to slider_most, or what is
+/// typed.
+enum class SettingEditor : std::uint8_t { toggle, choice, number, text };
 
 struct LightSetting {
     const char* key;

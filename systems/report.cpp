@@ -56,6 +56,10 @@ const char* reason_code(Reason reason) {
             return "eye_invalid";
         case Reason::range_invalid:
             return "range_invalid";
+        case Reason::cascades_clamped:
+            return "cascades_clamped";
+        case Reason::splits_invalid:
+            return "splits_invalid";
     }
     return "unknown";
 }

@@ -35,7 +35,9 @@ enum class Reason : std::uint8_t {
     fit_degenerate,          // no finite volume to render
     projection_unsupported,  // this kind of light has no such projection, its own is used
     eye_invalid,             // a sun's eye distance or angle is absurd, it stays orthographic
-    range_invalid            // near_m and far_m are no range, the fitted one is used
+    range_invalid,           // near_m and far_m are no range, the fitted one is used
+    cascades_clamped,        // more cascades than a light can have
+    splits_invalid           // split_m, split_lambda or cascade_blend is absurd, the default is used
 };
 const char* reason_code(Reason reason);
 

@@ -32,6 +32,13 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
             ImGui::EndCombo();
             return chosen;
         }
+        case SettingEditor::text: {
+            constexpr std::size_t kMostCharacters = 128;
+            std::array<char, kMostCharacters> text{};
+            now.copy(text.data(), text.size() - 1);
+            const auto flags = ImGuiInputTextFlags_EnterReturnsTrue;
+            return ImGui::InputText(setting.key, text.data(), text.size(), flags) ? text.data() : std::string{};
+        }
         case SettingEditor::number:
             break;
     }

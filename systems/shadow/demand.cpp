@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "systems/shadow/kinds/cone_fade.h"
+#include "systems/shadow/kinds/splits.h"
 #include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/range_override.h"
@@ -26,10 +27,19 @@ Reason wanted(const LightItem& light, bool shadows) {
     return Reason::none;
 }
 
+/// How many cascades a sun has, and what fades between them.
+void decide_cascades(const LightShadow& shadow, ShadowDemand& demand) {
+    if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
+    if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
+    demand.view_count = cascade_count(shadow, demand.view_count);
+    demand.cascade_blend = are_splits(shadow) ? shadow.cascade_blend : 0.0f;
+}
+
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
 void decide_projection(const LightItem& light, ShadowDemand& demand) {
     const LightProjection wish = light.shadow.projection;
     const bool sun = light.kind == LightKind::directional;
+    if (sun) decide_cascades(light.shadow, demand);
     if (is_range(light.shadow)) {
         demand.near_m = static_cast<double>(light.shadow.near_m);
         demand.far_m = static_cast<double>(light.shadow.far_m);

@@ -42,8 +42,16 @@ struct ConeFade {
     bool operator==(const ConeFade&) const = default;
 };
 
+/// Depths between which a sun's cascades are split.
+struct HeldDepths {
+    bool used = false;
+    int near_step = 0, far_step = 0;  // of view distances
+    bool operator==(const HeldDepths&) const = default;
+};
+
 struct HeldLight {
     ecs::Entity light = {};
+    HeldDepths depths;
     std::array<HeldView, kHeldViews> views;
     ConeFade cone;
     bool operator==(const HeldLight&) const = default;

@@ -52,6 +52,8 @@ std::span<const LightKindRow> light_kind_table();
 const LightKindRow& light_kind_row(LightKind kind);
 
 bool fit_directional(const FitInput& input, std::vector<ShadowView>& views);
+/// One view from the sun's eye (kinds/sun_eye.h).
+bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::vector<ShadowView>& views);
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views);
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views);
 

@@ -38,7 +38,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     const double depth_rounding = orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha);
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
                       static_cast<float>(view.depth_alpha), static_cast<float>(view.layer)};
-    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, 0.0);
+    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.seen_to_m);
     return record;
 }
 
@@ -46,6 +46,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
 LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
     LightRecord record;
     record.position = with_w(light.position_ws_m - consumer.position_ws_m, light.range_m);
+    if (light.kind == LightKind::directional) record.position = with_w(-consumer.rotation_ws[2], 0.0);
     record.to_light = with_w(light.rotation_ws[2], 0.0);
     record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
@@ -149,6 +150,9 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
             out.record.bias.x = light.shadow.bias_m;
+            if (out.record.options.x == 1) out.record.bias.z = static_cast<float>(view.seen_from_m);
+            out.record.bias.y = demand.cascade_blend;
+            out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }
     }
 }

@@ -14,6 +14,7 @@
 #include "engine/math/frustum.h"
 #include "systems/report.h"
 #include "systems/shadow/history.h"
+#include "systems/shadow/kinds/splits.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
 /// nothing is changed after its stage.
@@ -35,6 +36,7 @@ struct ShadowDemand {
     std::uint32_t view_count = 0;     // layers of the map
     int faces_eighths = 0;            // spot: share of cube faces against a single view (kinds/cone_fade.h)
     bool perspective_sun = false;       // one view from an eye instead of cascades
+    float cascade_blend = 0.0f;         // share of a cascade that fades into the next
     double near_m = 0.0, far_m = 0.0;   // asked for, from the light or a sun's eye; 0: fitted
 };
 
@@ -79,6 +81,7 @@ struct ShadowView {
     glm::dvec2 centre_ls_m{0.0};  // orthographic: the map's centre from the anchor, along axis_u and axis_v
     glm::dvec2 tan_low{0.0}, tan_high{0.0};  // perspective, cube face: sides of the map at distance 1
     double seen_from_m = 0.0;     // cascades: nearest view distance this one serves
+    double seen_to_m = 0.0;       // view distance from which the next cascade serves; 0: where its map ends
     double texel_m = 0.0;             // largest diagonal of a texel across the light, at a receiver
     double texel_extent_px = 0.0;     // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
     double predicted_error_px = 0.0;  // how far a shadow edge may be off on screen
@@ -165,6 +168,7 @@ struct LightingInputs {
 struct FitScratch {
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, hull;
+    std::vector<DepthSpan> depths;
 };
 
 /// Reused storage of the search for receivers and casters; holds nothing between two searches.

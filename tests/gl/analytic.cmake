@@ -2,6 +2,7 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_analytic LABEL gl SOURCES
     debug_depth_gl_test.cpp
+    cascades_gl_test.cpp
     projection_gl_test.cpp
     shadow_blending_gl_test.cpp
     shadow_cube_gl_test.cpp

@@ -1,23 +1,70 @@
-// Directional light: orthographic views (cascades, near to far); the first that holds the point decides.
+// Directional light: orthographic views (cascades), near to far. A point is served by the first whose map holds it, or,
+// where maps are meant to stay while the camera moves, by the one of its distance along the view.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
 #include "shadow/kinds/map_2d.glsl"
+#define SHADOW_FADES
+
+// What the cascade that shadow_point chose fades into.
+float fading_share;
+ShadowPoint fading_point;
+
+ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+    ViewRecord view = light.views[i];
+    vec3 position_la = position_ca + view.anchor_from_camera.xyz;
+    vec3 n_map = vec3(dot(normal, view.axis_u.xyz), dot(normal, view.axis_v.xyz), dot(normal, view.axis_back.xyz));
+    float rounding_m = error_m + view.numeric.y * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
+    Bias bias = orthographic_bias(view, n_map, reach_texel, rounding_m);
+    if (light.options.y != 0) bias = Bias(0.0, light.bias.x / view.axis_back.w);
+    vec3 moved = position_la + normal * bias.along_normal_m;
+    vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
+    ShadowPoint point = point_2d(i, projected, bias.depth, reach_texel);
+    // A cascade draws only what can darken its own depth range: before it, the next one knows better.
+    point.covered = point.covered && projected.z <= 1.0;
+    return point;
+}
+
+int cascade_at(float distance_m) {
+    int i = 0;
+    while (i + 1 < light.options.x && distance_m > light.views[i].anchor_from_camera.w) ++i;
+    return i;
+}
+
+// 0 up to the last part of a cascade, then rising to 1 where it ends.
+float share_at(int i, float distance_m) {
+    float start_m = light.bias.z;
+    if (i > 0) start_m = light.views[i - 1].anchor_from_camera.w;
+    float end_m = light.views[i].anchor_from_camera.w;
+    float band_m = light.bias.y * (end_m - start_m);
+    return band_m > 0.0 ? clamp((distance_m - end_m) / band_m + 1.0, 0.0, 1.0) : 0.0;
+}
+
+// The same toward the border of its map.
+float share_toward_border(ShadowPoint point, float reach_texel) {
+    vec3 inside = min(point.map, 1.0 - point.map);
+    float nearest = min(min(inside.x - reach_texel * point.texel_uv.x, inside.y - reach_texel * point.texel_uv.y), inside.z);
+    return clamp(1.0 - nearest / light.bias.y, 0.0, 1.0);
+}
 
 ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    ShadowPoint point;
-    point.covered = false;
-    for (int i = 0; i < light.options.x && !point.covered; ++i) {
-        ViewRecord view = light.views[i];
-        vec3 position_la = position_ca + view.anchor_from_camera.xyz;
-        vec3 n_map = vec3(dot(normal, view.axis_u.xyz), dot(normal, view.axis_v.xyz), dot(normal, view.axis_back.xyz));
-        float rounding_m = error_m + view.numeric.y * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
-        Bias bias = orthographic_bias(view, n_map, reach_texel, rounding_m);
-        if (light.options.y != 0) bias = Bias(0.0, light.bias.x / view.axis_back.w);
-        vec3 moved = position_la + normal * bias.along_normal_m;
-        vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
-        point = point_2d(i, projected, bias.depth, reach_texel);
-        // A cascade draws only what can darken its own depth range: beyond it, the next one knows better.
-        point.covered = point.covered && projected.z <= 1.0;
+    bool by_distance = light.options.z != 0;
+    float distance_m = dot(position_ca, light.position.xyz);
+    int i = by_distance ? cascade_at(distance_m) : 0;
+    ShadowPoint point = point_in_cascade(i, position_ca, normal, error_m, reach_texel);
+    while (!point.covered && i + 1 < light.options.x) {
+        ++i;
+        point = point_in_cascade(i, position_ca, normal, error_m, reach_texel);
+    }
+    fading_share = 0.0;
+    if (!point.covered || !(light.bias.y > 0.0)) return point;
+    float share = by_distance ? share_at(i, distance_m) : share_toward_border(point, reach_texel);
+    for (int next = i + 1; next < light.options.x && share > 0.0 && fading_share == 0.0; ++next) {
+        fading_point = point_in_cascade(next, position_ca, normal, error_m, reach_texel);
+        if (fading_point.covered) fading_share = share;
     }
     return point;
 }
+
+float shadow_fade_share() { return fading_share; }
+
+ShadowPoint shadow_fade_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) { return fading_point; }

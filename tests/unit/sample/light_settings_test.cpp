@@ -21,6 +21,12 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .eye_angle_rad = 0.7f,
                     .near_m = 0.1f,
                     .far_m = 333.3f,
+                    .fit = ShadowFit::quantised,
+                    .cascades = 6,
+                    .splits = CascadeSplits::manual,
+                    .split_lambda = 0.35f,
+                    .split_m = {1.5f, 7.1f, 1e11f},
+                    .cascade_blend = 0.21f,
                     .economy = false};
     LightShadow copy;
     for (const LightSetting& setting : light_settings())
@@ -51,7 +57,13 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"eye_distance_m=-1", "set.value"}, {"eye_angle_deg=0", "set.value"},
                 {"eye_angle_deg=161", "set.value"}, {"eye_angle_deg=1e-60", "set.value"},
                 {"near_m=-0.1", "set.value"},      {"far_m=inf", "set.value"},
-                {"far_m=2e11", "set.value"},       {"near_m=nan", "set.value"}};
+                {"far_m=2e11", "set.value"},       {"near_m=nan", "set.value"},
+                {"fit=loose", "set.value"},        {"cascades=9", "set.value"},
+                {"cascades=-1", "set.value"},      {"splits=some", "set.value"},
+                {"split_lambda=1.1", "set.value"}, {"cascade_blend=0.6", "set.value"},
+                {"split_m=5,4", "set.value"},      {"split_m=", "set.value"},
+                {"split_m=1,2,3,4,5,6,7,8", "set.value"}, {"split_m=1,,2", "set.value"},
+                {"split_m=-1", "set.value"},       {"split_m=1,", "set.value"}};
     for (const auto& row : rows) {
         LightShadow shadow;
         const auto error = apply_setting(shadow, row.text);

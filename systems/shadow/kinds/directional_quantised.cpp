@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "systems/shadow/kinds/cascade_fit.h"
+#include "systems/shadow/kinds/held_fit.h"
+#include "systems/shadow/kinds/steps.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// One side of the box, along one of the light's axes, from the world's origin.
+struct Side {
+    double low = 0.0, size = 0.0;
+};
+
+/// `needed`, not longer than `room` of a step, on parts of `grid` of it; the held one where that still holds it.
+Side hold(double low, double high, double room, double grid, bool used, double held_low, int held_step, int& step) {
+    step = hold_above((high - low) / room, used, held_step, kHoldSteps);
+    Side side{0.0, step_size(step)};
+    const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
+    const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
+    if (used && step == held_step && holds) {
+        side.low = held_low;
+    } else {
+        const double part = grid * side.size;
+        side.low = std::round((0.5 * (low + high) - 0.5 * side.size) / part) * part;
+    }
+    return side;
+}
+
+}  // namespace
+
+bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
+    glm::dvec3 lowest(std::numeric_limits<double>::infinity()), highest = -lowest;
+    for (const glm::dvec3& p_ws : input.points_ws) {
+        const glm::dvec3 p = p_ws * input.basis;
+        lowest = glm::min(lowest, p);
+        highest = glm::max(highest, p);
+    }
+    const glm::dvec3 extent = highest - lowest;
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    if (!(largest > 0.0) || !std::isfinite(largest)) return false;
+    const glm::dvec3 widened = glm::max(glm::dvec3(0.0), glm::dvec3(largest * kLeastExtent) - extent) * 0.5;
+    lowest -= widened;
+    highest += widened;
+
+    const HeldView& held = input.light.held.views[input.index];
+    HeldView& next = input.light.next.views[input.index];
+    const double texel = 1.0 / input.light.demand.resolution_px;
+    const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
+    glm::dvec3 low, size;
+    for (int axis = 0; axis < 2; ++axis) {
+        const Side side = hold(lowest[axis], highest[axis], room, texel, held.used, held.low[axis],
+                               held.extent_step[axis], next.extent_step[axis]);
+        low[axis] = next.low[axis] = side.low;
+        size[axis] = side.size;
+    }
+    const Side depth = hold(lowest.z, highest.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, held.used, held.near_m,
+                            held.far_step, next.far_step);
+    low.z = next.near_m = depth.low;
+    size.z = depth.size;
+    next.used = true;
+
+    box.axes = input.basis;
+    place(input.basis * (low + 0.5 * size), glm::dvec2(size), size.z, box);
+    return true;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "systems/shadow/kinds/cascade_fit.h"
+#include "systems/shadow/kinds/rectangle.h"
+
+namespace gnomon::shadow {
+
+bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
+    FitScratch& scratch = input.light.scratch;
+    scratch.points.clear();
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    const glm::dvec3 origin_ws = input.points_ws.front();
+    for (const glm::dvec3& p_ws : input.points_ws) {
+        const glm::dvec3 p = (p_ws - origin_ws) * input.basis;
+        scratch.points.emplace_back(p.x, p.y);
+        lowest = std::min(lowest, p.z);
+        highest = std::max(highest, p.z);
+    }
+    const Rectangle rectangle = smallest_rectangle(scratch.points, scratch.hull);
+    const glm::dvec2 extent = rectangle.max - rectangle.min;
+    const double largest = std::max({extent.x, extent.y, highest - lowest});
+    if (!(largest > 0.0) || !std::isfinite(largest)) return false;
+
+    box.axes[0] = input.basis[0] * rectangle.axis_u.x + input.basis[1] * rectangle.axis_u.y;
+    box.axes[1] = input.basis[1] * rectangle.axis_u.x - input.basis[0] * rectangle.axis_u.y;
+    box.axes[2] = input.basis[2];
+    const glm::dvec2 least(largest * kLeastExtent);
+    const double depth_m = std::max(highest - lowest, least.x) * (1.0 + 2.0 * kDepthSlack);
+    const glm::dvec2 middle = 0.5 * (rectangle.min + rectangle.max);
+    const glm::dvec3 centre_ws =
+        origin_ws + box.axes[0] * middle.x + box.axes[1] * middle.y + box.axes[2] * (0.5 * (lowest + highest));
+    const glm::dvec2 held = glm::max(extent, least);
+    place(centre_ws, {with_border(held.x, input.light), with_border(held.y, input.light)}, depth_m, box);
+    return true;
+}
+
+}  // namespace gnomon::shadow
