@@ -5,8 +5,10 @@
 #include <span>
 
 #include "bench/accuracy.h"
+#include "bench/culling.h"
 #include "bench/frame_times.h"
 #include "bench/heat_pictures.h"
+#include "bench/set_shares.h"
 #include "bench/stage.h"
 #include "sample_game/number_text.h"
 #include "sample_game/picture_files.h"
@@ -20,7 +22,7 @@ constexpr std::uint32_t kMaxRepeats = 100000;
 
 struct Arguments {
     StageOptions stage;
-    std::string scene, camera, size = "1280x720", offset, json, pictures;
+    std::string scene, camera, size = "1280x720", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5;
 };
 
@@ -92,6 +94,13 @@ int run_frame(const Arguments& arguments) {
     return 0;
 }
 
+int run_set_shares(const Arguments& arguments) {
+    const auto table = set_shares(arguments.stage);
+    if (!table) return fail(table.error());
+    std::fputs(table.value().c_str(), stdout);
+    return 0;
+}
+
 void add_common(CLI::App& command, Arguments& arguments) {
     command.add_option("--scene", arguments.scene, "glTF or GLB (default: the built-in scene)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
@@ -118,6 +127,10 @@ int run(int argc, char** argv) {
     frame->add_option("--rounds", arguments.rounds, "rounds of --repeat frames each")
         ->check(CLI::Range(1u, kMaxRepeats))
         ->capture_default_str();
+    CLI::App* culling = app.add_subcommand("culling", "what finding receivers and casters and fitting to them costs");
+    culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
+    CLI::App* sets = app.add_subcommand("sets", "how many casters each light keeps, and how many of those in vain");
+    add_common(*sets, arguments);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -125,6 +138,11 @@ int run(int argc, char** argv) {
         return fail({error.what(), "", "", "usage"});
     }
     if (auto error = complete(arguments)) return fail(*error);
+    if (*culling) {
+        run_culling(arguments.filter);
+        return 0;
+    }
+    if (*sets) return run_set_shares(arguments);
     return *accuracy ? run_accuracy(arguments) : run_frame(arguments);
 }
 

@@ -58,28 +58,35 @@ bool darkens(const LightItem& light, const math::Aabb& box, const Vector& p, Rea
 
 InMap in_map(const shadow::ShadowView& view, const Vector& p) {
     const Vector from_anchor = p - exact(view.anchor_ws_m);
-    std::array<Real, 4> sum{};
-    Real largest = 0;
-    for (int row = 0; row < 4; ++row) {
-        Real size = std::abs(static_cast<Real>(view.map_from_anchor[3][row]));
-        sum[static_cast<std::size_t>(row)] = static_cast<Real>(view.map_from_anchor[3][row]);
+    std::array<Real, 4> sum{}, size{};
+    for (std::size_t row = 0; row < 4; ++row) {
+        const auto entry = [&](int column) {
+            return static_cast<Real>(view.map_from_anchor[column][static_cast<int>(row)]);
+        };
+        sum[row] = entry(3);
+        size[row] = std::abs(sum[row]);
         for (int column = 0; column < 3; ++column) {
-            const Real term = static_cast<Real>(view.map_from_anchor[column][row]) * from_anchor[column];
-            sum[static_cast<std::size_t>(row)] += term;
-            size += std::abs(term);
+            const Real term = entry(column) * from_anchor[column];
+            sum[row] += term;
+            size[row] += std::abs(term);
         }
-        largest = std::max(largest, size);
     }
     constexpr Real kRounding = 0x1p-22L;
-    return {{sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]}, kRounding * largest / std::abs(sum[3]), sum[3]};
+    const Real w = sum[3];
+    const auto rounding = [&](std::size_t row) {
+        return kRounding * (size[row] + std::abs(sum[row] / w) * size[3]) / std::abs(w);
+    };
+    return {{sum[0] / w, sum[1] / w, sum[2] / w}, {rounding(0), rounding(1), rounding(2)}, w};
 }
 
 bool holds(const shadow::ShadowView& view, const Vector& p, Real size_px, Real reach_texel) {
     const InMap q = in_map(view, p);
     if (!(q.w > 0)) return false;
-    const Real margin = reach_texel / size_px - q.rounding;
+    const Real margin = reach_texel / size_px;
+    const bool clamped = view.projection != shadow::ViewProjection::orthographic;
     const auto within = [](Real value, Real inset) { return value >= inset && value <= 1 - inset; };
-    return within(q.at.x, margin) && within(q.at.y, margin) && within(q.at.z, -q.rounding);
+    return within(q.at.x, margin - q.rounding.x) && within(q.at.y, margin - q.rounding.y) &&
+           (clamped ? q.at.z >= -q.rounding.z : within(q.at.z, -q.rounding.z));
 }
 
 Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand, const Vector& p,

@@ -33,11 +33,10 @@ bool reaches(const LightItem& light, const Vector& p, Real inset);
 /// between, and not only at the point itself.
 bool darkens(const LightItem& light, const math::Aabb& box, const Vector& p, Real least);
 
-/// Map coordinates and depth (0 to 1 each) of a point, by the view's float matrix, and how much of them float may owe to
-/// rounding (2^-22 of the largest term: the shader's own sums, not this oracle's).
+/// Map coordinates and depth (0 to 1 each) of a point, by the view's float matrix, and how much of each float may owe to
+/// rounding (2^-22 of its terms: of the matrix and of the shader's own sums, not of this oracle's).
 struct InMap {
-    Vector at;
-    Real rounding = 0;
+    Vector at, rounding;
     Real w = 0;  // > 0: before the view
 };
 InMap in_map(const shadow::ShadowView& view, const Vector& p);
@@ -53,7 +52,8 @@ struct Deciding {
 Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand, const Vector& p,
                         Real reach_texel);
 
-/// Whether the point lies in the view's map and depth range, `reach_texel` from its border, rounding in its favour.
+/// Whether the point lies in the view's map and depth range, `reach_texel` from its border, rounding in its favour. What is
+/// nearer than a perspective view's near plane is held: it is compared as if it lay on that plane.
 bool holds(const shadow::ShadowView& view, const Vector& p, Real size_px, Real reach_texel);
 
 }  // namespace gnomon::oracle
