@@ -16,6 +16,11 @@ enum class BiasMode : std::uint8_t { automatic, constant };
 /// perspective view instead. What a kind cannot do is reported (projection_unsupported), its own is used.
 enum class LightProjection : std::uint8_t { automatic, orthographic, perspective };
 
+/// How the faces of a point light's cube are drawn: a pass each, or all in one whose layer the vertex or the geometry
+/// stage chooses. The maps are the same to the bit. `automatic` takes what measured fastest; a route that the device
+/// does not have becomes six_passes.
+enum class CubeRoute : std::uint8_t { automatic, six_passes, layered_vertex, layered_geometry };
+
 /// How a sun's cascades follow the camera. `tight`: the smallest rectangle around what is seen, fitted anew in every frame.
 /// `stable`: a constant size around each slice of the view, snapped to its own texels; what is seen does not matter.
 /// `quantised`: around what is seen, in the light's own axes, in steps; it stays until that no longer fits.
@@ -43,6 +48,7 @@ struct LightShadow {
     /// Depth range of every view, from the light or a sun's eye; 0: fitted. Receivers outside are lit, casters beyond
     /// far_m cast nothing, casters before near_m still cast.
     float near_m = 0.0f, far_m = 0.0f;
+    CubeRoute cube_route = CubeRoute::automatic;
     ShadowFit fit = ShadowFit::tight;  // of a sun's cascades; the mode that measures best (docs/accuracy.md)
     std::uint32_t cascades = 0;        // of a sun; 0: four; at most kMaxCascades
     CascadeSplits splits = CascadeSplits::practical;

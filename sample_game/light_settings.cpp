@@ -60,6 +60,10 @@ template <>
 constexpr std::array<std::string_view, 3> kWords<LightProjection>{"automatic", "orthographic", "perspective"};
 
 template <>
+constexpr std::array<std::string_view, 4> kWords<CubeRoute>{"automatic", "six_passes", "layered_vertex",
+                                                            "layered_geometry"};
+
+template <>
 constexpr std::array<std::string_view, 3> kWords<ShadowFit>{"tight", "stable", "quantised"};
 template <>
 constexpr std::array<std::string_view, 5> kWords<CascadeSplits>{"practical", "uniform", "logarithmic", "manual",
@@ -262,6 +266,13 @@ constexpr std::array kSettings{
                  .get = get_float<&S::far_m>,
                  .editor = kNumber,
                  .slider_most = kSliderDistance_m},
+    LightSetting{.key = "cube_route",
+                 .values = "automatic | six_passes | layered_vertex | layered_geometry",
+                 .meaning = "how a point light's faces are drawn; the maps are the same",
+                 .set = set_word<&S::cube_route, CubeRoute>,
+                 .get = get_word<&S::cube_route, CubeRoute>,
+                 .editor = kChoice,
+                 .choice = word<CubeRoute>},
     LightSetting{.key = "fit",
                  .values = "tight | stable | quantised",
                  .meaning = "how a sun's cascades follow the camera",

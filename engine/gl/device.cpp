@@ -127,8 +127,9 @@ Failure check_buffer(const BufferDesc& desc, std::size_t given_bytes) {
 Failure check_attachment(const Attachment& attachment, const TextureDesc* texture) {
     if (texture == nullptr) return Failure::invalid_value;
     const bool whole = attachment.layer == -1 && texture->kind == TextureKind::flat;
+    const bool all = attachment.layer == kAllLayers && texture->kind != TextureKind::flat;
     const bool one = attachment.layer >= 0 && static_cast<std::uint32_t>(attachment.layer) < layer_count(*texture);
-    return whole || one ? Failure::none : Failure::incomplete_target;
+    return whole || all || one ? Failure::none : Failure::incomplete_target;
 }
 
 }  // namespace gnomon::gl

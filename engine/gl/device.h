@@ -60,12 +60,14 @@ struct ProgramDesc {
     std::string label = {};
     std::string vertex = {};
     std::string fragment = {};
+    std::string geometry = {};  // empty: no geometry stage
     bool operator==(const ProgramDesc&) const = default;
 };
 
+inline constexpr std::int32_t kAllLayers = -2;  // layered: shaders choose by gl_Layer
 struct Attachment {
     TextureHandle texture{};
-    std::int32_t layer = -1;  // array layer or cube face 0..5; -1: the whole texture (flat)
+    std::int32_t layer = -1;  // array layer or cube face 0..5; -1: the whole texture (flat); kAllLayers (array, cube)
     bool operator==(const Attachment&) const = default;
 };
 constexpr std::size_t kMaxColourAttachments = 8;  // what OpenGL guarantees
@@ -104,6 +106,7 @@ struct DeviceInfo {
     std::uint32_t max_cube_px = 0;
     std::uint32_t max_layers = 0;
     std::uint32_t uniform_alignment = 256;
+    bool vertex_layer = false;  // vertex shaders may write gl_Layer (ARB_shader_viewport_layer_array)
 };
 
 /// off: timers cost nothing. finish: each timer is bracketed by a full finish (exact on software devices).

@@ -46,6 +46,7 @@ DeviceInfo read_info() {
     info.max_cube_px = std::min(get_unsigned(GL_MAX_CUBE_MAP_TEXTURE_SIZE), drawable);
     info.max_layers = get_unsigned(GL_MAX_ARRAY_TEXTURE_LAYERS);
     info.uniform_alignment = get_unsigned(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+    info.vertex_layer = epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
     return info;
 }
 

@@ -102,7 +102,7 @@ std::string link_log(GLuint program) {
 }
 
 void attach(GLuint framebuffer, GLenum point, const Attachment& attachment, const GlTexture& texture) {
-    if (texture.desc.kind == TextureKind::flat) {
+    if (texture.desc.kind == TextureKind::flat || attachment.layer == kAllLayers) {
         glNamedFramebufferTexture(framebuffer, point, texture.name, 0);
     } else {
         glNamedFramebufferTextureLayer(framebuffer, point, texture.name, 0, attachment.layer);
@@ -248,23 +248,28 @@ Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> by
 
 Made<GLuint> make_program(const ProgramDesc& desc) {
     drop_gl_errors();
-    const Stage vertex = compile(GL_VERTEX_SHADER, desc.vertex);
-    if (vertex.name == 0) return {0, Failure::compile_failed, desc.label + " (vertex): " + vertex.log};
-    Stage fragment;
-    if (!desc.fragment.empty()) {
-        fragment = compile(GL_FRAGMENT_SHADER, desc.fragment);
-        if (fragment.name == 0) {
-            glDeleteShader(vertex.name);
-            return {0, Failure::compile_failed, desc.label + " (fragment): " + fragment.log};
-        }
+    struct Source {
+        GLenum kind;
+        const char* name;
+        const std::string& text;
+    };
+    const std::array<Source, 3> sources = {{{GL_VERTEX_SHADER, "vertex", desc.vertex},
+                                            {GL_GEOMETRY_SHADER, "geometry", desc.geometry},
+                                            {GL_FRAGMENT_SHADER, "fragment", desc.fragment}}};
+    std::array<GLuint, sources.size()> stages{};
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (sources[i].text.empty() && sources[i].kind != GL_VERTEX_SHADER) continue;
+        const Stage stage = compile(sources[i].kind, sources[i].text);
+        stages[i] = stage.name;
+        if (stage.name != 0) continue;
+        for (const GLuint made : stages) glDeleteShader(made);
+        return {0, Failure::compile_failed, desc.label + " (" + sources[i].name + "): " + stage.log};
     }
     const GLuint program = glCreateProgram();
-    for (const GLuint stage : {vertex.name, fragment.name}) {
-        if (stage == 0) continue;
-        glAttachShader(program, stage);
-    }
+    for (const GLuint stage : stages)
+        if (stage != 0) glAttachShader(program, stage);
     glLinkProgram(program);
-    for (const GLuint stage : {vertex.name, fragment.name}) {
+    for (const GLuint stage : stages) {
         if (stage == 0) continue;
         glDetachShader(program, stage);
         glDeleteShader(stage);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "systems/shadow/cube_route.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 
@@ -62,7 +63,9 @@ LightHistory& MapStore::entry(ecs::Entity light) {
 
 void MapStore::release(LightHistory& history) {
     for (const gl::TargetHandle target : history.targets) device_.destroy(target);
+    device_.destroy(history.whole);
     device_.destroy(history.texture);
+    history.whole = {};
     history.targets.clear();
     history.content.clear();
     history.texture = {};
@@ -167,6 +170,28 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
         slot.reuse = light.shadow.economy &&
                      history.content[view.layer] == content_signature(view, slot.size_px, scene, casters);
+    }
+    choose_routes(scene, frame);
+}
+
+void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
+    const auto drawn = [&](std::size_t v) { return frame.slots[v].texture && !frame.slots[v].reuse; };
+    for (std::size_t first = 0, end = 0; first < frame.views.size(); first = end) {
+        std::uint32_t faces = 0;
+        for (end = first; end < frame.views.size() && frame.views[end].demand == frame.views[first].demand; ++end)
+            faces += drawn(end) ? 1 : 0;
+        if (frame.views[first].projection != ViewProjection::cube_face || faces == 0) continue;
+        const LightItem& light = scene.lights[frame.demands[frame.views[first].demand].light];
+        const CubeRoute route = cube_route(light.shadow.cube_route, device_.info(), faces);
+        if (route == CubeRoute::six_passes) continue;
+        LightHistory& history = entry(light.entity);
+        if (!history.whole)
+            history.whole = device_.create_target({history.desc.label, {}, {history.texture, gl::kAllLayers}}).handle;
+        for (std::size_t v = first; v < end; ++v)
+            if (drawn(v) && history.whole) {
+                frame.slots[v].whole = history.whole;
+                frame.slots[v].route = route;
+            }
     }
 }
 

@@ -16,6 +16,7 @@ struct LightHistory {
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
     std::vector<gl::TargetHandle> targets;  // one per layer
+    gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
     std::uint32_t wanted_px = 0;            // size asked for when the map was made
     Reason failure = Reason::none;          // why there is no map, or a smaller one
@@ -51,6 +52,7 @@ private:
     LightHistory& entry(ecs::Entity light);
     void release(LightHistory& history);
     bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
+    void choose_routes(const SceneSnapshot& scene, ShadowFrame& frame);
     Reason try_create(const gl::TextureDesc& desc, LightHistory& history);
 
     gl::Device& device_;

@@ -1,5 +1,6 @@
 #include "systems/shadow/record.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "engine/math/projection.h"
@@ -11,7 +12,14 @@
 namespace gnomon::shadow {
 namespace {
 
-constexpr std::uint32_t kOpaque = 0, kMasked = 1;
+/// Index of a depth program. `automatic` has become one of the others by now.
+std::size_t which(CubeRoute route, bool masked) {
+    const std::size_t way = route == CubeRoute::layered_vertex ? 1 : (route == CubeRoute::layered_geometry ? 2 : 0);
+    return 2 * way + (masked ? 1 : 0);
+}
+
+/// Room for the uniforms of all faces of a cube, by face.
+constexpr std::size_t kFaces = 6;
 
 bool is_drawn(const ShadowFrame& frame, std::size_t view) {
     return frame.slots[view].target && !frame.slots[view].reuse;
@@ -35,6 +43,15 @@ void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {
         if (frame.views[v].demand == demand) frame.slots[v] = {};
 }
 
+/// For want of a layered program: the maps are the same.
+void draw_separately(ShadowFrame& frame, std::uint32_t demand) {
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (frame.views[v].demand != demand) continue;
+        frame.slots[v].whole = {};
+        frame.slots[v].route = CubeRoute::six_passes;
+    }
+}
+
 }  // namespace
 
 DepthRecorder::DepthRecorder(gl::Device& device)
@@ -44,28 +61,37 @@ DepthRecorder::~DepthRecorder() {
     for (const gl::ProgramHandle p : programs_) device_.destroy(p);
 }
 
-bool DepthRecorder::program(bool masked) {
-    const std::uint32_t which = masked ? kMasked : kOpaque;
-    if (programs_[which]) return true;
-    if (!retries_[which].due(frame_)) return false;
-    const std::vector<std::string> defines = masked ? std::vector<std::string>{"MASKED 1"} : std::vector<std::string>{};
+bool DepthRecorder::program(CubeRoute route, bool masked) {
+    const std::size_t i = which(route, masked);
+    if (programs_[i]) return true;
+    if (!retries_[i].due(frame_)) return false;
+    std::vector<std::string> defines;
+    std::string label = masked ? "depth masked" : "depth opaque";
+    if (masked) defines.emplace_back("MASKED 1");
+    if (route != CubeRoute::six_passes) defines.emplace_back("LAYERED 1");
+    if (route == CubeRoute::layered_vertex) defines.emplace_back("LAYER_BY_VERTEX 1");
+    const bool geometry = route == CubeRoute::layered_geometry;
+    if (route != CubeRoute::six_passes) label += geometry ? ", layer by geometry" : ", layer by vertex";
     const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
     const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
-    if (vertex && fragment)
-        programs_[which] =
-            device_.create_program({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()}).handle;
-    if (!programs_[which]) retries_[which].failed(frame_);
-    return static_cast<bool>(programs_[which]);
+    const auto layer = gl::expand_shader(shader_files(), "shadow/depth/layer.geom", defines);
+    if (vertex && fragment && layer)
+        programs_[i] =
+            device_.create_program({label, vertex.value(), fragment.value(), geometry ? layer.value() : std::string()})
+                .handle;
+    if (!programs_[i]) retries_[i].failed(frame_);
+    return static_cast<bool>(programs_[i]);
 }
 
 /// What keeps these casters from being drawn: nothing, a program, or that the device has no room for their records.
-Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters) {
+Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, CubeRoute route,
+                            std::span<const std::uint32_t> casters) {
     bool masked = false;
     for (const std::uint32_t i : casters) {
         if (scene.instances[i].gpu_slot >= gpu.capacity()) return Reason::buffer_failed;
         masked = masked || has_masked(gpu, scene.instances[i].mesh);
     }
-    return program(false) && (!masked || program(true)) ? Reason::none : Reason::depth_program_failed;
+    return program(route, false) && (!masked || program(route, true)) ? Reason::none : Reason::depth_program_failed;
 }
 
 void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
@@ -76,7 +102,10 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
         const ShadowView& view = frame.views[v];
         const LightTime time(frame, frame.demands[view.demand].light);
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-        const Reason reason = ready(scene, gpu, casters);
+        const ShadowSlot& slot = frame.slots[v];
+        if (slot.whole && ready(scene, gpu, slot.route, casters) == Reason::depth_program_failed)
+            draw_separately(frame, view.demand);
+        const Reason reason = ready(scene, gpu, slot.route, casters);
         if (reason != Reason::none) {
             drop_light(frame, view.demand, reason);
             continue;
@@ -86,7 +115,10 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
     }
     if (views == 0) return;
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
-    if (!items_.reserve(std::max<std::size_t>(items, 1) * sizeof(DrawItem)) || !views_.reserve(views * stride))
+    // A layered pass has at least two views and takes room for six.
+    const std::size_t bytes = views * std::max<std::size_t>(stride, aligned(kFaces * sizeof(DepthViewRecord) / 2,
+                                                                            device_.info().uniform_alignment));
+    if (!items_.reserve(std::max<std::size_t>(items, 1) * sizeof(DrawItem)) || !views_.reserve(bytes))
         for (std::size_t v = 0; v < frame.views.size(); ++v)
             if (is_drawn(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
 }
@@ -95,7 +127,7 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
 /// where the light is in its box, there are only back faces.
 gl::PipelineState DepthRecorder::opaque_state(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowView& view,
                                               std::span<const std::uint32_t> run) const {
-    gl::PipelineState state = depth_state(programs_[kOpaque]);
+    gl::PipelineState state = depth_state(programs_[which(route_, false)]);
     const InstanceItem& head = scene.instances[run.front()];
     if (!gpu.mesh(head.mesh).solid) return state;
     const bool distant = view.projection == ViewProjection::orthographic;
@@ -139,16 +171,105 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::
         } else if (material.alpha_mode == assets::AlphaMode::mask) {
             list.add(gl::BindTexture{0, material.texture, material.sampler});
             list.add(gl::BindUniforms{2, gpu.material_uniforms(), material.uniform_offset, sizeof(MaterialRecord)});
-            draw(depth_state(programs_[kMasked]), submesh.first_index, submesh.index_count);
+            draw(depth_state(programs_[which(route_, true)]), submesh.first_index, submesh.index_count);
         }
     }
     flush();
 }
 
-void DepthRecorder::draw_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                              const ShadowView& view, gl::CommandList& list, LightReport& report) {
-    const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
+    const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
+    const DepthViewRecord record{view.clip_from_anchor, glm::vec4(anchor.high, 0.0f), glm::vec4(anchor.low, 0.0f)};
+    std::memcpy(view_scratch_.data() + at, &record, sizeof record);
+}
+
+void DepthRecorder::gather_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v) {
+    const ShadowView& view = frame.views[v];
+    const std::size_t at = view_scratch_.size();
+    view_scratch_.resize(at + aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment));
+    append_uniforms(view, at);
+    for (std::uint32_t i = 0; i < view.casters.count; ++i) {
+        const std::uint32_t item = frame.view_caster_items[view.casters.first + i];
+        caster_scratch_.push_back(item);
+        item_scratch_.push_back({scene.instances[item].gpu_slot, 0});
+    }
+}
+
+/// The casters of all views, by mesh: one draw per mesh draws it into every face.
+void DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, Pass& pass) {
+    const std::size_t at = view_scratch_.size();
+    view_scratch_.resize(at + aligned(kFaces * sizeof(DepthViewRecord), device_.info().uniform_alignment));
+    layer_scratch_.clear();
+    pass.views = 0;
+    for (std::size_t v = pass.first; v < pass.end; ++v) {
+        if (!is_drawn(frame, v)) continue;
+        const ShadowView& view = frame.views[v];
+        ++pass.views;
+        append_uniforms(view, at + view.layer * sizeof(DepthViewRecord));
+        for (std::uint32_t i = 0; i < view.casters.count; ++i)
+            layer_scratch_.emplace_back(frame.view_caster_items[view.casters.first + i], view.layer);
+    }
+    std::sort(layer_scratch_.begin(), layer_scratch_.end(), [&](const auto& a, const auto& b) {
+        const std::uint32_t mesh_a = scene.instances[a.first].mesh, mesh_b = scene.instances[b.first].mesh;
+        return mesh_a != mesh_b ? mesh_a < mesh_b : a < b;
+    });
+    for (const auto& [item, layer] : layer_scratch_) {
+        caster_scratch_.push_back(item);
+        item_scratch_.push_back({scene.instances[item].gpu_slot, layer});
+    }
+}
+
+/// What this frame draws, pass by pass.
+void DepthRecorder::gather(const SceneSnapshot& scene, const ShadowFrame& frame) {
+    passes_.clear();
+    caster_scratch_.clear();
+    item_scratch_.clear();
+    view_scratch_.clear();
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (!is_drawn(frame, v)) continue;
+        Pass pass{
+            v, v + 1, static_cast<bool>(frame.slots[v].whole), 1, static_cast<std::uint32_t>(view_scratch_.size()), {}};
+        pass.casters.first = static_cast<std::uint32_t>(caster_scratch_.size());
+        if (pass.layered) {
+            while (pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand) ++pass.end;
+            gather_layers(scene, frame, pass);
+        } else {
+            gather_view(scene, frame, v);
+        }
+        pass.casters.count = static_cast<std::uint32_t>(caster_scratch_.size()) - pass.casters.first;
+        passes_.push_back(pass);
+        v = pass.end - 1;
+    }
+}
+
+/// Opens the pass on cleared faces. A layered clear would clear every face, so it is for when every face is drawn.
+void DepthRecorder::begin(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass,
+                          gl::CommandList& list) const {
+    const ShadowSlot& slot = frame.slots[pass.first];
+    const auto size = static_cast<std::int32_t>(slot.size_px);
+    const std::uint32_t light = frame.demands[frame.views[pass.first].demand].light;
+    const std::string name = "shadow " + scene.lights[light].name + ' ';
+    list.add(gl::BeginGroup{name + (pass.layered ? "faces" : std::to_string(frame.views[pass.first].layer))});
+    list.add(gl::BeginTimer{shadow_timer(light)});
+    const bool one_clear = !pass.layered || pass.views == kFaces;
+    for (std::size_t v = pass.first; v < pass.end && !one_clear; ++v) {
+        if (!is_drawn(frame, v)) continue;
+        list.add(gl::BeginPass{frame.slots[v].target, {0, 0, size, size}, true, 0.0f, false, {}});
+        list.add(gl::EndPass{});
+    }
+    list.add(gl::BeginPass{pass.layered ? slot.whole : slot.target, {0, 0, size, size}, one_clear, 0.0f, false, {}});
+    const std::size_t records = pass.layered ? kFaces : 1;
+    list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
+                              static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
+}
+
+void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+                         gl::CommandList& list, LightReport& report) {
+    const auto casters = std::span(caster_scratch_).subspan(pass.casters.first, pass.casters.count);
+    const ShadowView& view = frame.views[pass.first];
     pipeline_ = {};
+    route_ = frame.slots[pass.first].route;
+    next_item_ = pass.casters.first;
     for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
         draw_run(gpu, mesh, opaque_state(scene, gpu, view, casters.subspan(first, count)), count, list, report);
         next_item_ += count;
@@ -157,46 +278,23 @@ void DepthRecorder::draw_view(const SceneSnapshot& scene, const GpuScene& gpu, c
 
 void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                            FrameReport& report) {
-    const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
-    item_scratch_.clear();
-    view_scratch_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        for (std::uint32_t i = 0; i < view.casters.count; ++i)
-            item_scratch_.push_back({scene.instances[frame.view_caster_items[view.casters.first + i]].gpu_slot, 0});
-        const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
-        const DepthViewRecord record{view.clip_from_anchor, glm::vec4(anchor.high, 0.0f), glm::vec4(anchor.low, 0.0f)};
-        view_scratch_.resize(view_scratch_.size() + stride);
-        std::memcpy(view_scratch_.data() + view_scratch_.size() - stride, &record, sizeof record);
-    }
-    if (view_scratch_.empty()) return;
+    gather(scene, frame);
+    if (passes_.empty()) return;
     list.update(items_.handle(), 0, std::span<const DrawItem>(item_scratch_));
     list.update(views_.handle(), 0, std::span<const std::byte>(view_scratch_));
-
-    next_item_ = 0;
-    std::uint32_t view_offset = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        const ShadowSlot& slot = frame.slots[v];
-        const std::uint32_t light = frame.demands[view.demand].light;
+    for (const Pass& pass : passes_) {
+        const std::uint32_t light = frame.demands[frame.views[pass.first].demand].light;
         const LightTime time(frame, light);
         LightReport& light_report = report.lights[light];
-        const auto size = static_cast<std::int32_t>(slot.size_px);
-        list.add(gl::BeginGroup{"shadow " + scene.lights[light].name + " " + std::to_string(view.layer)});
-        list.add(gl::BeginTimer{shadow_timer(light)});
-        list.add(gl::BeginPass{slot.target, {0, 0, size, size}, true, 0.0f, false, {}});
-        list.add(gl::BindUniforms{0, views_.handle(), view_offset, sizeof(DepthViewRecord)});
+        begin(scene, frame, pass, list);
         list.add(gl::BindStorage{0, gpu.instances()});
         list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
-        draw_view(scene, gpu, frame, view, list, light_report);
+        draw(scene, gpu, frame, pass, list, light_report);
         list.add(gl::EndPass{});
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
-        ++light_report.clears;
-        ++light_report.views_drawn;
-        view_offset += stride;
+        light_report.clears += pass.views;
+        light_report.views_drawn += pass.views;
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/gl/device.h"
@@ -23,33 +24,51 @@ public:
     /// its light's sets[i].skip says why. Call before record().
     void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
-    /// Stage 7, first half: one pass per view that is not reused, in order; counts go to the report, times to
-    /// frame.cpu_us.
+    /// Stage 7, first half: one pass per view that is not reused, in order, or one for all such views of a light whose
+    /// slots name a whole map; counts go to the report, times to frame.cpu_us.
     void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                 FrameReport& report);
 
 private:
     struct DrawItem {
-        std::uint32_t instance, first_triangle;
+        std::uint32_t instance, layer;
     };
-    bool program(bool masked);
-    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
-    void draw_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const ShadowView& view,
-                   gl::CommandList& list, LightReport& report);
+    /// Views [first, end) of one light that one pass draws (those of them that are drawn), and what they draw.
+    struct Pass {
+        std::size_t first = 0, end = 0;
+        bool layered = false;
+        std::uint32_t views = 0, uniform_offset = 0;
+        IndexRange casters;  // into caster_scratch_, and into the items
+    };
+    bool program(CubeRoute route, bool masked);
+    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, CubeRoute route,
+                 std::span<const std::uint32_t> casters);
+    void gather(const SceneSnapshot& scene, const ShadowFrame& frame);
+    void gather_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t view);
+    void gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, Pass& pass);
+    void append_uniforms(const ShadowView& view, std::size_t at);
+    void begin(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass, gl::CommandList& list) const;
+    void draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+              gl::CommandList& list, LightReport& report);
     gl::PipelineState opaque_state(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowView& view,
                                    std::span<const std::uint32_t> run) const;
     void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t count,
                   gl::CommandList& list, LightReport& report);
 
     gl::Device& device_;
-    gl::ProgramHandle programs_[2]{};  // opaque, masked
-    Retry retries_[2];
+    static constexpr std::size_t kPrograms = 6;  // three ways to choose the layer, opaque and masked
+    gl::ProgramHandle programs_[kPrograms]{};
+    Retry retries_[kPrograms];
     std::uint64_t frame_ = 0;
     GrowingBuffer items_, views_;
+    std::vector<Pass> passes_;
+    std::vector<std::uint32_t> caster_scratch_;  // indices into the scene's instances, one per item
     std::vector<DrawItem> item_scratch_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> layer_scratch_;  // instance, layer
     std::vector<std::byte> view_scratch_;
     std::uint32_t next_item_ = 0;
-    gl::PipelineState pipeline_;  // of the pass being recorded
+    gl::PipelineState pipeline_;               // of the pass being recorded
+    CubeRoute route_ = CubeRoute::six_passes;  // of that pass
 };
 
 }  // namespace gnomon::shadow

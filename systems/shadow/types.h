@@ -95,6 +95,8 @@ struct ShadowView {
 struct ShadowSlot {
     gl::TextureHandle texture{};
     gl::TargetHandle target{};
+    gl::TargetHandle whole{};  // all layers of the light's map, where one pass draws all of its views; else {0}
+    CubeRoute route = CubeRoute::six_passes;
     std::uint32_t size_px = 0;
     bool reuse = false;
 };

@@ -1,6 +1,7 @@
 # Scenes of boxes and planes, whose shadows are known in closed form.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_analytic LABEL gl SOURCES
+    cube_routes_gl_test.cpp
     debug_depth_gl_test.cpp
     cascades_gl_test.cpp
     projection_gl_test.cpp

@@ -145,6 +145,46 @@ TEST_F(DepthPasses, WithoutEconomyEveryViewIsRedrawn) {
     for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(depth_passes_of(first, device)[i].draws, depth_passes()[i].draws);
 }
 
+TEST_F(DepthPasses, ALayeredCubeIsOnePassOnFacesThatAreClearedOneByOne) {
+    const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
+    step();
+    const std::uint64_t triangles = light("lamp").triangles;
+    const std::uint32_t draws = light("lamp").draws;
+    for (const CubeRoute route : {CubeRoute::layered_geometry, CubeRoute::six_passes}) {
+        world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) {
+            s.cube_route = route;
+            s.economy = false;
+        });
+        step();
+        const bool layered = route == CubeRoute::layered_geometry;
+        EXPECT_EQ(light("lamp").views_drawn, 4u);
+        EXPECT_EQ(light("lamp").clears, 4u);
+        EXPECT_EQ(light("lamp").triangles, triangles);
+        EXPECT_LE(light("lamp").draws, draws) << "one draw per mesh serves every face";
+        const std::vector<Pass> passes = depth_passes();
+        EXPECT_THAT(passes, SizeIs(layered ? 4 + 1 : 4)) << "a layered clear would wipe the other faces";
+        EXPECT_EQ(std::count_if(passes.begin(), passes.end(), [](const Pass& p) { return p.begin.clear_depth; }), 4);
+    }
+    EXPECT_THAT(device.findings(), IsEmpty());
+}
+
+TEST_F(DepthPasses, WithoutVertexLayersThatRouteIsSixPasses) {
+    ASSERT_FALSE(device.info().vertex_layer);
+    const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
+    world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.cube_route = CubeRoute::layered_vertex; });
+    step();
+    EXPECT_THAT(depth_passes(), SizeIs(4));
+}
+
+TEST_F(DepthPasses, ALayeredProgramThatDoesNotCompileCostsNothingButThePasses) {
+    device.fail_label("layer by geometry", gl::Failure::compile_failed);
+    const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
+    world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.cube_route = CubeRoute::layered_geometry; });
+    step();
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+    EXPECT_THAT(depth_passes(), SizeIs(4));
+}
+
 TEST_F(DepthPasses, AMovedCasterRedrawsOnlyItsOwnLights) {
     const ecs::Entity far_box = world.add_mesh(kBox, {-6, 1, -4}, true);
     const ecs::Entity near_lamp = world.add_light(LightKind::spot, {1, 4, 0}, "near");
@@ -187,6 +227,23 @@ TEST_F(DepthPasses, AWalkingCameraRedrawsNoLocalLightWhoseReceiversItSeesWhole) 
     EXPECT_THAT(drawn(), IsEmpty());
     EXPECT_EQ(light("spot").state, LightState::reused);
     EXPECT_EQ(light("point").state, LightState::reused);
+}
+
+TEST_F(DepthPasses, AWalkAmongReceiversRedrawsLocalLightsOnlyAtTheirFewSteps) {
+    world.add_light(LightKind::spot, kLightPlace_m, "spot");
+    world.add_light(LightKind::point, kLightPlace_m, "point");
+    world.move(stage.camera, {-2, 2, 6});
+    step();
+    int spot = 0, point = 0;
+    constexpr int kSteps = 100;
+    for (int i = 1; i <= kSteps; ++i) {
+        world.move(stage.camera, {-2 + 0.02 * i, 2, 6 - 0.01 * i});
+        step();
+        spot += light("spot").views_drawn > 0 ? 1 : 0;
+        point += light("point").views_drawn > 0 ? 1 : 0;
+    }
+    EXPECT_LE(spot, 4);
+    EXPECT_LE(point, 4);
 }
 
 TEST_F(DepthPasses, AMovedReceiverThatCastsNothingRedrawsNoSpot) {

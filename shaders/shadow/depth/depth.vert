@@ -1,18 +1,38 @@
 // Depth of casters as a light sees them. Needs neither normals nor colours.
+// LAYERED: one pass for all faces of a cube; each draw item names its face. This stage sends it there (LAYER_BY_VERTEX),
+// or layer.geom does.
+#ifdef LAYER_BY_VERTEX
+#extension GL_ARB_shader_viewport_layer_array : require
+#endif
 #include "shared/instances.glsl"
 #include "shadow/depth/depth_view_block.glsl"
 layout(location = 0) in vec3 position_ms;
-layout(location = 3) in uvec2 draw_item;   // instance, first triangle
+layout(location = 3) in uvec2 draw_item;   // instance, face (LAYERED)
+#if defined(LAYERED) && !defined(LAYER_BY_VERTEX)
+layout(location = 0) flat out uint vertex_face;
+#define UV_OUT vertex_uv
+#else
+#define UV_OUT fragment_uv
+#endif
 #ifdef MASKED
 layout(location = 2) in vec2 uv;
-out vec2 fragment_uv;
+out vec2 UV_OUT;
 #endif
 
 void main() {
+#ifdef LAYERED
+    DepthView depth_view = depth_views[draw_item.y];
+#endif
     vec3 position_as = position_from_anchor(instances[draw_item.x], position_ms, depth_view.anchor_high.xyz,
                                             depth_view.anchor_low.xyz);
-    gl_Position = depth_view.clip_from_anchor * vec4(position_as, 1.0);
+    precise vec4 position_cs = depth_view.clip_from_anchor * vec4(position_as, 1.0);
+    gl_Position = position_cs;
 #ifdef MASKED
-    fragment_uv = uv;
+    UV_OUT = uv;
+#endif
+#ifdef LAYER_BY_VERTEX
+    gl_Layer = int(draw_item.y);
+#elif defined(LAYERED)
+    vertex_face = draw_item.y;
 #endif
 }

@@ -91,6 +91,9 @@ TEST(AttachmentCheck, LayersMustExist) {
     EXPECT_EQ(check_attachment({{1}, 5}, &cube), Failure::none);
     EXPECT_EQ(check_attachment({{1}, 6}, &cube), Failure::incomplete_target);
     EXPECT_EQ(check_attachment({{1}, -2}, &flat), Failure::incomplete_target);
+    EXPECT_EQ(check_attachment({{1}, kAllLayers}, &array), Failure::none);
+    EXPECT_EQ(check_attachment({{1}, kAllLayers}, &cube), Failure::none);
+    EXPECT_EQ(check_attachment({{1}, -3}, &cube), Failure::incomplete_target);
     EXPECT_EQ(check_attachment({{1}, 0}, nullptr), Failure::invalid_value);
 }
 

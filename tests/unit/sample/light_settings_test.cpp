@@ -21,6 +21,7 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .eye_angle_rad = 0.7f,
                     .near_m = 0.1f,
                     .far_m = 333.3f,
+                    .cube_route = CubeRoute::layered_geometry,
                     .fit = ShadowFit::quantised,
                     .cascades = 6,
                     .splits = CascadeSplits::manual,

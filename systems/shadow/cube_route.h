@@ -1,0 +1,17 @@
+#pragma once
+#include <cstdint>
+
+#include "components/light_shadow.h"
+#include "engine/gl/device.h"
+
+namespace gnomon::shadow {
+
+/// How `faces` faces of one light are drawn this frame. One face is always a pass of its own, as is what the device
+/// cannot layer. docs/architecture.md (Point) has the figures behind `automatic`.
+inline CubeRoute cube_route(CubeRoute wish, const gl::DeviceInfo& device, std::uint32_t faces) {
+    if (faces < 2 || wish == CubeRoute::automatic) return CubeRoute::six_passes;
+    if (wish == CubeRoute::layered_vertex && !device.vertex_layer) return CubeRoute::six_passes;
+    return wish;
+}
+
+}  // namespace gnomon::shadow
