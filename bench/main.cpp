@@ -6,9 +6,11 @@
 
 #include "bench/accuracy.h"
 #include "bench/culling.h"
+#include "bench/drawings.h"
 #include "bench/frame_times.h"
 #include "bench/heat_pictures.h"
 #include "bench/set_shares.h"
+#include "bench/stability.h"
 #include "bench/stage.h"
 #include "sample_game/number_text.h"
 #include "sample_game/picture_files.h"
@@ -19,11 +21,14 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr std::uint64_t kMaxSizePx = 16384;  // what OpenGL 4.5 guarantees for pictures
 constexpr std::uint32_t kMaxRepeats = 100000;
+constexpr std::uint32_t kMaxPoints = 10000000;
 
 struct Arguments {
     StageOptions stage;
     std::string scene, camera, size = "1280x720", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5;
+    StabilityOptions stability;
+    std::string plot, drawings;
 };
 
 int fail(const Error& error) {
@@ -94,6 +99,27 @@ int run_frame(const Arguments& arguments) {
     return 0;
 }
 
+int run_stability(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    const auto stability = measure_stability(*stage.value(), arguments.stability);
+    if (!stability) return fail(stability.error());
+    if (auto error = put_out(arguments, stability_table(stability.value()), stability_json(stability.value())))
+        return fail(*error);
+    const std::string plot = arguments.plot.empty() ? std::string() : stability_plot(stability.value());
+    if (!plot.empty())
+        if (auto error = game::write_file(arguments.plot, std::as_bytes(std::span(plot)))) return fail(*error);
+    return 0;
+}
+
+int run_drawings(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    if (auto error = game::make_writable_folder(arguments.drawings)) return fail(*error);
+    if (auto error = write_drawings(*stage.value(), arguments.drawings)) return fail(*error);
+    return 0;
+}
+
 int run_set_shares(const Arguments& arguments) {
     const auto table = set_shares(arguments.stage);
     if (!table) return fail(table.error());
@@ -127,6 +153,22 @@ int run(int argc, char** argv) {
     frame->add_option("--rounds", arguments.rounds, "rounds of --repeat frames each")
         ->check(CLI::Range(1u, kMaxRepeats))
         ->capture_default_str();
+    CLI::App* stability = app.add_subcommand("stability", "how shadows flicker while only the camera moves");
+    add_common(*stability, arguments);
+    stability->add_option("--frames", arguments.stability.frames, "frames of each path")
+        ->check(CLI::Range(2u, kMaxRepeats))
+        ->capture_default_str();
+    stability->add_option("--points", arguments.stability.points, "points of the world that are watched on each path")
+        ->check(CLI::Range(1u, kMaxPoints))
+        ->capture_default_str();
+    stability->add_option("--path", arguments.stability.paths, "pan, walk, roll or zoom (default: all)")
+        ->allow_extra_args(false);
+    stability->add_option("--fit", arguments.stability.fits, "one of --set fit's (default: all)")
+        ->allow_extra_args(false);
+    stability->add_option("--plot", arguments.plot, "write flips against frames to this SVG file");
+    CLI::App* drawings = app.add_subcommand("drawings", "how the maps of each fit lie, as SVG files");
+    add_common(*drawings, arguments);
+    drawings->add_option("--out", arguments.drawings, "folder for the drawings")->required();
     CLI::App* culling = app.add_subcommand("culling", "what finding receivers and casters and fitting to them costs");
     culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
     CLI::App* sets = app.add_subcommand("sets", "how many casters each light keeps, and how many of those in vain");
@@ -143,6 +185,8 @@ int run(int argc, char** argv) {
         return 0;
     }
     if (*sets) return run_set_shares(arguments);
+    if (*drawings) return run_drawings(arguments);
+    if (*stability) return run_stability(arguments);
     return *accuracy ? run_accuracy(arguments) : run_frame(arguments);
 }
 

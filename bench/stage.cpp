@@ -32,13 +32,8 @@ std::optional<Error> Stage::load(const StageOptions& options) {
     time_s_ = options.time_s;
     moving_ = everything_moving(spawned_, world_);
     game::apply_motion(spawned_.moving, time_s_, world_);
-    for (const std::string& setting : options.settings) {
-        LightShadow probe;
-        if (auto error = game::apply_setting(probe, setting)) return error;
-        for (const game::NamedEntity& light : spawned_.lights)
-            world_.patch<LightShadow>(light.entity,
-                                      [&](LightShadow& shadow) { (void)game::apply_setting(shadow, setting); });
-    }
+    for (const std::string& setting : options.settings)
+        if (auto error = apply_setting(setting)) return error;
     load_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!options.camera) return std::nullopt;
     const auto camera = game::find_camera(spawned_, *options.camera);
@@ -63,6 +58,15 @@ std::optional<Error> Stage::prepare(const StageOptions& options) {
     if (!frame) return frame.error();
     frame_ = std::move(frame).value();
     settings_.viewport_px = options.size_px;
+    return std::nullopt;
+}
+
+std::optional<Error> Stage::apply_setting(const std::string& key_value) {
+    LightShadow probe;
+    if (auto error = game::apply_setting(probe, key_value)) return error;
+    for (const game::NamedEntity& light : spawned_.lights)
+        world_.patch<LightShadow>(light.entity,
+                                  [&](LightShadow& shadow) { (void)game::apply_setting(shadow, key_value); });
     return std::nullopt;
 }
 

@@ -40,10 +40,14 @@ public:
     void move_to(double time_s) { game::apply_motion(moving_, time_s, world_); }
     void show_shadows(bool on) { settings_.shadows = on; }
     void set_economy(bool on);
+    /// "KEY=VALUE" for every LightShadow. Errors: "set.*".
+    std::optional<Error> apply_setting(const std::string& key_value);
 
     Frame& frame() { return *frame_; }
     gl::Device& device() { return *device_; }
     const assets::MeshLibrary& library() const { return library_; }
+    ecs::Registry& world() { return world_; }
+    const FrameSettings& settings() const { return settings_; }
     double time_s() const { return time_s_; }  // of the scene when it was opened
     const std::string& scene_name() const { return scene_name_; }
     double load_s() const { return load_s_; }                       // file to entities

@@ -1,0 +1,49 @@
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::bench {
+
+/// A map as it was read back: rows bottom first, one float per texel, layer after layer (cube: six faces).
+struct MapCopy {
+    bool is_cube = false;
+    std::uint32_t size_px = 0;
+    std::vector<float> texels;
+};
+
+struct SurfacePoint {
+    glm::dvec3 position_ws_m{0.0}, normal_ws{0.0, 1.0, 0.0};  // unit, on the lit side
+};
+
+/// What the shader makes of one point.
+struct ExactVisibility {
+    float value = 1.0f;
+    std::uint8_t layers = 0;  // bit per layer that was looked up; a cube counts as one; 0: no map holds the point
+    bool on_edge = false;     // some tap lies within kEdge_texel of a texel border, or of a depth tie
+    bool operator==(const ExactVisibility&) const = default;
+};
+
+/// Nearer than this, in texels, to a place where a tap changes its mind, the last digits decide.
+inline constexpr double kEdge_texel = 1.0 / (1 << 10);
+
+/// One light's lookup, shaders/shadow's own text in double: no rounding but the map's and the matrices', which are what
+/// was drawn. Points are exact, so nothing is allowed for a surface buffer's rounding (error_m is 0).
+class ExactLight {
+public:
+    virtual ~ExactLight() = default;
+    /// One value per point; points must face the light and be in its reach. Thread-safe.
+    virtual void evaluate(std::span<const SurfacePoint> points, std::span<ExactVisibility> values) const = 0;
+};
+
+/// The light of that index of the snapshot as the frame published it to its first consumer; a skipped light is lit.
+/// `map`: its map after the frame; must outlive the result. Null if the row's files are not among those compiled in.
+std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
+                                             std::uint32_t light, const MapCopy& map);
+
+}  // namespace gnomon::bench

@@ -1,0 +1,35 @@
+#pragma once
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "components/camera.h"
+#include "components/transform.h"
+#include "systems/extract/snapshot.h"
+#include "tests/oracle/traced_world.h"
+
+/// Camera movements through a still scene.
+namespace gnomon::bench {
+
+struct CameraPath {
+    std::string_view name, meaning;
+};
+/// pan, walk, roll, zoom.
+std::span<const CameraPath> camera_paths();
+
+/// `start` moved along a path; share 0 is the start itself. distance_m: how far what it looks at is.
+ConsumerItem on_path(const ConsumerItem& start, std::string_view path, double share, double distance_m);
+
+/// Writes a consumer's place and lens to the camera entity it came from (without parent).
+Transform transform_of(const ConsumerItem& consumer);
+void write_lens(const ConsumerItem& consumer, Camera& camera);
+
+/// A place of the picture, -1 to 1 each way, as a ray; its parameter counts metres along the view.
+oracle::ExactRay ray_through(const ConsumerItem& consumer, const glm::dvec2& place, const glm::dvec3& origin_ws_m);
+/// Whether the point is inside what the camera sees, clear of its border by the rounding of the planes.
+bool in_view(const ConsumerItem& consumer, const glm::dvec3& point_ws_m);
+
+}  // namespace gnomon::bench
