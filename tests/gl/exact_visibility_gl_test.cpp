@@ -1,0 +1,89 @@
+#include "bench/exact_visibility.h"
+#include "bench/stability.h"
+#include "bench/stability_scene.h"
+#include "tests/gl/truth_scenes.h"
+
+// The flicker bench looks maps up in double; that must be the lookup of the shaders.
+namespace gnomon {
+namespace {
+
+class ExactVisibility : public TruthTest {
+protected:
+    static bench::StageOptions small(const char* filter) {
+        bench::StageOptions options;
+        options.size_px = {320, 180};
+        options.settings = {std::string("filter=") + filter};
+        return options;
+    }
+};
+
+TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
+    // Pixels whose tap lies from a texel's border or a depth tie no farther than a picture's positions are off: half a
+    // sub-pixel step of the rasteriser, 2^-9 pixel each way, for which the shader's bias allows and the bench's does
+    // not.
+    constexpr double kMostRounded = 5e-3, kLeastMoved = 2e-2;
+    for (const char* filter : {"hard", "hardware_2x2", "pcf_3x3"}) {
+        const auto stage = open(small(filter));
+        ASSERT_TRUE(stage);
+        for (int i = 0; i < 2; ++i) stage->run_frame();
+        const SceneSnapshot scene = stage->frame().snapshot();
+        const ConsumerItem& camera = scene.consumers.front();
+        std::vector<std::vector<float>> shown(scene.lights.size());
+        for (std::uint32_t l = 0; l < scene.lights.size(); ++l)
+            ASSERT_TRUE(stage->frame().read_visibility(l, shown[l]));
+        const oracle::ReferenceTracer tracer(scene, stage->library(), camera.position_ws_m);
+        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+
+        auto frames = bench::ShadowFrames::create(*stage);
+        ASSERT_TRUE(frames) << to_line(frames.error());
+        for (int i = 0; i < 2; ++i) ASSERT_FALSE(frames.value()->run());
+        for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
+            SCOPED_TRACE(std::string(filter) + ", " + scene.lights[l].name);
+            const auto light = bench::make_exact_light(frames.value()->frame(), scene, l, frames.value()->map(l));
+            ASSERT_TRUE(light) << "a row that the bench does not know";
+            const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights[l], false);
+            std::size_t scored = 0, different = 0, dark = 0, moved = 0;
+            for (std::size_t i = 0; i < hits.count(); ++i) {
+                if (!truth.scored[i] || shown[l][i] < 0.0f) continue;
+                bench::SurfacePoint point{camera.position_ws_m - hits.camera_rel_m + hits.position_rel_m[i],
+                                          hits.normal_ws[i]};
+                bench::ExactVisibility exact;
+                light->evaluate({&point, 1}, {&exact, 1});
+                ++scored;
+                dark += exact.value < 0.5f;
+                different += std::abs(exact.value - shown[l][i]) > 0.02f;  // hardware blends in steps of 1/256
+                point.position_ws_m += glm::dvec3(0.2, 0.1, -0.2);
+                light->evaluate({&point, 1}, {&exact, 1});
+                moved += std::abs(exact.value - shown[l][i]) > 0.02f;
+            }
+            EXPECT_GT(scored, 5000u);
+            EXPECT_GT(dark, 200u);
+            EXPECT_LE(static_cast<double>(different), kMostRounded * static_cast<double>(scored))
+                << different << " of " << scored;
+            EXPECT_GE(static_cast<double>(moved), kLeastMoved * static_cast<double>(scored))
+                << "another place looks the same";
+        }
+    }
+}
+
+TEST_F(ExactVisibility, AFitThatFollowsTheCameraFlickersAndHoldsEveryPointInView) {
+    const auto stage = open(small("hard"));
+    ASSERT_TRUE(stage);
+    const auto measured =
+        bench::measure_stability(*stage, {.frames = 6, .points = 2000, .paths = {"walk"}, .fits = {}});
+    ASSERT_TRUE(measured) << to_line(measured.error());
+    std::uint64_t flips = 0;
+    for (const bench::PathFlicker& row : measured.value().rows) {
+        SCOPED_TRACE(row.fit + " " + row.light);
+        EXPECT_EQ(row.path, "walk");
+        EXPECT_EQ(row.flips_by_frame.size(), 6u);
+        EXPECT_GT(row.points, 100u);
+        EXPECT_EQ(row.uncovered, 0u) << "a point in view is in no map";
+        flips += row.flips + row.edge_flips;
+    }
+    EXPECT_GT(flips, 0u) << "a fit that follows the camera flickers: the bench sees nothing";
+    EXPECT_FALSE(bench::measure_stability(*stage, {.frames = 2, .points = 10, .paths = {"fly"}, .fits = {}}));
+}
+
+}  // namespace
+}  // namespace gnomon
