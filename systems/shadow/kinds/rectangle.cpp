@@ -1,31 +1,13 @@
 #include "systems/shadow/kinds/rectangle.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "engine/math/convex_polygon.h"
+
 namespace gnomon::shadow {
 namespace {
-
-double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// Andrew's monotone chain (1979); collinear points are dropped.
-void convex_hull(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull) {
-    std::sort(points.begin(), points.end(),
-              [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-    hull.clear();
-    const auto extend = [&hull](const glm::dvec2& p, std::size_t floor) {
-        while (hull.size() >= floor + 2 && !(cross(hull[hull.size() - 2], hull.back(), p) > 0.0)) hull.pop_back();
-        hull.push_back(p);
-    };
-    for (const glm::dvec2& p : points) extend(p, 0);
-    const std::size_t lower = hull.size() - 1;
-    for (std::size_t i = points.size(); i-- > 0;) extend(points[i], lower);
-    if (hull.size() > 1) hull.pop_back();
-}
 
 Rectangle along(const glm::dvec2& axis_u, std::span<const glm::dvec2> points) {
     Rectangle r;
@@ -48,7 +30,7 @@ constexpr double kClearlyLess = 1.0 - 1.0 / (1 << 20);
 
 Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch) {
     if (points.empty()) return along({1.0, 0.0}, {});
-    convex_hull(points, hull_scratch);
+    math::convex_hull(points, hull_scratch);
     Rectangle best = along({1.0, 0.0}, hull_scratch);
     double best_area = (best.max.x - best.min.x) * (best.max.y - best.min.y);
     for (std::size_t i = 0; i < hull_scratch.size(); ++i) {

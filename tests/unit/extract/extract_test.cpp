@@ -5,6 +5,7 @@
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
+#include "systems/extract/scene_tree.h"
 #include "tests/system/test_world.h"
 
 namespace gnomon {
@@ -204,6 +205,40 @@ TEST_F(ExtractTest, AMissedLogMeansLookingAfresh) {
     world.registry.discard_changes();  // before extraction has read them
     extractor.update(world.registry, library, report, viewport_px, snapshot);
     EXPECT_EQ(item(stage.box).translation_ws_m, glm::dvec3(2, 1, 0));
+}
+
+std::vector<std::uint32_t> found_at(const SceneSnapshot& scene, const glm::dvec3& place_m) {
+    const math::Aabb around{place_m - 0.1, place_m + 0.1};
+    std::vector<std::uint32_t> found;
+    visit_instances(
+        scene,
+        [&](const math::Aabb& box) { return math::overlaps(box, around) ? math::Overlap::partial : math::Overlap::outside; },
+        [&](std::uint32_t i) { found.push_back(i); });
+    return found;
+}
+
+TEST_F(ExtractTest, TheTreeFollowsWhoeverComesMovesOrGoes) {
+    std::vector<ecs::Entity> boxes;
+    for (int i = 0; i < 40; ++i) boxes.push_back(world.add_mesh(kBox, {3.0 * i, 0, 0}, true));
+    const ecs::Entity camera = world.add_camera({0, 4, 8}, {0, 0, 0});
+    update();
+    ASSERT_TRUE(has_tree(snapshot));
+    EXPECT_THAT(found_at(snapshot, {30, 0, 0}), ElementsAre(10u));
+    world.move(boxes[10], {0, 50, 0});
+    update();
+    ASSERT_TRUE(has_tree(snapshot));
+    EXPECT_THAT(found_at(snapshot, {30, 0, 0}), IsEmpty());
+    EXPECT_THAT(found_at(snapshot, {0, 50, 0}), ElementsAre(10u));
+    world.registry.destroy(boxes[0]);
+    update();
+    ASSERT_TRUE(has_tree(snapshot));
+    EXPECT_THAT(found_at(snapshot, {0, 50, 0}), ElementsAre(9u));
+    world.move(camera, {0, 4, 9});
+    update();
+    EXPECT_TRUE(has_tree(snapshot)) << "a camera's move leaves it valid";
+    viewport_px = {100, 50};
+    update();
+    EXPECT_TRUE(has_tree(snapshot));
 }
 
 TEST_F(ExtractTest, LightsLookAlongMinusZWhateverTheirScale) {
