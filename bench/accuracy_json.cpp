@@ -35,7 +35,7 @@ Json to_json(const LightAccuracy& light) {
     json["edge"] = {{"places", m.edge.places},         {"lost", m.edge.lost},
                     {"unmeasured", m.edge.unmeasured}, {"mean_signed_px", m.edge.mean_signed_px},
                     {"mean_px", m.edge.mean_px},       {"p95_px", m.edge.p95_px},
-                    {"max_px", m.edge.max_px}};
+                    {"p99_px", m.edge.p99_px},         {"max_px", m.edge.max_px}};
     json["predicted_error_px"] = light.report.predicted_error_px;
     json["views"] = light.report.views;
     json["texels"] = light.report.texels;

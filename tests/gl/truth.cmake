@@ -3,5 +3,6 @@ if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_truth LABEL gl SOURCES
     truth_accuracy_gl_test.cpp
     truth_controls_gl_test.cpp
+    truth_edges_gl_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()

@@ -13,8 +13,8 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr float kHalf = 0.5f;
-constexpr double kSearchStepPx = 0.25;
-constexpr double kTail = 0.95;
+constexpr double kSearchStepPx = 0.25, kHalfPixel = 0.5;
+constexpr double kTail = 0.95, kFarTail = 0.99;
 constexpr int kGradientReachPx = 2;
 
 struct Pixel {
@@ -132,13 +132,24 @@ private:
         return std::nullopt;
     }
 
+    double still_px(const glm::dvec2& middle, const glm::dvec2& rise) const {
+        for (double s = 0.5; s < kEdgeSearchPx; s += kHalfPixel)
+            for (const bool light_side : {false, true}) {
+                const glm::dvec2 at = glm::round(middle + rise * (light_side ? s : -s));
+                const Pixel q{static_cast<int>(at.x), static_cast<int>(at.y)};
+                if (s > 1.0 && (!scored(q) || p_.ambiguous[index(q)] || lit(q) != light_side)) return s;
+            }
+        return kEdgeSearchPx;
+    }
+
     void measure_place(Pixel a, Pixel b, EdgeDisplacement& edge, std::vector<double>& distances) const {
         if (!edge_between(a, b)) return;
         const glm::dvec2 step(b.x - a.x, b.y - a.y);
         const glm::dvec2 across = lit(b) ? step : -step;
         bool left_scored = false;
         const glm::dvec2 middle = 0.5 * glm::dvec2(a.x + b.x, a.y + b.y);
-        const auto found = nearest_rise(middle, across, gradient(a, b, across), left_scored);
+        const glm::dvec2 rise = gradient(a, b, across);
+        const auto found = nearest_rise(middle, across, rise, left_scored);
         if (!found && left_scored) {
             ++edge.unmeasured;
             return;
@@ -147,6 +158,7 @@ private:
         if (!found) ++edge.lost;
         if (found) edge.mean_signed_px += *found;
         distances.push_back(found ? std::abs(*found) : kEdgeSearchPx);
+        edge.each.push_back({distances.back(), still_px(middle, rise)});
     }
 
     EdgeDisplacement edge_displacement() const {
@@ -164,6 +176,7 @@ private:
         edge.mean_signed_px = found == 0 ? 0.0 : edge.mean_signed_px / static_cast<double>(found);
         edge.mean_px = std::accumulate(distances.begin(), distances.end(), 0.0) / count;
         edge.p95_px = distances[static_cast<std::size_t>(std::ceil(kTail * count)) - 1];
+        edge.p99_px = distances[static_cast<std::size_t>(std::ceil(kFarTail * count)) - 1];
         edge.max_px = distances.back();
         return edge;
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
+#include <vector>
 
 /// How far a picture of visibility is from the truth.
 namespace gnomon::oracle {
@@ -14,7 +15,13 @@ struct EdgeDisplacement {
     std::size_t lost = 0;        // no measured edge within kEdgeSearchPx: counted as that far off
     std::size_t unmeasured = 0;  // the search left the scored set (a silhouette is near): in no other figure
     double mean_signed_px = 0.0;
-    double mean_px = 0.0, p95_px = 0.0, max_px = 0.0;  // of the absolute values
+    double mean_px = 0.0, p95_px = 0.0, p99_px = 0.0, max_px = 0.0;  // of the absolute values
+    /// One place: how far off (kEdgeSearchPx if lost), and how far the true picture holds still to either side of the
+    /// edge, across it: up to the next true edge, or where the truth is ambiguous or unscored; at most kEdgeSearchPx.
+    struct Place {
+        double off_px = 0.0, still_px = 0.0;
+    };
+    std::vector<Place> each;
 };
 
 /// Pixels of one light. All but the first two count within F: scored and not ambiguous.
