@@ -86,6 +86,32 @@ TEST_F(ShadowLimits, AConeOfAlmostAHalfSpaceCastsShadowsOutToItsRim) {
     expect_true(kSome, 10 * kSome);
 }
 
+TEST_F(ShadowLimits, AConeThatOpensBeyondOneViewFadesToFacesAnEighthPerFrame) {
+    add_ground(40.0);
+    truth.margin_m = 0.12;
+    add_box({1.0, 0.2, -0.5}, {1.8, 0.6, 0.5});
+    add_box({-0.6, 0.2, -1.2}, {0.1, 0.5, -0.7});
+    const ecs::Entity lamp = add_light(spot(1.0f), {0.0, 1.0, 0.0}, kDown, {.filter = ShadowFilter::hard, .resolution_px = 1024});
+    look_down(4.0);
+    draw();
+    world.patch<Light>(lamp, [](Light& light) { light.outer_cone_rad = 1.1f; });
+    std::vector<float> last;
+    float any = 0.0f;
+    for (int i = 1; i <= 9; ++i) {
+        SCOPED_TRACE(i);
+        draw();
+        const auto field = visibility();
+        expect_true(kSome / 2, 4 * kSome);
+        float jump = 0.0f;
+        for (std::size_t p = 0; p < last.size(); ++p) jump = std::max(jump, std::abs(field[p] - last[p]));
+        EXPECT_LE(jump, 1.0f / 8.0f + 1e-6f) << "edges of the two differ by texels, and cross over gently";
+        any = std::max(any, jump);
+        last = field;
+    }
+    EXPECT_GT(any, 0.0f) << "otherwise nothing faded";
+    EXPECT_EQ(frame().report().lights.front().state, LightState::reused) << "the faces alone, and kept";
+}
+
 TEST_F(ShadowLimits, ANaNInOneEntityLeavesTheRestOfThePictureAsIfItWereNotThere) {
     add_ground(6.0);
     add_box({-0.5, 1.0, -0.7}, {0.6, 2.0, 0.8});
