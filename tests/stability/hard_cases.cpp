@@ -21,6 +21,10 @@ std::span<const HardCase> hard_cases() {
 std::size_t expect_sound(World& world, const char* what, std::size_t* darkened) {
     Stages stages(world);
     stages.run();
+    return expect_sound(stages, what, darkened);
+}
+
+std::size_t expect_sound(const Stages& stages, const char* what, std::size_t* darkened) {
     const Verdict verdict = judge(stages);
     EXPECT_EQ(verdict.wrong(), 0u) << what << ": " << verdict.first << "; outside " << verdict.outside << ", missed "
                                    << verdict.missed << ", not finite " << verdict.not_finite << ", without reason "

@@ -38,5 +38,7 @@ std::span<const HardCase> mesh_cases();
 /// Runs the stages once and expects the oracle to agree. Returns how many points it judged; `darkened`, if given, how
 /// many of them lie in shadow.
 std::size_t expect_sound(World& world, const char* what, std::size_t* darkened = nullptr);
+/// The same of the frame that was run last.
+std::size_t expect_sound(const Stages& stages, const char* what, std::size_t* darkened = nullptr);
 
 }  // namespace gnomon::hard

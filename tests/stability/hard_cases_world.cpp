@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
+#include <stdexcept>
 
 #include "components/mesh_ref.h"
 #include "components/shadow_caster.h"
+#include "sample_game/light_settings.h"
 
 namespace gnomon::hard {
 namespace {
@@ -81,7 +82,10 @@ ecs::Entity World::light(const Light& light, const glm::dvec3& at, const glm::dv
     if (light.kind != LightKind::directional) scaled.intensity *= static_cast<float>(scale * scale);
     registry.emplace<Transform>(entity, {at * scale + offset_m, looking_along(direction)});
     registry.emplace<Light>(entity, scaled);
-    registry.emplace<LightShadow>(entity, shadow);
+    LightShadow set = shadow;
+    for (const std::string& setting : settings)
+        if (const auto error = game::apply_setting(set, setting)) throw std::invalid_argument(to_line(*error));
+    registry.emplace<LightShadow>(entity, set);
     return entity;
 }
 ecs::Entity World::sun(const glm::dvec3& direction, const LightShadow& shadow) {
@@ -115,6 +119,16 @@ ecs::Entity World::camera(const glm::dvec3& at, const glm::dvec3& target, const 
 
 void World::move(ecs::Entity entity, const Transform& unscaled) {
     registry.patch<Transform>(entity, [&](Transform& t) { t = placed(unscaled); });
+}
+
+void World::nudge_cameras() {
+    constexpr double kStep_m = 0.07, kGlance_rad = 0.02;
+    const auto cameras = registry.entities_with<Camera>();
+    for (const ecs::Entity e : std::vector<ecs::Entity>(cameras.begin(), cameras.end()))
+        registry.patch<Transform>(e, [&](Transform& t) {
+            t.translation_m += glm::dvec3(kStep_m, 0.2 * kStep_m, -kStep_m) * scale;
+            t.rotation = glm::angleAxis(kGlance_rad, glm::dvec3(0.0, 1.0, 0.0)) * t.rotation;
+        });
 }
 
 Stages::Stages(World& world) : world_(world) {

@@ -28,6 +28,7 @@ struct World {
     glm::uvec2 viewport_px{320, 180};
     double scale = 1.0;
     glm::dvec3 offset_m{0.0};
+    std::vector<std::string> settings;  // KEY=VALUE, for every light that is made after
 
     World();
     std::uint32_t mesh(const game::Shape& shape, std::uint32_t material = 0);
@@ -50,6 +51,8 @@ struct World {
     ecs::Entity camera() { return camera({5.0, 6.0, 8.0}, kOrigin); }
     void move(ecs::Entity entity, const Transform& unscaled);
     Transform placed(Transform unscaled) const;
+    /// A step and a glance aside of every camera, as one frame of a walk.
+    void nudge_cameras();
 };
 
 glm::dquat looking_along(const glm::dvec3& direction);
