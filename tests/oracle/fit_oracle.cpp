@@ -89,11 +89,12 @@ bool holds(const shadow::ShadowView& view, const Vector& p, Real size_px, Real r
            (clamped ? q.at.z >= -q.rounding.z : within(q.at.z, -q.rounding.z));
 }
 
-Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand, const Vector& p,
-                        Real reach_texel) {
+Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand,
+                        const ConsumerItem& consumer, const Vector& p, Real reach_texel) {
     using shadow::ViewProjection;
     Deciding deciding;
     Real deepest = 0;
+    const Real distance = -dot(p - exact(consumer.position_ws_m), exact(consumer.rotation_ws[2]));
     for (const shadow::ShadowView& view : views) {
         const bool spot = view.projection == ViewProjection::perspective;
         if (spot && (!shadow::has_faces(demand.faces_eighths) || view.layer == shadow::kSingleView)) {
@@ -103,6 +104,8 @@ Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow:
         }
         deciding.wants_view = true;
         if (view.projection == ViewProjection::orthographic) {
+            const bool nearer_one = view.seen_to_m > 0.0 && distance > static_cast<Real>(view.seen_to_m);
+            if (nearer_one && &view != &views.back()) continue;
             if (!deciding.view && holds(view, p, demand.resolution_px, reach_texel)) deciding.view = &view;
             continue;
         }

@@ -42,15 +42,15 @@ struct InMap {
 InMap in_map(const shadow::ShadowView& view, const Vector& p);
 
 /// Which views of a light decide about a point, as the shaders choose: a sun's first cascade that holds it with
-/// `reach_texel` to spare; the face it lies in of the cube around a point light or a wide spot, if that is a view; a spot's
-/// single view.
+/// `reach_texel` to spare, from the one of its distance on where cascades have ends; the face it lies in of the cube around
+/// a point light or a wide spot, if that is a view; a spot's single view.
 struct Deciding {
-    const shadow::ShadowView* view = nullptr;       // cascade or face
+    const shadow::ShadowView* view = nullptr;  // cascade or face
     const shadow::ShadowView* single = nullptr;
     bool wants_view = false, wants_single = false;  // the light has such views
 };
-Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand, const Vector& p,
-                        Real reach_texel);
+Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand,
+                        const ConsumerItem& consumer, const Vector& p, Real reach_texel);
 
 /// Whether the point lies in the view's map and depth range, `reach_texel` from its border, rounding in its favour. What is
 /// nearer than a perspective view's near plane is held: it is compared as if it lay on that plane.

@@ -16,6 +16,9 @@ double on_lattice(double value) { return std::round(value / kLattice_m) * kLatti
 glm::dvec3 on_lattice(const glm::dvec3& v) { return {on_lattice(v.x), on_lattice(v.y), on_lattice(v.z)}; }
 
 constexpr std::uint32_t kSizes_px[] = {16, 64, 512, 1024, 4096, 8192};
+constexpr ShadowFit kFits[] = {ShadowFit::tight, ShadowFit::stable, ShadowFit::quantised};
+constexpr CascadeSplits kSplits[] = {CascadeSplits::practical, CascadeSplits::uniform, CascadeSplits::logarithmic,
+                                     CascadeSplits::seen};
 constexpr ShadowFilter kFilters[] = {ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3};
 
 }  // namespace
@@ -71,6 +74,13 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     light.has_shadow = true;
     light.shadow.resolution_px = kSizes_px[static_cast<std::size_t>(number(0.0, std::size(kSizes_px)))];
     light.shadow.filter = kFilters[static_cast<std::size_t>(number(0.0, std::size(kFilters)))];
+    if (kind == LightKind::directional) {
+        light.shadow.fit = kFits[static_cast<std::size_t>(number(0.0, std::size(kFits)))];
+        light.shadow.splits = kSplits[static_cast<std::size_t>(number(0.0, std::size(kSplits)))];
+        light.shadow.cascades = static_cast<std::uint32_t>(number(0.0, kMaxCascades + 1.0));
+        light.shadow.split_lambda = static_cast<float>(number(0.0, 1.0));
+        if (chance(0.3)) light.shadow.cascade_blend = static_cast<float>(number(0.0, 0.5));
+    }
     const math::Aabb& near = scene.instances.front().bounds_ws;
     light.position_ws_m = on_lattice(chance(0.1) ? near.min : chance(0.2) ? math::centre(near) : vector(size(1.0, 128.0)));
     const math::Aabb& aim = scene.instances.back().bounds_ws;

@@ -106,7 +106,7 @@ protected:
         const LightItem& light = scene.lights[0];
         const Real size_px = frame.demands[0].resolution_px;
         const Real reach = static_cast<Real>(filter_row(frame.demands[0].filter).reach_texel);
-        const oracle::Deciding by = oracle::deciding_views(frame.views, frame.demands[0], p, reach);
+        const oracle::Deciding by = oracle::deciding_views(frame.views, frame.demands[0], scene.consumers[0], p, reach);
         ++tally.points;
         bool dark = false;
         for (std::uint32_t c = 0; c < scene.instances.size(); ++c) {
@@ -115,6 +115,10 @@ protected:
             dark = true;
             if (by.wants_view) tally.missed += by.view && lists(frame, *by.view, c) ? 0 : 1;
             if (by.wants_single) tally.missed += lists(frame, *by.single, c) ? 0 : 1;
+            // A cascade may fade into any later one that holds the point.
+            for (const ShadowView& view : frame.views)
+                if (view.projection == ViewProjection::orthographic && oracle::holds(view, p, size_px, reach))
+                    tally.missed += lists(frame, view, c) ? 0 : 1;
             if (frame.views.empty()) ++tally.missed;
         }
         tally.dark_points += dark ? 1 : 0;
