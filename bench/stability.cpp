@@ -16,8 +16,9 @@ namespace {
 
 // Sizes and holds of the automatic choices have settled after this many frames of the first pose.
 constexpr int kSettlingFrames = 3;
-constexpr std::size_t kStations = 16;  // places along a path where points are looked for
-constexpr std::size_t kChunk = 2048;   // points per piece of work
+constexpr std::size_t kStations = 16;       // places along a path where points are looked for
+constexpr std::size_t kChunk = 2048;        // points per piece of work
+constexpr std::uint32_t kAllLayers = 0xff;  // a lookup of a cube does not say which face
 constexpr float kHalfLit = 0.5f;
 
 std::vector<std::string> known_paths() {
@@ -44,6 +45,7 @@ struct WatchedLight {
     std::vector<std::uint32_t> points;    // those it shines on
     std::vector<ExactVisibility> values;  // same order
     std::vector<std::uint8_t> seen;       // same order: in view in the last frame
+    std::uint32_t moved_layers = 0;       // bit per layer whose view's matrices changed with this frame
 };
 
 /// One run along one path under one fit.
@@ -95,6 +97,7 @@ private:
     void compare_views() {
         const shadow::ShadowFrame& frame = frames_.frame();
         std::vector<bool> stepped(rows_.size(), false);
+        for (WatchedLight& state : states_) state.moved_layers = 0;
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const shadow::ShadowView& now = frame.views[v];
             PathFlicker& row = rows_[frame.demands[now.demand].light];
@@ -107,6 +110,8 @@ private:
             const bool same =
                 known && before->anchor_ws_m == now.anchor_ws_m && before->clip_from_anchor == now.clip_from_anchor;
             row.views_moved += !same;
+            const bool is_cube = now.projection == shadow::ViewProjection::cube_face;
+            if (!same) states_[frame.demands[now.demand].light].moved_layers |= is_cube ? kAllLayers : 1u << now.layer;
             if (known && same_size(*before, now)) continue;
             ++row.views_stepped;
             stepped[frame.demands[now.demand].light] = true;
@@ -167,14 +172,15 @@ private:
         light.evaluate(at, now);
         for (std::size_t i = 0; i < seen.size(); ++i) {
             const std::size_t k = seen[i];
-            if (!first && state.seen[k]) compare(state.values[k], now[i], part);
+            if (!first && state.seen[k])
+                compare(state.values[k], now[i], (state.moved_layers & now[i].layers) == 0, part);
             part.uncovered += now[i].layers == 0;
             state.values[k] = now[i];
             state.seen[k] = 1;
         }
     }
 
-    static void compare(const ExactVisibility& before, const ExactVisibility& now, PathFlicker& row) {
+    static void compare(const ExactVisibility& before, const ExactVisibility& now, bool still, PathFlicker& row) {
         const bool flip = (before.value >= kHalfLit) != (now.value >= kHalfLit);
         const double jump = std::abs(static_cast<double>(now.value) - static_cast<double>(before.value));
         if (before.layers != now.layers || std::popcount(now.layers) > 1) {
@@ -187,6 +193,7 @@ private:
         } else {
             ++row.pairs;
             row.flips += flip;
+            row.still_flips += flip && still;
             row.greatest_jump = std::max(row.greatest_jump, jump);
         }
     }
@@ -194,6 +201,7 @@ private:
     static void add(const PathFlicker& part, PathFlicker& row) {
         row.pairs += part.pairs;
         row.flips += part.flips;
+        row.still_flips += part.still_flips;
         row.edge_pairs += part.edge_pairs;
         row.edge_flips += part.edge_flips;
         row.crossings += part.crossings;

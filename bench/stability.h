@@ -23,6 +23,7 @@ struct PathFlicker {
     std::uint32_t points = 0;      // that the light shines on
     std::uint64_t pairs = 0;       // one and the same view decided in both frames
     std::uint64_t flips = 0;       // of those, visibility passed 1/2
+    std::uint64_t still_flips = 0;  // of those, while the view's matrices stayed: must be 0
     std::uint64_t edge_pairs = 0;  // a tap near a texel's border or a depth tie in either: not in `pairs`
     std::uint64_t edge_flips = 0;  // of those
     std::uint64_t crossings = 0;   // other views decide than before, or several together: not in `pairs` either

@@ -87,6 +87,7 @@ nlohmann::ordered_json row_json(const PathFlicker& r) {
             {"pairs", r.pairs},
             {"flips", r.flips},
             {"flips_per_point_per_100_frames", r.flips_per_point_per_100_frames()},
+            {"still_flips", r.still_flips},
             {"edge_pairs", r.edge_pairs},
             {"edge_flips", r.edge_flips},
             {"crossings", r.crossings},

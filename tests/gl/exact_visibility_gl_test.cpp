@@ -78,6 +78,10 @@ TEST_F(ExactVisibility, AFitThatFollowsTheCameraFlickersAndHoldsEveryPointInView
         EXPECT_EQ(row.path, "walk");
         EXPECT_EQ(row.flips_by_frame.size(), 6u);
         EXPECT_GT(row.points, 100u);
+        EXPECT_EQ(row.still_flips, 0u) << "a map that stayed shows something else";
+        if (row.fit == "stable") {
+            EXPECT_EQ(row.flips, 0u);
+        }
         EXPECT_EQ(row.uncovered, 0u) << "a point in view is in no map";
         flips += row.flips + row.edge_flips;
     }
