@@ -49,7 +49,7 @@ struct LightShadow {
     /// far_m cast nothing, casters before near_m still cast.
     float near_m = 0.0f, far_m = 0.0f;
     CubeRoute cube_route = CubeRoute::automatic;
-    ShadowFit fit = ShadowFit::tight;  // of a sun's cascades; the mode that measures best (docs/accuracy.md)
+    ShadowFit fit = ShadowFit::tight;  // of a sun's cascades; the sharpest (docs/accuracy.md compares them)
     std::uint32_t cascades = 0;        // of a sun; 0: four; at most kMaxCascades
     CascadeSplits splits = CascadeSplits::practical;
     float split_lambda = 0.7f;  // 0: uniform, 1: logarithmic

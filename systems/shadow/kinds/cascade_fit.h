@@ -27,7 +27,7 @@ bool fit_tight(const CascadeInput& input, OrthographicBox& box);
 bool fit_stable(const CascadeInput& input, OrthographicBox& box);
 
 /// A rectangle around the points along the light's own axes, its sides and depth in steps of 2^(1/4), on its own
-/// texels; the last frame's stays while it holds the points and is not kHoldSteps too large.
+/// texels; the last frame's stays while it holds the points and is not much too large.
 bool fit_quantised(const CascadeInput& input, OrthographicBox& box);
 
 CascadeFit cascade_fit(ShadowFit mode);

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "systems/shadow/kinds/cascade_fit.h"
-#include "systems/shadow/kinds/held_fit.h"
 #include "systems/shadow/kinds/steps.h"
 
 namespace gnomon::shadow {
@@ -14,9 +13,15 @@ struct Side {
     double low = 0.0, size = 0.0;
 };
 
-/// `needed`, not longer than `room` of a step, on parts of `grid` of it; the held one where that still holds it.
+/// A turning camera lengthens and shortens a slice's sides all the time. So that few of those frames change a size,
+/// which shows, it is given up only when twice too large, and what follows is a step larger than it need be.
+constexpr int kPatience = 4, kHeadroom = 1;
+
+/// From low to high, not longer than `room` of a step, on parts of `grid` of it; the held one where that still holds
+/// it.
 Side hold(double low, double high, double room, double grid, bool used, double held_low, int held_step, int& step) {
-    step = hold_above((high - low) / room, used, held_step, kHoldSteps);
+    step = hold_above((high - low) / room, used, held_step, kPatience);
+    if (used && step != held_step) step += kHeadroom;
     Side side{0.0, step_size(step)};
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
     const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;

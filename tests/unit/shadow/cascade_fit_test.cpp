@@ -329,7 +329,9 @@ TEST(QuantisedFit, AMapThatIsALittleTooLargeStaysAndOneThatIsMuchTooLargeIsRepla
     };
     const auto [wide, history] = extents(20.0, {});
     EXPECT_EQ(extents(17.0, history).first, wide);
-    EXPECT_EQ(extents(5.0, history).first, extents(5.0, {}).first);
+    const double replaced = extents(5.0, history).first.x / extents(5.0, {}).first.x;
+    EXPECT_GE(replaced, 1.0);
+    EXPECT_LE(replaced, 1.2) << "a step of headroom, for a camera that goes on turning";
     EXPECT_GT(extents(30.0, history).first.x, wide.x) << "growth is followed at once";
 }
 
