@@ -62,8 +62,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         Frame& frame = *stage->renderer.frame;
         if (stage->gui) stage->gui->draw(world, frame, line.size_px, nullptr, kStep_s, false);
         if (i == 0) log_warnings(world, frame.report(), log);
-        if (line.stats) 
-            stats.add(frame.report(), i, time_s, world.game ? &world.game->state() : nullptr);
+        if (line.stats) stats.add(frame.report(), i, time_s, world.game ? &world.game->state() : nullptr);
     }
     return write_outputs(line, *stage->renderer.frame, line.size_px, stats);
 }
