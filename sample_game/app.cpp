@@ -54,7 +54,7 @@ void set_timing(gl::Device& device, bool on) {
     device.set_timing(on ? mode : gl::TimingMode::off);
 }
 
-Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world) {
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
     // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
     Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
     if (!device) return device.error();
@@ -65,7 +65,7 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world) 
             .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
             .rule = "command_line"};
     if (line.stats) set_timing(*renderer.device, true);
-    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library);
+    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, held_fits);
     if (!frame) return frame.error();
     renderer.frame = std::move(frame).value();
     return renderer;

@@ -37,7 +37,7 @@ struct Renderer {
     std::unique_ptr<gl::Device> device;
     std::unique_ptr<Frame> frame;
 };
-Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world);
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {});
 
 /// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
 void set_timing(gl::Device& device, bool on);

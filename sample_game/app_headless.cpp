@@ -15,10 +15,10 @@ struct Stage {
     std::unique_ptr<Gui> gui;
 };
 
-Result<Stage> make_stage(const CommandLine& line, const GameWorld& world) {
+Result<Stage> make_stage(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {}) {
     auto context = platform::make_headless_context(false);
     if (!context) return context.error();
-    auto renderer = make_renderer(line, world);
+    auto renderer = make_renderer(line, world, held_fits);
     if (!renderer) return renderer.error();
     Stage stage{std::move(context).value(), std::move(renderer).value(), nullptr};
     if (world.game || line.debug.view) {
@@ -53,8 +53,9 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         stage->renderer.frame->run(world.registry, settings);
         if (stage->renderer.frame->report().failure == gl::Failure::context_lost) {
             log.warn("the graphics context was lost, and is made anew");
+            const shadow::History held_fits = stage->renderer.frame->held_fits();
             stage.reset();
-            auto again = make_stage(line, world);
+            auto again = make_stage(line, world, held_fits);
             if (!again) return again.error();
             stage = std::move(again).value();
             stage->renderer.frame->run(world.registry, settings);

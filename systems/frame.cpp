@@ -10,21 +10,24 @@
 
 namespace gnomon {
 
-Result<std::unique_ptr<Frame>> Frame::create(gl::Device& device, const assets::MeshLibrary& library) {
+Result<std::unique_ptr<Frame>> Frame::create(gl::Device& device, const assets::MeshLibrary& library,
+                                             const shadow::History& held_fits) {
     auto scene = GpuScene::create(device, library);
     if (!scene) return scene.error();
-    return std::unique_ptr<Frame>(new Frame(device, library, std::move(scene).value()));
+    return std::unique_ptr<Frame>(new Frame(device, library, held_fits, std::move(scene).value()));
 }
 
-Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, GpuScene scene)
+Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& held_fits, GpuScene scene)
     : device_(device),
       library_(library),
       gpu_scene_(std::move(scene)),
-      shadows_(std::make_unique<shadow::ShadowSystem>(device)),
+      shadows_(std::make_unique<shadow::ShadowSystem>(device, held_fits)),
       lighting_(std::make_unique<lighting::LightingSystem>(device)),
       debug_(std::make_unique<debug::DebugPainter>(device)) {}
 
 Frame::~Frame() = default;
+
+const shadow::History& Frame::held_fits() const { return shadows_->held_fits(); }
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const auto start = std::chrono::steady_clock::now();
@@ -40,7 +43,8 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     has_picture_ = !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                                                 {settings.exposure_ev}, commands_, report_);
     if (has_picture_)
-        debug_->record(settings.debug, snapshot_, shadows, lighting_->picture_target(), settings.viewport_px, commands_);
+        debug_->record(settings.debug, snapshot_, shadows, lighting_->picture_target(), settings.viewport_px,
+                       commands_);
     if (has_picture_ && settings.present) {
         const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
                            static_cast<std::int32_t>(settings.viewport_px.y)};

@@ -15,6 +15,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/history.h"
 #include "systems/transform/transform_system.h"
 
 namespace gnomon {
@@ -41,8 +42,10 @@ struct FrameSettings {
 /// Write your own instead if your engine has its own order: it is frame.cpp's run(), and nothing else hides here.
 class Frame {
 public:
-    /// `device` and `library` must outlive the frame. Errors: "gpu.scene".
-    static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library);
+    /// `device` and `library` must outlive the frame. `held_fits`: of the frame that this one goes on from, when its
+    /// context was lost; the pictures then go on, too, to the bit. Errors: "gpu.scene".
+    static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library,
+                                                 const shadow::History& held_fits = {});
     ~Frame();
 
     /// Runs one frame of `world` for its first active camera. Never throws; failures are in report().
@@ -51,6 +54,8 @@ public:
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const FrameReport& report() const { return report_; }
     const gl::CommandList& commands() const { return commands_; }  // of the last frame
+    /// What the lights' fits hold on to: it needs no device and survives one.
+    const shadow::History& held_fits() const;
 
     /// The last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. False: nothing to read.
     bool read_picture(std::vector<std::uint8_t>& rgba);
@@ -66,7 +71,7 @@ public:
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
 
 private:
-    Frame(gl::Device& device, const assets::MeshLibrary& library, GpuScene scene);
+    Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& held_fits, GpuScene scene);
     void collect_timings();
 
     gl::Device& device_;

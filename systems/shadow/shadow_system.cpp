@@ -10,7 +10,8 @@
 
 namespace gnomon::shadow {
 
-ShadowSystem::ShadowSystem(gl::Device& device) : device_(device), maps_(device), recorder_(device) {}
+ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
+    : device_(device), maps_(device), recorder_(device), history_(held_fits) {}
 
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);

@@ -15,7 +15,8 @@ namespace gnomon::shadow {
 /// Seven stages, in order, and what outlives a frame. Owns its device objects.
 class ShadowSystem {
 public:
-    explicit ShadowSystem(gl::Device& device);
+    /// `held_fits`: what the fits go on from, if an earlier system's context was lost.
+    explicit ShadowSystem(gl::Device& device, const History& held_fits = {});
     ~ShadowSystem();
     ShadowSystem(const ShadowSystem&) = delete;
     ShadowSystem& operator=(const ShadowSystem&) = delete;
@@ -30,6 +31,7 @@ public:
 
     const ShadowFrame& frame() const { return frame_; }
     const MapStore& maps() const { return maps_; }
+    const History& held_fits() const { return history_; }
 
 private:
     bool samplers_ready();

