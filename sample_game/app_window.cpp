@@ -179,8 +179,10 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
             set_timing(*renderer.device, gui.panel.shown || line.stats);  // the panel shows times per light
         }
         if (pressed(input, platform::Key::f2)) next_depth_view(world, gui.panel.debug);
+        const bool was_captured = captured;  // how the mouse came to where it clicked does not turn the head
         update_capture(input, window, gui.panel.shown, captured);
-        play.advance(input, captured, std::exchange(gui.panel.toggle_motion, false), dt_s, renderer.frame->snapshot());
+        play.advance(input, was_captured && captured, std::exchange(gui.panel.toggle_motion, false), dt_s,
+                     renderer.frame->snapshot());
         settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
         settings.shadows = gui.panel.shadows;
         settings.debug = gui.panel.debug;
