@@ -69,7 +69,8 @@ public:
         find_candidates();
         clear_marks(scratch_.receivers, scene_.instances.size());
         if (light_.kind == LightKind::directional) look_along_sun();
-        for (const LightOpening& o : light_openings(light_, demand_).span()) look_through(o);
+        const LightOpenings openings = light_openings(light_, demand_);
+        for (const LightOpening& opening : openings.span()) look_through(opening);
         for_each_mark(scratch_.receivers, [&](std::uint32_t i) { frame_.receiver_items.push_back(i); });
         PotentialSets sets;
         sets.receivers = since(receivers, frame_.receiver_items.size());

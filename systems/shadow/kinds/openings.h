@@ -21,7 +21,8 @@ struct LightOpening {
 struct LightOpenings {
     std::array<LightOpening, 6> items;
     std::uint32_t count = 0;
-    std::span<const LightOpening> span() const { return {items.data(), count}; }
+    std::span<const LightOpening> span() const& { return {items.data(), count}; }
+    std::span<const LightOpening> span() const&& = delete;  // it would outlive what it shows
 };
 
 /// Point: the six faces of its cube, in the order of OpenGL's table and in the world's axes, each with the border that

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
 #include <string>
 
@@ -52,10 +51,18 @@ TEST(BadInputControl, TheUnspoiltTriangleLoads) {
 std::set<std::string> rules_in(const std::filesystem::path& file) {
     std::ifstream stream(file);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    static const std::regex kRule("\"([a-z][a-z0-9_]*\\.[a-z][a-z0-9_]*)\"");
+    const auto is_word = [](std::string_view part) {
+        return !part.empty() && part.front() >= 'a' && part.front() <= 'z' &&
+               part.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string_view::npos;
+    };
     std::set<std::string> rules;
-    for (std::sregex_iterator found(text.begin(), text.end(), kRule), end; found != end; ++found)
-        rules.insert((*found)[1]);
+    for (std::size_t quote = text.find('"'); quote != std::string::npos; quote = text.find('"', quote + 1)) {
+        const std::size_t end = std::min(text.find('"', quote + 1), text.size());
+        const std::string_view between = std::string_view(text).substr(quote + 1, end - quote - 1);
+        const std::size_t dot = between.find('.');
+        if (dot == std::string_view::npos) continue;
+        if (is_word(between.substr(0, dot)) && is_word(between.substr(dot + 1))) rules.emplace(between);
+    }
     return rules;
 }
 
