@@ -50,7 +50,7 @@ void LightPrograms::make(Entry& entry, const std::string& label, const char* ver
 
 gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput output) {
     shadow::ProgramRow row = wanted;
-    if (row.filter_file.empty()) row = {row.kind_define, {}, {}, 0.0f};  // unshadowed is one program per kind
+    if (row.filter_file.empty()) row = {row.kind_define, {}, {}};  // unshadowed is one program per kind
     auto found =
         std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) { return e.output == output && e.row == row; });
     if (found == rows_.end()) found = rows_.insert(rows_.end(), {row, output, {}});
@@ -61,6 +61,7 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput
     if (!row.filter_file.empty()) {
         defines.emplace_back("SHADOWED 1");
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
+        if (row.fades) defines.emplace_back("SHADOW_FADES 1");
     }
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");

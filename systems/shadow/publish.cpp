@@ -142,6 +142,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.row.kind_file = demand.perspective_sun ? kPerspectiveSunFile : kind.file;
             out.row.filter_file = filter.file;
             out.row.reach_texel = filter.reach_texel;
+            out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
             out.map = slot.texture;
             out.sampler = filter.linear_sampler ? samplers.linear : samplers.nearest;
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))

@@ -32,12 +32,12 @@ struct ShadowDemand {
     Reason skip = Reason::none;
     Reason note = Reason::none;  // a degradation that is known already (resolution_clamped, …)
     ShadowFilter filter = ShadowFilter::hard;
-    std::uint32_t resolution_px = 0;  // edge of the map or of a cube face
-    std::uint32_t view_count = 0;     // layers of the map
-    int faces_eighths = 0;            // spot: share of cube faces against a single view (kinds/cone_fade.h)
-    bool perspective_sun = false;       // one view from an eye instead of cascades
-    float cascade_blend = 0.0f;         // share of a cascade that fades into the next
-    double near_m = 0.0, far_m = 0.0;   // asked for, from the light or a sun's eye; 0: fitted
+    std::uint32_t resolution_px = 0;   // edge of the map or of a cube face
+    std::uint32_t view_count = 0;      // layers of the map
+    int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
+    bool perspective_sun = false;      // one view from an eye instead of cascades
+    float cascade_blend = 0.0f;        // share of a cascade that fades into the next
+    double near_m = 0.0, far_m = 0.0;  // asked for, from the light or a sun's eye; 0: fitted
 };
 
 /// Struct 3. Who is seen and lit (PSR), who can darken them (PSC). One per demand, same order.
@@ -50,17 +50,17 @@ struct PotentialSets {
     IndexRange beams;            // into ShadowFrame::beams: one of a sun or a spot, one per face of a cube
 };
 
-/// Light on its way to the receivers, through one opening: a sun's sky, a spot's view, a face of the cube around a light.
-/// Everything on that way is what casters may be.
+/// Light on its way to the receivers, through one opening: a sun's sky, a spot's view, a face of the cube around a
+/// light. Everything on that way is what casters may be.
 struct Beam {
-    bool parallel = false;          // the light comes along -axes[2]; else from the origin
-    glm::dvec3 origin_ws_m{0.0};    // of the outline's coordinates
-    glm::dmat3 axes{1.0};           // columns u, v, toward the light; orthonormal
-    IndexRange receiver_points;     // into ShadowFrame::receiver_points_ws: what lies in this opening
-    IndexRange outline;             // into ShadowFrame::outlines: convex polygon around them as the light sees them, in
-                                    // metres along u and v (parallel), or tangents
-    double far_m = 0.0;             // farthest of them along -axes[2]
-    double reach_m = 0.0;           // farthest of them from the origin; infinite if parallel
+    bool parallel = false;        // the light comes along -axes[2]; else from the origin
+    glm::dvec3 origin_ws_m{0.0};  // of the outline's coordinates
+    glm::dmat3 axes{1.0};         // columns u, v, toward the light; orthonormal
+    IndexRange receiver_points;   // into ShadowFrame::receiver_points_ws: what lies in this opening
+    IndexRange outline;           // into ShadowFrame::outlines: convex polygon around them as the light sees them, in
+                                  // metres along u and v (parallel), or tangents
+    double far_m = 0.0;           // farthest of them along -axes[2]
+    double reach_m = 0.0;         // farthest of them from the origin; infinite if parallel
 };
 
 enum class ViewProjection : std::uint8_t { orthographic, perspective, cube_face };
@@ -78,13 +78,13 @@ struct ShadowView {
     double near_m = 0.0, far_m = 0.0;     // along -axis_back from the anchor's plane; perspective: from the light
     double depth_alpha = 0.0, depth_beta = 0.0;  // perspective: depth = alpha + beta / distance
     glm::dvec2 half_extent_m{0.0};               // orthographic: half of the map's sides along axis_u and axis_v
-    glm::dvec2 centre_ls_m{0.0};  // orthographic: the map's centre from the anchor, along axis_u and axis_v
+    glm::dvec2 centre_ls_m{0.0};             // orthographic: the map's centre from the anchor, along axis_u and axis_v
     glm::dvec2 tan_low{0.0}, tan_high{0.0};  // perspective, cube face: sides of the map at distance 1
-    double seen_from_m = 0.0;     // cascades: nearest view distance this one serves
-    double seen_to_m = 0.0;       // view distance from which the next cascade serves; 0: where its map ends
-    double texel_m = 0.0;             // largest diagonal of a texel across the light, at a receiver
-    double texel_extent_px = 0.0;     // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
-    double predicted_error_px = 0.0;  // how far a shadow edge may be off on screen
+    double seen_from_m = 0.0;                // cascades: nearest view distance this one serves
+    double seen_to_m = 0.0;                  // view distance from which the next cascade serves; 0: where its map ends
+    double texel_m = 0.0;                    // largest diagonal of a texel across the light, at a receiver
+    double texel_extent_px = 0.0;            // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
+    double predicted_error_px = 0.0;         // how far a shadow edge may be off on screen
     std::uint32_t consumer_mask = 0;
     bool held = false;   // meant to stay while cameras move: its casters are all that its map can show, so that the map
                          // holds; else only those that can darken what is seen now
@@ -148,6 +148,7 @@ struct ProgramRow {
     std::string_view kind_define;  // LIGHT_DIRECTIONAL, …
     std::string_view kind_file, filter_file;
     float reach_texel = 0.0f;  // the filter's footprint half-width E
+    bool fades = false;        // looks up a second view that the first one fades into
     bool operator==(const ProgramRow&) const = default;
 };
 
@@ -200,7 +201,7 @@ struct ShadowFrame {
     std::vector<std::uint32_t> view_caster_items;
     std::vector<ShadowSlot> slots;       // one per view
     std::vector<LightingInputs> inputs;  // one per consumer
-    History next_history;  // what the fits hand to the next frame
+    History next_history;                // what the fits hand to the next frame
     SetScratch set_scratch;
     FitScratch fit_scratch;
     std::vector<double> cpu_us;  // one per light: what the stages spent on it alone

@@ -12,14 +12,19 @@
 
 namespace gnomon {
 
-/// Every row of (light kind × filter), and each kind unshadowed.
+/// Every row of (light kind × filter), with and without fading, each kind unshadowed, and suns in perspective.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
-        rows.push_back({kind.define, {}, {}, 0.0f});
+        rows.push_back({kind.define, {}, {}});
         for (const shadow::FilterRow& filter : shadow::filter_table())
-            rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel});
+            for (const bool fades : {false, true})
+                if (!fades || kind.kind != LightKind::point)  // a cube has nothing to fade into
+                    rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, fades});
     }
+    const shadow::LightKindRow& sun = shadow::light_kind_row(LightKind::directional);
+    for (const shadow::FilterRow& filter : shadow::filter_table())
+        rows.push_back({sun.define, shadow::kPerspectiveSunFile, filter.file, filter.reach_texel});
     return rows;
 }
 

@@ -71,6 +71,7 @@ Result<std::string> fragment_for(const shadow::ProgramRow& row) {
     if (shadowed) {
         defines.emplace_back("SHADOWED 1");
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
+        if (row.fades) defines.emplace_back("SHADOW_FADES 1");
     }
     return gl::expand_shader(files, "mine/forward.frag", defines);
 }

@@ -3,11 +3,12 @@
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
 #include "shadow/kinds/map_2d.glsl"
-#define SHADOW_FADES
 
+#ifdef SHADOW_FADES
 // What the cascade that shadow_point chose fades into.
 float fading_share;
 ShadowPoint fading_point;
+#endif
 
 ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
@@ -30,6 +31,7 @@ int cascade_at(float distance_m) {
     return i;
 }
 
+#ifdef SHADOW_FADES
 // 0 up to the last part of a cascade, then rising to 1 where it ends.
 float share_at(int i, float distance_m) {
     float start_m = light.bias.z;
@@ -45,16 +47,18 @@ float share_toward_border(ShadowPoint point, float reach_texel) {
     float nearest = min(min(inside.x - reach_texel * point.texel_uv.x, inside.y - reach_texel * point.texel_uv.y), inside.z);
     return clamp(1.0 - nearest / light.bias.y, 0.0, 1.0);
 }
+#endif
 
 ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     bool by_distance = light.options.z != 0;
     float distance_m = dot(position_ca, light.position.xyz);
-    int i = by_distance ? cascade_at(distance_m) : 0;
-    ShadowPoint point = point_in_cascade(i, position_ca, normal, error_m, reach_texel);
-    while (!point.covered && i + 1 < light.options.x) {
+    int i = (by_distance ? cascade_at(distance_m) : 0) - 1;
+    ShadowPoint point;
+    do {
         ++i;
         point = point_in_cascade(i, position_ca, normal, error_m, reach_texel);
-    }
+    } while (!point.covered && i + 1 < light.options.x);
+#ifdef SHADOW_FADES
     fading_share = 0.0;
     if (!point.covered || !(light.bias.y > 0.0)) return point;
     float share = by_distance ? share_at(i, distance_m) : share_toward_border(point, reach_texel);
@@ -62,9 +66,12 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
         fading_point = point_in_cascade(next, position_ca, normal, error_m, reach_texel);
         if (fading_point.covered) fading_share = share;
     }
+#endif
     return point;
 }
 
+#ifdef SHADOW_FADES
 float shadow_fade_share() { return fading_share; }
 
 ShadowPoint shadow_fade_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) { return fading_point; }
+#endif

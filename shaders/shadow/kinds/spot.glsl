@@ -3,7 +3,6 @@
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
 #include "shadow/kinds/map_2d.glsl"
-#define SHADOW_FADES
 
 ShadowPoint point_in_view(int i, vec3 position_la, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
@@ -22,9 +21,9 @@ ShadowPoint point_in_view(int i, vec3 position_la, vec3 normal, float error_m, f
 
 vec3 from_light(vec3 position_ca) { return position_ca + light.views[0].anchor_from_camera.xyz; }
 
-// The face that looks most nearly along the direction. A face without a view casts nothing that is seen.
-ShadowPoint point_in_faces(int faces, vec3 position_la, vec3 normal, float error_m, float reach_texel) {
-    int best = 0;
+// The face that looks most nearly along the direction; -1: none. A face without a view casts nothing that is seen.
+int face_toward(int faces, vec3 position_la) {
+    int best = -1;
     float deepest = 0.0;
     for (int i = 0; i < faces; ++i) {
         float z_m = -dot(position_la, light.views[i].axis_back.xyz);
@@ -33,21 +32,30 @@ ShadowPoint point_in_faces(int faces, vec3 position_la, vec3 normal, float error
             best = i;
         }
     }
-    ShadowPoint point = point_in_view(best, position_la, normal, error_m, reach_texel);
-    point.covered = point.covered && deepest > 0.0;
+    return best;
+}
+
+ShadowPoint point_in_view_or_none(int i, vec3 position_la, vec3 normal, float error_m, float reach_texel) {
+    ShadowPoint point = point_in_view(max(i, 0), position_la, normal, error_m, reach_texel);
+    point.covered = point.covered && i >= 0;
     return point;
 }
 
 bool has_single_view() { return light.cone.z < 1.0 && (light.cone.z == 0.0 || (light.options.w & 32) != 0); }
 
 ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    if (has_single_view()) return point_in_view(light.options.x - 1, from_light(position_ca), normal, error_m, reach_texel);
-    return point_in_faces(light.options.x, from_light(position_ca), normal, error_m, reach_texel);
+    vec3 position_la = from_light(position_ca);
+    int view = light.options.x - 1;
+    if (!has_single_view()) view = face_toward(light.options.x, position_la);
+    return point_in_view_or_none(view, position_la, normal, error_m, reach_texel);
 }
 
+#ifdef SHADOW_FADES
 // Where one of the two has no view, it has nothing to fade.
 float shadow_fade_share() { return has_single_view() && light.options.x > 1 ? light.cone.z : 0.0; }
 
 ShadowPoint shadow_fade_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    return point_in_faces(light.options.x - 1, from_light(position_ca), normal, error_m, reach_texel);
+    vec3 position_la = from_light(position_ca);
+    return point_in_view_or_none(face_toward(light.options.x - 1, position_la), position_la, normal, error_m, reach_texel);
 }
+#endif
