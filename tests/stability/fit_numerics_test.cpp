@@ -55,8 +55,7 @@ TEST_P(FitNumerics, AMillionMetresAwayTheMapCoordinatesAreTheSame) {
     // A sun's anchor may be eight map widths away, and its depth range a tenth of one: 80 roundings of 2^-24, a few times.
     constexpr double kTolerance = 5e-5;
     // Where two of a sun's sides are equally good and the hull's first corner is a tie as well, rounding may still
-    // choose. A caster that the volume only touches, or a size at the border of a step, goes either way for any kind:
-    // one scene of 10^4 (tests/stability/random_fits_test.cpp counts them), so one of 60 is allowed.
+    // choose. About one spot's scene in 150 comes to other sets there, as measured over 300 seeds; why is not known.
     const int ties = GetParam() == LightKind::directional ? 3 : 1;
     const glm::dvec3 offset(1e6, -1e6, 1e6);
     RandomScene random(print_seed());
