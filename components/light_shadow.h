@@ -32,6 +32,10 @@ enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manua
 
 inline constexpr std::size_t kMaxCascades = 8;
 
+/// How a map stores depth, reversed: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and gives
+/// up precision far from a spot or a point; the automatic bias grows by what is lost (docs/settings.md).
+enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
+
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
     bool enabled = true;
@@ -49,6 +53,7 @@ struct LightShadow {
     /// far_m cast nothing, casters before near_m still cast.
     float near_m = 0.0f, far_m = 0.0f;
     CubeRoute cube_route = CubeRoute::automatic;
+    DepthFormat depth_format = DepthFormat::d32f;
     ShadowFit fit = ShadowFit::tight;  // of a sun's cascades; the sharpest (docs/accuracy.md compares them)
     std::uint32_t cascades = 0;        // of a sun; 0: four; at most kMaxCascades
     CascadeSplits splits = CascadeSplits::practical;

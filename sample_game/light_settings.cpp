@@ -64,6 +64,9 @@ constexpr std::array<std::string_view, 4> kWords<CubeRoute>{"automatic", "six_pa
                                                             "layered_geometry"};
 
 template <>
+constexpr std::array<std::string_view, 3> kWords<DepthFormat>{"d32f", "d24", "d16"};
+
+template <>
 constexpr std::array<std::string_view, 3> kWords<ShadowFit>{"tight", "stable", "quantised"};
 template <>
 constexpr std::array<std::string_view, 5> kWords<CascadeSplits>{"practical", "uniform", "logarithmic", "manual",
@@ -273,6 +276,13 @@ constexpr std::array kSettings{
                  .get = get_word<&S::cube_route, CubeRoute>,
                  .editor = kChoice,
                  .choice = word<CubeRoute>},
+    LightSetting{.key = "depth_format",
+                 .values = "d32f | d24 | d16",
+                 .meaning = "how a map stores depth: float, or fixed point in 24 or 16 bits",
+                 .set = set_word<&S::depth_format, DepthFormat>,
+                 .get = get_word<&S::depth_format, DepthFormat>,
+                 .editor = kChoice,
+                 .choice = word<DepthFormat>},
     LightSetting{.key = "fit",
                  .values = "tight | stable | quantised",
                  .meaning = "how a sun's cascades follow the camera",

@@ -84,6 +84,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         demand.light = i;
         demand.skip = wanted(light, shadows);
         demand.filter = light.shadow.filter;
+        demand.depth_format = light.shadow.depth_format;
         const LightKindRow& kind = light_kind_row(light.kind);
         demand.view_count = kind.layers;
         const std::uint32_t limit_px =

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "systems/shadow/cube_route.h"
+#include "systems/shadow/depth_format.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 
@@ -97,8 +98,10 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, LightHistory& history) 
 bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
     const LightKindRow& kind = light_kind_row(light.kind);
     const std::uint32_t layers = kind.texture == gl::TextureKind::cube ? 1u : demand.view_count;
-    if (history.texture && !(history.desc.kind == kind.texture && history.desc.layers == layers)) {
-        // The light has become one of another kind: its map has no use, nor has the memory of a failure.
+    const gl::Format format = depth_format_row(demand.depth_format).texture;
+    const gl::TextureDesc& held = history.desc;
+    if (history.texture && !(held.kind == kind.texture && held.layers == layers && held.format == format)) {
+        // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
         release(history);
         history.wanted_px = 0;
         history.failure = Reason::none;
@@ -110,7 +113,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     gl::TextureDesc desc;
     desc.label = "shadow map " + light.name;
     desc.kind = kind.texture;
-    desc.format = gl::Format::d32f;
+    desc.format = format;
     desc.layers = layers;
     history.wanted_px = demand.resolution_px;
     history.failure = Reason::none;

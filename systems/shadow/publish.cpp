@@ -6,6 +6,7 @@
 
 #include "engine/math/projection.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/depth_format.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
@@ -35,7 +36,9 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     record.axis_u = with_w(view.axis_u, view.texel_u * stretch);
     record.axis_v = with_w(view.axis_v, view.texel_v * stretch);
     record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
-    const double depth_rounding = orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha);
+    // OpenGL 4.5, 2.3.5: a fixed-point value is one of the two nearest, so that it may be off by a whole step.
+    const double depth_rounding = depth_format_row(demand.depth_format).step +
+                                  (orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha));
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
                       static_cast<float>(view.depth_alpha), static_cast<float>(view.layer)};
     record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.seen_to_m);

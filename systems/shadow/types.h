@@ -32,6 +32,7 @@ struct ShadowDemand {
     Reason skip = Reason::none;
     Reason note = Reason::none;  // a degradation that is known already (resolution_clamped, …)
     ShadowFilter filter = ShadowFilter::hard;
+    DepthFormat depth_format = DepthFormat::d32f;
     std::uint32_t resolution_px = 0;   // edge of the map or of a cube face
     std::uint32_t view_count = 0;      // layers of the map
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)

@@ -4,6 +4,7 @@ if(GNOMON_SAMPLE)
     cube_routes_gl_test.cpp
     debug_depth_gl_test.cpp
     cascades_gl_test.cpp
+    planes_gl_test.cpp
     projection_gl_test.cpp
     shadow_blending_gl_test.cpp
     shadow_cube_gl_test.cpp

@@ -71,6 +71,13 @@ protected:
         return entity;
     }
 
+    /// Before another world and library are filled.
+    void start_anew() {
+        frame_.reset();
+        world = {};
+        library = {};
+    }
+
     void draw() {
         if (!frame_) {
             auto made = Frame::create(device(), library);
