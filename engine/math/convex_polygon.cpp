@@ -60,6 +60,34 @@ void convex_hull(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull) {
     if (hull.size() > 1) hull.pop_back();
 }
 
+void drop_flat_corners(double tolerance, std::vector<glm::dvec2>& polygon, std::vector<glm::dvec2>& scratch) {
+    if (polygon.size() < 2) return;
+    const glm::dvec2 first = polygon.front();
+    const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
+    // The corner farthest from any point is one that rounding cannot have made.
+    const auto start = std::max_element(polygon.begin(), polygon.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
+        return squared(a - first) < squared(b - first);
+    });
+    std::rotate(polygon.begin(), start, polygon.end());
+    scratch.swap(polygon);
+    polygon.assign(1, scratch.front());
+    const auto flat = [&](const glm::dvec2& p, const glm::dvec2& to) {
+        const glm::dvec2 &from = polygon.back(), along = to - from;
+        const double length_squared = squared(along);
+        const double at = length_squared > 0.0 ? std::clamp(glm::dot(p - from, along) / length_squared, 0.0, 1.0) : 0.0;
+        return squared(p - from - at * along) <= tolerance * tolerance;
+    };
+    std::size_t kept = 0;  // of scratch, the last one
+    for (std::size_t i = 1; i < scratch.size(); ++i) {
+        const glm::dvec2& next = scratch[(i + 1) % scratch.size()];
+        bool all_flat = true;
+        for (std::size_t k = kept + 1; all_flat && k <= i; ++k) all_flat = flat(scratch[k], next);
+        if (all_flat) continue;
+        polygon.push_back(scratch[i]);
+        kept = i;
+    }
+}
+
 void clip_polygon(const glm::dvec2& normal, double offset, std::vector<glm::dvec2>& polygon,
                   std::vector<glm::dvec2>& scratch) {
     scratch.swap(polygon);

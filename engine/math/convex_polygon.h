@@ -12,6 +12,11 @@ namespace gnomon::math {
 /// reordered. Linear but for the few points that remain. Empty in, empty out. Points with NaN give no useful result.
 void convex_hull(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull);
 
+/// Leaves out the corners that lie no farther than `tolerance` from a line between two that stay, so that corners which
+/// rounding of that size splits, or adds along a side, do not count. The polygon loses no more than `tolerance` to any
+/// side. It starts from the corner that is farthest from the first one. `scratch` is overwritten.
+void drop_flat_corners(double tolerance, std::vector<glm::dvec2>& polygon, std::vector<glm::dvec2>& scratch);
+
 /// Cuts off what has dot(normal, p) + offset < 0 (Sutherland & Hodgman 1974). `scratch` is overwritten.
 void clip_polygon(const glm::dvec2& normal, double offset, std::vector<glm::dvec2>& polygon,
                   std::vector<glm::dvec2>& scratch);

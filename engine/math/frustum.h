@@ -55,6 +55,9 @@ inline constexpr std::size_t kMaxClipPlanes = 16;
 /// offsets by a power of two scales the result exactly. Points lie in the box, and inside each plane up to 2^-48 of
 /// the size of the plane equation's terms.
 std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector<glm::dvec3>& out);
+/// By how much rounding may have moved a clipped point that is then expressed in other axes, of the size of its
+/// coordinates: 16 units (2^-52) of the clip and as many of the subtraction and the products.
+inline constexpr double kClippedRounding = 0x1p-47;
 inline std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out) {
     return clip_box(planes_of(f), box, out);
 }

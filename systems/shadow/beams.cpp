@@ -10,15 +10,14 @@
 namespace gnomon::shadow {
 namespace {
 
-/// A clipped point is wrong by some of its coordinates' last bits: 16 units of the clip (kRounding in
-/// engine/math/frustum.cpp) and as many of the subtraction and the products here.
-constexpr double kRounding = 0x1p-47;
-
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// The hull of scratch.points.
-IndexRange append_outline(std::vector<glm::dvec2>& outlines, SetScratch& scratch) {
+/// A hull around scratch.points, wherever within `slack` they are: without the corners that rounding splits, or adds
+/// along a side. Those have edges of any direction, which would decide by chance what else the beam touches.
+IndexRange append_outline(double slack, std::vector<glm::dvec2>& outlines, SetScratch& scratch) {
     math::convex_hull(scratch.points, scratch.polygon);
+    math::drop_flat_corners(slack, scratch.polygon, scratch.clipped);
+    widen(scratch.polygon, glm::dvec2(2.0 * slack), scratch);
     const IndexRange range{static_cast<std::uint32_t>(outlines.size()),
                            static_cast<std::uint32_t>(scratch.polygon.size())};
     outlines.insert(outlines.end(), scratch.polygon.begin(), scratch.polygon.end());
@@ -60,8 +59,9 @@ Beam parallel_beam(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws
         beam.far_m = std::max(beam.far_m, -p.z);
         size = std::max(size, largest(p_ws));
     }
-    beam.far_m += kRounding * size;
-    beam.outline = append_outline(outlines, scratch);
+    beam.slack = math::kClippedRounding * size;
+    beam.far_m += beam.slack;
+    beam.outline = append_outline(beam.slack, outlines, scratch);
     return beam;
 }
 
@@ -79,25 +79,24 @@ Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std
         beam.reach_m = std::max(beam.reach_m, glm::length(p));
         // What lies at the light itself has no direction. Not behind: NaN and infinity are left to the clamp below.
         const glm::dvec2 tangents = glm::dvec2(p) / -p.z;
-        slack = std::max(slack, -p.z > 0.0 ? kRounding * size / -p.z : std::numeric_limits<double>::infinity());
+        slack = std::max(slack,
+                         -p.z > 0.0 ? math::kClippedRounding * size / -p.z : std::numeric_limits<double>::infinity());
         scratch.points.push_back(glm::clamp(tangents, opening.low, opening.high));
     }
-    if (!(beam.far_m > kRounding * size)) {
+    if (!(beam.far_m > math::kClippedRounding * size)) {
         beam.far_m = beam.reach_m = 0.0;
         return beam;
     }
-    beam.far_m += kRounding * size;
-    beam.reach_m += kRounding * size;
+    beam.far_m += math::kClippedRounding * size;
+    beam.reach_m += math::kClippedRounding * size;
     const glm::dvec2 sides = opening.high - opening.low;
     if (slack < std::max(sides.x, sides.y)) {
-        math::convex_hull(scratch.points, scratch.polygon);
-        widen(scratch.polygon, glm::dvec2(slack), scratch);
-        scratch.points.assign(scratch.polygon.begin(), scratch.polygon.end());
+        beam.slack = slack;
     } else {
         scratch.points.assign(
             {opening.low, {opening.high.x, opening.low.y}, opening.high, {opening.low.x, opening.high.y}});
     }
-    beam.outline = append_outline(outlines, scratch);
+    beam.outline = append_outline(beam.slack, outlines, scratch);
     return beam;
 }
 

@@ -10,8 +10,14 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Longer outlines lose their shortest edges, which grows the volume a little. 4 seen boxes have 8 to 12.
-constexpr std::size_t kMostEdges = 12;
+/// Longer outlines lose their shortest edges, which grows the volume a little; as many as kMostPlanes has room for. 4
+/// seen boxes have 8 to 12, widening adds 4.
+constexpr std::size_t kMostEdges = 18;
+/// In slacks of the beam: shorter edges are what widening by two slacks makes of a corner, at most 4 √2, and have no
+/// direction but by rounding.
+constexpr double kShortestEdge = 8.0;
+/// Squares of lengths this close are equal (widened corners have edges of one length): the first ones in order count.
+constexpr double kAsLong = 1.0 - 1.0 / (1 << 20);
 /// Coordinates are wrong by a few of their last bits; see kRounding in engine/math/frustum.cpp.
 constexpr double kRounding = 0x1p-48;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -56,7 +62,8 @@ private:
 
     void add_edges() {
         const auto edge = [&](std::size_t i) { return polygon_[(i + 1) % polygon_.size()] - polygon_[i]; };
-        double least = 0.0;  // length, squared, of the shortest edge that counts
+        // Length, squared, of the shortest edge that counts.
+        double least = kShortestEdge * kShortestEdge * beam_.slack * beam_.slack;
         if (polygon_.size() > kMostEdges) {
             std::array<double, kMostEdges> longest{};
             for (std::size_t i = 0; i < polygon_.size(); ++i) {
@@ -64,7 +71,7 @@ private:
                 const auto smallest = std::min_element(longest.begin(), longest.end());
                 *smallest = std::max(*smallest, length);
             }
-            least = *std::min_element(longest.begin(), longest.end());
+            least = std::max(least, kAsLong * *std::min_element(longest.begin(), longest.end()));
         }
         std::size_t edges = 0;
         for (std::size_t i = 0; i < polygon_.size() && edges < kMostEdges; ++i) {
@@ -73,7 +80,7 @@ private:
             add_line({-along.y, along.x});
             ++edges;
         }
-        if (polygon_.size() > 2) return;  // a point or a line has no sides
+        if (polygon_.size() > 2 && edges > 0) return;  // a point or a line has no sides
         for (const glm::dvec2 normal : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
             add_line(normal);
     }

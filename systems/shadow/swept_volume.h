@@ -24,7 +24,7 @@ struct SweptVolume {
 /// `polygon`: the beam's outline, or another convex one in its coordinates; not empty. `seen`: planes that all
 /// receivers lie within (a camera's), used where the light's side of them is theirs; `slack_m`: how far beyond those a
 /// caster may still matter (the filter's width). As seen from the light the test is exact for boxes (separating axes:
-/// the outline's edges and those of the box); along the light, and where an outline has more than 12 edges, it is
+/// the outline's edges and those of the box); along the light, and where an outline has more than 18 edges, it is
 /// conservative.
 SweptVolume swept_volume(const Beam& beam, std::span<const glm::dvec2> polygon, std::span<const math::Plane> seen,
                          double slack_m);

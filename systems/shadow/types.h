@@ -60,6 +60,7 @@ struct Beam {
     IndexRange receiver_points;   // into ShadowFrame::receiver_points_ws: what lies in this opening
     IndexRange outline;           // into ShadowFrame::outlines: convex polygon around them as the light sees them, in
                                   // metres along u and v (parallel), or tangents
+    double slack = 0.0;           // by how much rounding may have moved a corner of it
     double far_m = 0.0;           // farthest of them along -axes[2]
     double reach_m = 0.0;         // farthest of them from the origin; infinite if parallel
 };

@@ -18,6 +18,9 @@
 namespace gnomon::shadow {
 namespace {
 
+/// In slacks of a beam: an outline that was widened by two of them has edges of up to 4 √2 at its corners.
+constexpr double kOutlineSlacks = 8.0;
+
 glm::dmat3 axes_of(const ShadowView& view) { return {view.axis_u, view.axis_v, view.axis_back}; }
 
 void assign_rectangle(const glm::dvec2& low, const glm::dvec2& high, std::vector<glm::dvec2>& polygon) {
@@ -88,6 +91,8 @@ private:
                 const glm::dvec3 at = offset + beam.axes[0] * p.x + beam.axes[1] * p.y;
                 scratch_.polygon.emplace_back(glm::dot(at, view_.axis_u), glm::dot(at, view_.axis_v));
             }
+            // In turned axes the outline's own widening (two slacks) is a chamfer of any direction.
+            math::drop_flat_corners(kOutlineSlacks * beam.slack, scratch_.polygon, scratch_.clipped);
             widen(scratch_.polygon, reach_, scratch_);
             const glm::dvec2 half = view_.half_extent_m;
             math::clip_polygon({1, 0}, half.x, scratch_.polygon, scratch_.clipped);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/frustum.h"
 #include "systems/shadow/kinds/cascade_fit.h"
 #include "systems/shadow/kinds/rectangle.h"
 
@@ -10,15 +11,16 @@ namespace gnomon::shadow {
 bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
     FitScratch& scratch = input.light.scratch;
     scratch.points.clear();
-    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest, size_m = 0.0;
     const glm::dvec3 origin_ws = input.points_ws.front();
     for (const glm::dvec3& p_ws : input.points_ws) {
         const glm::dvec3 p = (p_ws - origin_ws) * input.basis;
         scratch.points.emplace_back(p.x, p.y);
         lowest = std::min(lowest, p.z);
         highest = std::max(highest, p.z);
+        size_m = std::max({size_m, std::abs(p_ws.x), std::abs(p_ws.y), std::abs(p_ws.z)});
     }
-    const Rectangle rectangle = smallest_rectangle(scratch.points, scratch.hull);
+    const Rectangle rectangle = smallest_rectangle(scratch.points, scratch.hull, math::kClippedRounding * size_m);
     const glm::dvec2 extent = rectangle.max - rectangle.min;
     const double largest = std::max({extent.x, extent.y, highest - lowest});
     if (!(largest > 0.0) || !std::isfinite(largest)) return false;

@@ -26,9 +26,12 @@ Rectangle along(const glm::dvec2& axis_u, std::span<const glm::dvec2> points) {
 /// in the hull's order stays unless another is clearly smaller.
 constexpr double kClearlyLess = 1.0 - 1.0 / (1 << 20);
 
+/// In slacks: two points that are one but for rounding are up to 2 √2 apart, with an edge of any direction between.
+constexpr double kShortestEdge = 4.0;
+
 }  // namespace
 
-Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch) {
+Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch, double slack) {
     if (points.empty()) return along({1.0, 0.0}, {});
     math::convex_hull(points, hull_scratch);
     Rectangle best = along({1.0, 0.0}, hull_scratch);
@@ -36,7 +39,7 @@ Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec
     for (std::size_t i = 0; i < hull_scratch.size(); ++i) {
         const glm::dvec2 edge = hull_scratch[(i + 1) % hull_scratch.size()] - hull_scratch[i];
         const double size = std::hypot(edge.x, edge.y);
-        if (!(size > 0.0)) continue;
+        if (!(size > kShortestEdge * slack)) continue;
         const Rectangle r = along(edge / size, hull_scratch);
         const double area = (r.max.x - r.min.x) * (r.max.y - r.min.y);
         if (area < best_area * kClearlyLess) {

@@ -13,7 +13,8 @@ struct Rectangle {
 
 /// Smallest-area rectangle that holds all points: one side lies on an edge of their convex hull
 /// (Freeman & Shapira 1975), up to 2^-20 of the area. Total: one point or a line give a rectangle of zero area.
+/// `slack`: by how much rounding may have moved a point; edges that it may have made decide nothing.
 /// `points` is reordered. An empty span gives an inverted rectangle (min > max).
-Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch);
+Rectangle smallest_rectangle(std::span<glm::dvec2> points, std::vector<glm::dvec2>& hull_scratch, double slack = 0.0);
 
 }  // namespace gnomon::shadow

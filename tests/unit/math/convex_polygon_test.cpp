@@ -93,5 +93,50 @@ TEST(ClipPolygon, KeepsAPointAndALineThatAreInside) {
     EXPECT_THAT(line, ::testing::Not(::testing::Contains(glm::dvec2(0, 0))));
 }
 
+TEST(DropFlatCorners, LeavesOutWhatRoundingSplitsOrAddsAlongASide) {
+    constexpr double kTolerance = 1e-9;
+    const Points square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+    // A corner twice, a corner along a side, and both at once.
+    for (Points polygon : {Points{{0, 0}, {4, 0}, {4, 1e-12}, {4, 4}, {0, 4}}, Points{{0, 0}, {2, -1e-12}, {4, 0}, {4, 4}, {0, 4}},
+                           Points{{0, 4}, {-1e-12, 1}, {0, 0}, {1e-13, -1e-13}, {1, -1e-12}, {3, -1e-12}, {4, 0}, {4, 4}}}) {
+        Points scratch;
+        drop_flat_corners(kTolerance, polygon, scratch);
+        ASSERT_EQ(polygon.size(), 4u);
+        for (const glm::dvec2& p : polygon)
+            EXPECT_LT(std::min({glm::distance(p, square[0]), glm::distance(p, square[1]), glm::distance(p, square[2]),
+                                glm::distance(p, square[3])}), kTolerance);
+    }
+}
+
+TEST(DropFlatCorners, LosesNoMoreThanTheToleranceEvenOfARoundPolygon) {
+    for (const double tolerance : {0.0, 1e-3, 0.1}) {
+        Points circle, scratch;
+        for (int i = 0; i < 200; ++i) circle.emplace_back(std::cos(0.0314159265 * i), std::sin(0.0314159265 * i));
+        Points polygon = circle;
+        drop_flat_corners(tolerance, polygon, scratch);
+        if (tolerance == 0.0) {
+            EXPECT_EQ(polygon.size(), circle.size());
+        } else {
+            EXPECT_LT(polygon.size(), circle.size() / 2);
+        }
+        for (const glm::dvec2& p : circle)
+            for (std::size_t i = 0; i < polygon.size(); ++i) {
+                const glm::dvec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+                EXPECT_GE(turn(a, b, p) / static_cast<long double>(glm::distance(a, b)), -tolerance - 1e-12L);
+            }
+    }
+}
+
+TEST(DropFlatCorners, OfAPointOrALineThatIsLeft) {
+    for (const Points& given : {Points{}, Points{{1, 2}}, Points{{1, 2}, {3, 4}}}) {
+        Points polygon = given, scratch;
+        drop_flat_corners(1e-9, polygon, scratch);
+        EXPECT_THAT(polygon, ::testing::UnorderedElementsAreArray(given));
+    }
+    Points speck = {{0, 0}, {1e-12, 0}, {0, 1e-12}}, scratch;
+    drop_flat_corners(1e-9, speck, scratch);
+    EXPECT_EQ(speck.size(), 1u);
+}
+
 }  // namespace
 }  // namespace gnomon::math

@@ -75,5 +75,21 @@ TEST(SmallestRectangle, IsTotal) {
     EXPECT_NEAR(std::max(r.max.x - r.min.x, r.max.y - r.min.y), 2.0 * std::sqrt(2.0), 1e-14);
 }
 
+TEST(SmallestRectangle, AnEdgeThatRoundingMadeDecidesNothing) {
+    // Right-angled triangle: every side gives a rectangle of the same area, so the first one stays. At one corner a second
+    // point, one rounding apart, in any direction.
+    constexpr double kSlack = 1e-9;
+    std::vector<glm::dvec2> hull;
+    std::vector<glm::dvec2> plain = {{0.0, 0.0}, {3.0, 0.5}, {2.5, 3.5}};
+    const Rectangle wanted = smallest_rectangle(plain, hull, kSlack);
+    for (int step = 0; step < 64; ++step) {
+        const double angle = 0.1 * step;
+        std::vector<glm::dvec2> split = {{0.0, 0.0}, {3.0, 0.5}, {2.5, 3.5}, {3.0 + 1e-10 * std::cos(angle), 0.5 + 1e-10 * std::sin(angle)}};
+        const Rectangle found = smallest_rectangle(split, hull, kSlack);
+        EXPECT_NEAR(std::abs(glm::dot(found.axis_u, wanted.axis_u)), 1.0, 1e-9) << angle;
+        EXPECT_GE(area(found), area(wanted) * (1.0 - 1e-9));
+    }
+}
+
 }  // namespace
 }  // namespace gnomon::shadow

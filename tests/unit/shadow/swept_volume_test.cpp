@@ -99,6 +99,25 @@ TEST_F(SweptVolumeTest, PointsAtTheLampItselfAreNoReceivers) {
     EXPECT_EQ(beam.reach_m, 0.0);
 }
 
+TEST_F(SweptVolumeTest, PointsThatAreOneButForRoundingAddNoPlane) {
+    const glm::dvec3 far_away(1e6, -1e6, 1e6);
+    for (const bool sun : {true, false}) {
+        std::uint32_t planes[2] = {};
+        for (const bool twice : {false, true}) {
+            outlines.clear();
+            std::vector<glm::dvec3> points;
+            for (const glm::dvec3& p : math::corners(receiver)) {
+                points.push_back(p + far_away);
+                if (twice) points.push_back(p + far_away + glm::dvec3(1.2e-10, -2.4e-10, 2.4e-10));
+            }
+            const Beam beam = sun ? parallel_beam(math::basis_from_back({0.3, 1.0, 0.2}), points, outlines, scratch)
+                                  : opening_beam(kLight_m + far_away, opening, points, outlines, scratch);
+            planes[twice ? 1 : 0] = swept_volume(beam, outlines, {}, 0.0).plane_count;
+        }
+        EXPECT_EQ(planes[0], planes[1]) << (sun ? "sun" : "lamp");
+    }
+}
+
 TEST_F(SweptVolumeTest, FewBoxesThatTouchNoRayAreKept) {
     RandomScene random(print_seed());
     int kept = 0, met = 0;
