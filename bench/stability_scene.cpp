@@ -92,7 +92,7 @@ std::vector<SurfacePoint> surface_points(const SceneSnapshot& scene, const asset
             const oracle::SurfaceHit hit = world.nearest_surface(ray, stations[s].near_m, stations[s].far_m);
             if (hit.triangle == oracle::kNoTriangle) continue;
             const oracle::WorldTriangle& triangle = world.triangles()[hit.triangle];
-            if (!triangle.receives) continue;
+            if (triangle.receive_layers == 0) continue;
             const glm::dvec3 normal = glm::normalize(oracle::front_normal(triangle));
             const bool back = glm::dot(normal, ray.direction) > 0.0;
             points.push_back({origin_ws_m + ray.origin + hit.t * ray.direction, back ? -normal : normal});

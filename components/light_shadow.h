@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "components/shadow_layers.h"
+
 namespace gnomon {
 
 /// Rows of the filter table (systems/shadow/filter_table.h), one per shaders/shadow/filters file.
@@ -29,6 +31,11 @@ enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 /// Where a sun's cascades end along the view. `practical` mixes logarithmic and uniform ends by split_lambda; `seen`
 /// does the same over those depths alone at which receivers lie; `manual` takes split_m.
 enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen };
+
+/// Which faces of casters a light draws into its maps. Only meshes that are known to be solid have sides to choose from
+/// (closed, wound outward, opaque and single-sided throughout); of all others both are drawn, whatever is asked for,
+/// because light would shine through what has one side only. So are solids whose box holds the light.
+enum class CasterFaces : std::uint8_t { automatic, front, back, both };
 
 inline constexpr std::size_t kMaxCascades = 8;
 
@@ -61,6 +68,8 @@ struct LightShadow {
     /// CascadeSplits::manual: metres along the view, rising; 0 ends the list. One cascade more than distances.
     std::array<float, kMaxCascades - 1> split_m{};
     float cascade_blend = 0.0f;  // share of a cascade that fades into the next one, 0 to 0.5
+    CasterFaces caster_faces = CasterFaces::automatic;  // automatic: front, which measures best (docs/accuracy.md)
+    ShadowLayers layers = kAllShadowLayers;             // whose shadows fall on whom (shadow_layers.h)
     bool economy = true;               // false: redraw every view every frame, change nothing else
     bool operator==(const LightShadow&) const = default;
 };

@@ -72,6 +72,9 @@ template <>
 constexpr std::array<std::string_view, 5> kWords<CascadeSplits>{"practical", "uniform", "logarithmic", "manual",
                                                                 "seen"};
 
+template <>
+constexpr std::array<std::string_view, 4> kWords<CasterFaces>{"automatic", "front", "back", "both"};
+
 template <class Enum>
 std::string_view word(std::size_t index) {
     return index < kWords<Enum>.size() ? kWords<Enum>[index] : std::string_view{};
@@ -151,6 +154,14 @@ bool set_cascades(LightShadow& shadow, std::string_view text) {
     return true;
 }
 std::string get_cascades(const LightShadow& shadow) { return std::to_string(shadow.cascades); }
+
+bool set_layers(LightShadow& shadow, std::string_view text) {
+    const auto value = read_count(text);
+    if (!value || *value > kAllShadowLayers) return false;
+    shadow.layers = static_cast<ShadowLayers>(*value);
+    return true;
+}
+std::string get_layers(const LightShadow& shadow) { return std::to_string(shadow.layers); }
 
 /// A share of 0 to kMost hundredths.
 template <float LightShadow::*field, int kMost>
@@ -325,6 +336,21 @@ constexpr std::array kSettings{
                  .get = get_float<&S::cascade_blend>,
                  .editor = kNumber,
                  .slider_most = 0.5},
+    LightSetting{.key = "caster_faces",
+                 .values = "automatic | front | back | both",
+                 .meaning = "which faces of closed casters are drawn; of all others both",
+                 .set = set_word<&S::caster_faces, CasterFaces>,
+                 .get = get_word<&S::caster_faces, CasterFaces>,
+                 .editor = kChoice,
+                 .choice = word<CasterFaces>},
+    LightSetting{.key = "layers",
+                 .values = "0 ... 255",
+                 .meaning = "a bit per layer: casters and receivers that share none cast and take no shadow",
+                 .set = set_layers,
+                 .get = get_layers,
+                 .editor = kNumber,
+                 .slider_most = kAllShadowLayers,
+                 .whole = true},
     LightSetting{.key = "economy",
                  .values = "on | off",
                  .meaning = "off: redraw every map every frame, change nothing else",

@@ -15,6 +15,7 @@ layout(location = 0) out vec4 colour_out;
 #include "row.glsl"
 #include "shadow/light_block.glsl"
 #include "shadow/visibility.glsl"
+#include "shadow/layers.glsl"
 #include "lighting/light_at.glsl"
 #include "lighting/brdf.glsl"
 #endif
@@ -29,7 +30,7 @@ void main() {
     vec3 added = vec3(0.0);
     if (incoming.reaches && dot(geometric, incoming.to_light) > 0.0) {
         float visible = 1.0;
-        if (instance.low.w > 0.5)
+        if (takes_shadow(instance.low.w))
             visible = shadow_visibility(fragment_position_ca, geometric,
                                         kRebuiltRelative * length(fragment_position_ca));
         added = visible * incoming.radiance *

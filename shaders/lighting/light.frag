@@ -3,6 +3,7 @@
 #include "row.glsl"
 #include "shadow/light_block.glsl"
 #include "shadow/visibility.glsl"
+#include "shadow/layers.glsl"
 #include "lighting/light_at.glsl"
 #include "lighting/brdf.glsl"
 #ifdef WRITE_VISIBILITY
@@ -19,7 +20,7 @@ void main() {
     float visible = 0.0;
     if (incoming.reaches && facing > 0.0) {
         visible = 1.0;
-        if (surface.receives)
+        if (takes_shadow(surface.shadow_layers))
             visible = shadow_visibility(surface.position_ca, surface.geometric_normal, surface.error_m);
     }
 #ifdef WRITE_VISIBILITY

@@ -5,7 +5,7 @@
 layout(binding = 0) uniform sampler2D surface_depth;
 layout(binding = 1) uniform sampler2D surface_colour;
 layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
-layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, receives shadow
+layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255
 
 struct Surface {
     bool exists;
@@ -15,7 +15,7 @@ struct Surface {
     vec3 geometric_normal;
     vec3 colour;
     float metallic, roughness;
-    bool receives;
+    float shadow_layers;  // those it receives, as an integer
     float error_m;        // how far position_ca may be off the true surface
 };
 
@@ -50,7 +50,7 @@ Surface read_surface(ivec2 pixel) {
     vec4 m = texelFetch(surface_material, pixel, 0);
     s.metallic = m.r;
     s.roughness = m.g;
-    s.receives = m.b > 0.5;
+    s.shadow_layers = m.b * 255.0;
     s.error_m = surface_error_m(s.position_ca);
     return s;
 }

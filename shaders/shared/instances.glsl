@@ -3,7 +3,7 @@ struct InstanceRecord {
     vec4 basis_x;   // xyz: image of the model's x axis; w: high part of the translation's x
     vec4 basis_y;
     vec4 basis_z;
-    vec4 low;       // xyz: low part of the translation; w: 1 if the instance receives shadows
+    vec4 low;       // xyz: low part of the translation; w: a bit per layer whose shadows it receives, 0 to 255
 };
 layout(std430, binding = 0) readonly buffer InstanceBuffer { InstanceRecord instances[]; };
 

@@ -153,8 +153,11 @@ void Extractor::list_instance(const ecs::Registry& registry, const assets::MeshL
     item.mesh = ref.mesh;
     item.visible = ref.visible;
     item.receives = ref.receives_shadow;
-    const ShadowCaster* caster = registry.get<ShadowCaster>(entity);
-    item.casts = caster && caster->enabled;
+    item.receive_layers = ref.shadow_layers;
+    if (const ShadowCaster* caster = registry.get<ShadowCaster>(entity)) {
+        item.casts = caster->enabled;
+        item.cast_layers = caster->layers;
+    }
     if (!place(item, *registry.get<WorldTransform>(entity), mesh)) {
         unusable_.push_back({entity, name_of(registry, entity), DropReason::zero_scale});
         return;
@@ -224,10 +227,10 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
         InstanceItem& item = snapshot.instances[i];
         while (old < before.size() && before[old].entity.index < item.entity.index) ++old;
         const InstanceItem* was = old < before.size() && before[old].entity == item.entity ? &before[old] : nullptr;
-        const bool same = was && was->mesh == item.mesh && was->gpu_slot == item.gpu_slot && was->basis == item.basis &&
-                          was->translation_ws_m == item.translation_ws_m && was->casts == item.casts &&
-                          was->receives == item.receives && was->visible == item.visible;
-        item.version = same ? was->version : snapshot.version;
+        const bool placed = was && was->mesh == item.mesh && was->gpu_slot == item.gpu_slot &&
+                            was->basis == item.basis && was->translation_ws_m == item.translation_ws_m;
+        item.version = placed ? was->version : snapshot.version;
+        const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers;
         // One that touch_moved() had already moved when it gave up equals itself, but is not on the device.
         if (!same || was->version == snapshot.version) snapshot.changed_instances.push_back(i);
     }

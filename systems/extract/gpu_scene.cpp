@@ -66,7 +66,7 @@ InstanceRecord instance_record(const InstanceItem& item) {
     column(1, r.basis_y_high_y);
     column(2, r.basis_z_high_z);
     for (int i = 0; i < 3; ++i) r.low_receives[i] = t.low[i];
-    r.low_receives[3] = item.receives ? 1.0f : 0.0f;
+    r.low_receives[3] = item.receives ? static_cast<float>(item.receive_layers) : 0.0f;
     return r;
 }
 

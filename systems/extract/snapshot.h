@@ -56,10 +56,20 @@ struct InstanceItem {
     math::Aabb bounds_ws = {};  // finite, not empty
     bool casts = false;
     bool receives = true;
+    ShadowLayers cast_layers = kAllShadowLayers;
+    ShadowLayers receive_layers = kAllShadowLayers;
     bool visible = true;
-    bool mirrored = false;      // negative determinant
-    std::uint64_t version = 0;  // grows whenever any of the above changed
+    bool mirrored = false;  // negative determinant
+    std::uint64_t version = 0;  // grows whenever mesh or placement changed: what maps show of it. It need not for the rest
 };
+
+/// Whether it stands in the light's way at all, and whether that light's shadows fall on it.
+inline bool casts_under(const LightItem& light, const InstanceItem& item) {
+    return item.casts && (light.shadow.layers & item.cast_layers) != 0;
+}
+inline bool receives_under(const LightItem& light, const InstanceItem& item) {
+    return item.receives && (light.shadow.layers & item.receive_layers) != 0;
+}
 
 enum class DropReason : std::uint8_t {
     non_finite_transform,

@@ -24,9 +24,10 @@ struct Signature {
 }  // namespace
 
 std::uint64_t content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                std::span<const std::uint32_t> casters) {
+                                std::span<const std::uint32_t> casters, CasterFaces faces) {
     Signature s;
     s.add(std::uint64_t{size_px});
+    s.add(static_cast<std::uint64_t>(faces));
     for (int i = 0; i < 3; ++i) s.add(view.anchor_ws_m[i]);
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) s.add(view.clip_from_anchor[column][row]);
@@ -172,7 +173,8 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
         slot.size_px = history.desc.width;
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
         slot.reuse = light.shadow.economy &&
-                     history.content[view.layer] == content_signature(view, slot.size_px, scene, casters);
+                     history.content[view.layer] ==
+                         content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
     }
     choose_routes(scene, frame);
 }
@@ -204,8 +206,9 @@ void MapStore::commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool
         if (!slot.texture || slot.reuse) continue;
         const ShadowView& view = frame.views[v];
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-        LightHistory& history = entry(scene.lights[frame.demands[view.demand].light].entity);
-        history.content[view.layer] = drawn ? content_signature(view, slot.size_px, scene, casters) : 0;
+        const LightItem& light = scene.lights[frame.demands[view.demand].light];
+        const std::uint64_t content = content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
+        entry(light.entity).content[view.layer] = drawn ? content : 0;
     }
 }
 

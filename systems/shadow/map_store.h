@@ -60,9 +60,9 @@ private:
     std::uint64_t frame_ = 0;
 };
 
-/// Everything that decides a view's depth picture, as one number: matrices, size, casters and their versions.
+/// Everything that decides a view's depth picture, as one number: matrices, size, casters, their versions and faces.
 /// Never 0. Two different pictures share a number with probability 2^-64.
 std::uint64_t content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                std::span<const std::uint32_t> casters);
+                                std::span<const std::uint32_t> casters, CasterFaces faces);
 
 }  // namespace gnomon::shadow

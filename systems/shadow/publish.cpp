@@ -50,7 +50,7 @@ LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
     LightRecord record;
     record.position = with_w(light.position_ws_m - consumer.position_ws_m, light.range_m);
     if (light.kind == LightKind::directional) record.position = with_w(-consumer.rotation_ws[2], 0.0);
-    record.to_light = with_w(light.rotation_ws[2], 0.0);
+    record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
     record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
     // KHR_lights_punctual's own guard against inner == outer.

@@ -37,6 +37,13 @@ gl::PipelineState depth_state(gl::ProgramHandle program) {
     return {program, gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off};
 }
 
+/// By mesh; those that wind the other way last, so that few draws hold all that cull alike; then by index.
+bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) {
+    const InstanceItem &first = scene.instances[a], &second = scene.instances[b];
+    if (first.mesh != second.mesh) return first.mesh < second.mesh;
+    return first.mirrored != second.mirrored ? second.mirrored : a < b;
+}
+
 void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {
     frame.sets[demand].skip = reason;
     for (std::size_t v = 0; v < frame.views.size(); ++v)
@@ -123,21 +130,17 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
             if (is_drawn(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
 }
 
-/// From outside a solid the nearest surface is always a front face: its back faces need not be drawn. From inside,
-/// where the light is in its box, there are only back faces.
-gl::PipelineState DepthRecorder::opaque_state(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowView& view,
-                                              std::span<const std::uint32_t> run) const {
+/// From outside a solid the nearest surface is always a front face: one side of it is enough. From inside, where the
+/// light is in its box, there are only back faces, and the box does not tell which it is.
+gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
+                                              const InstanceItem& item) const {
     gl::PipelineState state = depth_state(programs_[which(route_, false)]);
-    const InstanceItem& head = scene.instances[run.front()];
-    if (!gpu.mesh(head.mesh).solid) return state;
-    const bool distant = view.projection == ViewProjection::orthographic;
-    for (const std::uint32_t i : run) {
-        const InstanceItem& item = scene.instances[i];
-        const bool outside = distant || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
-        if (!outside || item.mirrored != head.mirrored) return state;
-    }
-    state.cull = gl::CullMode::back;
-    state.front_is_clockwise = head.mirrored;
+    const CasterFaces faces = light.shadow.caster_faces;
+    const bool outside =
+        view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
+    if (faces == CasterFaces::both || !outside || !gpu.mesh(item.mesh).solid) return state;
+    state.cull = faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
+    state.front_is_clockwise = item.mirrored;
     return state;
 }
 
@@ -188,11 +191,15 @@ void DepthRecorder::gather_view(const SceneSnapshot& scene, const ShadowFrame& f
     const std::size_t at = view_scratch_.size();
     view_scratch_.resize(at + aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment));
     append_uniforms(view, at);
-    for (std::uint32_t i = 0; i < view.casters.count; ++i) {
-        const std::uint32_t item = frame.view_caster_items[view.casters.first + i];
-        caster_scratch_.push_back(item);
-        item_scratch_.push_back({scene.instances[item].gpu_slot, 0});
-    }
+    const std::size_t first = caster_scratch_.size();
+    const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+    caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
+    const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].mirrored; };
+    if (std::any_of(casters.begin(), casters.end(), mirrored))
+        std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });
+    for (std::size_t i = first; i < caster_scratch_.size(); ++i)
+        item_scratch_.push_back({scene.instances[caster_scratch_[i]].gpu_slot, 0});
 }
 
 /// The casters of all views, by mesh: one draw per mesh draws it into every face.
@@ -210,8 +217,7 @@ void DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame&
             layer_scratch_.emplace_back(frame.view_caster_items[view.casters.first + i], view.layer);
     }
     std::sort(layer_scratch_.begin(), layer_scratch_.end(), [&](const auto& a, const auto& b) {
-        const std::uint32_t mesh_a = scene.instances[a.first].mesh, mesh_b = scene.instances[b.first].mesh;
-        return mesh_a != mesh_b ? mesh_a < mesh_b : a < b;
+        return a.first != b.first ? drawn_before(scene, a.first, b.first) : a.second < b.second;
     });
     for (const auto& [item, layer] : layer_scratch_) {
         caster_scratch_.push_back(item);
@@ -270,9 +276,15 @@ void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const 
     pipeline_ = {};
     route_ = frame.slots[pass.first].route;
     next_item_ = pass.casters.first;
+    const LightItem& light = scene.lights[frame.demands[view.demand].light];
+    const auto state_of = [&](std::uint32_t i) { return opaque_state(gpu, view, light, scene.instances[casters[i]]); };
     for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
-        draw_run(gpu, mesh, opaque_state(scene, gpu, view, casters.subspan(first, count)), count, list, report);
-        next_item_ += count;
+        for (std::uint32_t from = first, to = first; from < first + count; from = to) {
+            const gl::PipelineState state = state_of(from);
+            while (to < first + count && state_of(to) == state) ++to;
+            draw_run(gpu, mesh, state, to - from, list, report);
+            next_item_ += to - from;
+        }
     });
 }
 

@@ -50,8 +50,8 @@ private:
     void begin(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass, gl::CommandList& list) const;
     void draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
               gl::CommandList& list, LightReport& report);
-    gl::PipelineState opaque_state(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowView& view,
-                                   std::span<const std::uint32_t> run) const;
+    gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
+                                   const InstanceItem& item) const;
     void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t count,
                   gl::CommandList& list, LightReport& report);
 

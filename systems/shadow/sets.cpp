@@ -93,7 +93,8 @@ private:
                 return reached == Overlap::inside ? seen : reached;
             };
             visit_instances(scene_, classify, [&](std::uint32_t i) {
-                if (scene_.instances[i].visible && scene_.instances[i].receives) mark(scratch_.marks, i);
+                const InstanceItem& item = scene_.instances[i];
+                if (item.visible && receives_under(light_, item)) mark(scratch_.marks, i);
             });
             for_each_mark(scratch_.marks, [&](std::uint32_t i) { scratch_.candidates.push_back({i, c}); });
         }
@@ -152,7 +153,7 @@ private:
 };
 
 /// Casters that touch any of the light's beams.
-void select_casters(const SceneSnapshot& scene, PotentialSets& sets, ShadowFrame& frame) {
+void select_casters(const SceneSnapshot& scene, const LightItem& light, PotentialSets& sets, ShadowFrame& frame) {
     std::vector<std::uint64_t>& marks = frame.set_scratch.marks;
     clear_marks(marks, scene.instances.size());
     for (std::uint32_t b = sets.beams.first; b < sets.beams.first + sets.beams.count; ++b) {
@@ -163,7 +164,7 @@ void select_casters(const SceneSnapshot& scene, PotentialSets& sets, ShadowFrame
         visit_instances(
             scene, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
-                if (scene.instances[i].casts) mark(marks, i);
+                if (casts_under(light, scene.instances[i])) mark(marks, i);
             });
     }
     sets.casters.first = static_cast<std::uint32_t>(frame.caster_items.size());
@@ -193,7 +194,7 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
         sets.skip = demand.skip;
         if (demand.skip == Reason::none) {
             sets = Search(scene, demand, frame).run();
-            select_casters(scene, sets, frame);
+            select_casters(scene, scene.lights[demand.light], sets, frame);
             if (sets.casters.count == 0) sets.skip = Reason::no_caster;
             if (sets.receivers.count == 0) sets.skip = Reason::no_visible_receiver;
         }

@@ -41,7 +41,11 @@ LightOpening opening_of(const ShadowView& view) {
 class ViewSearch {
 public:
     ViewSearch(const SceneSnapshot& scene, const ShadowView& view, ShadowFrame& frame)
-        : scene_(scene), view_(view), frame_(frame), scratch_(frame.set_scratch) {
+        : scene_(scene),
+          light_(scene.lights[frame.demands[view.demand].light]),
+          view_(view),
+          frame_(frame),
+          scratch_(frame.set_scratch) {
         const ShadowDemand& demand = frame.demands[view.demand];
         // A tap reaches E texels from its point, which may lie anywhere in its texel.
         const double reach = std::ceil(static_cast<double>(filter_row(demand.filter).reach_texel)) + 1.0;
@@ -70,7 +74,7 @@ private:
         visit_instances(
             scene_, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
-                if (scene_.instances[i].casts) mark(scratch_.marks, i);
+                if (casts_under(light_, scene_.instances[i])) mark(scratch_.marks, i);
             });
     }
 
@@ -157,6 +161,7 @@ private:
     }
 
     const SceneSnapshot& scene_;
+    const LightItem& light_;
     const ShadowView& view_;
     ShadowFrame& frame_;
     SetScratch& scratch_;

@@ -71,8 +71,9 @@ struct LightTracer {
         glm::dvec3 to_light;
         double t_max = 0.0;
         if (!reach(light, light_rel_m, point, to_light, t_max)) return 0.0f;
-        if (!world.triangles()[triangle].receives) return 1.0f;
-        const std::uint32_t found = world.occluder(make_ray(point, to_light), t_max, triangle, hint);
+        const ShadowLayers layers = light.shadow.layers;
+        if ((world.triangles()[triangle].receive_layers & layers) == 0) return 1.0f;
+        const std::uint32_t found = world.occluder(make_ray(point, to_light), t_max, triangle, hint, layers);
         if (found == kNoTriangle) return 1.0f;
         hint = found;
         return 0.0f;

@@ -55,8 +55,8 @@ public:
     /// near and far plane. Masked texels are looked through.
     PrimaryHits trace_primary(const ConsumerItem& consumer) const;
 
-    /// One shadow ray per surface in reach. Both faces of casters block; masked texels do not.
-    /// Surfaces of instances that do not receive shadows are lit where they face the light within its reach.
+    /// One shadow ray per surface in reach. Both faces of casters of the light's layers block; masked texels do not.
+    /// Surfaces of instances that do not receive its shadows are lit where they face the light within its reach.
     /// `with_ambiguous` costs up to four more rays per scored pixel; without it the flags are all 0.
     LightTruth trace_light(const PrimaryHits& hits, const LightItem& light, bool with_ambiguous) const;
 

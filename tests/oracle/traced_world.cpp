@@ -33,6 +33,7 @@ struct Query {
     QueryContext context{};
     const ExactRay* ray = nullptr;
     double t_min = 0.0, t_max = kInfinity;
+    ShadowLayers layers = 0;
     std::uint32_t start_triangle = kNoTriangle;
     SurfaceHit best;
 };
@@ -114,8 +115,8 @@ void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index) {
             t.mesh = item.mesh;
             t.material = submesh.material;
             t.visible = item.visible;
-            t.casts = item.casts;
-            t.receives = item.receives;
+            t.cast_layers = item.casts ? item.cast_layers : ShadowLayers{0};
+            t.receive_layers = item.receives ? item.receive_layers : ShadowLayers{0};
             t.mirrored = item.mirrored;
             t.double_sided = material.double_sided;
             t.masked = material.alpha_mode == assets::AlphaMode::mask;
@@ -134,11 +135,11 @@ bool TracedWorld::is_there(const WorldTriangle& triangle, const ExactHit& hit) c
     return passes_mask(library_, library_.materials[triangle.material], hit.u * uv(0) + hit.v * uv(1) + hit.w * uv(2));
 }
 
-bool TracedWorld::blocks(const ExactRay& ray, double t_max, std::uint32_t start_triangle,
+bool TracedWorld::blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
                          std::uint32_t triangle) const {
     const WorldTriangle& t = triangles_[triangle];
     ExactHit hit;
-    if (triangle == start_triangle || !t.casts || !intersect(ray, t.a, t.b, t.c, hit)) return false;
+    if (triangle == start_triangle || (t.cast_layers & layers) == 0 || !intersect(ray, t.a, t.b, t.c, hit)) return false;
     if (!(hit.t > 0.0 && hit.t < t_max)) return false;
     const glm::dvec3 n = front_normal(t);
     if (std::abs(glm::dot(n, ray.origin - t.a)) <= plane_error_m_ * glm::length(n)) return false;
@@ -165,9 +166,10 @@ SurfaceHit TracedWorld::nearest_surface(const ExactRay& ray, double t_min, doubl
 }
 
 std::uint32_t TracedWorld::occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle,
-                                    std::uint32_t hint) const {
-    if (hint != kNoTriangle && blocks(ray, t_max, start_triangle, hint)) return hint;
+                                    std::uint32_t hint, ShadowLayers layers) const {
+    if (hint != kNoTriangle && blocks(ray, t_max, layers, start_triangle, hint)) return hint;
     Query query = make_query(ray, 0.0, t_max);
+    query.layers = layers;
     query.start_triangle = start_triangle;
     RTCRay r = to_embree(ray, t_max);
     occlude(scene_, query.context, r);
@@ -206,7 +208,7 @@ void TracedWorld::occluded_callback(const RTCOccludedFunctionNArguments* args) {
     if (!args->valid[0]) return;
     const auto& world = *static_cast<const TracedWorld*>(args->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(args->context);
-    if (!world.blocks(*query.ray, query.t_max, query.start_triangle, args->primID)) return;
+    if (!world.blocks(*query.ray, query.t_max, query.layers, query.start_triangle, args->primID)) return;
     query.best = {args->primID, 0.0};
     RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
 }

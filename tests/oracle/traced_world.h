@@ -16,7 +16,8 @@ namespace gnomon::oracle {
 struct WorldTriangle {
     glm::dvec3 a{0.0}, b{0.0}, c{0.0};  // relative to the origin, in the mesh's winding
     std::uint32_t instance = 0, mesh = 0, first_index = 0, material = 0;
-    bool visible = false, casts = false, receives = true, mirrored = false, double_sided = false, masked = false;
+    ShadowLayers cast_layers = 0, receive_layers = 0;  // 0: casts, receives nothing
+    bool visible = false, mirrored = false, double_sided = false, masked = false;
 };
 
 /// Counter-clockwise side, not normalised; zero or not finite for degenerate triangles.
@@ -43,12 +44,14 @@ public:
     /// Nearest visible surface with t in [t_min, t_max]; of equal t the lowest triangle number.
     SurfaceHit nearest_surface(const ExactRay& ray, double t_min, double t_max) const;
 
-    /// Number of a caster that meets the ray at t in (0, t_max), or kNoTriangle. `hint` is tried first (an occluder of
+    /// Number of a caster of these layers that meets the ray at t in (0, t_max), or kNoTriangle. `hint` is tried first (an occluder of
     /// a nearby ray, or kNoTriangle) and changes only the time that is needed.
-    std::uint32_t occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint) const;
+    std::uint32_t occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint,
+                           ShadowLayers layers = kAllShadowLayers) const;
 
     /// The tests that decide, for one triangle.
-    bool blocks(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t triangle) const;
+    bool blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
+                std::uint32_t triangle) const;
     bool shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t) const;
 
 private:

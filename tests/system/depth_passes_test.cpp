@@ -315,7 +315,7 @@ TEST_F(SolidCasters, AreDrawnFromBothSidesByALightInside) {
     add_solid({2, 1, 0});
     world.add_light(LightKind::spot, {0, 3.3, 0.1}, "lamp");
     step();
-    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none)) << "both are one draw";
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none, gl::CullMode::back)) << "the other one is culled";
 }
 
 TEST_F(SolidCasters, WindTheOtherWayWhenMirrored) {
@@ -329,7 +329,58 @@ TEST_F(SolidCasters, WindTheOtherWayWhenMirrored) {
     EXPECT_TRUE(depth_passes().at(0).pipelines[0].front_is_clockwise);
     add_solid({2, 1, 0});
     step();
-    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::none)) << "one draw holds both windings";
+    const ecs::Entity third = add_solid({-2, 1, 0});
+    step();
+    ASSERT_THAT(depth_passes().at(0).draws, SizeIs(2)) << "one draw per winding";
+    EXPECT_THAT(culling(), ElementsAre(gl::CullMode::back, gl::CullMode::back));
+    EXPECT_FALSE(depth_passes().at(0).pipelines[0].front_is_clockwise);
+    EXPECT_TRUE(depth_passes().at(0).pipelines[1].front_is_clockwise);
+    EXPECT_EQ(drawn_slots(depth_passes().at(0)).back(), slot_of(mirrored)) << "those that wind alike are one draw";
+    EXPECT_EQ(depth_passes().at(0).draws[0].item_count, 2u) << slot_of(third);
+}
+
+TEST_F(SolidCasters, AreDrawnByTheFacesThatTheLightAsksFor) {
+    world.registry.destroy(stage.box);
+    add_solid({0, 1, 0});
+    const ecs::Entity mirrored = add_solid({1.5, 1, 0});
+    world.registry.patch<Transform>(mirrored, [](Transform& t) { t.scale.z = -1.0; });
+    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) {
+        const ecs::Entity lamp = world.add_light(kind, kLightPlace_m, "lamp");
+        struct Want {
+            CasterFaces faces;
+            std::vector<gl::CullMode> culled;
+        };
+        using enum gl::CullMode;
+        for (const Want& want : {Want{CasterFaces::automatic, {back, back}}, Want{CasterFaces::front, {back, back}},
+                                 Want{CasterFaces::back, {front, front}}, Want{CasterFaces::both, {none}}}) {
+            world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.caster_faces = want.faces; });
+            step();
+            if (want.faces != CasterFaces::front) {
+                ASSERT_THAT(depth_passes(), Not(IsEmpty())) << "other faces are another picture";
+            }
+            for (const Pass& pass : depth_passes()) {
+                if (pass.draws.empty()) continue;
+                std::vector<gl::CullMode> modes;
+                for (const gl::PipelineState& state : pass.pipelines) {
+                    EXPECT_EQ(state.front_is_clockwise, state.cull != none && !modes.empty()) << "mirrored come last";
+                    modes.push_back(state.cull);
+                }
+                EXPECT_THAT(modes, ::testing::ElementsAreArray(want.culled));
+            }
+        }
+        world.registry.destroy(lamp);
+    }
+}
+
+TEST_F(SolidCasters, AreTheOnlyOnesThatFacesAreAskedOf) {
+    world.add_mesh(kMaskedBox, {-1, 1, 0}, true);
+    world.add_mesh(kMixedBox, {1, 1, 0}, true);
+    const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    for (const CasterFaces faces : {CasterFaces::front, CasterFaces::back}) {
+        world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.caster_faces = faces; });
+        step();
+        EXPECT_THAT(culling(), Each(gl::CullMode::none));
+    }
 }
 
 TEST_F(SolidCasters, ShareThePipelineWithTheirLike) {

@@ -29,6 +29,8 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .split_lambda = 0.35f,
                     .split_m = {1.5f, 7.1f, 1e11f},
                     .cascade_blend = 0.21f,
+                    .caster_faces = CasterFaces::back,
+                    .layers = 0x42,
                     .economy = false};
     LightShadow copy;
     for (const LightSetting& setting : light_settings())
@@ -65,6 +67,7 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"split_lambda=1.1", "set.value"}, {"cascade_blend=0.6", "set.value"},
                 {"split_m=5,4", "set.value"},      {"split_m=", "set.value"},
                 {"split_m=1,2,3,4,5,6,7,8", "set.value"}, {"split_m=1,,2", "set.value"},
+                {"caster_faces=inside", "set.value"}, {"layers=256", "set.value"}, {"layers=-1", "set.value"},
                 {"split_m=-1", "set.value"},       {"split_m=1,", "set.value"}};
     for (const auto& row : rows) {
         LightShadow shadow;

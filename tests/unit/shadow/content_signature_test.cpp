@@ -13,6 +13,7 @@ struct Input {
     std::uint32_t size_px = 512;
     SceneSnapshot scene;
     std::vector<std::uint32_t> casters{0, 1, 2};
+    CasterFaces faces = CasterFaces::automatic;
     Input() {
         for (std::uint32_t i = 0; i < 4; ++i) {
             InstanceItem item;
@@ -21,7 +22,7 @@ struct Input {
             scene.instances.push_back(item);
         }
     }
-    std::uint64_t signature() const { return content_signature(view, size_px, scene, casters); }
+    std::uint64_t signature() const { return content_signature(view, size_px, scene, casters, faces); }
 };
 
 TEST(ContentSignature, IsTheSameForTheSameAndNeverZero) {
@@ -41,6 +42,7 @@ TEST(ContentSignature, EveryThingThatDecidesThePictureChangesIt) {
         [](Input& i) { i.casters.clear(); },
         [](Input& i) { ++i.scene.instances[1].version; },
         [](Input& i) { i.scene.instances[1].gpu_slot = 9; },
+        [](Input& i) { i.faces = CasterFaces::back; },
     };
     for (int k = 0; k < 3; ++k)
         edits.push_back([k](Input& i) { i.view.anchor_ws_m[k] = 1e-12; });
