@@ -296,7 +296,7 @@ private:
         const bool fast = traced_.occluder(exact, 1.0, oracle::kNoTriangle, oracle::kNoTriangle) != oracle::kNoTriangle;
         bool slow = false;
         for (std::uint32_t t = 0; t < traced_.triangles().size() && !slow; ++t)
-            slow = traced_.blocks(exact, 1.0, oracle::kNoTriangle, t);
+            slow = traced_.blocks(exact, 1.0, kAllShadowLayers, oracle::kNoTriangle, t);
         if (fast != slow) note(verdict_.audit_wrong, "Embree and all triangles disagree at " + words(ray.from));
     }
 
