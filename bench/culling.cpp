@@ -2,14 +2,13 @@
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
-#include <random>
+#include <cstdio>
+#include <regex>
 #include <vector>
 
-#include "engine/math/frustum.h"
+#include "bench/one_fit.h"
+#include "bench/plain.h"
 #include "systems/extract/scene_tree.h"
-#include "systems/shadow/demand.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/sets.h"
@@ -18,51 +17,7 @@
 namespace gnomon::bench {
 namespace {
 
-/// Boxes of about a metre on a plain, four to a hundred square metres, with a light of `kind` and a camera above them.
-/// `sight_m`: how far the camera sees; as far as the plain goes if 0.
-SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m) {
-    std::mt19937_64 random(7);
-    const double side_m = 5.0 * std::sqrt(static_cast<double>(boxes));
-    const auto number = [&](double from, double to) {
-        return std::uniform_real_distribution<double>(from, to)(random);
-    };
-    SceneSnapshot scene;
-    for (std::int64_t i = 0; i < boxes; ++i) {
-        InstanceItem item;
-        item.mesh = static_cast<std::uint32_t>(i % 50);
-        item.gpu_slot = static_cast<std::uint32_t>(i);
-        const glm::dvec3 centre(number(-0.5, 0.5) * side_m, number(0.0, 2.0), number(-0.5, 0.5) * side_m);
-        const glm::dvec3 half(number(0.2, 1.0), number(0.2, 2.0), number(0.2, 1.0));
-        item.bounds_ws = {centre - half, centre + half};
-        item.casts = true;
-        scene.instances.push_back(item);
-    }
-    ConsumerItem camera;
-    camera.position_ws_m = {0.0, 10.0, 0.5 * side_m};
-    camera.rotation_ws = math::basis_from_back(glm::dvec3(0.0, 0.3, 1.0));
-    camera.fov_y_rad = 1.2;
-    camera.far_m = sight_m > 0.0 ? sight_m : 4.0 * side_m;
-    scene.consumers.push_back(camera);
-    LightItem light;
-    light.kind = kind;
-    light.intensity = 1.0f;
-    light.has_shadow = true;
-    light.shadow.resolution_px = 2048;
-    light.position_ws_m = {0.0, 40.0, 0.5 * side_m - 40.0};
-    light.rotation_ws = math::basis_from_back(glm::dvec3(0.4, 1.0, 0.2));
-    light.outer_cone_rad = 0.9;
-    scene.lights.push_back(light);
-    build_tree(scene);
-    return scene;
-}
-
 LightKind kind_of(const benchmark::State& state) { return static_cast<LightKind>(state.range(1)); }
-
-void decide(const SceneSnapshot& scene, shadow::ShadowFrame& frame) {
-    gl::DeviceInfo device;
-    device.max_texture_px = device.max_cube_px = 16384;  // a large one's, so that no map is cut
-    shadow::decide_demand(scene, device, true, {}, frame.demands);
-}
 
 void note(benchmark::State& state, const shadow::ShadowFrame& frame) {
     state.counters["seen"] = static_cast<double>(frame.sets[0].receivers.count);
@@ -108,23 +63,8 @@ void fit(benchmark::State& state) {
     shadow::ShadowFrame frame;
     decide(scene, frame);
     shadow::select_sets(scene, frame);
-    const shadow::PotentialSets& sets = frame.sets[0];
     shadow::HeldLight held, next;
-    const auto part = [](const auto& items, shadow::IndexRange range) {
-        return std::span(items).subspan(range.first, range.count);
-    };
-    const shadow::FitInput input{.light = scene.lights[0],
-                                 .demand = frame.demands[0],
-                                 .scene = scene,
-                                 .receivers = part(frame.receiver_items, sets.receivers),
-                                 .casters = part(frame.caster_items, sets.casters),
-                                 .receiver_points_ws = part(frame.receiver_points_ws, sets.receiver_points),
-                                 .beams = part(frame.beams, sets.beams),
-                                 .frame_points_ws = frame.receiver_points_ws,
-                                 .reach_texel = shadow::filter_row(frame.demands[0].filter).reach_texel,
-                                 .scratch = frame.fit_scratch,
-                                 .held = held,
-                                 .next = next};
+    const shadow::FitInput input = fit_input(scene, frame, held, next);
     std::vector<shadow::ShadowView> views;
     for (auto _ : state) {
         views.clear();
@@ -133,7 +73,7 @@ void fit(benchmark::State& state) {
     }
     note(state, frame);
     state.counters["views"] = static_cast<double>(views.size());
-    state.SetComplexityN(static_cast<std::int64_t>(sets.receivers.count));
+    state.SetComplexityN(static_cast<std::int64_t>(frame.sets[0].receivers.count));
     state.SetLabel(std::string(shadow::light_kind_row(kind_of(state)).name));
 }
 
@@ -200,6 +140,7 @@ void run_culling(const std::string& filter) {
     benchmark::Initialize(&count, arguments);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
+    if (std::regex_search("one_fit", std::regex(filter))) std::fputs(one_fit_table().c_str(), stdout);
 }
 
 }  // namespace gnomon::bench

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
 
 namespace gnomon::math {
 namespace {
@@ -17,25 +20,32 @@ constexpr std::size_t kManyPoints = 64;
 
 /// Moves the points that are not clearly inside the octagon to the front and returns them.
 std::span<glm::dvec2> outer_points(std::span<glm::dvec2> points) {
-    static constexpr std::array<glm::dvec2, 8> kDirections = {
-        {{-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}, {1, 1}, {0, 1}, {-1, 1}}};
+    // Outermost toward low x, low x + y, low y, low y - x, and the opposite of each.
     std::array<glm::dvec2, 8> outermost;
-    std::array<double, 8> farthest;
+    std::array<double, 4> low, high;
     outermost.fill(points.front());
-    for (std::size_t i = 0; i < 8; ++i) farthest[i] = glm::dot(kDirections[i], points.front());
-    for (const glm::dvec2& p : points)
-        for (std::size_t i = 0; i < 8; ++i) {
-            const double at = glm::dot(kDirections[i], p);
-            if (at > farthest[i]) {
-                farthest[i] = at;
-                outermost[i] = p;
-            }
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (const glm::dvec2& p : points) {
+        const std::array<double, 4> at = {p.x, p.x + p.y, p.y, p.y - p.x};
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (at[i] < low[i]) low[i] = at[i], outermost[i] = p;
+            if (at[i] > high[i]) high[i] = at[i], outermost[i + 4] = p;
         }
+    }
+    // Half-planes dot(normal, p) > least, so narrow that rounding cannot take a point of the rim for an inner one.
+    constexpr double kRounding = 0x1p-50;
+    std::array<glm::dvec3, 8> inside;  // normal, least
+    std::size_t count = 0;
+    const double size = std::max({-low[0], high[0], -low[2], high[2]});
+    for (std::size_t i = 0; i < 8; ++i) {
+        const glm::dvec2 &a = outermost[i], along = outermost[(i + 1) % 8] - a, normal(-along.y, along.x);
+        const double sides = std::abs(normal.x) + std::abs(normal.y);
+        if (sides > 0.0) inside[count++] = {normal, glm::dot(normal, a) + kRounding * sides * size};
+    }
     const auto outside = [&](const glm::dvec2& p) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            const glm::dvec2 &a = outermost[i], &b = outermost[(i + 1) % 8];
-            if (a != b && !(cross(a, b, p) > 0.0)) return true;
-        }
+        for (std::size_t i = 0; i < count; ++i)
+            if (!(inside[i].x * p.x + inside[i].y * p.y > inside[i].z)) return true;
         return false;
     };
     const auto kept = std::partition(points.begin(), points.end(), outside) - points.begin();
