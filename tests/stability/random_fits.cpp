@@ -67,6 +67,25 @@ ConsumerItem RandomFits::camera(const SceneSnapshot& scene) {
     return camera;
 }
 
+void RandomFits::cascades(LightShadow& shadow) {
+    shadow.fit = kFits[static_cast<std::size_t>(number(0.0, std::size(kFits)))];
+    shadow.splits = kSplits[static_cast<std::size_t>(number(0.0, std::size(kSplits)))];
+    shadow.cascades = static_cast<std::uint32_t>(number(0.0, kMaxCascades + 1.0));
+    shadow.split_lambda = static_cast<float>(number(0.0, 1.0));
+    if (chance(0.3)) shadow.cascade_blend = static_cast<float>(number(0.0, 0.5));
+}
+
+void RandomFits::eye(LightShadow& shadow) {
+    shadow.projection = LightProjection::perspective;
+    shadow.eye_angle_rad = static_cast<float>(size(0.01, 2.7));
+    if (chance(0.5)) shadow.eye_distance_m = static_cast<float>(size(0.5, 500.0));
+}
+
+void RandomFits::depth_range(LightShadow& shadow) {
+    if (chance(0.7)) shadow.near_m = static_cast<float>(size(0.01, 100.0));
+    if (chance(0.7)) shadow.far_m = (shadow.near_m > 0.0f ? shadow.near_m : 1.0f) * static_cast<float>(size(1.01, 100.0));
+}
+
 LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     LightItem light;
     light.kind = kind;
@@ -75,12 +94,10 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     light.shadow.resolution_px = kSizes_px[static_cast<std::size_t>(number(0.0, std::size(kSizes_px)))];
     light.shadow.filter = kFilters[static_cast<std::size_t>(number(0.0, std::size(kFilters)))];
     if (kind == LightKind::directional) {
-        light.shadow.fit = kFits[static_cast<std::size_t>(number(0.0, std::size(kFits)))];
-        light.shadow.splits = kSplits[static_cast<std::size_t>(number(0.0, std::size(kSplits)))];
-        light.shadow.cascades = static_cast<std::uint32_t>(number(0.0, kMaxCascades + 1.0));
-        light.shadow.split_lambda = static_cast<float>(number(0.0, 1.0));
-        if (chance(0.3)) light.shadow.cascade_blend = static_cast<float>(number(0.0, 0.5));
+        cascades(light.shadow);
+        if (chance(0.15)) eye(light.shadow);
     }
+    if (chance(0.15)) depth_range(light.shadow);
     const math::Aabb& near = scene.instances.front().bounds_ws;
     light.position_ws_m = on_lattice(chance(0.1) ? near.min : chance(0.2) ? math::centre(near) : vector(size(1.0, 128.0)));
     const math::Aabb& aim = scene.instances.back().bounds_ws;
@@ -96,7 +113,8 @@ SceneSnapshot RandomFits::scene(LightKind kind) {
     SceneSnapshot s;
     const auto count = static_cast<std::uint32_t>(number(1.0, 10.0));
     for (std::uint32_t i = 0; i < count; ++i) s.instances.push_back(box(i));
-    s.consumers.push_back(camera(s));
+    const std::size_t cameras = chance(0.15) ? static_cast<std::size_t>(number(2.0, 5.0)) : 1;
+    while (s.consumers.size() < cameras) s.consumers.push_back(camera(s));
     s.lights.push_back(light(kind, s));
     return s;
 }
@@ -138,6 +156,7 @@ void scale(SceneSnapshot& s, int power) {
     for (LightItem& l : s.lights) {
         l.position_ws_m *= by;
         l.range_m *= by;
+        for (float* metres : {&l.shadow.near_m, &l.shadow.far_m, &l.shadow.eye_distance_m}) *metres *= static_cast<float>(by);
     }
 }
 

@@ -6,8 +6,8 @@
 
 namespace gnomon::shadow {
 
-/// Scenes as hard as they come, one after the other from one seed: one light, one camera, a few boxes of any size and
-/// thickness, near, far, around and behind everything.
+/// Scenes as hard as they come, one after the other from one seed: one light, a camera or a few, boxes of any size and
+/// thickness, near, far, around and behind everything. Some lights have a depth range of their own, some suns an eye.
 class RandomFits {
 public:
     explicit RandomFits(std::uint64_t seed) : random_(seed) {}
@@ -28,6 +28,9 @@ private:
     InstanceItem box(std::uint32_t index);
     ConsumerItem camera(const SceneSnapshot& scene);
     LightItem light(LightKind kind, const SceneSnapshot& scene);
+    void cascades(LightShadow& shadow);
+    void eye(LightShadow& shadow);
+    void depth_range(LightShadow& shadow);
     glm::dvec3 direction();
 
     std::mt19937_64 random_;

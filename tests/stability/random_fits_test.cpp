@@ -55,12 +55,12 @@ struct Tally {
 
 class RandomFitsTest : public ::testing::TestWithParam<LightKind> {
 protected:
-    const ShadowFrame& fit(const SceneSnapshot& scene, ShadowFrame& frame) {
+    const ShadowFrame& fit(const SceneSnapshot& scene, ShadowFrame& frame, const History& held = {}) {
         gl::DeviceInfo device;
         device.max_texture_px = device.max_cube_px = 16384;
-        decide_demand(scene, device, true, {}, frame.demands);
+        decide_demand(scene, device, true, held, frame.demands);
         select_sets(scene, frame);
-        fit_views(scene, {}, frame);
+        fit_views(scene, held, frame);
         return frame;
     }
 
@@ -83,13 +83,12 @@ protected:
     }
 
     /// A point of the box that the camera is likely to see: a corner, any, or where the edge of its sight meets the box.
-    Vector sample(const SceneSnapshot& scene, const math::Aabb& box) {
+    Vector sample(const ConsumerItem& camera, const math::Aabb& box) {
         const double which = random.number(0.0, 1.0);
         glm::dvec3 p(random.number(box.min.x, box.max.x), random.number(box.min.y, box.max.y), random.number(box.min.z, box.max.z));
         if (which < 0.5) return oracle::exact(p);
         if (which < 0.75) return oracle::exact(math::corners(box)[static_cast<std::size_t>(random.number(0.0, 8.0))]);
         // Toward the rim of the picture, as far as the sight goes before it leaves the box.
-        const ConsumerItem& camera = scene.consumers[0];
         const double tan_y = std::tan(0.5 * camera.fov_y_rad) * 0.999999;
         glm::dvec3 rim(tan_y * 640.0 / 360.0 * random.number(-1.0, 1.0), random.chance(0.5) ? tan_y : -tan_y, -1.0);
         const glm::dvec3 along = camera.rotation_ws * rim;
@@ -102,19 +101,39 @@ protected:
         return oracle::exact(glm::clamp(at, box.min, box.max));
     }
 
+    /// Where the light's rays come from: a sun's eye if it has one.
+    static LightItem source_of(const LightItem& light, const ShadowFrame& frame) {
+        LightItem source = light;
+        if (!frame.demands[0].perspective_sun || frame.views.empty()) return source;
+        source.kind = LightKind::point;
+        source.position_ws_m = frame.views[0].anchor_ws_m;
+        source.range_m = 0.0;
+        return source;
+    }
+
+    /// What a given depth range or a given eye leaves out is lit: then only what a view holds counts.
+    static bool leaves_out(const ShadowDemand& demand, const LightShadow& shadow) {
+        return demand.near_m > 0.0 || demand.far_m > 0.0 || (demand.perspective_sun && shadow.eye_distance_m > 0.0f);
+    }
+
     void judge_point(const SceneSnapshot& scene, const ShadowFrame& frame, const Vector& p) {
-        const LightItem& light = scene.lights[0];
-        const Real size_px = frame.demands[0].resolution_px;
-        const Real reach = static_cast<Real>(filter_row(frame.demands[0].filter).reach_texel);
-        const oracle::Deciding by = oracle::deciding_views(frame.views, frame.demands[0], scene.consumers[0], p, reach);
+        const ShadowDemand& demand = frame.demands[0];
+        const LightItem light = source_of(scene.lights[0], frame);
+        const Real size_px = demand.resolution_px;
+        const Real reach = static_cast<Real>(filter_row(demand.filter).reach_texel);
+        const oracle::Deciding by = oracle::deciding_views(frame.views, demand, scene.consumers[0], p, reach);
+        const bool in_view = by.view && oracle::holds(*by.view, p, size_px, 0);
+        const bool in_single = by.single && oracle::holds(*by.single, p, size_px, 0);
+        const bool partial = leaves_out(demand, scene.lights[0].shadow);
+        if (partial && !(by.wants_view && in_view) && !(by.wants_single && in_single)) return;
         ++tally.points;
         bool dark = false;
         for (std::uint32_t c = 0; c < scene.instances.size(); ++c) {
             if (!scene.instances[c].casts || !oracle::darkens(light, scene.instances[c].bounds_ws, p, kLeastPassage)) continue;
             ++tally.blockers;
             dark = true;
-            if (by.wants_view) tally.missed += by.view && lists(frame, *by.view, c) ? 0 : 1;
-            if (by.wants_single) tally.missed += lists(frame, *by.single, c) ? 0 : 1;
+            if (by.wants_view && (in_view || !partial)) tally.missed += by.view && lists(frame, *by.view, c) ? 0 : 1;
+            if (by.wants_single && (in_single || !partial)) tally.missed += lists(frame, *by.single, c) ? 0 : 1;
             // A cascade may fade into any later one that holds the point.
             for (const ShadowView& view : frame.views)
                 if (view.projection == ViewProjection::orthographic && oracle::holds(view, p, size_px, reach))
@@ -122,10 +141,11 @@ protected:
             if (frame.views.empty()) ++tally.missed;
         }
         tally.dark_points += dark ? 1 : 0;
+        if (partial) return;
         // A face that casts nothing on anything may be left out; a sun's maps hold whatever is seen.
-        const bool must_hold = dark || (light.kind == LightKind::directional && !frame.views.empty());
-        if (must_hold && by.wants_view && !(by.view && oracle::holds(*by.view, p, size_px, 0))) ++tally.outside;
-        if (by.wants_single && !oracle::holds(*by.single, p, size_px, 0)) ++tally.outside;
+        const bool must_hold = dark || (scene.lights[0].kind == LightKind::directional && !frame.views.empty());
+        if (must_hold && by.wants_view && !in_view) ++tally.outside;
+        if (by.wants_single && !in_single) ++tally.outside;
     }
 
     static bool lists(const ShadowFrame& frame, const ShadowView& view, std::uint32_t caster) {
@@ -136,11 +156,12 @@ protected:
     void judge_points(const SceneSnapshot& scene, const ShadowFrame& frame) {
         for (const InstanceItem& receiver : scene.instances) {
             if (!receiver.visible || !receiver.receives) continue;
-            for (int k = 0; k < 4; ++k) {
-                const Vector p = sample(scene, receiver.bounds_ws);
-                if (oracle::sees(scene.consumers[0], p, kInset) && oracle::reaches(scene.lights[0], p, kInset))
-                    judge_point(scene, frame, p);
-            }
+            for (const ConsumerItem& camera : scene.consumers)
+                for (int k = 0; k < 4; ++k) {
+                    const Vector p = sample(camera, receiver.bounds_ws);
+                    if (oracle::sees(camera, p, kInset) && oracle::reaches(scene.lights[0], p, kInset))
+                        judge_point(scene, frame, p);
+                }
         }
     }
 
@@ -184,6 +205,7 @@ protected:
     RandomFits random{fit_seed()};
     Tally tally;
     ShadowFrame here, elsewhere;
+    History past;
 };
 
 void print(const Tally& t, std::string_view kind) {
@@ -198,7 +220,10 @@ TEST_P(RandomFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
     for (std::uint64_t i = 0; i < count; ++i) {
         const SceneSnapshot scene = random.scene(GetParam());
         ++tally.fits;
-        judge_numbers(fit(scene, here));
+        // What another scene left behind is no worse a past than any other. Elsewhere a past would be another one.
+        const bool has_past = i % kMoveEvery > 1 && random.chance(0.5);
+        judge_numbers(fit(scene, here, has_past ? past : History{}));
+        past = here.next_history;
         judge_points(scene, here);
         if (i % kMoveEvery == 0) judge_scale(scene, here, static_cast<int>(random.number(-13.0, 27.0)));
         if (i % kMoveEvery == 1) judge_move(scene, here, glm::round(random.vector(random.size(1.0, 0x1p25))));
