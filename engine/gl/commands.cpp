@@ -119,6 +119,12 @@ struct Writer {
     }
     std::string operator()(const DrawTriangle&) const { return "DrawTriangle"; }
     std::string operator()(const DrawLines& c) const { return "DrawLines" + field("vertex_count", c.vertex_count); }
+    std::string operator()(const Dispatch& c) const {
+        return "Dispatch" + field("program", c.program) + field("groups_x", c.groups_x) + field("groups_y", c.groups_y);
+    }
+    std::string operator()(const CopyBuffer& c) const {
+        return "CopyBuffer" + field("source", c.source) + field("destination", c.destination);
+    }
     std::string operator()(const GenerateMips& c) const { return "GenerateMips" + field("texture", c.texture); }
     std::string operator()(const Blit& c) const {
         return "Blit" + field("source", c.source) + field("destination", c.destination) + field("from", c.from) +

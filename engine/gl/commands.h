@@ -113,6 +113,20 @@ struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage
     bool operator==(const DrawLines&) const = default;
 };
 
+/// Runs a compute program over groups_x times groups_y work groups. Allowed outside passes only, and forgets the
+/// pipeline. Later commands see what it wrote to storage buffers.
+struct Dispatch {
+    ProgramHandle program{};
+    std::uint32_t groups_x = 1, groups_y = 1;
+    bool operator==(const Dispatch&) const = default;
+};
+/// Copies all of one buffer to another of the same size, outside passes. What a BufferUse::read_back buffer is given so
+/// can be had by Device::read_buffer.
+struct CopyBuffer {
+    BufferHandle source{}, destination{};
+    bool operator==(const CopyBuffer&) const = default;
+};
+
 struct GenerateMips {
     TextureHandle texture{};
     bool operator==(const GenerateMips&) const = default;
@@ -137,7 +151,7 @@ struct EndTimer {
 
 using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
                              BindUniforms, BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
-                             GenerateMips, Blit, BeginTimer, EndTimer>;
+                             Dispatch, CopyBuffer, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;

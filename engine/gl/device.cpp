@@ -121,7 +121,8 @@ Failure check_texture(const TextureDesc& desc, const DeviceInfo& info, std::size
 Failure check_buffer(const BufferDesc& desc, std::size_t given_bytes) {
     if (desc.size == 0) return Failure::invalid_value;
     if (given_bytes == 0) return desc.use == BufferUse::fixed ? Failure::invalid_value : Failure::none;
-    return given_bytes == desc.size ? Failure::none : Failure::invalid_value;
+    const bool fits = given_bytes == desc.size && desc.use != BufferUse::read_back;
+    return fits ? Failure::none : Failure::invalid_value;
 }
 
 Failure check_attachment(const Attachment& attachment, const TextureDesc* texture) {

@@ -12,7 +12,8 @@ namespace gnomon::gl {
 
 enum class TextureKind : std::uint8_t { flat, array, cube };
 enum class Format : std::uint8_t { r8, rgba8, srgb8_a8, rgba16_snorm, rgba16f, r32f, rg32f, d16, d24, d32f };
-enum class BufferUse : std::uint8_t { fixed, updated };  // fixed: contents given at creation, never changed
+/// fixed: contents given at creation, never changed by lists. read_back: written by CopyBuffer alone, for read_buffer.
+enum class BufferUse : std::uint8_t { fixed, updated, read_back };
 
 /// Bytes of one texel in `format` as Gnomon accounts them (D24 counts 4).
 std::uint32_t texel_bytes(Format format);
@@ -61,6 +62,7 @@ struct ProgramDesc {
     std::string vertex = {};
     std::string fragment = {};
     std::string geometry = {};  // empty: no geometry stage
+    std::string compute = {};   // not empty: a program for Dispatch, without any other stage
     bool operator==(const ProgramDesc&) const = default;
 };
 
@@ -109,6 +111,9 @@ struct DeviceInfo {
     bool vertex_layer = false;  // vertex shaders may write gl_Layer (ARB_shader_viewport_layer_array)
 };
 
+/// What there is to read. pending: the device has not got there yet; empty: nothing new was copied.
+enum class Readback : std::uint8_t { empty, pending, done, failed };
+
 /// off: timers cost nothing. finish: each timer is bracketed by a full finish (exact on software devices).
 /// query: GL_TIME_ELAPSED, results arrive some frames later.
 enum class TimingMode : std::uint8_t { off, finish, query };
@@ -155,6 +160,10 @@ public:
     /// Reads mip 0 of one layer (face) as tightly packed rows, bottom first, in the texture's own format
     /// (depth formats: one float per texel). Waits for the GPU. False: wrong size or failed.
     virtual bool read_texture(TextureHandle texture, std::uint32_t layer, std::span<std::byte> out) = 0;
+
+    /// Takes what the last CopyBuffer put into a read_back buffer, all of it: `done`, once per copy. Never waits.
+    /// `failed`: lost, wrong size, or no such buffer; `out` is then undefined.
+    virtual Readback read_buffer(BufferHandle buffer, std::span<std::byte> out) = 0;
 
     virtual void set_timing(TimingMode mode) = 0;
     /// Timings that became available since the last call, oldest first.

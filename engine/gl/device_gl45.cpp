@@ -7,6 +7,7 @@
 
 #include "engine/gl/gl45_execute.h"
 #include "engine/gl/gl45_objects.h"
+#include "engine/gl/gl45_readbacks.h"
 #include "engine/gl/gl45_timers.h"
 #include "engine/gl/validate.h"
 
@@ -129,6 +130,7 @@ public:
         remove(objects_.samplers, h.id, [](GLuint name) { glDeleteSamplers(1, &name); });
     }
     void destroy(BufferHandle h) override {
+        readbacks_.forget(h.id);
         remove(objects_.buffers, h.id, [](const GlBuffer& buffer) { glDeleteBuffers(1, &buffer.name); });
     }
     void destroy(ProgramHandle h) override {
@@ -142,7 +144,7 @@ public:
         const std::uint64_t submission = submissions_++;
         if (lost()) return {Failure::context_lost, submission};
         drop_gl_errors();
-        const Failure misuse = execute(list, submission, objects_, fixtures_, timers_);
+        const Failure misuse = execute(list, submission, objects_, fixtures_, timers_, readbacks_);
         const Failure error = take_gl_error();
         if (lost()) return {Failure::context_lost, submission};
         return {error == Failure::none ? misuse : error, submission};
@@ -161,6 +163,17 @@ public:
                              static_cast<GLsizei>(desc.height), 1, format.layout, format.type,
                              static_cast<GLsizei>(out.size()), out.data());
         return take_gl_error() == Failure::none;
+    }
+
+    Readback read_buffer(BufferHandle handle, std::span<std::byte> out) override {
+        const GlBuffer* buffer = find_object(objects_.buffers, handle.id);
+        if (buffer == nullptr || buffer->desc.use != BufferUse::read_back || out.size() != buffer->desc.size || lost())
+            return Readback::failed;
+        drop_gl_errors();
+        const Readback state = readbacks_.poll(handle.id);
+        if (state != Readback::done) return state;
+        glGetNamedBufferSubData(buffer->name, 0, static_cast<GLsizeiptr>(out.size()), out.data());
+        return take_gl_error() == Failure::none ? Readback::done : Readback::failed;
     }
 
     void set_timing(TimingMode mode) override { timers_.set_mode(mode); }
@@ -204,6 +217,7 @@ private:
     GlFixtures fixtures_;
     GlObjects objects_;
     GlTimers timers_;
+    GlReadbacks readbacks_;
     std::uint32_t next_id_ = 1;
     std::uint64_t submissions_ = 0;
     bool robust_ = false, lost_ = false;

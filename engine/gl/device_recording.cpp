@@ -70,6 +70,18 @@ const char* to_text(Misuse misuse) {
             return "draw_without_meshes";
         case Misuse::draw_out_of_range:
             return "draw_out_of_range";
+        case Misuse::wrong_program:
+            return "wrong_program";
+        case Misuse::dispatch_inside_pass:
+            return "dispatch_inside_pass";
+        case Misuse::dispatch_of_nothing:
+            return "dispatch_of_nothing";
+        case Misuse::copy_inside_pass:
+            return "copy_inside_pass";
+        case Misuse::copy_mismatch:
+            return "copy_mismatch";
+        case Misuse::read_of_other_buffer:
+            return "read_of_other_buffer";
         case Misuse::update_inside_pass:
             return "update_inside_pass";
         case Misuse::update_out_of_range:
@@ -122,6 +134,11 @@ void RecordingDevice::stop_failing() {
     failing_labels_.clear();
 }
 std::uint64_t RecordingDevice::calls() const { return calls_; }
+
+void RecordingDevice::script_readback(std::string text, std::vector<std::byte> contents) {
+    scripts_.emplace_back(std::move(text), std::move(contents));
+}
+void RecordingDevice::delay_readbacks(std::uint64_t submissions) { readback_delay_ = submissions; }
 
 const std::vector<ResourceCall>& RecordingDevice::resource_calls() const { return log_; }
 const std::vector<CommandList>& RecordingDevice::submissions() const { return lists_; }
@@ -248,8 +265,9 @@ Created<BufferHandle> RecordingDevice::create_buffer(const BufferDesc& desc, std
 Created<ProgramHandle> RecordingDevice::create_program(const ProgramDesc& desc) {
     const auto kind = Kind::create_program;
     const std::optional<Failure> failure = injected(Call::creation, &desc.label);
-    if (desc.vertex.empty()) {
-        find(Misuse::bad_description, quoted(desc.label, "no vertex source"));
+    const bool draws = !desc.vertex.empty() || !desc.fragment.empty() || !desc.geometry.empty();
+    if (desc.compute.empty() ? desc.vertex.empty() : draws) {
+        find(Misuse::bad_description, quoted(desc.label, "neither a vertex source nor a compute source alone"));
         return refuse<ProgramHandle>(kind, desc.label, 0, failure.value_or(Failure::compile_failed));
     }
     if (failure) return refuse<ProgramHandle>(kind, desc.label, 0, *failure);
@@ -317,7 +335,7 @@ void RecordingDevice::destroy(TargetHandle h) { remove(Kind::destroy_target, obj
 SubmitResult RecordingDevice::submit(const CommandList& list) {
     const Failure failure = injected(Call::submission, nullptr).value_or(Failure::none);
     const std::uint64_t submission = submitted_++;
-    const std::vector<std::uint32_t> timers = check_list(list, info_, objects_, findings_);
+    const std::vector<std::uint32_t> timers = check_list(list, submission, info_, objects_, findings_);
     if (timing_ != TimingMode::off) {
         for (const std::uint32_t id : timers) timings_.push_back({id, submission, 0.0});
     }
@@ -338,8 +356,35 @@ bool RecordingDevice::read_texture(TextureHandle texture, std::uint32_t layer, s
     return true;
 }
 
+Readback RecordingDevice::read_buffer(BufferHandle handle, std::span<std::byte> out) {
+    const std::optional<Failure> failure = injected(Call::reading, nullptr);
+    RecordedBuffer* buffer = find_value(objects_.buffers, handle.id);
+    log(Kind::read_buffer, handle.id, buffer ? buffer->desc.label : "", out.size(), failure.has_value());
+    if (buffer == nullptr) {
+        find(Misuse::unknown_handle, "read_buffer #" + std::to_string(handle.id));
+        return Readback::failed;
+    }
+    if (buffer->desc.use != BufferUse::read_back || buffer->desc.size != out.size()) {
+        find(Misuse::read_of_other_buffer, quoted(buffer->desc.label, "use or size"));
+        return Readback::failed;
+    }
+    if (failure) {
+        buffer->unread = false;
+        return Readback::failed;
+    }
+    if (!buffer->unread) return Readback::empty;
+    if (buffer->copied_at >= finished_ && submitted_ <= buffer->copied_at + readback_delay_) return Readback::pending;
+    buffer->unread = false;
+    const std::vector<std::byte>* source = &buffer->bytes;
+    for (const auto& [text, contents] : scripts_)
+        if (buffer->desc.label.find(text) != std::string::npos) source = &contents;
+    const std::size_t given = std::min(source->size(), out.size());
+    std::fill(std::copy_n(source->begin(), given, out.begin()), out.end(), std::byte{0});
+    return Readback::done;
+}
+
 void RecordingDevice::set_timing(TimingMode mode) { timing_ = mode; }
 std::vector<Timing> RecordingDevice::take_timings() { return std::exchange(timings_, {}); }
-void RecordingDevice::finish() {}
+void RecordingDevice::finish() { finished_ = submitted_; }
 
 }  // namespace gnomon::gl

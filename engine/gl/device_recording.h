@@ -23,9 +23,15 @@ enum class Misuse : std::uint8_t {
     draw_without_pipeline,
     draw_without_meshes,
     draw_out_of_range,  // indices, vertices or items beyond the buffer
+    wrong_program,      // a compute program draws, or another one is dispatched
+    dispatch_inside_pass,
+    dispatch_of_nothing,  // no work groups
+    copy_inside_pass,
+    copy_mismatch,         // sizes differ, onto itself, or into a fixed buffer
+    read_of_other_buffer,  // not BufferUse::read_back, or of another size than asked for
     update_inside_pass,
     update_out_of_range,
-    update_of_fixed_buffer,
+    update_of_fixed_buffer,  // or of one that is written by copies alone
     uniform_misaligned,
     uniform_out_of_range,
     viewport_out_of_target,    // or blit rectangle out of it; a scissor of negative size
@@ -55,7 +61,8 @@ struct ResourceCall {
         destroy_buffer,
         destroy_program,
         destroy_target,
-        submit
+        submit,
+        read_buffer
     };
     Kind kind;
     std::uint32_t id = 0;  // of the object; submission number for submit
@@ -69,6 +76,8 @@ struct ResourceCall {
 struct RecordedBuffer {
     BufferDesc desc;
     std::vector<std::byte> bytes;
+    bool unread = false;          // read_back: copied into since the last read
+    std::uint64_t copied_at = 0;  // number of the submission that did
 };
 struct RecordedObjects {
     std::map<std::uint32_t, TextureDesc> textures;
@@ -78,10 +87,10 @@ struct RecordedObjects {
     std::map<std::uint32_t, TargetDesc> targets;
 };
 
-/// Walks the list as a device would: appends what is wrong with it to `findings`, applies its buffer updates to
-/// `objects`, and returns the ids of its timers in order.
-std::vector<std::uint32_t> check_list(const CommandList& list, const DeviceInfo& info, RecordedObjects& objects,
-                                      std::vector<Finding>& findings);
+/// Walks the list as a device would: appends what is wrong with it to `findings`, applies its buffer updates and copies
+/// to `objects`, and returns the ids of its timers in order. `submission` is its number.
+std::vector<std::uint32_t> check_list(const CommandList& list, std::uint64_t submission, const DeviceInfo& info,
+                                      RecordedObjects& objects, std::vector<Finding>& findings);
 
 /// A device without a GPU: hands out fake handles, keeps every list, validates lifetimes and use,
 /// counts live objects and bytes, and can fail the nth resource call.
@@ -90,16 +99,22 @@ public:
     explicit RecordingDevice(DeviceInfo info = default_info());
     static DeviceInfo default_info();  // "recording", limits as llvmpipe: 16384 px, 2048 layers
 
-    /// Fails the call whose number (counted over all create_* and submit calls from construction, first is 0) is
-    /// `index`.
+    /// Fails the call whose number (counted over all create_*, submit and read_buffer calls from construction, first is
+    /// 0) is `index`.
     /// A call that fails by context_lost loses the context: every later one fails alike, for good.
     void fail_call(std::uint64_t index, Failure failure);
-    /// Fails that call and every later one until stop_failing(); without `submissions`, submit calls succeed.
+    /// Fails that call and every later one until stop_failing(); without `submissions`, all but creations succeed.
     void fail_from(std::uint64_t index, Failure failure, bool submissions);
     /// Fails every create_texture, create_target and create_program whose label contains `text`.
     void fail_label(std::string text, Failure failure);
     void stop_failing();
-    std::uint64_t calls() const;  // create_* and submit calls so far
+    std::uint64_t calls() const;  // create_*, submit and read_buffer calls so far
+
+    /// What the GPU would have written: the contents that read_buffer gives of buffers whose label contains `text`,
+    /// cut or filled with zeros to their size. Without a script they are what was copied.
+    void script_readback(std::string text, std::vector<std::byte> contents);
+    /// Copies are `pending` for so many submissions after their own; 0 at first. finish() ends the wait.
+    void delay_readbacks(std::uint64_t submissions);
 
     const std::vector<ResourceCall>& resource_calls() const;
     const std::vector<CommandList>& submissions() const;
@@ -130,12 +145,13 @@ public:
     void destroy(TargetHandle) override;
     SubmitResult submit(const CommandList&) override;
     bool read_texture(TextureHandle, std::uint32_t layer, std::span<std::byte> out) override;  // zeros
+    Readback read_buffer(BufferHandle, std::span<std::byte> out) override;
     void set_timing(TimingMode) override;
     std::vector<Timing> take_timings() override;  // 0 us for each timer when timing is on
     void finish() override;
 
 private:
-    enum class Call : std::uint8_t { creation, submission };
+    enum class Call : std::uint8_t { creation, submission, reading };
     std::optional<Failure> injected(Call call, const std::string* label);
     std::optional<Failure> scheduled(std::uint64_t index, Call call, const std::string* label) const;
     void find(Misuse misuse, std::string detail);
@@ -161,6 +177,8 @@ private:
     std::optional<LastingFault> lasting_fault_;
     bool lost_ = false;
     std::vector<std::pair<std::string, Failure>> failing_labels_;
+    std::vector<std::pair<std::string, std::vector<std::byte>>> scripts_;
+    std::uint64_t readback_delay_ = 0, finished_ = 0;  // submissions
     std::vector<ResourceCall> log_;
     std::vector<CommandList> lists_;
     std::vector<Finding> findings_;

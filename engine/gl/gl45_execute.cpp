@@ -89,15 +89,21 @@ void apply(const PipelineState& state, GLuint program) {
     set_enabled(GL_DEPTH_CLAMP, state.depth_clamp);
     set_enabled(GL_BLEND, state.blend != Blend::off);
     if (state.blend == Blend::add) glBlendFunc(GL_ONE, GL_ONE);
-    if (state.blend == Blend::alpha) glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    if (state.blend == Blend::alpha)
+        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 /// One operator() per command; state of one list.
 class ListExecutor {
 public:
     ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects,
-                 const GlFixtures& fixtures, GlTimers& timers)
-        : list_(list), submission_(submission), objects_(objects), fixtures_(fixtures), timers_(timers) {}
+                 const GlFixtures& fixtures, GlTimers& timers, GlReadbacks& readbacks)
+        : list_(list),
+          submission_(submission),
+          objects_(objects),
+          fixtures_(fixtures),
+          timers_(timers),
+          readbacks_(readbacks) {}
 
     Failure run() {
         reset_state(fixtures_);
@@ -182,7 +188,7 @@ public:
     }
     void operator()(const UpdateBuffer& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
-        if (in_pass_ || buffer == nullptr || buffer->desc.use == BufferUse::fixed ||
+        if (in_pass_ || buffer == nullptr || buffer->desc.use != BufferUse::updated ||
             !in_range(c.offset, c.size, buffer->desc.size) || !in_range(c.first, c.size, list_.bytes.size())) {
             return note(Failure::invalid_value);
         }
@@ -222,6 +228,25 @@ public:
     }
     void operator()(const DrawLines& c) {
         if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));
+    }
+
+    void operator()(const Dispatch& c) {
+        const GLuint* program = find_object(objects_.programs, c.program.id);
+        if (in_pass_ || program == nullptr || c.groups_x == 0 || c.groups_y == 0) return note(Failure::invalid_value);
+        pipeline_.reset();
+        glUseProgram(*program);
+        glDispatchCompute(c.groups_x, c.groups_y, 1);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+    void operator()(const CopyBuffer& c) {
+        const GlBuffer* source = find_object(objects_.buffers, c.source.id);
+        const GlBuffer* destination = find_object(objects_.buffers, c.destination.id);
+        if (in_pass_ || source == nullptr || destination == nullptr || source == destination ||
+            destination->desc.use == BufferUse::fixed || source->desc.size != destination->desc.size) {
+            return note(Failure::invalid_value);
+        }
+        glCopyNamedBufferSubData(source->name, destination->name, 0, 0, static_cast<GLsizeiptr>(source->desc.size));
+        if (destination->desc.use == BufferUse::read_back) readbacks_.expect(c.destination.id);
     }
 
     void operator()(const GenerateMips& c) {
@@ -296,6 +321,7 @@ private:
     const GlObjects& objects_;
     const GlFixtures& fixtures_;
     GlTimers& timers_;
+    GlReadbacks& readbacks_;
 
     Failure failure_ = Failure::none;
     std::size_t open_groups_ = 0;
@@ -339,8 +365,8 @@ void delete_fixtures(const GlFixtures& fixtures) {
 }
 
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, const GlFixtures& fixtures,
-                GlTimers& timers) {
-    return ListExecutor(list, submission, objects, fixtures, timers).run();
+                GlTimers& timers, GlReadbacks& readbacks) {
+    return ListExecutor(list, submission, objects, fixtures, timers, readbacks).run();
 }
 
 }  // namespace gnomon::gl

@@ -1,5 +1,6 @@
 #pragma once
 #include "engine/gl/gl45_objects.h"
+#include "engine/gl/gl45_readbacks.h"
 #include "engine/gl/gl45_timers.h"
 
 namespace gnomon::gl {
@@ -18,6 +19,6 @@ void delete_fixtures(const GlFixtures& fixtures);
 /// Executes a list from a defined state, and leaves none of its own behind: no program, textures, buffers or
 /// target bound. Commands that are misuse are left out and make the result invalid_value.
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, const GlFixtures& fixtures,
-                GlTimers& timers);
+                GlTimers& timers, GlReadbacks& readbacks);
 
 }  // namespace gnomon::gl

@@ -231,7 +231,10 @@ Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> by
     drop_gl_errors();
     GlBuffer buffer{0, desc};
     glCreateBuffers(1, &buffer.name);
-    const GLbitfield flags = desc.use == BufferUse::updated ? GL_DYNAMIC_STORAGE_BIT : 0;
+    // What is read back lies where the processor reads it without asking the device.
+    const GLbitfield flags = desc.use == BufferUse::updated     ? GL_DYNAMIC_STORAGE_BIT
+                             : desc.use == BufferUse::read_back ? GL_CLIENT_STORAGE_BIT
+                                                                : 0;
     glNamedBufferStorage(buffer.name, static_cast<GLsizeiptr>(desc.size), bytes.empty() ? nullptr : bytes.data(),
                          flags);
     Failure failure = take_gl_error();
@@ -253,12 +256,14 @@ Made<GLuint> make_program(const ProgramDesc& desc) {
         const char* name;
         const std::string& text;
     };
-    const std::array<Source, 3> sources = {{{GL_VERTEX_SHADER, "vertex", desc.vertex},
+    const std::array<Source, 4> sources = {{{GL_COMPUTE_SHADER, "compute", desc.compute},
+                                            {GL_VERTEX_SHADER, "vertex", desc.vertex},
                                             {GL_GEOMETRY_SHADER, "geometry", desc.geometry},
                                             {GL_FRAGMENT_SHADER, "fragment", desc.fragment}}};
     std::array<GLuint, sources.size()> stages{};
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        if (sources[i].text.empty() && sources[i].kind != GL_VERTEX_SHADER) continue;
+        const bool needed = desc.compute.empty() && sources[i].kind == GL_VERTEX_SHADER;
+        if (sources[i].text.empty() && !needed) continue;
         const Stage stage = compile(sources[i].kind, sources[i].text);
         stages[i] = stage.name;
         if (stage.name != 0) continue;

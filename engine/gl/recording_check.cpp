@@ -19,9 +19,9 @@ struct Size {
 /// State of a list while it is walked, one operator() per command.
 class ListChecker {
 public:
-    ListChecker(const CommandList& list, const DeviceInfo& info, RecordedObjects& objects,
+    ListChecker(const CommandList& list, std::uint64_t submission, const DeviceInfo& info, RecordedObjects& objects,
                 std::vector<Finding>& findings)
-        : list_(list), info_(info), objects_(objects), findings_(findings) {}
+        : list_(list), submission_(submission), info_(info), objects_(objects), findings_(findings) {}
 
     std::vector<std::uint32_t> run() {
         for (index_ = 0; index_ < list_.commands.size(); ++index_) std::visit(*this, list_.commands[index_]);
@@ -51,7 +51,10 @@ public:
     void operator()(const SetScissor& c) {
         if (c.rect.width < 0 || c.rect.height < 0) find(Misuse::viewport_out_of_target, "negative size");
     }
-    void operator()(const SetPipeline& c) { has_pipeline_ = known(objects_.programs, c.state.program.id, "program"); }
+    void operator()(const SetPipeline& c) {
+        has_pipeline_ = known(objects_.programs, c.state.program.id, "program");
+        if (has_pipeline_ && computes(c.state.program)) find(Misuse::wrong_program, "a compute program cannot draw");
+    }
     void operator()(const BindTexture& c) {
         textures_.erase(c.unit);
         if (!c.texture) return;  // unbinds
@@ -73,7 +76,7 @@ public:
         if (in_pass_) find(Misuse::update_inside_pass, "a pass is open");
         if (!known(objects_.buffers, c.buffer.id, "buffer")) return;
         RecordedBuffer& buffer = objects_.buffers.at(c.buffer.id);
-        if (buffer.desc.use == BufferUse::fixed) return find(Misuse::update_of_fixed_buffer, buffer.desc.label);
+        if (buffer.desc.use != BufferUse::updated) return find(Misuse::update_of_fixed_buffer, buffer.desc.label);
         if (!in_range(c.offset, c.size, buffer.bytes.size()) || !in_range(c.first, c.size, list_.bytes.size())) {
             return find(Misuse::update_out_of_range, buffer.desc.label);
         }
@@ -104,6 +107,28 @@ public:
     }
     void operator()(const DrawTriangle&) { check_draw(); }
     void operator()(const DrawLines&) { check_draw(); }
+
+    void operator()(const Dispatch& c) {
+        if (in_pass_) find(Misuse::dispatch_inside_pass, "a pass is open");
+        if (c.groups_x == 0 || c.groups_y == 0) find(Misuse::dispatch_of_nothing, "no work groups");
+        has_pipeline_ = false;
+        if (known(objects_.programs, c.program.id, "program") && !computes(c.program))
+            find(Misuse::wrong_program, "only a compute program can be dispatched");
+    }
+    void operator()(const CopyBuffer& c) {
+        if (in_pass_) find(Misuse::copy_inside_pass, "a pass is open");
+        const bool source_known = known(objects_.buffers, c.source.id, "source");
+        if (!known(objects_.buffers, c.destination.id, "destination") || !source_known) return;
+        const RecordedBuffer& source = objects_.buffers.at(c.source.id);
+        RecordedBuffer& destination = objects_.buffers.at(c.destination.id);
+        if (c.source == c.destination || destination.desc.use == BufferUse::fixed ||
+            source.bytes.size() != destination.bytes.size()) {
+            return find(Misuse::copy_mismatch, destination.desc.label);
+        }
+        destination.bytes = source.bytes;
+        destination.unread = destination.desc.use == BufferUse::read_back;
+        destination.copied_at = submission_;
+    }
 
     void operator()(const GenerateMips& c) {
         if (!known(objects_.textures, c.texture.id, "texture")) return;
@@ -173,6 +198,7 @@ private:
         const Size size = target ? size_of(target) : Size{any, any};  // the window's size is not known here
         if (!in_target(rect, size.width, size.height)) find(Misuse::viewport_out_of_target, "rectangle");
     }
+    bool computes(ProgramHandle program) const { return !objects_.programs.at(program.id).compute.empty(); }
     bool has_colour(TargetHandle target) const { return !target || !objects_.targets.at(target.id).colours.empty(); }
 
     bool attached(TargetHandle handle, TextureHandle texture) const {
@@ -202,6 +228,7 @@ private:
     }
 
     const CommandList& list_;
+    std::uint64_t submission_;
     const DeviceInfo& info_;
     RecordedObjects& objects_;
     std::vector<Finding>& findings_;
@@ -218,9 +245,9 @@ private:
 
 }  // namespace
 
-std::vector<std::uint32_t> check_list(const CommandList& list, const DeviceInfo& info, RecordedObjects& objects,
-                                      std::vector<Finding>& findings) {
-    return ListChecker(list, info, objects, findings).run();
+std::vector<std::uint32_t> check_list(const CommandList& list, std::uint64_t submission, const DeviceInfo& info,
+                                      RecordedObjects& objects, std::vector<Finding>& findings) {
+    return ListChecker(list, submission, info, objects, findings).run();
 }
 
 }  // namespace gnomon::gl

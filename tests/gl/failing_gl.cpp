@@ -111,6 +111,23 @@ GLuint create_program() {
     return name;
 }
 
+GLsync fence_sync(GLenum condition, GLbitfield flags) {
+    if (strikes(GlFault::out_of_memory)) {
+        state.error = GL_OUT_OF_MEMORY;
+        return nullptr;
+    }
+    state.live_names += 1;
+    return Hook<&epoxy_glFenceSync>::driver(condition, flags);
+}
+void delete_sync(GLsync sync) {
+    state.live_names -= sync != nullptr;
+    Hook<&epoxy_glDeleteSync>::driver(sync);
+}
+GLenum wait_sync(GLsync sync, GLbitfield flags, GLuint64 timeout_ns) {
+    const bool fails = sync == nullptr || strikes(GlFault::invalid_value);
+    return fails ? GL_WAIT_FAILED : Hook<&epoxy_glClientWaitSync>::driver(sync, flags, timeout_ns);
+}
+
 template <auto... Slots>
 void make_fallible() {
     (Hook<Slots>::put(&Hook<Slots>::fallible), ...);
@@ -155,13 +172,17 @@ FailingGl::FailingGl() {
     make_fallible<&epoxy_glTextureStorage2D, &epoxy_glTextureStorage3D, &epoxy_glNamedBufferStorage,
                   &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap, &epoxy_glClearNamedBufferData,
                   &epoxy_glNamedBufferSubData, &epoxy_glClearBufferfv, &epoxy_glDrawArrays,
-                  &epoxy_glDrawElementsInstancedBaseVertexBaseInstance, &epoxy_glGetTextureSubImage>();
+                  &epoxy_glDrawElementsInstancedBaseVertexBaseInstance, &epoxy_glGetTextureSubImage,
+                  &epoxy_glDispatchCompute, &epoxy_glCopyNamedBufferSubData, &epoxy_glGetNamedBufferSubData>();
     make_unmappable<&epoxy_glMapBuffer, &epoxy_glMapBufferRange, &epoxy_glMapNamedBuffer,
                     &epoxy_glMapNamedBufferRange>();
     count_created<&epoxy_glCreateBuffers, &epoxy_glCreateFramebuffers, &epoxy_glCreateSamplers,
                   &epoxy_glCreateVertexArrays>();
     count_deleted<&epoxy_glDeleteTextures, &epoxy_glDeleteBuffers, &epoxy_glDeleteFramebuffers, &epoxy_glDeleteSamplers,
                   &epoxy_glDeleteVertexArrays, &epoxy_glDeleteQueries>();
+    Hook<&epoxy_glFenceSync>::put(fence_sync);
+    Hook<&epoxy_glDeleteSync>::put(delete_sync);
+    Hook<&epoxy_glClientWaitSync>::put(wait_sync);
     Hook<&epoxy_glGetError>::put(get_error);
     Hook<&epoxy_glGetGraphicsResetStatus>::put(reset_status);
     Hook<&epoxy_glCheckNamedFramebufferStatus>::put(framebuffer_status);

@@ -42,6 +42,7 @@ public:
     void destroy(gl::ProgramHandle h) override { recording.destroy(h); }
     void destroy(gl::TargetHandle h) override { recording.destroy(h); }
     bool read_texture(gl::TextureHandle t, std::uint32_t l, std::span<std::byte> out) override { return recording.read_texture(t, l, out); }
+    gl::Readback read_buffer(gl::BufferHandle b, std::span<std::byte> out) override { return recording.read_buffer(b, out); }
     void set_timing(gl::TimingMode mode) override { recording.set_timing(mode); }
     std::vector<gl::Timing> take_timings() override { return recording.take_timings(); }
     void finish() override { recording.finish(); }

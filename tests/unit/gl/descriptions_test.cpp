@@ -32,6 +32,12 @@ TEST(TextureBytes, SizesBeyond32BitsDoNotWrap) {
               std::uint64_t{16384} * 16384 * 4 * 6);
 }
 
+TEST(BufferDescriptions, WhatIsReadBackBeginsEmpty) {
+    EXPECT_EQ(check_buffer({.size = 4, .use = BufferUse::read_back}, 0), Failure::none);
+    EXPECT_EQ(check_buffer({.size = 4, .use = BufferUse::read_back}, 4), Failure::invalid_value);
+    EXPECT_EQ(check_buffer({.size = 4, .use = BufferUse::updated}, 4), Failure::none);
+}
+
 TEST(Formats, OnlyTheThreeDepthFormatsAreDepthAndTravelAsFloats) {
     for (int i = 0; i <= static_cast<int>(Format::d32f); ++i) {
         const auto format = static_cast<Format>(i);

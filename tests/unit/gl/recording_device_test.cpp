@@ -124,6 +124,76 @@ TEST_F(RecordingTest, ALastingFaultCanSpareSubmissions) {
     EXPECT_TRUE(device.create_buffer({.label = "a", .size = 4}, {}));
 }
 
+/// Reads a back buffer of two numbers.
+struct Two {
+    Readback state;
+    std::array<std::uint32_t, 2> values{};
+};
+Two read_two(RecordingDevice& device, BufferHandle buffer) {
+    Two two{};
+    two.state = device.read_buffer(buffer, std::as_writable_bytes(std::span(two.values)));
+    return two;
+}
+
+class RecordingReadback : public RecordingTest {
+protected:
+    RecordingReadback() {
+        source = device.create_buffer({.label = "source", .size = 8}, {}).handle;
+        back = read_back(8);
+    }
+    void copy(std::uint32_t first) {
+        CommandList list;
+        const std::array<std::uint32_t, 2> values = {first, first + 1};
+        list.update(source, 0, std::span<const std::uint32_t>{values});
+        list.add(CopyBuffer{source, back});
+        EXPECT_THAT(misuses_of(list), IsEmpty());
+    }
+    BufferHandle source, back;
+};
+
+TEST_F(RecordingReadback, GivesWhatWasCopiedOnceAndThenNothing) {
+    EXPECT_EQ(read_two(device, back).state, Readback::empty);
+    copy(7);
+    const Two two = read_two(device, back);
+    EXPECT_EQ(two.state, Readback::done);
+    EXPECT_THAT(two.values, ElementsAre(7u, 8u));
+    EXPECT_EQ(read_two(device, back).state, Readback::empty);
+}
+
+TEST_F(RecordingReadback, CanBeLateAndIsInTimeAfterFinish) {
+    device.delay_readbacks(2);
+    copy(1);
+    EXPECT_EQ(read_two(device, back).state, Readback::pending);
+    device.submit({});
+    EXPECT_EQ(read_two(device, back).state, Readback::pending);
+    device.submit({});
+    EXPECT_EQ(read_two(device, back).state, Readback::done);
+    copy(2);
+    EXPECT_EQ(read_two(device, back).state, Readback::pending);
+    device.finish();
+    EXPECT_EQ(read_two(device, back).state, Readback::done);
+}
+
+TEST_F(RecordingReadback, AnswersAsScripted) {
+    const std::array<std::uint32_t, 1> answer = {42};
+    const auto bytes = std::as_bytes(std::span(answer));
+    device.script_readback("ba", {bytes.begin(), bytes.end()});
+    EXPECT_EQ(read_two(device, back).state, Readback::empty) << "nothing was copied, so nothing is answered";
+    copy(7);
+    EXPECT_THAT(read_two(device, back).values, ElementsAre(42u, 0u));
+}
+
+TEST_F(RecordingReadback, IsACallThatCanFail) {
+    copy(7);
+    device.fail_call(device.calls(), Failure::out_of_memory);
+    EXPECT_EQ(read_two(device, back).state, Readback::failed);
+    EXPECT_TRUE(device.resource_calls().back().failed);
+    EXPECT_EQ(read_two(device, back).state, Readback::empty) << "what was lost does not come back";
+    device.fail_from(device.calls(), Failure::out_of_memory, false);
+    copy(8);
+    EXPECT_EQ(read_two(device, back).state, Readback::done) << "a fault of creations spares it";
+}
+
 TEST_F(RecordingTest, DestroyingCountsAsNoCall) {
     const std::uint64_t before = device.calls();
     device.destroy(other);

@@ -27,6 +27,9 @@ protected:
         uniforms = device.create_buffer({.label = "uniforms", .size = 512}, {}).handle;
     }
 
+    BufferHandle read_back(std::uint64_t size) {
+        return device.create_buffer({.label = "back", .size = size, .use = BufferUse::read_back}, {}).handle;
+    }
     void begin(CommandList& list) const { list.add(BeginPass{.target = target, .viewport = {0, 0, 64, 32}}); }
     void pipeline(CommandList& list) const { list.add(SetPipeline{{.program = program}}); }
     void meshes(CommandList& list) const { list.add(BindMeshes{vertices, indices, items}); }

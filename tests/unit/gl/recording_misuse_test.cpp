@@ -124,6 +124,49 @@ TEST_F(RecordingMisuse, FixedBuffersAreNotUpdated) {
     EXPECT_THAT(misuses_of(list), ElementsAre(Misuse::update_of_fixed_buffer));
 }
 
+TEST_F(RecordingMisuse, ComputeProgramsAreDispatchedOutsidePassesAndOthersDraw) {
+    const ProgramHandle counts = device.create_program({.label = "counts", .compute = "void main() {}"}).handle;
+    EXPECT_THAT(of({Dispatch{counts, 2, 1}}), IsEmpty());
+    EXPECT_THAT(of({Dispatch{program, 2, 1}}), ElementsAre(Misuse::wrong_program));
+    EXPECT_THAT(of({SetPipeline{{.program = counts}}}), ElementsAre(Misuse::wrong_program));
+    EXPECT_THAT(of({Dispatch{counts, 2, 0}}), ElementsAre(Misuse::dispatch_of_nothing));
+    EXPECT_THAT(of({pass(), Dispatch{counts, 1, 1}, EndPass{}}), ElementsAre(Misuse::dispatch_inside_pass));
+    const SetPipeline set{{.program = program}};
+    EXPECT_THAT(of({set, pass(), DrawTriangle{}, EndPass{}}), IsEmpty());
+    EXPECT_THAT(of({set, Dispatch{counts, 1, 1}, pass(), DrawTriangle{}, EndPass{}}),
+                ElementsAre(Misuse::draw_without_pipeline));
+    device.forget();
+    EXPECT_FALSE(device.create_program({.label = "both", .vertex = "v", .compute = "c"}));
+    EXPECT_THAT(found(), ElementsAre(Misuse::bad_description));
+}
+
+TEST_F(RecordingMisuse, CopiesFitTheirBuffersAndStandOutsidePasses) {
+    const BufferHandle twin = device.create_buffer({.label = "twin", .size = 2 * 8}, {}).handle;
+    EXPECT_THAT(of({CopyBuffer{items, twin}}), IsEmpty());
+    EXPECT_THAT(of({CopyBuffer{items, uniforms}}), ElementsAre(Misuse::copy_mismatch)) << "of another size";
+    EXPECT_THAT(of({CopyBuffer{items, items}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({pass(), CopyBuffer{items, twin}, EndPass{}}), ElementsAre(Misuse::copy_inside_pass));
+    const BufferHandle back = read_back(24);
+    EXPECT_THAT(of({CopyBuffer{back, indices}}), ElementsAre(Misuse::copy_mismatch)) << "indices are fixed";
+}
+
+TEST_F(RecordingMisuse, OnlyBuffersToReadBackAreReadAndNothingElseIsWrittenIntoThem) {
+    const BufferHandle back = read_back(8);
+    std::array<std::byte, 8> eight{};
+    std::array<std::byte, 16> sixteen{};
+    EXPECT_EQ(device.read_buffer(back, eight), Readback::empty);
+    EXPECT_THAT(found(), IsEmpty());
+    EXPECT_EQ(device.read_buffer(back, sixteen), Readback::failed);
+    EXPECT_EQ(device.read_buffer(items, sixteen), Readback::failed);
+    EXPECT_EQ(device.read_buffer({999}, eight), Readback::failed);
+    EXPECT_THAT(found(),
+                ElementsAre(Misuse::read_of_other_buffer, Misuse::read_of_other_buffer, Misuse::unknown_handle));
+    const std::array<std::uint32_t, 1> one = {1};
+    CommandList list;
+    list.update(back, 0, std::span<const std::uint32_t>{one});
+    EXPECT_THAT(misuses_of(list), ElementsAre(Misuse::update_of_fixed_buffer));
+}
+
 TEST_F(RecordingMisuse, UniformsAreAlignedAndInRange) {
     EXPECT_THAT(of({BindUniforms{0, uniforms, 256, 256}}), IsEmpty());
     EXPECT_THAT(of({BindUniforms{0, uniforms, 128, 256}}), ElementsAre(Misuse::uniform_misaligned));
@@ -186,6 +229,9 @@ TEST_F(RecordingMisuse, EveryHandleInACommandMustLive) {
                                            SetPipeline{{.program = {999}}},
                                            SetPipeline{},
                                            GenerateMips{no_texture},
+                                           Dispatch{{999}, 1, 1},
+                                           CopyBuffer{no_buffer, items},
+                                           CopyBuffer{items, no_buffer},
                                            Blit{{999}, {}, {0, 0, 1, 1}, {0, 0, 1, 1}}};
     for (const Command& command : commands) {
         EXPECT_THAT(of({command}), ElementsAre(Misuse::unknown_handle)) << to_text(command);

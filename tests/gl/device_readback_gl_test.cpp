@@ -1,0 +1,134 @@
+#include <gmock/gmock.h>
+
+#include "tests/gl/device_fixture.h"
+
+// Compute programs, copies between buffers, and reading back without a wait.
+namespace gnomon {
+namespace {
+
+using gl::Failure;
+using gl::Readback;
+using ::testing::ElementsAre;
+
+class DeviceReadback : public DeviceTest {
+protected:
+    static constexpr std::uint64_t kBytes = 4 * sizeof(std::uint32_t);
+    void SetUp() override {
+        DeviceTest::SetUp();
+        if (HasFatalFailure()) return;
+        counts = keep(device().create_buffer({.label = "counts", .size = kBytes}, {}));
+        back = keep(device().create_buffer({.label = "back", .size = kBytes, .use = gl::BufferUse::read_back}, {}));
+        doubler = keep(device().create_program({.label = "doubler",
+                                                .compute = "#version 450 core\nlayout(local_size_x = 4) "
+                                                           "in;\nlayout(std430, binding = 3) buffer B { uint n[]; };\n"
+                                                           "void main() { n[gl_LocalInvocationIndex] *= 2u; }\n"}));
+    }
+    /// 1, 2, 3, 4, doubled, on their way back.
+    gl::CommandList doubling() const {
+        constexpr std::array<std::uint32_t, 4> numbers = {1, 2, 3, 4};
+        gl::CommandList list;
+        list.update(counts, 0, std::span<const std::uint32_t>(numbers));
+        list.add(gl::BindStorage{3, counts});
+        list.add(gl::Dispatch{doubler, 1, 1});
+        list.add(gl::CopyBuffer{counts, back});
+        return list;
+    }
+    Readback read_back() { return device().read_buffer(back, std::as_writable_bytes(std::span(values))); }
+
+    gl::BufferHandle counts, back;
+    gl::ProgramHandle doubler;
+    std::array<std::uint32_t, 4> values{};
+};
+
+TEST_F(DeviceReadback, WhatAComputeProgramWroteComesBackOnce) {
+    EXPECT_EQ(read_back(), Readback::empty);
+    run(doubling());
+    device().finish();
+    EXPECT_EQ(read_back(), Readback::done);
+    EXPECT_THAT(values, ElementsAre(2u, 4u, 6u, 8u));
+    EXPECT_EQ(read_back(), Readback::empty);
+}
+
+TEST_F(DeviceReadback, ComesInTimeWithoutAFinishIfOneAsksAgain) {
+    run(doubling());
+    Readback state = Readback::pending;
+    constexpr int kMostTries = 10'000'000;  // of some microseconds
+    for (int i = 0; i < kMostTries && state == Readback::pending; ++i) state = read_back();
+    EXPECT_EQ(state, Readback::done);
+    EXPECT_THAT(values, ElementsAre(2u, 4u, 6u, 8u));
+}
+
+TEST_F(DeviceReadback, EachListWorksOnWhatTheLastOneLeft) {
+    run(doubling());
+    gl::CommandList again;
+    again.add(gl::BindStorage{3, counts});
+    again.add(gl::Dispatch{doubler, 1, 1});
+    again.add(gl::CopyBuffer{counts, back});
+    run(again);
+    device().finish();
+    EXPECT_EQ(read_back(), Readback::done);
+    EXPECT_THAT(values, ElementsAre(4u, 8u, 12u, 16u));
+}
+
+TEST_F(DeviceReadback, OnlyWholeBuffersToReadBackAreRead) {
+    run(doubling());
+    device().finish();
+    std::array<std::byte, 8> half{};
+    EXPECT_EQ(device().read_buffer(back, half), Readback::failed);
+    EXPECT_EQ(device().read_buffer(counts, std::as_writable_bytes(std::span(values))), Readback::failed);
+    EXPECT_EQ(device().read_buffer({999}, half), Readback::failed);
+    EXPECT_EQ(read_back(), Readback::done) << "which took nothing away";
+}
+
+TEST_F(DeviceReadback, ADestroyedBufferIsForgottenOnItsWay) {
+    const auto other =
+        device().create_buffer({.label = "other", .size = kBytes, .use = gl::BufferUse::read_back}, {}).handle;
+    gl::CommandList list;
+    list.add(gl::CopyBuffer{counts, other});
+    run(list);
+    device().destroy(other);
+    EXPECT_EQ(device().read_buffer(other, std::as_writable_bytes(std::span(values))), Readback::failed);
+}
+
+TEST_F(DeviceReadback, MisuseIsLeftOutAndTold) {
+    const auto refused = [&](const gl::Command& command, bool in_pass = false) {
+        gl::CommandList list;
+        if (in_pass) list.add(keeping(target));
+        list.add(command);
+        if (in_pass) list.add(gl::EndPass{});
+        return device().submit(list).failure;
+    };
+    EXPECT_EQ(refused(gl::Dispatch{doubler, 1, 1}), Failure::none);
+    EXPECT_EQ(refused(gl::Dispatch{doubler, 1, 1}, true), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::Dispatch{doubler, 1, 0}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::Dispatch{{999}, 1, 1}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{counts, back}), Failure::none);
+    EXPECT_EQ(refused(gl::CopyBuffer{counts, back}, true), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{counts, counts}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{counts, {999}}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{counts, fixed_buffer<std::uint32_t>({1, 2, 3, 4})}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{fixed_buffer<std::uint32_t>({1}), counts}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::UpdateBuffer{back, 0, 0, 0}), Failure::invalid_value);
+}
+
+TEST_F(DeviceReadback, APassAfterADispatchSetsItsPipelineAnew) {
+    const auto white = full_screen("result = vec4(1.0);");
+    gl::CommandList list;
+    list.add(gl::SetPipeline{{.program = white}});
+    list.add(gl::Dispatch{doubler, 1, 1});
+    list.add(clearing(target));
+    list.add(gl::SetPipeline{{.program = white}});
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    run(list);
+    EXPECT_THAT(pixels(), ::testing::Each(Rgba{255, 255, 255, 255}));
+}
+
+TEST_F(DeviceReadback, AComputeProgramWithAMistakeIsRefused) {
+    EXPECT_EQ(device().create_program({.label = "bad", .compute = "#version 450 core\nvoid main( {}\n"}).failure,
+              Failure::compile_failed);
+    take_messages();
+}
+
+}  // namespace
+}  // namespace gnomon
