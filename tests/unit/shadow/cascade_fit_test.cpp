@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "systems/shadow/filter_table.h"
-#include "systems/shadow/kinds/rectangle.h"
 #include "systems/shadow/kinds/slice_sphere.h"
+#include "tests/unit/shadow/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// What LightShadow::fit promises, mode by mode.
@@ -125,28 +125,6 @@ INSTANTIATE_TEST_SUITE_P(
         return std::string(mode == ShadowFit::tight ? "tight" : mode == ShadowFit::stable ? "stable" : "quantised");
     });
 
-/// 1 - smallest rectangle around the points of a view's own slice / what the map has before its border.
-double waste(const SceneSnapshot& scene, const ShadowFrame& frame, const ShadowView& view) {
-    ConsumerItem slice = scene.consumers[0];
-    slice.near_m = view.seen_from_m;
-    const bool last = &view == &frame.views.back();
-    const ShadowView* next = last ? nullptr : &view + 1;
-    slice.far_m = next ? next->seen_from_m : 1e9;
-    const math::Frustum frustum = consumer_frustum(slice);
-    std::vector<glm::dvec3> points_ws;
-    for (const std::uint32_t r : frame.receiver_items) math::clip_box(frustum, scene.instances[r].bounds_ws, points_ws);
-    std::vector<glm::dvec2> points, hull;
-    for (const glm::dvec3& p : points_ws) {
-        const glm::dvec3 q = p - view.anchor_ws_m;
-        points.emplace_back(glm::dot(q, view.axis_u), glm::dot(q, view.axis_v));
-    }
-    const Rectangle best = smallest_rectangle(points, hull);
-    const glm::dvec2 size = best.max - best.min;
-    const double border = 1.0 - 2.0 * 4.0 / 512.0;  // pcf_3x3: ceil(2 * 1.5) + 1 texels to each side
-    const glm::dvec2 map = 2.0 * view.half_extent_m * border;
-    return 1.0 - size.x * size.y / (map.x * map.y);
-}
-
 double median_waste(ShadowFit mode) {
     RandomScene random(20260101);
     std::vector<double> wastes;
@@ -156,18 +134,17 @@ double median_waste(ShadowFit mode) {
         const ShadowFrame frame = fitted(scene);
         for (const ShadowView& view : frame.views) wastes.push_back(waste(scene, frame, view));
     }
-    std::nth_element(wastes.begin(), wastes.begin() + static_cast<std::ptrdiff_t>(wastes.size() / 2), wastes.end());
-    const double median = wastes[wastes.size() / 2];
-    ::testing::Test::RecordProperty("median_waste_percent", static_cast<int>(median * 100.0));
-    return median;
+    const double middle = median(wastes);
+    ::testing::Test::RecordProperty("median_waste_percent", static_cast<int>(middle * 100.0));
+    return middle;
 }
 
 TEST(CascadeWaste, OfATightFitIsNothingWorthMentioning) { EXPECT_LE(median_waste(ShadowFit::tight), 0.05); }
 
 TEST(CascadeWaste, OfAQuantisedFitIsAtMostAThird) {
-    const double median = median_waste(ShadowFit::quantised);
-    EXPECT_LE(median, 0.35);
-    EXPECT_GT(median, 0.05) << "or it is not quantised";
+    const double middle = median_waste(ShadowFit::quantised);
+    EXPECT_LE(middle, 0.35);
+    EXPECT_GT(middle, 0.05) << "or it is not quantised";
 }
 
 TEST(CascadeWaste, AStableMapIsItsSphereAndAPlaceToMove) {

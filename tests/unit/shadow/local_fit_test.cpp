@@ -6,6 +6,7 @@
 #include "systems/shadow/kinds/held_fit.h"
 #include "systems/shadow/kinds/steps.h"
 #include "systems/shadow/light_kinds.h"
+#include "tests/unit/shadow/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// What the fits of spots and point lights choose, and how long they keep it.
@@ -266,27 +267,23 @@ TEST(Steps, AreHeldUntilTooSmallOrMuchTooLarge) {
     EXPECT_EQ(hold_below(1.5, true, 3, 2), 2);
 }
 
-/// Metres between two depths that a map of `quantum` (of standard, not reversed, depth) can tell apart at z.
-double depth_step_m(double quantum, double near_m, double far_m, double z_m) {
-    return quantum * z_m * z_m * (far_m - near_m) / (far_m * near_m);
-}
-
 TEST(LocalFit, D16AndD24StepsAreTwentyTimesFinerThanFromACentimetreToTheRange) {
     RandomScene random(print_seed());
     std::vector<double> gains;
-    for (int round = 0; round < 600; ++round) {
+    int scenes = 0;
+    for (int round = 0; round < 1400; ++round) {
         SceneSnapshot scene = random.scene(round % 2 == 0 ? LightKind::spot : LightKind::point);
-        if (scene.lights[0].range_m == 0.0) continue;
+        if (scene.lights[0].range_m == 0.0) continue;  // three of ten
+        ++scenes;
         for (const ShadowView& view : fitted(scene).views) {
             const double z_m = view.far_m;
             gains.push_back(depth_step_m(1.0, 0.01, scene.lights[0].range_m, z_m) /
                             depth_step_m(1.0, view.near_m, view.far_m, z_m));
         }
     }
-    ASSERT_GT(gains.size(), 100u);
-    std::nth_element(gains.begin(), gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2), gains.end());
-    RecordProperty("median_gain", std::to_string(gains[gains.size() / 2]));
-    EXPECT_GE(gains[gains.size() / 2], 20.0);
+    EXPECT_GE(scenes, 900);
+    RecordProperty("median_gain", std::to_string(median(gains)));
+    EXPECT_GE(median(gains), 20.0);
 }
 
 TEST(LocalFit, ReversedFloatDepthTellsApartWhatIsTwoRoundingsOfItsDistanceApart) {
