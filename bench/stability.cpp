@@ -46,6 +46,7 @@ struct WatchedLight {
     std::vector<ExactVisibility> values;  // same order
     std::vector<std::uint8_t> seen;       // same order: in view in the last frame
     std::uint32_t moved_layers = 0;       // bit per layer whose view's matrices changed with this frame
+    std::uint32_t stepped_layers = 0;     // of those, more than a shift
 };
 
 /// One run along one path under one fit.
@@ -80,7 +81,7 @@ public:
             for (int r = 0; r < repeats; ++r)
                 if (auto error = frames_.run(pose)) return error;
             if (i > 0) compare_views();
-            last_views_ = frames_.frame().views;
+            remember_views();
             if (auto error = look(i == 0)) return error;
         }
         for (std::size_t l = 0; l < rows_.size(); ++l) {
@@ -93,30 +94,41 @@ public:
     std::vector<PathFlicker> take_rows() { return std::move(rows_); }
 
 private:
-    /// Views against those of the frame before.
+    shadow::ShadowView* known_view(const shadow::ShadowView& view) {
+        for (shadow::ShadowView& known : known_views_)
+            if (known.demand == view.demand && known.layer == view.layer) return &known;
+        return nullptr;
+    }
+    void remember_views() {
+        for (const shadow::ShadowView& view : frames_.frame().views)
+            if (shadow::ShadowView* known = known_view(view))
+                *known = view;
+            else
+                known_views_.push_back(view);
+    }
+    /// Views against the same ones as they last were.
     void compare_views() {
         const shadow::ShadowFrame& frame = frames_.frame();
-        std::vector<bool> stepped(rows_.size(), false);
-        for (WatchedLight& state : states_) state.moved_layers = 0;
+        for (WatchedLight& state : states_) state.moved_layers = state.stepped_layers = 0;
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const shadow::ShadowView& now = frame.views[v];
-            PathFlicker& row = rows_[frame.demands[now.demand].light];
+            const std::uint32_t light = frame.demands[now.demand].light;
+            PathFlicker& row = rows_[light];
             ++row.views;
             row.views_drawn += frame.slots[v].texture && !frame.slots[v].reuse;
-            const auto before = std::find_if(last_views_.begin(), last_views_.end(), [&](const shadow::ShadowView& b) {
-                return b.demand == now.demand && b.layer == now.layer;
-            });
-            const bool known = before != last_views_.end();
+            const shadow::ShadowView* before = known_view(now);
             const bool same =
-                known && before->anchor_ws_m == now.anchor_ws_m && before->clip_from_anchor == now.clip_from_anchor;
+                before && before->anchor_ws_m == now.anchor_ws_m && before->clip_from_anchor == now.clip_from_anchor;
             row.views_moved += !same;
             const bool is_cube = now.projection == shadow::ViewProjection::cube_face;
-            if (!same) states_[frame.demands[now.demand].light].moved_layers |= is_cube ? kAllLayers : 1u << now.layer;
-            if (known && same_size(*before, now)) continue;
+            const std::uint32_t layers = is_cube ? kAllLayers : 1u << now.layer;
+            if (!same) states_[light].moved_layers |= layers;
+            // A view that is new decided nothing before.
+            if (!before || same_size(*before, now)) continue;
             ++row.views_stepped;
-            stepped[frame.demands[now.demand].light] = true;
+            states_[light].stepped_layers |= layers;
         }
-        for (std::size_t l = 0; l < rows_.size(); ++l) rows_[l].frames_stepped += stepped[l];
+        for (std::size_t l = 0; l < rows_.size(); ++l) rows_[l].frames_stepped += states_[l].stepped_layers != 0;
     }
     /// Equal but for a shift: what remains are roundings of the shift itself.
     static bool same_size(const shadow::ShadowView& a, const shadow::ShadowView& b) {
@@ -172,21 +184,24 @@ private:
         light.evaluate(at, now);
         for (std::size_t i = 0; i < seen.size(); ++i) {
             const std::size_t k = seen[i];
-            if (!first && state.seen[k])
-                compare(state.values[k], now[i], (state.moved_layers & now[i].layers) == 0, part);
+            if (!first && state.seen[k]) compare(state.values[k], now[i], state, part);
             part.uncovered += now[i].layers == 0;
             state.values[k] = now[i];
             state.seen[k] = 1;
         }
     }
 
-    static void compare(const ExactVisibility& before, const ExactVisibility& now, bool still, PathFlicker& row) {
+    static void compare(const ExactVisibility& before, const ExactVisibility& now, const WatchedLight& state,
+                        PathFlicker& row) {
+        const bool still = (state.moved_layers & now.layers) == 0;
+        const bool stepped = (state.stepped_layers & (before.layers | now.layers)) != 0;
         const bool flip = (before.value >= kHalfLit) != (now.value >= kHalfLit);
         const double jump = std::abs(static_cast<double>(now.value) - static_cast<double>(before.value));
         if (before.layers != now.layers || std::popcount(now.layers) > 1) {
             ++row.crossings;
             row.crossing_flips += flip;
-            row.greatest_crossing_jump = std::max(row.greatest_crossing_jump, jump);
+            double& greatest = stepped ? row.greatest_step_jump : row.greatest_crossing_jump;
+            greatest = std::max(greatest, jump);
         } else if (before.on_edge || now.on_edge) {
             ++row.edge_pairs;
             row.edge_flips += flip;
@@ -194,6 +209,7 @@ private:
             ++row.pairs;
             row.flips += flip;
             row.still_flips += flip && still;
+            row.flips_between_steps += flip && !stepped;
             row.greatest_jump = std::max(row.greatest_jump, jump);
         }
     }
@@ -202,12 +218,14 @@ private:
         row.pairs += part.pairs;
         row.flips += part.flips;
         row.still_flips += part.still_flips;
+        row.flips_between_steps += part.flips_between_steps;
         row.edge_pairs += part.edge_pairs;
         row.edge_flips += part.edge_flips;
         row.crossings += part.crossings;
         row.crossing_flips += part.crossing_flips;
         row.greatest_jump = std::max(row.greatest_jump, part.greatest_jump);
         row.greatest_crossing_jump = std::max(row.greatest_crossing_jump, part.greatest_crossing_jump);
+        row.greatest_step_jump = std::max(row.greatest_step_jump, part.greatest_step_jump);
         row.uncovered += part.uncovered;
     }
 
@@ -216,7 +234,7 @@ private:
     const std::vector<SurfacePoint>& points_;
     std::vector<WatchedLight> states_;
     std::vector<PathFlicker> rows_;
-    std::vector<shadow::ShadowView> last_views_;
+    std::vector<shadow::ShadowView> known_views_;  // each as it last was
 };
 
 std::vector<SurfacePoint> points_of_path(const ShadowFrames& frames, const Stage& stage, const ConsumerItem& start,

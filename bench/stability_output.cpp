@@ -15,15 +15,17 @@ constexpr const char* kColours[] = {"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad", 
 
 std::string line_of(const PathFlicker& r) {
     char text[kLineLength];
-    std::snprintf(
-        text, sizeof text,
-        "%-5s %-10.10s %-14.14s %-11.11s %7u %10.5f %8llu %6llu %10llu %6llu %6.3f %6llu %6llu %6llu %6llu %6llu %s\n",
-        r.path.c_str(), r.fit.c_str(), r.light.c_str(), r.kind.c_str(), r.points, r.flips_per_point_per_100_frames(),
-        static_cast<unsigned long long>(r.flips), static_cast<unsigned long long>(r.edge_flips),
-        static_cast<unsigned long long>(r.crossings), static_cast<unsigned long long>(r.crossing_flips),
-        r.greatest_crossing_jump, static_cast<unsigned long long>(r.views),
-        static_cast<unsigned long long>(r.views_moved), static_cast<unsigned long long>(r.frames_stepped),
-        static_cast<unsigned long long>(r.views_drawn), static_cast<unsigned long long>(r.uncovered), r.reason.c_str());
+    std::snprintf(text, sizeof text,
+                  "%-5s %-10.10s %-14.14s %-11.11s %7u %10.5f %8llu %8llu %6llu %10llu %6llu %6.3f %8.3f %6llu %6llu "
+                  "%6llu %6llu %6llu %s\n",
+                  r.path.c_str(), r.fit.c_str(), r.light.c_str(), r.kind.c_str(), r.points,
+                  r.flips_per_point_per_100_frames(), static_cast<unsigned long long>(r.flips),
+                  static_cast<unsigned long long>(r.flips_between_steps), static_cast<unsigned long long>(r.edge_flips),
+                  static_cast<unsigned long long>(r.crossings), static_cast<unsigned long long>(r.crossing_flips),
+                  r.greatest_crossing_jump, r.greatest_step_jump, static_cast<unsigned long long>(r.views),
+                  static_cast<unsigned long long>(r.views_moved), static_cast<unsigned long long>(r.frames_stepped),
+                  static_cast<unsigned long long>(r.views_drawn), static_cast<unsigned long long>(r.uncovered),
+                  r.reason.c_str());
     return text;
 }
 
@@ -88,12 +90,14 @@ nlohmann::ordered_json row_json(const PathFlicker& r) {
             {"flips", r.flips},
             {"flips_per_point_per_100_frames", r.flips_per_point_per_100_frames()},
             {"still_flips", r.still_flips},
+            {"flips_between_steps", r.flips_between_steps},
             {"edge_pairs", r.edge_pairs},
             {"edge_flips", r.edge_flips},
             {"crossings", r.crossings},
             {"crossing_flips", r.crossing_flips},
             {"greatest_jump", r.greatest_jump},
             {"greatest_crossing_jump", r.greatest_crossing_jump},
+            {"greatest_step_jump", r.greatest_step_jump},
             {"uncovered", r.uncovered},
             {"views", r.views},
             {"views_moved", r.views_moved},
@@ -109,21 +113,23 @@ std::string stability_table(const Stability& s) {
     std::string text = "scene   " + s.scene + "\ndevice  " + s.device + "\npicture " + std::to_string(s.size_px.x) +
                        " x " + std::to_string(s.size_px.y) + ", " + std::to_string(s.frames) + " frames per path\n\n";
     char head[kLineLength];
-    std::snprintf(head, sizeof head, "%-5s %-10s %-14s %-11s %7s %10s %8s %6s %10s %6s %6s %6s %6s %6s %6s %6s\n",
-                  "path", "fit", "light", "kind", "points", "flips/100", "flips", "edge", "crossings", "flips", "jump",
-                  "views", "moved", "steps", "drawn", "uncov.");
+    std::snprintf(head, sizeof head,
+                  "%-5s %-10s %-14s %-11s %7s %10s %8s %8s %6s %10s %6s %6s %8s %6s %6s %6s %6s %6s\n", "path", "fit",
+                  "light", "kind", "points", "flips/100", "flips", "between", "edge", "crossings", "flips", "jump",
+                  "at steps", "views", "moved", "steps", "drawn", "uncov.");
     text += head;
     for (const PathFlicker& row : s.rows) text += line_of(row);
     return text +
-           "\nflips/100: changes of visibility per point and 100 frames while one view decides; edge: those within "
-           "2^-10\n"
-           "texel of a texel's border or a depth tie, left out; crossings: another view decides than before, or "
-           "several\n"
-           "together, with their flips and the greatest jump of visibility; views: summed over frames; moved: their "
-           "matrices\n"
-           "changed; steps: frames in which the size, direction or depth range of some view changed; drawn: views "
-           "drawn\n"
-           "anew; uncov.: points in view that no view holds, summed over frames\n";
+           "\nflips/100: changes of visibility per point and 100 frames while one view decides; between: those in "
+           "frames in\n"
+           "which it did not step; edge: those within 2^-10 texel of a texel's border or a depth tie, left out; "
+           "crossings:\n"
+           "another view decides than before, or several together, with their flips and the greatest jump of "
+           "visibility;\n"
+           "at steps: the greatest where one of those views stepped; views: summed over frames; moved: their matrices "
+           "changed;\n"
+           "steps: frames in which the size, direction or depth range of some view changed; drawn: views drawn anew;\n"
+           "uncov.: points in view that no view holds, summed over frames\n";
 }
 
 std::string stability_json(const Stability& s) {

@@ -5,7 +5,7 @@ struct ViewRecord {
     vec4 axis_u;            // xyz: world direction of the map's u; w: texel edge, metres (orthographic) or tangent
     vec4 axis_v;
     vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta (see bias.glsl)
-    vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl); w: layer of the map
+    vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl), or view distance from which a cascade fades; w: layer of the map
     vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where the next cascade serves
 };
 layout(std140, binding = 1) uniform LightBlock {
@@ -14,6 +14,6 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 radiance;             // rgb: lux (directional) or candela
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces
     ivec4 options;             // x: views; y: 1 for constant bias; z: 1 if cascades are chosen by view distance; w: bit per layer that a view was drawn to
-    vec4 bias;                 // x: constant bias in metres; y: share of a cascade that fades; z: view distance where the first begins
+    vec4 bias;                 // x: constant bias in metres; y: share of a cascade that fades
     ViewRecord views[kMaxViews];
 } light;

@@ -2,10 +2,13 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "engine/ecs/entity.h"
+#include "systems/shadow/kinds/splits.h"
 
 /// What the fits remember from frame to frame, so that a map that is still good enough stays where it is: hysteresis.
 ///
@@ -42,16 +45,20 @@ struct ConeFade {
     bool operator==(const ConeFade&) const = default;
 };
 
-/// Depths between which a sun's cascades are split.
-struct HeldDepths {
+/// Where a sun's cascades end along the view, on their way to where they should (kinds/gliding_ends.h).
+struct HeldSplits {
     bool used = false;
-    int near_step = 0, far_step = 0;  // of view distances
-    bool operator==(const HeldDepths&) const = default;
+    int near_step = 0, far_step = 0;  // the depths that are split
+    std::uint32_t count = 0;          // of cascades; 0: what follows is not from a fit
+    CascadeEnds at_m{}, from_m{}, to_m{};
+    glm::dvec3 position_ws_m{0.0};  // of the camera that saw them there
+    glm::dmat3 rotation_ws{1.0};
+    bool operator==(const HeldSplits&) const = default;
 };
 
 struct HeldLight {
     ecs::Entity light = {};
-    HeldDepths depths;
+    HeldSplits splits;
     std::array<HeldView, kHeldViews> views;
     ConeFade cone;
     bool operator==(const HeldLight&) const = default;

@@ -40,7 +40,8 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     const double depth_rounding = depth_format_row(demand.depth_format).step +
                                   (orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha));
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
-                      static_cast<float>(view.depth_alpha), static_cast<float>(view.layer)};
+                      static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
+                      static_cast<float>(view.layer)};
     record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.seen_to_m);
     return record;
 }
@@ -154,7 +155,6 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
             out.record.bias.x = light.shadow.bias_m;
-            if (out.record.options.x == 1) out.record.bias.z = static_cast<float>(view.seen_from_m);
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }

@@ -84,6 +84,7 @@ struct ShadowView {
     glm::dvec2 tan_low{0.0}, tan_high{0.0};  // perspective, cube face: sides of the map at distance 1
     double seen_from_m = 0.0;                // cascades: nearest view distance this one serves
     double seen_to_m = 0.0;                  // view distance from which the next cascade serves; 0: where its map ends
+    double fades_from_m = 0.0;               // view distance from which it fades into the next, up to seen_to_m
     double texel_m = 0.0;                    // largest diagonal of a texel across the light, at a receiver
     double texel_extent_px = 0.0;            // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
     double predicted_error_px = 0.0;         // how far a shadow edge may be off on screen

@@ -34,11 +34,8 @@ int cascade_at(float distance_m) {
 #ifdef SHADOW_FADES
 // 0 up to the last part of a cascade, then rising to 1 where it ends.
 float share_at(int i, float distance_m) {
-    float start_m = light.bias.z;
-    if (i > 0) start_m = light.views[i - 1].anchor_from_camera.w;
-    float end_m = light.views[i].anchor_from_camera.w;
-    float band_m = light.bias.y * (end_m - start_m);
-    return band_m > 0.0 ? clamp((distance_m - end_m) / band_m + 1.0, 0.0, 1.0) : 0.0;
+    float start_m = light.views[i].numeric.z, end_m = light.views[i].anchor_from_camera.w;
+    return end_m > start_m ? clamp((distance_m - start_m) / (end_m - start_m), 0.0, 1.0) : 0.0;
 }
 
 // The same toward the border of its map.

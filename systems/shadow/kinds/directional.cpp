@@ -6,10 +6,8 @@
 
 #include "systems/extract/volumes.h"
 #include "systems/shadow/kinds/cascade_fit.h"
-#include "systems/shadow/kinds/held_fit.h"
+#include "systems/shadow/kinds/cascade_slices.h"
 #include "systems/shadow/kinds/perspective_view.h"
-#include "systems/shadow/kinds/splits.h"
-#include "systems/shadow/kinds/steps.h"
 #include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/range_override.h"
 
@@ -51,10 +49,6 @@ void place(const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth
 
 namespace {
 
-/// The depths that cascades share are held while what is seen fills at least a quarter of them. A stable fit's depend
-/// on the camera's place alone and need less patience (kHoldSteps).
-constexpr int kHoldDepthSteps = 8;
-
 /// The depth range that the demand asks for, counted from the sun's eye.
 void override_from_eye(const ShadowDemand& demand, const SunEye& eye, OrthographicBox& box) {
     const double eye_at_m = -glm::dot(eye.position_ws_m - box.anchor_ws_m, box.axes[2]);
@@ -67,59 +61,16 @@ void override_from_eye(const ShadowDemand& demand, const SunEye& eye, Orthograph
     box.far_m = std::max(box.far_m, box.near_m + least_m);
 }
 
-double view_distance(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
-    return -glm::dot(p_ws - consumer.position_ws_m, consumer.rotation_ws[2]);
-}
-
-/// Between which view distances the cascades lie.
-DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
-    DepthSpan span{std::numeric_limits<double>::infinity(), 0.0};
-    if (input.light.shadow.fit == ShadowFit::stable) {
-        // Turning the camera must change nothing: what counts is how far a receiver is, in any direction.
-        for (const InstanceItem& item : input.scene.instances)
-            if (item.visible && item.receives)
-                span.highest = std::max(span.highest, math::farthest_distance(item.bounds_ws, consumer.position_ws_m));
-        span.lowest = consumer.near_m;
-    } else {
-        for (const glm::dvec3& p : input.receiver_points_ws) {
-            const double distance_m = view_distance(consumer, p);
-            span.lowest = std::min(span.lowest, distance_m);
-            span.highest = std::max(span.highest, distance_m);
-        }
-    }
-    const double least_m = std::max(consumer.near_m, span.highest * kLeastExtent);
-    span.lowest = std::max(span.lowest, least_m);
-    span.highest = std::max(span.highest, span.lowest);
-    if (input.light.shadow.fit == ShadowFit::tight || !std::isfinite(span.highest)) return span;
-
-    const HeldDepths& held = input.held.depths;
-    HeldDepths& next = input.next.depths;
-    const int patience = input.light.shadow.fit == ShadowFit::stable ? kHoldSteps : kHoldDepthSteps;
-    next.far_step = hold_above(span.highest, held.used, held.far_step, patience);
-    next.near_step = hold_below(span.lowest, held.used, held.near_step, patience);
-    next.used = true;
-    return {step_size(next.near_step), step_size(next.far_step)};
-}
-
-/// The slice of what the consumer sees between two distances along its view.
-ConsumerItem slice(ConsumerItem consumer, double from_m, double to_m) {
-    consumer.near_m = from_m;
-    consumer.far_m = to_m;
+/// The consumer that sees what the slice's map has to hold.
+ConsumerItem cut(ConsumerItem consumer, const CascadeSlice& slice) {
+    consumer.near_m = slice.holds_from_m;
+    consumer.far_m = slice.holds_to_m;
     return consumer;
 }
 
-CascadeEnds split(const FitInput& input, const ConsumerItem& consumer) {
-    std::vector<DepthSpan>& receivers = input.scratch.depths;
-    receivers.clear();
-    if (input.light.shadow.splits == CascadeSplits::seen)
-        for (const std::uint32_t r : input.receivers) {
-            const math::Aabb& box = input.scene.instances[r].bounds_ws;
-            const double middle = view_distance(consumer, math::centre(box));
-            const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
-            receivers.push_back({middle - reach, middle + reach});
-        }
-    return cascade_ends(input.light.shadow, input.demand.view_count, whole_span(input, consumer),
-                        consumer.projection == CameraProjection::perspective, receivers);
+/// The view serves up to there, and fades into none.
+void end_before(double distance_m, ShadowView& view) {
+    if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = distance_m;
 }
 
 }  // namespace
@@ -130,38 +81,35 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const bool counts_from_eye = input.demand.near_m > 0.0 || input.demand.far_m > 0.0;
     const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
     const ConsumerItem& consumer = input.scene.consumers.front();
-    const CascadeEnds ends = split(input, consumer);
+    const CascadeSlices slices = cascade_slices(input);
     // Several consumers share the cascades: the last one then holds whatever any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.demand.view_count;
-    const auto blend = static_cast<double>(input.demand.cascade_blend);
     const std::size_t before = views.size();
     std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const bool last = i + 1 == count, of_all = last && !alone;
-        // The cascade before fades into this one over its last part.
-        const bool first = views.size() == before;
-        const double fading_m = first ? 0.0 : blend * (ends[i] - ends[i - 1]);
-        const double from_m = ends[i] - fading_m, to_m = ends[i + 1];
+        const CascadeSlice& slice = slices[i];
+        const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
         points_ws.clear();
         if (of_all || (last && first)) {
             points_ws.assign(input.receiver_points_ws.begin(), input.receiver_points_ws.end());
-        } else if (from_m < to_m) {
-            const math::Frustum frustum = consumer_frustum(slice(consumer, from_m, to_m));
+        } else if (slice.holds_from_m < slice.holds_to_m) {
+            const math::Frustum frustum = consumer_frustum(cut(consumer, slice));
             for (const std::uint32_t r : input.receivers)
                 math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws);
         }
         OrthographicBox box;
-        const CascadeInput cascade{input, basis, i, from_m, to_m, of_all, points_ws};
+        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
         if (points_ws.empty() || !cascade_fit(input.light.shadow.fit)(cascade, box)) continue;
         if (counts_from_eye) override_from_eye(input.demand, eye, box);
-        // Slices without receivers have no view: the one before serves up to here.
-        if (!first && views.back().seen_to_m > 0.0) views.back().seen_to_m = ends[i];
+        // No receiver lies in the slices that were left out, their part of the fading included.
+        if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());
         ShadowView view = orthographic_view(box, input.demand.resolution_px);
         view.layer = i;
         view.held = input.light.shadow.fit != ShadowFit::tight;
-        view.seen_from_m = alone ? from_m : 0.0;
-        view.seen_to_m = alone && view.held ? to_m : 0.0;
+        view.seen_from_m = alone ? slice.holds_from_m : 0.0;
+        view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
+        view.fades_from_m = alone && view.held ? slice.fades_from_m : 0.0;
         views.push_back(view);
     }
     return views.size() > before;

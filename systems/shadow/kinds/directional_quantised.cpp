@@ -13,15 +13,23 @@ struct Side {
     double low = 0.0, size = 0.0;
 };
 
-/// A turning camera lengthens and shortens a slice's sides all the time. So that few of those frames change a size,
-/// which shows, it is given up only when twice too large, and what follows is a step larger than it need be.
-constexpr int kPatience = 4, kHeadroom = 1;
+/// How long a size is kept, in steps: given up when it is more than `patience` too large; what follows is `headroom`
+/// larger than it need be.
+struct Holding {
+    int patience, headroom;
+};
+
+/// A turning camera lengthens and shortens a slice's sides all the time, and each change of a size shows.
+constexpr Holding kAcross{6, 1};
+/// A depth range costs no sharpness: its rounding is a hundred-thousandth of a texel. So it may be generous.
+constexpr Holding kAlong{12, 4};
 
 /// From low to high, not longer than `room` of a step, on parts of `grid` of it; the held one where that still holds
 /// it.
-Side hold(double low, double high, double room, double grid, bool used, double held_low, int held_step, int& step) {
-    step = hold_above((high - low) / room, used, held_step, kPatience);
-    if (used && step != held_step) step += kHeadroom;
+Side hold(double low, double high, double room, double grid, const Holding& holding, bool used, double held_low,
+          int held_step, int& step) {
+    step = hold_above((high - low) / room, used, held_step, holding.patience);
+    if (used && step != held_step) step += holding.headroom;
     Side side{0.0, step_size(step)};
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
     const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
@@ -56,12 +64,12 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
     glm::dvec3 low, size;
     for (int axis = 0; axis < 2; ++axis) {
-        const Side side = hold(lowest[axis], highest[axis], room, texel, held.used, held.low[axis],
+        const Side side = hold(lowest[axis], highest[axis], room, texel, kAcross, held.used, held.low[axis],
                                held.extent_step[axis], next.extent_step[axis]);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
-    const Side depth = hold(lowest.z, highest.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, held.used, held.near_m,
+    const Side depth = hold(lowest.z, highest.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, kAlong, held.used, held.near_m,
                             held.far_step, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;

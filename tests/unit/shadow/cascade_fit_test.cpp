@@ -65,10 +65,8 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
                 while (i + 1 < frame.views.size() && distance_m > frame.views[i].seen_to_m) ++i;
                 EXPECT_TRUE(holds(frame.views[i], p, margin)) << "round " << round << ", cascade " << i;
                 if (i + 1 == frame.views.size()) continue;
-                const double start_m = i == 0 ? frame.views[0].seen_from_m : frame.views[i - 1].seen_to_m;
-                const double end_m = frame.views[i].seen_to_m;
-                if (distance_m < end_m - 0.2 * (end_m - start_m) * (1.0 - 1e-9)) continue;
-                if (frame.views[i + 1].layer != frame.views[i].layer + 1) continue;  // nothing is seen there
+                if (!(distance_m > frame.views[i].fades_from_m)) continue;
+                EXPECT_EQ(frame.views[i + 1].layer, frame.views[i].layer + 1) << "nothing is seen beyond";
                 ++fading;
                 EXPECT_TRUE(holds(frame.views[i + 1], p, margin)) << "round " << round << ", beyond cascade " << i;
             }

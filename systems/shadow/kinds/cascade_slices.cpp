@@ -1,0 +1,99 @@
+#include "systems/shadow/kinds/cascade_slices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "systems/shadow/kinds/cascade_fit.h"
+#include "systems/shadow/kinds/gliding_ends.h"
+#include "systems/shadow/kinds/held_fit.h"
+#include "systems/shadow/kinds/steps.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// The depths that cascades share are held while what is seen fills at least a quarter of them.
+constexpr int kHoldDepthSteps = 8;
+
+double view_distance(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
+    return -glm::dot(p_ws - consumer.position_ws_m, consumer.rotation_ws[2]);
+}
+
+/// Neither turning nor walking among receivers may change it: as far as receivers lie apart; seen from outside, as far
+/// as the farthest one.
+DepthSpan stable_span(const SceneSnapshot& scene, const ConsumerItem& consumer) {
+    math::Aabb all;
+    for (const InstanceItem& item : scene.instances)
+        if (item.visible && item.receives) all = math::merged(all, item.bounds_ws);
+    if (math::is_empty(all)) return {consumer.near_m, 0.0};
+    const double across_m = 2.0 * glm::length(math::half_extent(all));
+    return {consumer.near_m, std::max(across_m, math::farthest_distance(all, consumer.position_ws_m))};
+}
+
+DepthSpan seen_span(std::span<const glm::dvec3> points_ws, const ConsumerItem& consumer) {
+    DepthSpan span{std::numeric_limits<double>::infinity(), 0.0};
+    for (const glm::dvec3& p : points_ws) {
+        const double distance_m = view_distance(consumer, p);
+        span.lowest = std::min(span.lowest, distance_m);
+        span.highest = std::max(span.highest, distance_m);
+    }
+    return span;
+}
+
+/// Between which view distances the cascades lie.
+DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
+    const ShadowFit fit = input.light.shadow.fit;
+    DepthSpan span =
+        fit == ShadowFit::stable ? stable_span(input.scene, consumer) : seen_span(input.receiver_points_ws, consumer);
+    span.lowest = std::max(span.lowest, std::max(consumer.near_m, span.highest * kLeastExtent));
+    span.highest = std::max(span.highest, span.lowest);
+    if (fit == ShadowFit::tight || !std::isfinite(span.highest)) return span;
+
+    const HeldSplits& held = input.held.splits;
+    HeldSplits& next = input.next.splits;
+    const int patience = fit == ShadowFit::stable ? kHoldSteps : kHoldDepthSteps;
+    next.far_step = hold_above(span.highest, held.used, held.far_step, patience);
+    next.near_step = hold_below(span.lowest, held.used, held.near_step, patience);
+    next.used = true;
+    return {step_size(next.near_step), step_size(next.far_step)};
+}
+
+CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
+    std::vector<DepthSpan>& receivers = input.scratch.depths;
+    receivers.clear();
+    if (input.light.shadow.splits == CascadeSplits::seen)
+        for (const std::uint32_t r : input.receivers) {
+            const math::Aabb& box = input.scene.instances[r].bounds_ws;
+            const double middle = view_distance(consumer, math::centre(box));
+            const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
+            receivers.push_back({middle - reach, middle + reach});
+        }
+    return cascade_ends(input.light.shadow, input.demand.view_count, whole_span(input, consumer),
+                        consumer.projection == CameraProjection::perspective, receivers);
+}
+
+}  // namespace
+
+CascadeSlices cascade_slices(const FitInput& input) {
+    const ConsumerItem& consumer = input.scene.consumers.front();
+    const CascadeEnds wanted = wanted_ends(input, consumer);
+    const std::uint32_t count = input.demand.view_count;
+    // Several consumers: all cascades serve by what they hold, none by distance.
+    const bool moves_slowly = input.light.shadow.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
+    const double blend = static_cast<double>(input.demand.cascade_blend);
+    const GlidingEnds ends = moves_slowly ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
+                                          : GlidingEnds{wanted, wanted, wanted};
+    if (!moves_slowly) input.next.splits.count = 0;
+    CascadeSlices slices{};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto holds_from = [&](const CascadeEnds& e) { return i == 0 ? e[0] : fade_start(e, i, blend); };
+        slices[i].holds_from_m = std::min(holds_from(ends.from_m), holds_from(ends.to_m));
+        slices[i].holds_to_m = std::max(ends.from_m[i + 1], ends.to_m[i + 1]);
+        slices[i].fades_from_m = fade_start(ends.at_m, i + 1, blend);
+        slices[i].serves_to_m = ends.at_m[i + 1];
+    }
+    return slices;
+}
+
+}  // namespace gnomon::shadow

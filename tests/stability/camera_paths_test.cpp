@@ -1,0 +1,232 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <random>
+
+#include "bench/stability_path.h"
+#include "bench/stability_scene.h"
+#include "sample_game/light_settings.h"
+#include "sample_game/scene_source.h"
+#include "systems/shadow/demand.h"
+#include "systems/shadow/fit.h"
+#include "systems/shadow/kinds/gliding_ends.h"
+#include "systems/shadow/sets.h"
+
+/// A sun's fits along the whole paths of the flicker bench, built-in scene, without a GPU: when views step, and how
+/// points pass from one cascade to the next.
+namespace gnomon {
+namespace {
+
+using shadow::ShadowView;
+
+constexpr int kFrames = 300;
+constexpr std::size_t kPoints = 4000;
+constexpr std::size_t kLayers = shadow::kMaxViews;
+/// The shader's share is a float.
+constexpr double kRounding = 1e-6;
+
+struct Walk {
+    int stepped_frames = 0, moved_frames = 0;
+    int parted = 0;              // moves that were no step, and no whole number of texels
+    int in_bands = 0;            // points that two cascades share, summed over frames
+    int outside = 0;             // points that a cascade which decides does not hold
+    double greatest_fade = 0.0;  // of any cascade's share in what a point shows, from one frame to the next
+};
+
+class CameraPaths : public ::testing::Test {
+protected:
+    void SetUp() override {
+        auto scene = game::load_scene(std::nullopt);
+        ASSERT_TRUE(scene);
+        spawned_ = game::spawn_scene(std::move(scene).value(), world_, library_);
+        game::apply_motion(spawned_.moving, 0.0, world_);
+        extract();
+        start_ = snapshot_.consumers.front();
+        distance_m_ = bench::seen_distance_m(snapshot_, library_, start_);
+        add_points();
+    }
+    Walk go(const std::string& path, const std::vector<std::string>& settings) {
+        for (const game::NamedEntity& light : spawned_.lights)
+            for (const std::string& setting : settings)
+                world_.patch<LightShadow>(light.entity,
+                                          [&](LightShadow& s) { EXPECT_FALSE(game::apply_setting(s, setting)); });
+        extract();
+        Walk walk;
+        shadow::History history;
+        std::vector<ShadowView> known;
+        std::vector<Shares> last(points_ws_.size());
+        for (int i = 0; i < kFrames; ++i) {
+            snapshot_.consumers.front() = bench::on_path(start_, path, i / double{kFrames - 1}, distance_m_);
+            // The first pose until sizes and holds have settled.
+            for (int settling = i == 0 ? 3 : 1; settling > 0; --settling) {
+                fit(history);
+                std::swap(history, frame_.next_history);
+            }
+            compare_views(known, walk);
+            compare_points(i == 0, last, walk);
+        }
+        return walk;
+    }
+
+private:
+    /// Of each layer in what a point shows; all 0 out of view.
+    using Shares = std::array<double, kLayers>;
+
+    void extract() {
+        Extractor extractor;
+        TransformSystem transforms;
+        extractor.update(world_, library_, transforms.update(world_), {1280, 720}, snapshot_);
+    }
+    void fit(const shadow::History& history) {
+        gl::DeviceInfo device;
+        device.max_texture_px = device.max_cube_px = 16384;
+        shadow::decide_demand(snapshot_, device, true, history, frame_.demands);
+        shadow::select_sets(snapshot_, frame_);
+        shadow::fit_views(snapshot_, history, frame_);
+    }
+    std::vector<const ShadowView*> cascades() const {
+        std::vector<const ShadowView*> views;
+        for (const ShadowView& view : frame_.views)
+            if (snapshot_.lights[frame_.demands[view.demand].light].kind == LightKind::directional)
+                views.push_back(&view);
+        return views;
+    }
+    /// Somewhere in the boxes of what receives shadows.
+    void add_points() {
+        std::mt19937_64 random(20260418);
+        std::uniform_real_distribution<double> share(0.0, 1.0);
+        std::vector<math::Aabb> boxes;
+        for (const InstanceItem& item : snapshot_.instances)
+            if (item.visible && item.receives) boxes.push_back(item.bounds_ws);
+        while (points_ws_.size() < kPoints) {
+            const math::Aabb& box = boxes[points_ws_.size() % boxes.size()];
+            points_ws_.push_back(glm::mix(box.min, box.max, glm::dvec3(share(random), share(random), share(random))));
+        }
+    }
+    static bool same_size(const ShadowView& a, const ShadowView& b) {
+        const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(x); };
+        return near(a.texel_u, b.texel_u) && near(a.texel_v, b.texel_v) && a.axis_u == b.axis_u &&
+               near(a.far_m - a.near_m, b.far_m - b.near_m);
+    }
+    static bool by_whole_texels(const ShadowView& a, const ShadowView& b) {
+        const glm::dvec3 shift = b.anchor_ws_m - a.anchor_ws_m;
+        const double u = (glm::dot(shift, a.axis_u) + b.centre_ls_m.x - a.centre_ls_m.x) / a.texel_u;
+        const double v = (glm::dot(shift, a.axis_v) + b.centre_ls_m.y - a.centre_ls_m.y) / a.texel_v;
+        return std::abs(u - std::round(u)) < 1e-6 && std::abs(v - std::round(v)) < 1e-6;
+    }
+    void compare_views(std::vector<ShadowView>& known, Walk& walk) const {
+        bool stepped = false, moved = false;
+        for (const ShadowView* view : cascades()) {
+            const auto before =
+                std::find_if(known.begin(), known.end(), [&](const ShadowView& k) { return k.layer == view->layer; });
+            if (before == known.end()) {
+                known.push_back(*view);
+                continue;
+            }
+            const bool same =
+                before->clip_from_anchor == view->clip_from_anchor && before->anchor_ws_m == view->anchor_ws_m;
+            moved |= !same;
+            if (!same_size(*before, *view))
+                stepped = true;
+            else if (!same)
+                walk.parted += !by_whole_texels(*before, *view);
+            *before = *view;
+        }
+        walk.stepped_frames += stepped;
+        walk.moved_frames += moved;
+    }
+    static bool holds(const ShadowView& view, const glm::dvec3& p_ws) {
+        const glm::dvec3 q = glm::dvec3(view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f));
+        return q.x >= 0.0 && q.y >= 0.0 && q.z >= 0.0 && q.x <= 1.0 && q.y <= 1.0 && q.z <= 1.0;
+    }
+    /// As shaders/shadow/kinds/directional.glsl chooses where maps are held.
+    static Shares shares_at(const std::vector<const ShadowView*>& views, const glm::dvec3& p_ws, double distance_m,
+                            Walk& walk) {
+        Shares shares{};
+        std::size_t i = 0;
+        while (i + 1 < views.size() && distance_m > views[i]->seen_to_m) ++i;
+        const double from_m = views[i]->fades_from_m, to_m = views[i]->seen_to_m;
+        double share = to_m > from_m ? std::clamp((distance_m - from_m) / (to_m - from_m), 0.0, 1.0) : 0.0;
+        if (i + 1 == views.size() || (share > 0.0 && !holds(*views[i + 1], p_ws))) share = 0.0;
+        walk.in_bands += share > 0.0;
+        walk.outside += !holds(*views[i], p_ws);
+        shares[views[i]->layer] = 1.0 - share;
+        if (i + 1 < views.size()) shares[views[i + 1]->layer] += share;
+        return shares;
+    }
+    void compare_points(bool first, std::vector<Shares>& last, Walk& walk) const {
+        const auto views = cascades();
+        const ConsumerItem& camera = snapshot_.consumers.front();
+        for (std::size_t k = 0; k < points_ws_.size(); ++k) {
+            const bool was_seen = !first && last[k] != Shares{};
+            const Shares before = last[k];
+            last[k] = {};
+            if (views.empty() || !bench::in_view(camera, points_ws_[k])) continue;
+            const double distance_m = -glm::dot(points_ws_[k] - camera.position_ws_m, camera.rotation_ws[2]);
+            last[k] = shares_at(views, points_ws_[k], distance_m, walk);
+            if (!was_seen) continue;
+            for (std::size_t l = 0; l < kLayers; ++l)
+                walk.greatest_fade = std::max(walk.greatest_fade, std::abs(last[k][l] - before[l]));
+        }
+    }
+
+    ecs::Registry world_;
+    assets::MeshLibrary library_;
+    game::SpawnedScene spawned_;
+    SceneSnapshot snapshot_;
+    ConsumerItem start_;
+    double distance_m_ = 1.0;
+    std::vector<glm::dvec3> points_ws_;
+    shadow::ShadowFrame frame_;
+};
+
+TEST_F(CameraPaths, AStableSunStepsNowhereAndMovesByWholeTexels) {
+    for (const char* path : {"pan", "walk", "roll"}) {
+        SCOPED_TRACE(path);
+        const Walk walk = go(path, {"fit=stable"});
+        EXPECT_EQ(walk.stepped_frames, 0);
+        EXPECT_EQ(walk.parted, 0);
+        EXPECT_LT(walk.moved_frames, kFrames / 2);
+        EXPECT_EQ(walk.outside, 0);
+    }
+}
+
+TEST_F(CameraPaths, AQuantisedSunStepsFourTimesAtMostWhileWalkingAndMovesByWholeTexelsBetween) {
+    const Walk walk = go("walk", {"fit=quantised"});
+    EXPECT_LE(walk.stepped_frames, 4);
+    EXPECT_EQ(walk.parted, 0);
+    EXPECT_EQ(walk.outside, 0);
+    for (const char* path : {"pan", "roll", "zoom"}) {
+        SCOPED_TRACE(path);
+        const Walk turn = go(path, {"fit=quantised"});
+        EXPECT_LE(turn.stepped_frames, kFrames / 30);
+        EXPECT_EQ(turn.parted, 0);
+        EXPECT_EQ(turn.outside, 0);
+    }
+}
+
+TEST_F(CameraPaths, ATightSunStepsInNearlyEveryFrame) {
+    EXPECT_GT(go("walk", {"fit=tight"}).stepped_frames, kFrames * 9 / 10) << "or steps are not seen";
+}
+
+TEST_F(CameraPaths, APointPassesFromOneCascadeToTheNextByAnEighthPerFrameAtMost) {
+    for (const char* fit : {"fit=quantised", "fit=stable"})
+        for (const char* splits : {"splits=practical", "splits=uniform", "splits=logarithmic", "splits=seen"})
+            for (const char* path : {"pan", "walk", "roll", "zoom"}) {
+                SCOPED_TRACE(std::string(fit) + " " + splits + " " + path);
+                const Walk walk = go(path, {fit, splits, "cascade_blend=0.2"});
+                EXPECT_LE(walk.greatest_fade, shadow::kMostFade + kRounding);
+                EXPECT_GT(walk.in_bands, kFrames) << "nothing fades";
+                EXPECT_EQ(walk.outside, 0);
+            }
+}
+
+TEST_F(CameraPaths, WithoutABlendAPointJumps) {
+    EXPECT_EQ(go("walk", {"fit=quantised", "cascade_blend=0"}).greatest_fade, 1.0);
+}
+
+}  // namespace
+}  // namespace gnomon
