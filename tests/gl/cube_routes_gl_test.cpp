@@ -3,7 +3,7 @@
 
 #include "engine/gl/shader_source.h"
 #include "shaders/embedded.h"
-#include "tests/gl/box_fixture.h"
+#include "tests/gl/room_fixture.h"
 
 // However a point light's faces are drawn, the maps are the same.
 namespace gnomon {
@@ -12,19 +12,12 @@ namespace {
 constexpr std::uint32_t kMap_px = 128;
 constexpr std::size_t kSome = 200;
 
-class CubeRoutes : public BoxTest {
+class CubeRoutes : public RoomTest {
 protected:
     void SetUp() override {
-        BoxTest::SetUp();
+        RoomTest::SetUp();
         truth.margin_m = 0.15;
-        for (int axis = 0; axis < 3; ++axis)
-            for (const double side : {-1.0, 1.0}) {
-                glm::dvec3 inward(0.0), u(0.0), v(0.0);
-                inward[axis] = -side;
-                u[(axis + 1) % 3] = 4.0;
-                v[(axis + 2) % 3] = 4.0 * -side;
-                add_card({-inward * 4.0, u, v});
-            }
+        add_room(4.0);
         for (int x = -1; x <= 1; ++x)
             for (int y = -1; y <= 1; ++y)
                 for (int z = -1; z <= 1; ++z) {

@@ -1,4 +1,4 @@
-#include "tests/gl/box_fixture.h"
+#include "tests/gl/room_fixture.h"
 
 // A point light amid a room: every face of its cube and every seam between them.
 namespace gnomon {
@@ -7,19 +7,8 @@ namespace {
 constexpr double kHalf_m = 4.0;
 constexpr std::size_t kSome = 200;
 
-class ShadowCube : public BoxTest {
+class ShadowCube : public RoomTest {
 protected:
-    void add_room() {
-        for (int axis = 0; axis < 3; ++axis)
-            for (const double side : {-1.0, 1.0}) {
-                glm::dvec3 inward(0.0), u(0.0), v(0.0);
-                inward[axis] = -side;
-                u[(axis + 1) % 3] = kHalf_m;
-                v[(axis + 2) % 3] = kHalf_m * -side;  // cross(u, v) points inward
-                ASSERT_GT(glm::dot(glm::cross(u, v), inward), 0.0);
-                add_card({-inward * kHalf_m, u, v});
-            }
-    }
     /// A camera near the wall behind, aside of the light so that casters do not hide their shadows.
     void look(const glm::dvec3& direction) {
         const glm::dvec3 aside(direction.y + direction.z, direction.z + direction.x, direction.x + direction.y);
@@ -38,7 +27,7 @@ protected:
 
 TEST_P(ShadowCubeAlong, OneCasterDarkensTheWallBehindItAndNoOther) {
     truth.margin_m = 0.12;
-    add_room();
+    add_room(kHalf_m);
     const glm::dvec3 at = 1.4 * direction() + 0.2 * glm::dvec3(direction().y, direction().z, direction().x);
     add_box(at - 0.3, at + 0.3);
     add_light({.kind = LightKind::point, .intensity = 1000.0f}, glm::dvec3(0.1, -0.15, 0.05), {0.0, 0.0, -1.0},
@@ -53,7 +42,7 @@ TEST_P(ShadowCubeAlong, OneCasterDarkensTheWallBehindItAndNoOther) {
 
 TEST_P(ShadowCubeAlong, CastersAcrossEverySeamAndCornerDarkenBothSides) {
     truth.margin_m = 0.12;
-    add_room();
+    add_room(kHalf_m);
     for (int x = -1; x <= 1; ++x)
         for (int y = -1; y <= 1; ++y)
             for (int z = -1; z <= 1; ++z) {
@@ -76,7 +65,7 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
     // Off the middle, so that the cube's seams run over the walls; within the filter of the room's own edges a
     // neighbouring wall may darken, which the margin leaves out.
     truth.margin_m = 0.4;
-    add_room();
+    add_room(kHalf_m);
     // Something must cast, or no map exists: here the walls cast upon themselves.
     const auto walls = world.entities_with<MeshRef>();
     for (const ecs::Entity wall : std::vector<ecs::Entity>(walls.begin(), walls.end())) world.emplace<ShadowCaster>(wall);
