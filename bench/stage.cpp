@@ -58,6 +58,7 @@ std::optional<Error> Stage::prepare(const StageOptions& options) {
     if (!frame) return frame.error();
     frame_ = std::move(frame).value();
     settings_.viewport_px = options.size_px;
+    settings_.repeatable = true;
     return std::nullopt;
 }
 

@@ -29,8 +29,9 @@ enum class CubeRoute : std::uint8_t { automatic, six_passes, layered_vertex, lay
 enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 
 /// Where a sun's cascades end along the view. `practical` mixes logarithmic and uniform ends by split_lambda; `seen`
-/// does the same over those depths alone at which receivers lie; `manual` takes split_m.
-enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen };
+/// does the same over those depths alone at which receivers lie, by their bounds; `sampled` makes texels smallest where
+/// the pixels of an earlier picture lie; `manual` takes split_m.
+enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen, sampled };
 
 /// Which faces of casters a light draws into its maps. Only meshes that are known to be solid have sides to choose from
 /// (closed, wound outward, opaque and single-sided throughout); of all others both are drawn, whatever is asked for,

@@ -39,6 +39,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
     settings.viewport_px = line.size_px;
     settings.exposure_ev = line.exposure_ev;
     settings.debug = line.debug;
+    settings.repeatable = true;
     StatsFile stats(stage->renderer.device->info().name);
     const bool to_the_end = line.demo && !line.frames && !line.time_s;
     const std::uint64_t frames = line.frames.value_or(1);

@@ -69,8 +69,8 @@ constexpr std::array<std::string_view, 3> kWords<DepthFormat>{"d32f", "d24", "d1
 template <>
 constexpr std::array<std::string_view, 3> kWords<ShadowFit>{"tight", "stable", "quantised"};
 template <>
-constexpr std::array<std::string_view, 5> kWords<CascadeSplits>{"practical", "uniform", "logarithmic", "manual",
-                                                                "seen"};
+constexpr std::array<std::string_view, 6> kWords<CascadeSplits>{"practical", "uniform", "logarithmic",
+                                                                "manual",    "seen",    "sampled"};
 
 template <>
 constexpr std::array<std::string_view, 4> kWords<CasterFaces>{"automatic", "front", "back", "both"};
@@ -310,7 +310,7 @@ constexpr std::array kSettings{
                  .slider_most = kMaxCascades,
                  .whole = true},
     LightSetting{.key = "splits",
-                 .values = "practical | uniform | logarithmic | manual | seen",
+                 .values = "practical | uniform | logarithmic | manual | seen | sampled",
                  .meaning = "where a sun's cascades end along the view",
                  .set = set_word<&S::splits, CascadeSplits>,
                  .get = get_word<&S::splits, CascadeSplits>,

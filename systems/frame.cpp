@@ -6,6 +6,7 @@
 #include "systems/debug/debug_painter.h"
 #include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
+#include "systems/shadow/sampled_depths.h"
 #include "systems/shadow/shadow_system.h"
 
 namespace gnomon {
@@ -38,10 +39,14 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_);
     world.discard_changes();
     report_.dropped = snapshot_.dropped;
+    lighting_->collect_depths(snapshot_.sampled_depths);
     gpu_scene_.update(snapshot_, commands_);
     const shadow::ShadowFrame& shadows = shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
-    has_picture_ = !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
-                                                                {settings.exposure_ev}, commands_, report_);
+    const bool sample_depths = shadow::wants_sampled_depths(snapshot_, shadows);
+    if (!sample_depths) snapshot_.sampled_depths = {};  // of no use later
+    has_picture_ = !shadows.inputs.empty() &&
+                   lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
+                                     {settings.exposure_ev, sample_depths}, commands_, report_);
     if (has_picture_)
         debug_->record(settings.debug, snapshot_, shadows, lighting_->picture_target(), settings.viewport_px,
                        commands_);
@@ -53,6 +58,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     report_.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 
     const gl::SubmitResult result = device_.submit(commands_);
+    if (settings.repeatable && sample_depths) device_.finish();
     shadows_->commit(snapshot_, result.failure == gl::Failure::none);
     if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
     if (result.failure != gl::Failure::none) report_.failure = result.failure;

@@ -35,6 +35,9 @@ struct FrameSettings {
     std::optional<float> exposure_ev;  // EV100; empty: automatic
     bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
     bool present = false;              // copy the picture to the window at the end
+    /// Wait at the end of a frame for what the GPU measures in it (CascadeSplits::sampled), so that every run draws the
+    /// same pictures; else nothing is waited for, and measures arrive some frames later.
+    bool repeatable = false;
     debug::Request debug = {};         // drawn over the picture; none by default
 };
 

@@ -7,5 +7,6 @@ namespace gnomon {
 inline std::uint32_t shadow_timer(std::uint32_t light) { return 2 * light; }
 inline std::uint32_t lighting_timer(std::uint32_t light) { return 2 * light + 1; }
 inline constexpr std::uint32_t kSurfaceTimer = 0xfffffff0u, kFinishTimer = 0xfffffff1u;
+inline constexpr std::uint32_t kDepthTimer = 0xfffffff2u;  // counting of view distances
 
 }  // namespace gnomon

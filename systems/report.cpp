@@ -60,6 +60,8 @@ const char* reason_code(Reason reason) {
             return "cascades_clamped";
         case Reason::splits_invalid:
             return "splits_invalid";
+        case Reason::depths_unread:
+            return "depths_unread";
     }
     return "unknown";
 }

@@ -37,7 +37,8 @@ enum class Reason : std::uint8_t {
     eye_invalid,             // a sun's eye distance or angle is absurd, it stays orthographic
     range_invalid,           // near_m and far_m are no range, the fitted one is used
     cascades_clamped,        // more cascades than a light can have
-    splits_invalid           // split_m, split_lambda or cascade_blend is absurd, the default is used
+    splits_invalid,          // split_m, split_lambda or cascade_blend is absurd, the default is used
+    depths_unread            // the picture's depths could not be had, splits go by the receivers' bounds
 };
 const char* reason_code(Reason reason);
 

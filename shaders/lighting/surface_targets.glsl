@@ -1,5 +1,5 @@
 // The surface buffers as the light passes read them.
-#include "shared/camera_block.glsl"
+#include "shared/view_distance.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/numerics.glsl"
 layout(binding = 0) uniform sampler2D surface_depth;
@@ -19,12 +19,10 @@ struct Surface {
     float error_m;        // how far position_ca may be off the true surface
 };
 
-// Depth d of a perspective view is (y / z) - x, of an orthographic one (x - z) / y.
 vec3 surface_position(ivec2 pixel, float depth) {
     vec2 ndc = (vec2(pixel) + 0.5) / camera.unproject.zw * 2.0 - 1.0;
     bool orthographic = camera.back.w > 0.5;
-    float z = orthographic ? camera.unproject.x - depth * camera.unproject.y
-                           : camera.unproject.y / (depth + camera.unproject.x);
+    float z = view_distance(depth);
     vec3 lateral = camera.right.xyz * (ndc.x * camera.right.w) + camera.up.xyz * (ndc.y * camera.up.w);
     return orthographic ? lateral - camera.back.xyz * z : (lateral - camera.back.xyz) * z;
 }

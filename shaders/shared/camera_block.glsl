@@ -6,5 +6,5 @@ layout(std140, binding = 0) uniform CameraBlock {
     vec4 right;              // w: tangent of the half angle in x (orthographic: half width in metres)
     vec4 up;                 // w: the same in y
     vec4 back;               // w: 1 for orthographic
-    vec4 unproject;          // x, y: see surface_position(); zw: viewport in pixels
+    vec4 unproject;          // x, y: see view_distance(); zw: viewport in pixels
 } camera;

@@ -12,6 +12,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
+#include "systems/extract/sampled_depths.h"
 
 /// Struct 1 of the frame: everything later stages know of the world, in world-space double.
 /// Fill it from another ECS and the rest of Gnomon works unchanged.
@@ -101,6 +102,7 @@ struct SceneSnapshot {
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
     std::uint64_t version = 0;                     // grows whenever anything changed
     math::BoundsTree tree;           // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
+    SampledDepths sampled_depths;  // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
     std::uint64_t tree_version = 0;  // the version it is of; of another one it is not used
 };
 

@@ -45,6 +45,7 @@ LightingSystem::LightingSystem(gl::Device& device)
     : device_(device),
       programs_(device),
       targets_(device),
+      depths_(device),
       items_(device, "surface draw items"),
       uniforms_(device, "lighting uniforms") {}
 
@@ -331,6 +332,10 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     }
     upload(inputs, scene, settings, list);
     record_surfaces(gpu, list);
+    if (settings.sample_depths)
+        depths_.record({scene.consumers[inputs.consumer].entity, targets_.depth, point_sampler_, uniforms_.handle(),
+                        targets_.size_px()},
+                       list);
     record_lights(inputs, scene, list, report);
     record_blended(inputs, gpu, list, report);
     record_finish(list);

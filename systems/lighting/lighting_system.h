@@ -9,6 +9,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
+#include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/lighting_targets.h"
 #include "systems/report.h"
@@ -29,6 +30,7 @@ struct ExposureRecord {
 
 struct LightingSettings {
     std::optional<float> exposure_ev;  // EV100; empty: from the picture's own logarithmic mean
+    bool sample_depths = false;        // count the picture's pixels by view distance, for collect_depths()
 };
 
 /// Ambient light for a scene that brings none: a share of what its lights give, bluish from above.
@@ -52,6 +54,9 @@ public:
     /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of
     /// the last record() of the same inputs. False if it cannot be done.
     bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list);
+
+    /// Where the pixels of an earlier picture lie, the newest that is known: see DepthSampler::collect().
+    void collect_depths(SampledDepths& depths) { depths_.collect(depths); }
 
     gl::TextureHandle picture_texture() const { return targets_.picture; }  // srgb8_a8
     gl::TargetHandle picture_target() const { return targets_.picture_target; }
@@ -96,6 +101,7 @@ private:
     gl::Device& device_;
     LightPrograms programs_;
     LightingTargets targets_;
+    DepthSampler depths_;
     GrowingBuffer items_, uniforms_;
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
     std::uint32_t light_stride_ = 0, lights_offset_ = 0, ambient_offset_ = 0, exposure_offset_ = 0;

@@ -28,7 +28,8 @@ Reason wanted(const LightItem& light, bool shadows) {
 }
 
 /// How many cascades a sun has, and what fades between them.
-void decide_cascades(const LightShadow& shadow, ShadowDemand& demand) {
+void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand& demand) {
+    if (depths_failed && shadow.splits == CascadeSplits::sampled) demand.note = Reason::depths_unread;
     if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
     if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
     demand.view_count = cascade_count(shadow, demand.view_count);
@@ -36,10 +37,10 @@ void decide_cascades(const LightShadow& shadow, ShadowDemand& demand) {
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
-void decide_projection(const LightItem& light, ShadowDemand& demand) {
+void decide_projection(const LightItem& light, bool depths_failed, ShadowDemand& demand) {
     const LightProjection wish = light.shadow.projection;
     const bool sun = light.kind == LightKind::directional;
-    if (sun) decide_cascades(light.shadow, demand);
+    if (sun) decide_cascades(light.shadow, depths_failed, demand);
     if (is_range(light.shadow)) {
         demand.near_m = static_cast<double>(light.shadow.near_m);
         demand.far_m = static_cast<double>(light.shadow.far_m);
@@ -96,7 +97,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
                 std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
-        decide_projection(light, demand);
+        decide_projection(light, scene.sampled_depths.failed, demand);
         if (light.kind == LightKind::spot) decide_cone(light, find(held, light.entity, i), demand);
         demands.push_back(demand);
     }

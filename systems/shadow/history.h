@@ -56,11 +56,19 @@ struct HeldSplits {
     bool operator==(const HeldSplits&) const = default;
 };
 
+/// Where a sun's cascades end by CascadeSplits::sampled, metres along the view.
+struct HeldEnds {
+    std::uint32_t count = 0;  // of cascades; 0: nothing is held
+    std::array<double, kHeldViews + 1> ends_m{};
+    bool operator==(const HeldEnds&) const = default;
+};
+
 struct HeldLight {
     ecs::Entity light = {};
     HeldSplits splits;
     std::array<HeldView, kHeldViews> views;
     ConeFade cone;
+    HeldEnds sampled_ends;
     bool operator==(const HeldLight&) const = default;
 };
 

@@ -64,6 +64,8 @@ INSTANTIATE_TEST_SUITE_P(EachMode, CascadesOf,
                                            Cascades{ShadowFit::quantised, 7, 0.1f},
                                            Cascades{ShadowFit::quantised, 4, 0.2f, CascadeSplits::manual},
                                            Cascades{ShadowFit::quantised, 4, 0.2f, CascadeSplits::seen},
+                                           Cascades{ShadowFit::quantised, 4, 0.2f, CascadeSplits::sampled},
+                                           Cascades{ShadowFit::tight, 4, 0.0f, CascadeSplits::sampled},
                                            Cascades{ShadowFit::tight, 4, 0.2f, CascadeSplits::uniform}));
 
 TEST_F(CascadePictures, FadingMixesTwoHardEdgesAndNothingElseDoes) {

@@ -60,7 +60,7 @@ protected:
     }
     void run(Gpu& gpu, int index) {
         scene.play(index);
-        gpu.frame->run(*scene.registry, {.viewport_px = {64, 64}, .exposure_ev = {}});
+        gpu.frame->run(*scene.registry, {.viewport_px = {64, 64}, .exposure_ev = {}, .repeatable = true});
     }
     void expect_delivered(Gpu& gpu, bool lasting) {
         const FrameReport& report = gpu.frame->report();
@@ -122,7 +122,7 @@ protected:
         return gl->calls(GetParam());
     }
 
-    FaultScene scene = courtyard_scene();
+    FaultScene scene = sampled_courtyard_scene();
     std::unique_ptr<platform::Context> context;
     std::vector<Picture> sound;   // by frame
     std::optional<FailingGl> gl;  // once all of OpenGL that is used has been called

@@ -55,6 +55,8 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         if (vertex && fragment)
             programs.push_back({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()});
     }
+    if (const auto compute = gl::expand_shader(shader_files(), "shadow/depth_bins.comp", {}))
+        programs.push_back({.label = "view distances", .compute = compute.value()});
     for (const debug::ViewRow& view : debug::view_table()) {
         const auto vertex = gl::expand_shader(shader_files(), "shared/fullscreen.vert", {});
         const auto fragment = gl::expand_shader(shader_files(), view.fragment, {});

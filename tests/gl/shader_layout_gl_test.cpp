@@ -128,6 +128,7 @@ std::vector<Block> expected_blocks() {
           {"instances[0].basis_z", offsetof(InstanceRecord, basis_z_high_z)},
           {"instances[0].low", offsetof(InstanceRecord, low_receives)}}},
         {GL_SHADER_STORAGE_BLOCK, "TriangleNormalBuffer", 1, 4 * sizeof(float), {{"triangle_normals[0]", 0}}},
+        {GL_SHADER_STORAGE_BLOCK, "DepthBinBuffer", 0, sizeof(SampledDepths::pixels[0]), {{"depth_bins[0]", 0}}},
     };
 }
 
@@ -137,6 +138,7 @@ public:
     explicit LinkedProgram(const gl::ProgramDesc& desc) : name_(glCreateProgram()) {
         attach(GL_VERTEX_SHADER, desc.vertex);
         attach(GL_FRAGMENT_SHADER, desc.fragment);
+        attach(GL_COMPUTE_SHADER, desc.compute);
         glLinkProgram(name_);
         GLint linked = 0;
         glGetProgramiv(name_, GL_LINK_STATUS, &linked);
@@ -169,6 +171,7 @@ public:
 
 private:
     void attach(GLenum stage, const std::string& source) {
+        if (source.empty()) return;
         const GLuint shader = glCreateShader(stage);
         const char* text = source.c_str();
         glShaderSource(shader, 1, &text, nullptr);

@@ -14,12 +14,12 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const std::size_t kinds = shadow::light_kind_table().size(), filters = shadow::filter_table().size();
     const std::size_t rows =
         kinds * (filters + 1) + (kinds - 1) * filters + filters;  // all but cubes can fade; perspective suns
-    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 2;
-    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + debug::view_table().size());
+    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 2, kCompute = 1;
+    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + kCompute + debug::view_table().size());
     std::set<std::string> sources;
     for (const gl::ProgramDesc& desc : programs) {
-        ASSERT_NE(desc.fragment, "") << desc.label;
-        EXPECT_TRUE(sources.insert(desc.vertex + desc.fragment).second) << desc.label << " equals another program";
+        ASSERT_NE(desc.fragment + desc.compute, "") << desc.label;
+        EXPECT_TRUE(sources.insert(desc.vertex + desc.fragment + desc.compute).second) << desc.label << " equals another program";
         const auto made = device().create_program(desc);
         EXPECT_TRUE(made) << desc.label << ": " << made.log;
         EXPECT_EQ(made.log, "") << desc.label;

@@ -15,10 +15,12 @@ constexpr double kLattice_m = 0x1p-20;
 double on_lattice(double value) { return std::round(value / kLattice_m) * kLattice_m; }
 glm::dvec3 on_lattice(const glm::dvec3& v) { return {on_lattice(v.x), on_lattice(v.y), on_lattice(v.z)}; }
 
+/// View distances from 2^-10 to 2^13 m: 13 octaves down or 26 up they are still counted.
+constexpr std::uint32_t kFirstLikelyBin = 56, kLikelyBins = 92;
 constexpr std::uint32_t kSizes_px[] = {16, 64, 512, 1024, 4096, 8192};
 constexpr ShadowFit kFits[] = {ShadowFit::tight, ShadowFit::stable, ShadowFit::quantised};
 constexpr CascadeSplits kSplits[] = {CascadeSplits::practical, CascadeSplits::uniform, CascadeSplits::logarithmic,
-                                     CascadeSplits::seen};
+                                     CascadeSplits::seen, CascadeSplits::sampled};
 constexpr ShadowFilter kFilters[] = {ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3};
 
 }  // namespace
@@ -52,6 +54,7 @@ InstanceItem RandomFits::box(std::uint32_t index) {
 
 ConsumerItem RandomFits::camera(const SceneSnapshot& scene) {
     ConsumerItem camera;
+    camera.entity = {1, 1};
     const math::Aabb& target = scene.instances[static_cast<std::size_t>(number(0.0, static_cast<double>(scene.instances.size())))].bounds_ws;
     camera.position_ws_m = on_lattice(math::centre(target) + size(0.5, 100.0) * direction());
     const glm::dvec3 back = camera.position_ws_m - math::centre(target) + vector(1.0);
@@ -109,6 +112,15 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     return light;
 }
 
+/// What may have been counted: the truth of another time, a few distances, all, none, or of another camera.
+SampledDepths RandomFits::depths(const ConsumerItem& camera) {
+    SampledDepths depths{.camera = chance(0.1) ? ecs::Entity{77, 7} : camera.entity};
+    const double share = chance(0.2) ? 1.0 : number(0.0, 0.2);
+    for (std::uint32_t bin = kFirstLikelyBin; bin < kLikelyBins + kFirstLikelyBin; ++bin)
+        if (chance(share)) depths.pixels[bin] = static_cast<std::uint32_t>(size(1.0, 1e6));
+    return depths;
+}
+
 SceneSnapshot RandomFits::scene(LightKind kind) {
     SceneSnapshot s;
     const auto count = static_cast<std::uint32_t>(number(1.0, 10.0));
@@ -116,6 +128,7 @@ SceneSnapshot RandomFits::scene(LightKind kind) {
     const std::size_t cameras = chance(0.15) ? static_cast<std::size_t>(number(2.0, 5.0)) : 1;
     while (s.consumers.size() < cameras) s.consumers.push_back(camera(s));
     s.lights.push_back(light(kind, s));
+    if (s.lights[0].shadow.splits == CascadeSplits::sampled) s.sampled_depths = depths(s.consumers[0]);
     return s;
 }
 
@@ -137,6 +150,7 @@ SceneSnapshot RandomFits::wild_scene(LightKind kind) {
         disturb(s.consumers[0].position_ws_m[i]);
         disturb(s.lights[0].position_ws_m[i]);
     }
+    if (chance(0.1)) s.sampled_depths.pixels.front() = s.sampled_depths.pixels.back() = 1;
     if (chance(0.2)) s.lights[0].range_m = std::abs(any());
     if (chance(0.2)) s.lights[0].outer_cone_rad = size(1e-12, 1.5707);
     if (chance(0.2)) s.consumers[0].fov_y_rad = size(1e-12, 3.14159);
@@ -153,6 +167,10 @@ void scale(SceneSnapshot& s, int power) {
         c.far_m *= by;
         c.half_height_m *= by;
     }
+    std::array<std::uint32_t, kDepthBins> shifted{};
+    for (std::uint32_t bin = kFirstLikelyBin; bin < kLikelyBins + kFirstLikelyBin; ++bin)
+        shifted[static_cast<std::size_t>(static_cast<int>(bin) + 4 * power)] = s.sampled_depths.pixels[bin];
+    s.sampled_depths.pixels = shifted;
     for (LightItem& l : s.lights) {
         l.position_ws_m *= by;
         l.range_m *= by;

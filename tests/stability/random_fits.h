@@ -31,6 +31,7 @@ private:
     void cascades(LightShadow& shadow);
     void eye(LightShadow& shadow);
     void depth_range(LightShadow& shadow);
+    SampledDepths depths(const ConsumerItem& camera);
     glm::dvec3 direction();
 
     std::mt19937_64 random_;

@@ -23,9 +23,9 @@ class FaultPlay {
 public:
     explicit FaultPlay(FaultScene scene);
 
-    /// create_* and submit calls of set-up and the faulty frames, if nothing fails.
+    /// create_*, submit and read_buffer calls of set-up and the faulty frames, if nothing fails.
     std::size_t calls() const { return calls_.size(); }
-    bool is_submission(std::uint64_t call) const { return calls_.at(call).is_submission; }
+    bool is_creation(std::uint64_t call) const { return !calls_.at(call).is_submission && !calls_.at(call).is_reading; }
 
     /// Fails the test unless, with this fault, set-up is refused whole or every frame is delivered, each light that
     /// lost something says so, the shadows come back, and nothing is misused or left behind.
@@ -36,7 +36,7 @@ public:
 private:
     struct Call {
         int frame;  // -1: set-up
-        bool is_submission;
+        bool is_submission, is_reading;
         std::string label;
     };
     /// What one light got of one frame.

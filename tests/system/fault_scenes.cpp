@@ -12,6 +12,20 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
 
+FaultScene courtyard(CascadeSplits splits) {
+    auto data = game::load_game_scene();
+    if (!data) throw std::runtime_error(to_line(data.error()));
+    const auto library = std::make_shared<assets::MeshLibrary>();
+    const auto registry = std::make_shared<ecs::Registry>();
+    const game::SpawnedScene scene = game::spawn_scene(std::move(data).value(), *registry, *library);
+    for (const game::NamedEntity& light : scene.lights)
+        registry->patch<LightShadow>(light.entity, [splits](LightShadow& shadow) { shadow.splits = splits; });
+    const auto play = [registry, moving = scene.moving](int frame) {
+        game::apply_motion(moving, frame * kFrame_s, *registry);
+    };
+    return {library, registry, play};
+}
+
 }  // namespace
 
 FaultScene box_scene() {
@@ -31,16 +45,7 @@ FaultScene box_scene() {
     return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
 }
 
-FaultScene courtyard_scene() {
-    auto data = game::load_game_scene();
-    if (!data) throw std::runtime_error(to_line(data.error()));
-    const auto library = std::make_shared<assets::MeshLibrary>();
-    const auto registry = std::make_shared<ecs::Registry>();
-    const game::SpawnedScene scene = game::spawn_scene(std::move(data).value(), *registry, *library);
-    const auto play = [registry, moving = scene.moving](int frame) {
-        game::apply_motion(moving, frame * kFrame_s, *registry);
-    };
-    return {library, registry, play};
-}
+FaultScene courtyard_scene() { return courtyard(LightShadow{}.splits); }
+FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled); }
 
 }  // namespace gnomon

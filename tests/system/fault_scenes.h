@@ -20,5 +20,7 @@ FaultScene box_scene();
 
 /// The built-in scene as the game loads it: sun, guard lamp and lantern with their shadows, all that moves moving.
 FaultScene courtyard_scene();
+/// The same with a sun whose cascades go by the depths of the picture before.
+FaultScene sampled_courtyard_scene();
 
 }  // namespace gnomon

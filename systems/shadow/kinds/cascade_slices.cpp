@@ -9,6 +9,7 @@
 #include "systems/shadow/kinds/gliding_ends.h"
 #include "systems/shadow/kinds/held_fit.h"
 #include "systems/shadow/kinds/steps.h"
+#include "systems/shadow/sampled_depths.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -59,18 +60,45 @@ DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
     return {step_size(next.near_step), step_size(next.far_step)};
 }
 
+/// Diagonal of what is seen, across the view.
+double seen_width_m(std::span<const glm::dvec3> points_ws, const ConsumerItem& consumer) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(kInfinity), high(-kInfinity);
+    for (const glm::dvec3& p : points_ws) {
+        const glm::dvec2 across((p - consumer.position_ws_m) * consumer.rotation_ws);
+        low = glm::min(low, across);
+        high = glm::max(high, across);
+    }
+    return glm::distance(low, high);
+}
+
+/// By the pixels of an earlier picture. False: nothing is known of them.
+bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const DepthSpan& whole, CascadeEnds& ends) {
+    const LightShadow& shadow = input.light.shadow;
+    if (shadow.splits != CascadeSplits::sampled || !are_splits(shadow)) return false;
+    const double width_m = shadow.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
+                                                           : seen_width_m(input.receiver_points_ws, consumer);
+    const SampledSplit split{input.scene.sampled_depths, consumer, input.demand.view_count, whole, width_m};
+    if (shadow.fit == ShadowFit::tight) return sampled_ends(split, ends);
+    return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
+}
+
 CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
+    const LightShadow& shadow = input.light.shadow;
+    const DepthSpan whole = whole_span(input, consumer);
+    CascadeEnds ends{};
+    if (ends_by_pixels(input, consumer, whole, ends)) return ends;
     std::vector<DepthSpan>& receivers = input.scratch.depths;
     receivers.clear();
-    if (input.light.shadow.splits == CascadeSplits::seen)
+    if (shadow.splits == CascadeSplits::seen || shadow.splits == CascadeSplits::sampled)
         for (const std::uint32_t r : input.receivers) {
             const math::Aabb& box = input.scene.instances[r].bounds_ws;
             const double middle = view_distance(consumer, math::centre(box));
             const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
             receivers.push_back({middle - reach, middle + reach});
         }
-    return cascade_ends(input.light.shadow, input.demand.view_count, whole_span(input, consumer),
-                        consumer.projection == CameraProjection::perspective, receivers);
+    return cascade_ends(shadow, input.demand.view_count, whole, consumer.projection == CameraProjection::perspective,
+                        receivers);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ CascadeEnds cascade_ends(const LightShadow& shadow, std::uint32_t count, const D
     const double start_m = std::max(whole.lowest, whole.highest * kNearestShare);
     const Scale logarithmic{perspective && start_m > 0.0, start_m};
     const Scale uniform{false, 0.0};
-    if (splits == CascadeSplits::seen)
+    if (splits == CascadeSplits::seen || splits == CascadeSplits::sampled)
         std::sort(receivers.begin(), receivers.end(),
                   [](const DepthSpan& a, const DepthSpan& b) { return a.lowest < b.lowest; });
     const auto end_m = [&](std::uint32_t i) {
@@ -87,6 +87,7 @@ CascadeEnds cascade_ends(const LightShadow& shadow, std::uint32_t count, const D
             case CascadeSplits::manual:
                 return static_cast<double>(shadow.split_m[i - 1]);
             case CascadeSplits::seen:
+            case CascadeSplits::sampled:
                 return lambda * even_over(logarithmic, receivers, whole, share) +
                        (1.0 - lambda) * even_over(uniform, receivers, whole, share);
             case CascadeSplits::practical:

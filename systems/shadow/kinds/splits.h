@@ -23,7 +23,8 @@ using CascadeEnds = std::array<double, kMaxCascades + 1>;
 
 /// Cascade i of `count` reaches from ends[i] to ends[i + 1]; never falling, ends[0] = whole.lowest and
 /// ends[count] = whole.highest. Logarithmic parts exist for perspective views only (Zhang et al. 2006, "practical split
-/// scheme"). `receivers`: depths of what is seen, in any order, for CascadeSplits::seen; it is sorted.
+/// scheme"). `receivers`: depths of what is seen, in any order, for CascadeSplits::seen, and sampled without counts
+/// (systems/shadow/sampled_depths.h); it is sorted.
 CascadeEnds cascade_ends(const LightShadow& shadow, std::uint32_t count, const DepthSpan& whole, bool perspective,
                          std::span<DepthSpan> receivers);
 

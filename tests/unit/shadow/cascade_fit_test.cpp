@@ -45,7 +45,7 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
         SceneSnapshot scene = scene_of(random);
         LightShadow& shadow = scene.lights[0].shadow;
         shadow.cascades = 1 + static_cast<std::uint32_t>(round) % 8;
-        shadow.splits = static_cast<CascadeSplits>(round % 5);
+        shadow.splits = static_cast<CascadeSplits>(round % 6);
         shadow.split_m = {12.0f, 16.0f, 20.0f};
         shadow.cascade_blend = 0.2f;
         const ShadowFrame frame = fitted(scene);

@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+
+#include "engine/gl/device.h"
+#include "systems/extract/sampled_depths.h"
+#include "systems/retry.h"
+
+namespace gnomon::lighting {
+
+/// Counts the pixels of a picture by their view distance, on the GPU, and takes the counts when they have come: never
+/// waiting, a few pictures under way at most, in each frame the newest. Makes what it needs when first asked.
+class DepthSampler {
+public:
+    explicit DepthSampler(gl::Device& device) : device_(device) {}
+    ~DepthSampler();
+    DepthSampler(const DepthSampler&) = delete;
+    DepthSampler& operator=(const DepthSampler&) = delete;
+
+    struct Picture {
+        ecs::Entity camera;
+        gl::TextureHandle depth;
+        gl::SamplerHandle sampler;
+        gl::BufferHandle uniforms;  // begins with the CameraRecord
+        glm::uvec2 size_px;
+    };
+    /// Records the counting of one picture, outside passes; nothing if all slots are under way or something failed.
+    void record(const Picture& picture, gl::CommandList& list);
+
+    /// Replaces `depths` by the newest counts that have come since the last call; without any it stays as it is.
+    /// Tells of failures by depths.failed, until counts come again.
+    void collect(SampledDepths& depths);
+
+private:
+    /// A readback that is under way.
+    struct Slot {
+        gl::BufferHandle buffer{};
+        ecs::Entity camera = {};
+        std::uint64_t number = 0;  // of the picture; 0: free
+    };
+    static constexpr std::size_t kSlots = 3;  // as many frames as drivers queue
+
+    bool prepare();
+    bool make_program();
+    bool make_buffer(gl::BufferHandle& buffer, const char* label, gl::BufferUse use);
+
+    gl::Device& device_;
+    gl::ProgramHandle program_{};
+    gl::BufferHandle bins_{};
+    std::array<Slot, kSlots> slots_;
+    std::uint64_t pictures_ = 0, frames_ = 0;
+    Retry retry_;
+    bool failed_ = false;
+};
+
+}  // namespace gnomon::lighting
