@@ -16,7 +16,7 @@ layout(location = 3) out vec4 picture_out;
 
 void main() {
     vec4 colour = material_colour(fragment_uv);
-    if (colour.a < material.alpha_cutoff) discard;
+    if (cut_out(fragment_uv)) discard;
     InstanceRecord instance = instances[fragment_item.x];
     vec3 geometric = geometric_normal(instance, fragment_item.y + uint(gl_PrimitiveID), fragment_position_ca);
     vec3 shading = shading_normal(fragment_normal, geometric);

@@ -12,3 +12,12 @@ layout(binding = 0) uniform sampler2D base_colour_texture;
 vec4 material_colour(vec2 uv) {
     return material.has_texture > 0.5 ? material.base_colour * texture(base_colour_texture, uv) : material.base_colour;
 }
+
+// Whether the mask cuts the surface out at `uv`. The finest level decides at any distance, as the surface's own edges do:
+// coarser ones are averages, by which thin leaves vanish, dense ones close up, and every edge moves.
+bool cut_out(vec2 uv) {
+    if (material.alpha_cutoff < 0.0) return false;
+    float alpha = material.base_colour.a;
+    if (material.has_texture > 0.5) alpha *= textureLod(base_colour_texture, uv, 0.0).a;
+    return alpha < material.alpha_cutoff;
+}

@@ -88,6 +88,34 @@ TEST_F(Programs, AMeshOfBothMaterialsIsDrawnByBothPrograms) {
     EXPECT_EQ(light("lamp").triangles, 12u);
 }
 
+TEST_F(Programs, OnlyMaskedSubmeshesPayForDiscardingAndForTheirTexture) {
+    world.add_stage();
+    for (const std::uint32_t mesh : {kSolidBox, kMaskedBox, kMixedBox})
+        world.add_mesh(mesh, {0.8 * mesh - 2.0, 1.0, 0.5}, true);
+    world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    step();
+    const gl::ProgramDesc* program = nullptr;
+    bool in_depth = false;
+    std::uint32_t opaque = 0, masked = 0;
+    for (const gl::Command& command : frame->commands().commands) {
+        if (const auto* b = std::get_if<gl::BeginPass>(&command)) in_depth = device.target(b->target)->colours.empty();
+        if (const auto* p = std::get_if<gl::SetPipeline>(&command)) program = device.program(p->state.program);
+        const auto* draw = std::get_if<gl::DrawMeshes>(&command);
+        if (!draw || !in_depth) continue;
+        ASSERT_NE(program, nullptr);
+        // What discards and what it reads stands between #ifdef MASKED and #else.
+        const std::string& source = program->fragment;
+        const bool discards = source.find("#define MASKED") != std::string::npos;
+        EXPECT_EQ(discards, program->label == "depth masked");
+        ASSERT_LT(source.find("#ifdef MASKED"), source.find("discard"));
+        for (const char* cost : {"discard", "sampler2D", "fragment_uv"})
+            EXPECT_EQ(source.find(cost, source.rfind("#else")), std::string::npos) << cost;
+        (discards ? masked : opaque) += draw->index_count * draw->item_count;
+    }
+    EXPECT_EQ(opaque, 36u + 36u + 18u) << "the stage's box, the solid one, half of the mixed one";
+    EXPECT_EQ(masked, 36u + 18u);
+}
+
 TEST_F(Programs, BlendedRowsAreMadeOnlyWhereABlendedSurfaceIsSeen) {
     world.add_stage();
     world.add_light(LightKind::spot, kLightPlace_m, "lamp");

@@ -3,7 +3,7 @@
 #include "shared/material.glsl"
 in vec2 fragment_uv;
 void main() {
-    if (material_colour(fragment_uv).a < material.alpha_cutoff) discard;
+    if (cut_out(fragment_uv)) discard;
 }
 #else
 void main() {}

@@ -1,0 +1,9 @@
+# Which casters are drawn, by which faces and through which mask.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_casters LABEL gl SOURCES
+    shadow_layers_gl_test.cpp
+    caster_faces_gl_test.cpp
+    masked_casters_gl_test.cpp
+    moved_casters_gl_test.cpp
+    LIBRARIES gnomon_bench_parts)
+endif()

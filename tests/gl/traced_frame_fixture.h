@@ -1,0 +1,43 @@
+#pragma once
+#include "engine/assets/mesh_topology.h"
+#include "tests/gl/frame_fixture.h"
+#include "tests/oracle/metrics.h"
+#include "tests/oracle/reference_tracer.h"
+
+namespace gnomon {
+
+/// A small world, drawn by the whole pipeline and judged by rays.
+class TracedFrameTest : public FrameTest {
+protected:
+    /// As an importer leaves it: what is closed is known to be.
+    std::uint32_t add_analysed(const game::Shape& shape, std::optional<std::uint32_t> material = {}) {
+        const std::uint32_t mesh = add_mesh(shape, material);
+        library.meshes[mesh].topology = assets::analyse_topology(library.meshes[mesh]);
+        return mesh;
+    }
+    /// A light of each kind above the ground around the origin.
+    ecs::Entity add_light_of(LightKind kind, const glm::dvec3& at_m, const LightShadow& shadow) {
+        return add_light({.kind = kind, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at_m, -at_m, shadow);
+    }
+    struct Judged {
+        oracle::Metrics metrics;
+        std::vector<float> measured, truth;
+    };
+    /// The light as drawn, against the snapshot that was drawn, or against `claimed`.
+    Judged judge(std::uint32_t light, const SceneSnapshot& claimed) {
+        const ConsumerItem& camera = claimed.consumers.at(0);
+        const oracle::ReferenceTracer tracer(claimed, library, camera.position_ws_m);
+        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+        const oracle::LightTruth truth = tracer.trace_light(hits, claimed.lights.at(light), true);
+        const std::vector<float> measured = visibility(light);
+        return {oracle::compare({hits.size_px, measured, truth.visibility, truth.scored, truth.ambiguous}), measured,
+                truth.visibility};
+    }
+    Judged judge(std::uint32_t light = 0) { return judge(light, frame().snapshot()); }
+};
+
+inline const char* kind_name(LightKind kind) {
+    return kind == LightKind::directional ? "sun" : kind == LightKind::spot ? "spot" : "point";
+}
+
+}  // namespace gnomon
