@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "bench/edge_bounds.h"
+
 namespace gnomon::bench {
 namespace {
 
@@ -10,6 +12,8 @@ namespace {
 constexpr int kSettlingFrames = 2;
 // Timings of a query may arrive this many frames late.
 constexpr std::uint32_t kTimingLag = 3;
+// Two ways to the same bound differ in their last digits.
+constexpr double kRounding = 1.0e-9;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -41,19 +45,39 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
     return std::nullopt;
 }
 
-void trace_truth(Stage& stage, bool with_ambiguous, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
+void judge_edges(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& snapshot,
+                 const EdgeBounds& bounds, std::uint32_t index, double telling, LightAccuracy& light) {
+    const auto texel_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+        return bounds.at(index, point, normal, telling);
+    };
+    light.exceptions = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
+                                               light.truth, light.metrics.edge, texel_at);
+    for (std::size_t i = 0; i < hits.count(); ++i) {
+        if (light.truth.scored[i] == 0) continue;
+        const glm::dvec3 &point = hits.position_rel_m[i], &normal = hits.normal_ws[i];
+        const double stated_px = bounds.stated_px(index, point, normal);
+        light.beyond_stated += stated_px > 0.0 && texel_at(point, normal).error_px > stated_px * (1.0 + kRounding);
+    }
+}
+
+void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector<std::uint32_t>& indices,
+                 Accuracy& accuracy) {
     const auto start = std::chrono::steady_clock::now();
     const SceneSnapshot& snapshot = stage.frame().snapshot();
     const ConsumerItem& camera = snapshot.consumers.front();
     const oracle::ReferenceTracer tracer(snapshot, stage.library(), camera.position_ws_m);
     const oracle::PrimaryHits hits = tracer.trace_primary(camera);
     for (std::size_t k = 0; k < indices.size(); ++k)
-        accuracy.lights[k].truth = tracer.trace_light(hits, snapshot.lights[indices[k]], with_ambiguous);
+        accuracy.lights[k].truth = tracer.trace_light(hits, snapshot.lights[indices[k]], options.with_ambiguous);
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;
-    for (LightAccuracy& light : accuracy.lights)
+    const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().held_fits());
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        LightAccuracy& light = accuracy.lights[k];
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
+        judge_edges(tracer, hits, snapshot, bounds, indices[k], options.telling, light);
+    }
 }
 
 void time_lights(Stage& stage, std::uint32_t frames, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
@@ -90,7 +114,7 @@ Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options) 
     if (!stage.frame().snapshot().consumers.empty())
         accuracy.size_px = stage.frame().snapshot().consumers.front().viewport_px;
     if (auto error = read_lights(stage, accuracy, indices)) return *error;
-    trace_truth(stage, options.with_ambiguous, indices, accuracy);
+    trace_truth(stage, options, indices, accuracy);
     if (options.timed_frames > 0) time_lights(stage, options.timed_frames, indices, accuracy);
     accuracy.gl_complaints = stage.gl_complaints();
     return accuracy;

@@ -36,6 +36,10 @@ Json to_json(const LightAccuracy& light) {
                     {"unmeasured", m.edge.unmeasured}, {"mean_signed_px", m.edge.mean_signed_px},
                     {"mean_px", m.edge.mean_px},       {"p95_px", m.edge.p95_px},
                     {"p99_px", m.edge.p99_px},         {"max_px", m.edge.max_px}};
+    json["edge_exceptions"] = {{"sub_texel_caster", light.exceptions.sub_texel_caster},
+                               {"truth_ambiguous", light.exceptions.truth_ambiguous},
+                               {"unexplained", light.exceptions.unexplained}};
+    json["beyond_stated_px"] = light.beyond_stated;
     json["predicted_error_px"] = light.report.predicted_error_px;
     json["views"] = light.report.views;
     json["texels"] = light.report.texels;

@@ -57,6 +57,13 @@ std::string accuracy_table(const Accuracy& accuracy) {
         "counted\n"
         "as wrong. cover: the same over the whole picture. ms: depth and lighting pass, every view drawn anew.\n";
     for (const LightAccuracy& light : accuracy.lights)
+        if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
+            append(text,
+                   "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "
+                   "truth_ambiguous %zu, unexplained %zu.\n",
+                   light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster,
+                   e.truth_ambiguous, e.unexplained);
+    for (const LightAccuracy& light : accuracy.lights)
         if (light.redrawn_differs > 0)
             append(text, "%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),
                    light.redrawn_differs);

@@ -237,4 +237,6 @@ std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, c
     return nullptr;
 }
 
+double steep_tangent() { return glsl::directional::Kind::kSteepTangent; }
+
 }  // namespace gnomon::bench

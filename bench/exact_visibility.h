@@ -46,4 +46,7 @@ public:
 std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
                                              std::uint32_t light, const MapCopy& map);
 
+/// The shaders' own: receivers of a larger tangent toward the light are moved along their normal.
+double steep_tangent();
+
 }  // namespace gnomon::bench

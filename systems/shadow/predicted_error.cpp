@@ -56,6 +56,11 @@ bool within(const ShadowView& view, const glm::dvec3& p_ws) {
 
 }  // namespace
 
+TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
+    const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
+    return {view.axis_u * (view.texel_u * z_m), view.axis_v * (view.texel_v * z_m)};
+}
+
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
                        const glm::dvec3& normal) {
     const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
@@ -66,13 +71,18 @@ double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, con
     const auto extent = [&](const glm::dvec3& across_m) {
         return glm::length(on_screen(consumer, p_ws, across_m - ray * (glm::dot(across_m, normal) / facing)));
     };
-    const glm::dvec3 u = view.axis_u * (view.texel_u * z_m), v = view.axis_v * (view.texel_v * z_m);
-    return std::max(extent(u + v), extent(u - v));
+    const TexelSides sides = texel_sides(view, p_ws);
+    return std::max(extent(sides.u_m + sides.v_m), extent(sides.u_m - sides.v_m));
 }
 
 double edge_error_px(double extent_px, double reach_texel) {
     constexpr double kSampling_texel = 0.5, kPixelCentres_px = 1.0;
     return (kSampling_texel + reach_texel) * extent_px + kPixelCentres_px;
+}
+
+double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
+    const double steeper = std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0)));
+    return edge_error_px(view.texel_extent_px * steeper, reach_texel);
 }
 
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,

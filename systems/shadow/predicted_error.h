@@ -5,8 +5,31 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/types.h"
 
-/// How far a shadow edge may be off, told before anything is drawn.
+/// How far a shadow edge may be off in the picture, told before anything is drawn.
+///
+/// A map knows the light at texel centres alone. Where a receiver is looked up, the centre lies up to half a texel away
+/// (E for a filter that looks E texels around: the footprint's half-width); the offset that keeps the receiver's plane
+/// from shadowing itself (docs/bias.md) is worth another E texels of slope. So on a receiver's plane an edge is off by
+/// no more than
+///     (1/2 + E) m + 1 pixels,
+/// m being the longest extent of a texel there, in pixels: of its diagonals, carried along the light's ray onto the
+/// plane and from there into the picture. The pixel is half of one each for the true and the drawn picture, which know
+/// their edges between pixel centres only. Derived for the hard filter, E = 1/2; held against it by
+/// tests/gl/truth_edges_gl_test.cpp at every place of a true edge.
+///
+/// Exceptions, by name, and no others:
+/// - `sub_texel_caster`: the shadow, or the light beside it, is thinner than a texel there, or its caster is nearer to
+///   the receiver than the receiver's own rise over the texel: a map may miss such a thing altogether.
+/// - `truth_ambiguous`: which surface is seen, or whether the light reaches it, hangs on less than the rasteriser's
+///   snapping, a mask's filtering in the picture, or the last digits of the position.
+/// Assumed: the bias is Gnomon's own, not LightShadow::bias; depth is stored as float.
 namespace gnomon::shadow {
+
+/// A texel's sides across the light at a point, metres.
+struct TexelSides {
+    glm::dvec3 u_m{0.0}, v_m{0.0};
+};
+TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws);
 
 /// Longest extent of one texel on screen, in pixels, on a plane through p_ws with unit normal `normal` (Lloyd et al.
 /// 2006 call it m): the texel's diagonals, carried along the light's ray onto the plane and from there into the
@@ -15,13 +38,18 @@ namespace gnomon::shadow {
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
                        const glm::dvec3& normal);
 
-/// The displacement that follows: half the texel by sampling at its centre, `reach_texel` of it by the offset that
-/// keeps the plane from shadowing itself, and half a pixel each for the true and the drawn picture.
+/// The displacement that follows; `reach_texel` is E.
 double edge_error_px(double extent_px, double reach_texel);
 
-/// Receivers are taken to face the light within 60 degrees: there a texel is at most 1 / cos 60° = 2 times as long on
-/// them as across the light. Steeper ones show longer edges, in dimmer light.
+/// What a view states holds for receivers that face the light within 60 degrees: there a texel is at most
+/// 1 / cos 60° = 2 times as long on them as across the light. Steeper ones show longer edges, in dimmer light; no
+/// single number bounds them, since any curved surface has places that the light only grazes.
 inline constexpr double kSteepestReceiver = 2.0;
+
+/// What the view states, slope by slope, so that it holds everywhere: ShadowView::predicted_error_px for receivers that
+/// face the light within 60 degrees; on steeper ones the texel's share of it grows as 1 / cosine (of the normal to the
+/// way to the light). No less than edge_error_px of any visible receiver point that the view serves.
+double stated_error_px(const ShadowView& view, double cosine, double reach_texel);
 
 struct ViewError {
     double texel_m = 0.0;    // largest diagonal of a texel across the light, at a receiver

@@ -6,51 +6,89 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kLeastPlaces = 500;
-/// Receivers steeper toward the light than the bound allows for.
-constexpr double kMostBeyond = 0.001;
+/// With fewer places a light's 99th percentile says nothing.
+constexpr std::size_t kLeastPlaces = 200;
 constexpr double kMostMedianRatio = 3.0;
+/// Places at which an exception would be allowed, of all: where these are many, nothing is proven.
+constexpr double kMostExcusable = 0.4;
+constexpr const char* kResolutions[] = {"512", "1024", "2048"};
 
-/// Places whose edge is farther off than predicted. Counted apart (`thin`): where the true shadow, or the light beside
-/// it, is itself thinner than the prediction, or the truth is ambiguous there; a texel may miss such a thing altogether.
-struct Beyond {
-    std::size_t plain = 0, thin = 0;
+struct Scene {
+    const char* file;  // below the data folder; null: the built-in one
+    const char* camera;
 };
-Beyond beyond(const oracle::EdgeDisplacement& edge, double predicted_px) {
-    Beyond count;
-    for (const auto& place : edge.each)
-        if (place.off_px > predicted_px) ++(place.still_px <= 2.0 * predicted_px ? count.thin : count.plain);
-    return count;
-}
+constexpr Scene kScenes[] = {{nullptr, "main"},
+                             {nullptr, "top"},
+                             {nullptr, "low"},
+                             {"sponza-crytek/Sponza.gltf", nullptr},
+                             {"khronos-sample-models/Lantern/glTF/Lantern.gltf", nullptr},
+                             {"khronos-sample-models/SciFiHelmet/glTF/SciFiHelmet.gltf", nullptr}};
 
-class TruthEdges : public TruthTest {};
+class TruthEdges : public TruthTest {
+protected:
+    static bench::StageOptions options_of(const Scene& scene, const char* resolution) {
+        bench::StageOptions options;
+        options.size_px = {640, 360};
+        if (scene.file) options.scene = std::filesystem::path(GNOMON_DATA_DIR) / scene.file;
+        if (scene.camera) options.camera = scene.camera;
+        options.settings = {std::string("resolution=") + resolution, "filter=hard"};
+        return options;
+    }
+
+    /// One row of the table in docs/accuracy.md; the rows are what its figures are of.
+    static void print(const bench::StageOptions& options, const bench::LightAccuracy& light) {
+        const oracle::EdgeDisplacement& edge = light.metrics.edge;
+        std::printf(
+            "%s %s %s %s: %zu places, predicted %.2f px, p99 %.2f px, ratio %.2f; beyond what is predicted "
+            "there: sub_texel_caster %zu, truth_ambiguous %zu, unexplained %zu\n",
+            options.scene ? options.scene->stem().c_str() : "built-in", options.camera.value_or("").c_str(),
+            options.settings[0].c_str(), light.report.name.c_str(), edge.places, light.report.predicted_error_px,
+            edge.p99_px, light.report.predicted_error_px / edge.p99_px, light.exceptions.sub_texel_caster,
+            light.exceptions.truth_ambiguous, light.exceptions.unexplained);
+    }
+};
 
 TEST_F(TruthEdges, AreNoFartherOffThanPredictedAndThePredictionIsNotIdle) {
     std::vector<double> ratios;
-    for (const char* resolution : {"512", "1024", "2048"}) {
-        for (const char* camera : {"0", "top"}) {
-            bench::StageOptions options;
-            options.size_px = {640, 360};
-            options.camera = camera;
-            options.settings = {std::string("resolution=") + resolution};
+    oracle::EdgeExceptions all;
+    for (const Scene& scene : kScenes)
+        for (const char* resolution : kResolutions) {
+            const bench::StageOptions options = options_of(scene, resolution);
+            if (options.scene && !std::filesystem::exists(*options.scene)) {
+                std::printf("left out: no %s in the data folder\n", scene.file);
+                continue;
+            }
             for (const bench::LightAccuracy& light : measure(options).lights) {
-                const oracle::EdgeDisplacement& edge = light.metrics.edge;
-                if (edge.places < kLeastPlaces) continue;
-                const double predicted_px = light.report.predicted_error_px;
-                const Beyond count = beyond(edge, predicted_px);
-                const double share = static_cast<double>(count.plain) / static_cast<double>(edge.places);
-                SCOPED_TRACE(std::string(resolution) + ", " + camera + ", " + light.report.name);
-                std::printf("%s %s %s: predicted %.2f px, p99 %.2f px, beyond %zu, of thin things %zu, of %zu\n",
-                            resolution, camera, light.report.name.c_str(), predicted_px, edge.p99_px, count.plain,
-                            count.thin, edge.places);
-                EXPECT_LE(share, kMostBeyond);
-                ratios.push_back(predicted_px / std::max(edge.p99_px, 1e-9));
+                SCOPED_TRACE(std::string(scene.file ? scene.file : scene.camera) + ", " + resolution + ", " +
+                             light.report.name);
+                print(options, light);
+                EXPECT_EQ(light.exceptions.unexplained, 0u);
+                EXPECT_EQ(light.beyond_stated, 0u);
+                all.excusable += light.exceptions.excusable;
+                all.sampled += light.exceptions.sampled;
+                if (light.metrics.edge.places < kLeastPlaces) continue;
+                ratios.push_back(light.report.predicted_error_px / light.metrics.edge.p99_px);
             }
         }
+    ASSERT_GE(ratios.size(), 27u);
+    std::sort(ratios.begin(), ratios.end());
+    const double median = ratios[ratios.size() / 2];
+    std::printf("predicted / p99: median %.2f, %.2f to %.2f; excusable %zu of %zu places looked at\n", median,
+                ratios.front(), ratios.back(), all.excusable, all.sampled);
+    EXPECT_LE(median, kMostMedianRatio);
+    EXPECT_LE(static_cast<double>(all.excusable), kMostExcusable * static_cast<double>(all.sampled));
+}
+
+TEST_F(TruthEdges, AreFoundFartherOffByAPredictionOfHalfTheTexels) {
+    for (const char* resolution : kResolutions) {
+        const auto stage = open(options_of(kScenes[0], resolution));
+        ASSERT_TRUE(stage);
+        const auto accuracy = bench::measure_accuracy(*stage, {.timed_frames = 0, .telling = 0.5});
+        ASSERT_TRUE(accuracy);
+        ASSERT_EQ(accuracy.value().lights.size(), 3u);
+        for (const bench::LightAccuracy& light : accuracy.value().lights)
+            EXPECT_GT(light.exceptions.unexplained, 0u) << resolution << ", " << light.report.name;
     }
-    ASSERT_GE(ratios.size(), 9u);
-    std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
-    EXPECT_LE(ratios[ratios.size() / 2], kMostMedianRatio);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr float kHalf = 0.5f;
-constexpr double kSearchStepPx = 0.25, kHalfPixel = 0.5;
+constexpr double kSearchStepPx = 0.25;
 constexpr double kTail = 0.95, kFarTail = 0.99;
 constexpr int kGradientReachPx = 2;
 
@@ -104,7 +104,7 @@ private:
     }
 
     // Where the measured value rises through one half along `rise`, nearest to `middle`; both ways at once.
-    // Sets `left_scored` when a side ended before the search did.
+    // Sets `left_scored` when a side ended before the search did: a nearer one may be hidden there.
     // An edge right here is one whatever the pixels beside it are: so a picture is no distance from itself.
     std::optional<double> nearest_rise(const glm::dvec2& middle, const glm::dvec2& across, const glm::dvec2& rise,
                                        bool& left_scored) const {
@@ -114,32 +114,17 @@ private:
         if (!first) return std::nullopt;
         if (std::equal_to<double>()(*first, half) && *dark < half) return 0.0;
         std::optional<double> ahead = first, behind = first;
-        for (double s = kSearchStepPx; s <= kEdgeSearchPx; s += kSearchStepPx) {
-            if (ahead) {
-                const auto next = measured_at(middle + rise * s);
-                if (next && *ahead <= half && *next > half)
-                    return s - kSearchStepPx + kSearchStepPx * (half - *ahead) / (*next - *ahead);
-                ahead = next;
-            }
-            if (behind) {
-                const auto next = measured_at(middle - rise * s);
-                if (next && *behind >= half && *next < half)
-                    return -(s - kSearchStepPx + kSearchStepPx * (*behind - half) / (*behind - *next));
-                behind = next;
-            }
+        for (double s = kSearchStepPx; s <= kEdgeSearchPx && ahead && behind; s += kSearchStepPx) {
+            const auto next = measured_at(middle + rise * s), last = measured_at(middle - rise * s);
+            if (next && *ahead <= half && *next > half)
+                return s - kSearchStepPx + kSearchStepPx * (half - *ahead) / (*next - *ahead);
+            if (last && *behind >= half && *last < half)
+                return -(s - kSearchStepPx + kSearchStepPx * (*behind - half) / (*behind - *last));
+            ahead = next;
+            behind = last;
         }
         left_scored = !ahead || !behind;
         return std::nullopt;
-    }
-
-    double still_px(const glm::dvec2& middle, const glm::dvec2& rise) const {
-        for (double s = 0.5; s < kEdgeSearchPx; s += kHalfPixel)
-            for (const bool light_side : {false, true}) {
-                const glm::dvec2 at = glm::round(middle + rise * (light_side ? s : -s));
-                const Pixel q{static_cast<int>(at.x), static_cast<int>(at.y)};
-                if (s > 1.0 && (!scored(q) || p_.ambiguous[index(q)] || lit(q) != light_side)) return s;
-            }
-        return kEdgeSearchPx;
     }
 
     void measure_place(Pixel a, Pixel b, EdgeDisplacement& edge, std::vector<double>& distances) const {
@@ -158,7 +143,7 @@ private:
         if (!found) ++edge.lost;
         if (found) edge.mean_signed_px += *found;
         distances.push_back(found ? std::abs(*found) : kEdgeSearchPx);
-        edge.each.push_back({distances.back(), still_px(middle, rise)});
+        edge.each.push_back({distances.back(), index(lit(b) ? a : b), index(lit(b) ? b : a), middle, rise});
     }
 
     EdgeDisplacement edge_displacement() const {

@@ -16,10 +16,12 @@ struct EdgeDisplacement {
     std::size_t unmeasured = 0;  // the search left the scored set (a silhouette is near): in no other figure
     double mean_signed_px = 0.0;
     double mean_px = 0.0, p95_px = 0.0, p99_px = 0.0, max_px = 0.0;  // of the absolute values
-    /// One place: how far off (kEdgeSearchPx if lost), and how far the true picture holds still to either side of the
-    /// edge, across it: up to the next true edge, or where the truth is ambiguous or unscored; at most kEdgeSearchPx.
+    /// One place: how far off (kEdgeSearchPx if lost), the two pixels it lies between, the middle between their centres
+    /// (whole numbers are centres, row 0 is the first), and the way from shadow to light across the edge, unit.
     struct Place {
-        double off_px = 0.0, still_px = 0.0;
+        double off_px = 0.0;
+        std::size_t dark = 0, bright = 0;
+        glm::dvec2 middle_px{0.0}, rise{0.0};
     };
     std::vector<Place> each;
 };

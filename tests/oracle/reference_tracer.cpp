@@ -4,32 +4,13 @@
 #include <cmath>
 
 #include "tests/oracle/parallel_rows.h"
+#include "tests/oracle/pixel_ray.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::oracle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-struct PixelRay {
-    ExactRay ray;
-    double t_min = 0.0, t_max = kInfinity;
-};
-
-PixelRay pixel_ray(const ConsumerItem& consumer, const glm::dvec3& camera_rel_m, std::uint32_t x, std::uint32_t y) {
-    const glm::dvec2 size(consumer.viewport_px);
-    const glm::dvec2 ndc = 2.0 * (glm::dvec2(x, y) + 0.5) / size - 1.0;
-    const double half_height = consumer.projection == CameraProjection::perspective ? std::tan(0.5 * consumer.fov_y_rad)
-                                                                                    : consumer.half_height_m;
-    const glm::dvec3 across = consumer.rotation_ws[0] * (ndc.x * half_height * size.x / size.y) +
-                              consumer.rotation_ws[1] * (ndc.y * half_height);
-    const glm::dvec3 forward = -consumer.rotation_ws[2];
-    if (consumer.projection == CameraProjection::perspective)
-        return {make_ray(camera_rel_m, across + forward), consumer.near_m, consumer.far_m};
-    // From the near plane on, which may lie behind an orthographic camera.
-    return {make_ray(camera_rel_m + across + forward * consumer.near_m, forward), 0.0,
-            consumer.far_m - consumer.near_m};
-}
 
 // Direction to the light and how far along it the light is; false outside its range or cone.
 bool reach(const LightItem& light, const glm::dvec3& light_rel_m, const glm::dvec3& point_rel_m, glm::dvec3& to_light,
@@ -134,7 +115,7 @@ PrimaryHits ReferenceTracer::trace_primary(const ConsumerItem& consumer) const {
     hits.normal_ws.assign(count, glm::dvec3(0.0));
     parallel_rows(hits.size_px.y, world_->threads, [&](std::uint32_t row) {
         for (std::uint32_t x = 0; x < hits.size_px.x; ++x) {
-            const PixelRay pixel = pixel_ray(consumer, hits.camera_rel_m, x, row);
+            const PixelRay pixel = pixel_ray(consumer, hits.camera_rel_m, glm::dvec2(x, row));
             const SurfaceHit hit = world.nearest_surface(pixel.ray, pixel.t_min, pixel.t_max);
             if (hit.triangle == kNoTriangle) continue;
             const WorldTriangle& triangle = world.triangles()[hit.triangle];
@@ -167,6 +148,35 @@ LightTruth ReferenceTracer::trace_light(const PrimaryHits& hits, const LightItem
 
 std::vector<float> ReferenceTracer::visibility(const PrimaryHits& hits, const LightItem& light) const {
     return trace_light(hits, light, false).visibility;
+}
+
+bool ReferenceTracer::sees_plane(const ConsumerItem& consumer, const glm::dvec2& at_px, std::uint32_t triangle) const {
+    const TracedWorld& world = world_->traced;
+    const PixelRay pixel = pixel_ray(consumer, consumer.position_ws_m - world.origin_ws_m(), at_px);
+    const SurfaceHit hit = world.nearest_surface(pixel.ray, pixel.t_min, pixel.t_max);
+    if (hit.triangle == kNoTriangle || hit.triangle == triangle) return hit.triangle == triangle;
+    const glm::dvec3 point = pixel.ray.origin + pixel.ray.direction * hit.t;
+    return world.on_plane(point, triangle);
+}
+
+bool ReferenceTracer::sees_mask(const ConsumerItem& consumer, const glm::dvec2& at_px) const {
+    const TracedWorld& world = world_->traced;
+    const PixelRay pixel = pixel_ray(consumer, consumer.position_ws_m - world.origin_ws_m(), at_px);
+    const SurfaceHit hit = world.nearest_surface(pixel.ray, pixel.t_min, pixel.t_max, Masked::whole);
+    return hit.triangle != kNoTriangle && world.triangles()[hit.triangle].masked;
+}
+
+bool ReferenceTracer::blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
+                              double least_m, Masked masked) const {
+    const bool parallel = light.kind == LightKind::directional;
+    const glm::dvec3 to_light =
+        parallel ? light.rotation_ws[2] : light.position_ws_m - world_->traced.origin_ws_m() - point_rel_m;
+    const double distance_m = glm::length(to_light);
+    if (!(parallel || distance_m > least_m)) return false;
+    const glm::dvec3 start = point_rel_m + to_light * (least_m / distance_m);
+    const glm::dvec3 rest = parallel ? to_light : to_light * (1.0 - least_m / distance_m);
+    return world_->traced.occluder(make_ray(start, rest), parallel ? kInfinity : 1.0, triangle, kNoTriangle,
+                                   light.shadow.layers, masked) != kNoTriangle;
 }
 
 std::vector<std::uint8_t> ReferenceTracer::ambiguous(const PrimaryHits& hits, const LightItem& light) const {

@@ -1,0 +1,101 @@
+#include "bench/edge_bounds.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "bench/exact_visibility.h"
+#include "systems/shadow/demand.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/fit.h"
+#include "systems/shadow/predicted_error.h"
+#include "systems/shadow/sets.h"
+
+namespace gnomon::bench {
+namespace {
+
+using shadow::ShadowView;
+
+/// A cascade's lookup may lie this far from the point, beside the filter's reach: it is moved along the normal.
+constexpr double kMovedTexel = 1.0;
+
+bool orthographic(const ShadowView& view) { return view.projection == shadow::ViewProjection::orthographic; }
+
+bool holds(const ShadowView& view, const glm::dvec3& p_ws, double margin) {
+    const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.anchor_ws_m, 1.0);
+    if (!(q.w > 0.0)) return false;
+    const glm::dvec3 at = glm::dvec3(q) / q.w;
+    return at.x >= margin && at.y >= margin && at.x <= 1.0 - margin && at.y <= 1.0 - margin && at.z >= 0.0 &&
+           (at.z <= 1.0 || !orthographic(view));
+}
+
+double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
+    return glm::dot(view.anchor_ws_m - p_ws, view.axis_back);
+}
+
+/// Unit.
+glm::dvec3 to_light(const ShadowView& view, const glm::dvec3& p_ws) {
+    return orthographic(view) ? view.axis_back : glm::normalize(view.anchor_ws_m - p_ws);
+}
+
+}  // namespace
+
+EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held)
+    : scene_(scene) {
+    shadow::decide_demand(scene, device, true, {}, frame_.demands);
+    shadow::select_sets(scene, frame_);
+    shadow::fit_views(scene, held, frame_);
+}
+
+double EdgeBounds::reach_texel(const ShadowView& view) const {
+    return static_cast<double>(shadow::filter_row(frame_.demands[view.demand].filter).reach_texel);
+}
+
+/// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken.
+const ShadowView* EdgeBounds::view_of(std::uint32_t light, const glm::dvec3& point_ws_m) const {
+    const ConsumerItem& consumer = scene_.consumers.front();
+    const double distance_m = -glm::dot(point_ws_m - consumer.position_ws_m, consumer.rotation_ws[2]);
+    const ShadowView* best = nullptr;
+    for (const ShadowView& view : frame_.views) {
+        const shadow::ShadowDemand& demand = frame_.demands[view.demand];
+        if (demand.light != light) continue;
+        if (orthographic(view)) {
+            const bool passed = view.seen_to_m > 0.0 && distance_m > view.seen_to_m;
+            const double margin = (reach_texel(view) + kMovedTexel) / demand.resolution_px;
+            if (passed || !holds(view, point_ws_m, margin)) continue;
+            return &view;
+        }
+        if (!best || depth_from(view, point_ws_m) > depth_from(*best, point_ws_m)) best = &view;
+    }
+    return best && depth_from(*best, point_ws_m) > 0.0 ? best : nullptr;
+}
+
+oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                  double telling) const {
+    const ConsumerItem& consumer = scene_.consumers.front();
+    const glm::dvec3 p_ws = consumer.position_ws_m + point_rel_m;
+    oracle::TexelThere texel;
+    texel.error_px = shadow::edge_error_px(0.0, 0.0);
+    const ShadowView* view = view_of(light, p_ws);
+    if (!view) return texel;
+    const shadow::TexelSides sides = shadow::texel_sides(*view, p_ws);
+    texel.u_m = sides.u_m * telling;
+    texel.v_m = sides.v_m * telling;
+    texel.filter_texel = texel.reach_texel = reach_texel(*view);
+    const double cosine = glm::dot(to_light(*view, p_ws), normal);
+    if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
+        const double u = std::abs(glm::dot(normal, view->axis_u)), v = std::abs(glm::dot(normal, view->axis_v));
+        texel.reach_texel += texel.filter_texel * (u + v) * std::max(u, v);
+    }
+    texel.error_px =
+        shadow::edge_error_px(shadow::texel_extent_px(*view, consumer, p_ws, normal) * telling, texel.filter_texel);
+    return texel;
+}
+
+double EdgeBounds::stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const {
+    const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
+    const ShadowView* view = view_of(light, p_ws);
+    if (!view) return 0.0;
+    return shadow::stated_error_px(*view, glm::dot(to_light(*view, p_ws), normal), reach_texel(*view));
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,143 @@
+#include "tests/oracle/edge_exceptions.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace gnomon::oracle {
+namespace {
+
+constexpr double kStepPx = 0.25;
+/// Rays over a footprint: this many to each side of its middle, along each of its sides.
+constexpr int kRaysToEachSide = 2;
+/// Vertices snap to this part of a texel, or pixel (rasterisers with 8 sub-texel bits).
+constexpr double kRasterSnap = 1.0 / 256.0;
+/// A picture's masks are filtered over pixels: to the centres of the neighbours.
+constexpr double kMaskFilter_px = 1.0;
+/// A map's masks over its texels: of the two levels between which they are filtered, the coarser one's are twice as
+/// large at most, and reach one of their own width.
+constexpr double kMaskFilter_texel = 2.0;
+
+/// A texel on a plane: its sides, carried along the ray.
+struct Footprint {
+    glm::dvec3 middle, u_m, v_m, normal, ray;
+    glm::dvec3 at(double u_texel, double v_texel) const {
+        const glm::dvec3 across = u_m * u_texel + v_m * v_texel;
+        return middle + across - ray * (glm::dot(across, normal) / glm::dot(ray, normal));
+    }
+};
+
+class Judge {
+public:
+    Judge(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer, const LightItem& light,
+          const LightTruth& truth, const TexelAt& texel_at)
+        : tracer_(tracer), hits_(hits), consumer_(consumer), light_(light), truth_(truth), texel_at_(texel_at) {}
+
+    double bound_px(const EdgeDisplacement::Place& place) const {
+        const auto at = [&](std::size_t i) { return texel_at_(hits_.position_rel_m[i], hits_.normal_ws[i]).error_px; };
+        return std::max(at(place.dark), at(place.bright));
+    }
+
+    enum class Cause { none, truth_ambiguous, sub_texel_caster };
+    Cause cause(const EdgeDisplacement::Place& place, double bound_px) const {
+        if (!shows(place, bound_px, false)) return Cause::sub_texel_caster;
+        return shows(place, bound_px, true) ? Cause::none : Cause::truth_ambiguous;
+    }
+
+private:
+    /// Whether the map must show shadow on the one side of the edge and light on the other.
+    bool shows(const EdgeDisplacement::Place& place, double bound_px, bool certain) const {
+        return shows(place.middle_px, -place.rise, true, bound_px, certain) &&
+               shows(place.middle_px, place.rise, false, bound_px, certain);
+    }
+
+    bool shows(const glm::dvec2& from_px, const glm::dvec2& away, bool dark, double bound_px, bool certain) const {
+        for (double s = 0.0; s <= bound_px; s += kStepPx)
+            if (shows_at(from_px + away * s, dark, certain)) return true;
+        return false;
+    }
+
+    /// Pictures have values at pixel centres and are read between them: most of a place's share must be whole.
+    bool shows_at(const glm::dvec2& at_px, bool dark, bool certain) const {
+        const glm::dvec2 base = glm::floor(at_px), f = at_px - base;
+        double sure = 0.0;
+        for (int dy = 0; dy <= 1; ++dy)
+            for (int dx = 0; dx <= 1; ++dx) {
+                const double share = (dx ? f.x : 1.0 - f.x) * (dy ? f.y : 1.0 - f.y);
+                const auto x = static_cast<std::int64_t>(base.x) + dx, y = static_cast<std::int64_t>(base.y) + dy;
+                if (!(share > 0.0) || x < 0 || y < 0 || x >= hits_.size_px.x || y >= hits_.size_px.y) continue;
+                const auto pixel = static_cast<std::size_t>(y * hits_.size_px.x + x);
+                if (is_whole(pixel, dark) && (!certain || is_certain(pixel))) sure += share;
+            }
+        return sure > 0.5;
+    }
+
+    bool is_certain(std::size_t pixel) const {
+        if (truth_.ambiguous[pixel]) return false;
+        const glm::dvec2 centre(pixel % hits_.size_px.x, pixel / hits_.size_px.x);
+        const double within_px = tracer_.sees_mask(consumer_, centre) ? kMaskFilter_px : kRasterSnap;
+        for (const double x : {-within_px, within_px})
+            for (const double y : {-within_px, within_px})
+                if (!tracer_.sees_plane(consumer_, centre + glm::dvec2(x, y), hits_.triangle[pixel])) return false;
+        return true;
+    }
+
+    bool is_whole(std::size_t pixel, bool dark) const {
+        if (!truth_.scored[pixel]) return false;
+        const glm::dvec3 &middle = hits_.position_rel_m[pixel], &n = hits_.normal_ws[pixel];
+        const TexelThere texel = texel_at_(middle, n);
+        Footprint f{middle, texel.u_m, texel.v_m, n, to_light(middle)};
+        const double rise_m = (std::abs(glm::dot(f.u_m, n)) + std::abs(glm::dot(f.v_m, n))) / glm::dot(f.ray, n);
+        const double least_m = dark ? 2.0 * (texel.filter_texel + kRasterSnap) * rise_m : 0.0;
+        const auto all = [&](double reach_texel, Masked masked) {
+            for (int i = -kRaysToEachSide; i <= kRaysToEachSide; ++i)
+                for (int j = -kRaysToEachSide; j <= kRaysToEachSide; ++j)
+                    if (tracer_.blocked(f.at(i * reach_texel / kRaysToEachSide, j * reach_texel / kRaysToEachSide),
+                                        hits_.triangle[pixel], light_, least_m, masked) != dark)
+                        return false;
+            return true;
+        };
+        if (!all(texel.reach_texel, Masked::cut)) return false;
+        const bool mask_decides = !all(texel.reach_texel, dark ? Masked::absent : Masked::whole);
+        return !mask_decides || all(texel.reach_texel + kMaskFilter_texel, Masked::cut);
+    }
+
+    glm::dvec3 to_light(const glm::dvec3& point_rel_m) const {
+        if (light_.kind == LightKind::directional) return light_.rotation_ws[2];
+        return glm::normalize(light_.position_ws_m - consumer_.position_ws_m + hits_.camera_rel_m - point_rel_m);
+    }
+
+    const ReferenceTracer& tracer_;
+    const PrimaryHits& hits_;
+    const ConsumerItem& consumer_;
+    const LightItem& light_;
+    const LightTruth& truth_;
+    const TexelAt& texel_at_;
+};
+
+}  // namespace
+
+EdgeExceptions edge_exceptions(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
+                               const LightItem& light, const LightTruth& truth, const EdgeDisplacement& edge,
+                               const TexelAt& texel_at) {
+    const Judge judge(tracer, hits, consumer, light, truth, texel_at);
+    EdgeExceptions exceptions;
+    for (std::size_t i = 0; i < edge.each.size(); ++i) {
+        const EdgeDisplacement::Place& place = edge.each[i];
+        const double bound_px = judge.bound_px(place);
+        const bool beyond = place.off_px > bound_px, sampled = i % kSampleEvery == 0;
+        if (!beyond && !sampled) continue;
+        const Judge::Cause cause = judge.cause(place, bound_px);
+        if (beyond && cause == Judge::Cause::none) exceptions.unexplained_places.push_back(i);
+        if (beyond) {
+            ++(cause == Judge::Cause::none              ? exceptions.unexplained
+               : cause == Judge::Cause::truth_ambiguous ? exceptions.truth_ambiguous
+                                                        : exceptions.sub_texel_caster);
+        }
+        exceptions.sampled += sampled;
+        exceptions.excusable += sampled && cause != Judge::Cause::none;
+    }
+    return exceptions;
+}
+
+}  // namespace gnomon::oracle
