@@ -213,15 +213,18 @@ TEST_F(CameraPaths, ATightSunStepsInNearlyEveryFrame) {
 }
 
 TEST_F(CameraPaths, APointPassesFromOneCascadeToTheNextByAnEighthPerFrameAtMost) {
-    for (const char* fit : {"fit=quantised", "fit=stable"})
+    for (const char* fit : {"fit=quantised", "fit=stable"}) {
+        int in_bands = 0;
         for (const char* splits : {"splits=practical", "splits=uniform", "splits=logarithmic", "splits=seen"})
             for (const char* path : {"pan", "walk", "roll", "zoom"}) {
                 SCOPED_TRACE(std::string(fit) + " " + splits + " " + path);
                 const Walk walk = go(path, {fit, splits, "cascade_blend=0.2"});
                 EXPECT_LE(walk.greatest_fade, shadow::kMostFade + kRounding);
-                EXPECT_GT(walk.in_bands, kFrames) << "nothing fades";
                 EXPECT_EQ(walk.outside, 0);
+                in_bands += walk.in_bands;
             }
+        EXPECT_GT(in_bands, kFrames * 100) << fit << ": hardly anything fades";
+    }
 }
 
 TEST_F(CameraPaths, WithoutABlendAPointJumps) {
