@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "systems/shadow/kinds/splits.h"
 #include "tests/unit/math/random_seed.h"
@@ -98,10 +99,12 @@ TEST(SampledDepths, NoOtherEndsAreBetter) {
         const double least = suffered(split, best);
         for (std::uint32_t i = 0; i < count; ++i) EXPECT_LE(best[i], best[i + 1]);
         for (int other = 0; other < 50; ++other) {
+            std::vector<std::uint32_t> bins(count - 1);
+            for (std::uint32_t& bin : bins) bin = 84 + below(52);
+            std::sort(bins.begin(), bins.end());
             CascadeEnds ends = best;
             for (std::uint32_t i = 1; i < count; ++i)
-                ends[i] = std::exp2(0.25 * (static_cast<int>(84 + below(52)) + kFirstDepthStep));
-            std::sort(ends.begin() + 1, ends.begin() + count);
+                ends[i] = std::exp2(0.25 * (static_cast<int>(bins[i - 1]) + kFirstDepthStep));
             EXPECT_GE(suffered(split, ends), least * (1.0 - 1e-9)) << "round " << round;
         }
     }
