@@ -241,27 +241,6 @@ TEST(ReferenceTracer, NonReceiversAreLitWhereTheyFaceTheLight) {
     EXPECT_EQ(std::count(below.scored.begin(), below.scored.end(), 1), 0);
 }
 
-TEST(ReferenceTracer, LayersDecideWhoCastsUnderALightAndWhoTakesItsShadow) {
-    AnalyticScene scene = floor_and_cube();
-    const auto dark = [&](int caster, int light, int receiver) {
-        scene.snapshot.instances[0].receive_layers = static_cast<ShadowLayers>(receiver);
-        scene.snapshot.instances[1].cast_layers = static_cast<ShadowLayers>(caster);
-        scene.snapshot.instances[1].visible = false;
-        const ReferenceTracer tracer = scene.tracer();
-        LightItem sun = scene.sun({0.0, 1.0, 0.0});
-        sun.shadow.layers = static_cast<ShadowLayers>(light);
-        const auto v = tracer.visibility(tracer.trace_primary(scene.view_from_above(kSize, kWidth)), sun);
-        return std::count(v.begin(), v.end(), 0.0f);
-    };
-    const auto shadow = dark(0xff, 0xff, 0xff);
-    EXPECT_GT(shadow, 0);
-    EXPECT_EQ(dark(0x01, 0x03, 0x02), shadow) << "each meets the light, not the other";
-    EXPECT_EQ(dark(0x01, 0x02, 0x02), 0) << "the caster is of no layer of the light";
-    EXPECT_EQ(dark(0x02, 0x02, 0x01), 0) << "the receiver is of no layer of the light";
-    EXPECT_EQ(dark(0x80, 0x80, 0x80), shadow);
-    EXPECT_EQ(dark(0xff, 0x00, 0xff), 0);
-}
-
 TEST(ReferenceTracer, NothingSeenIsMinusOneAndNearAndFarCut) {
     AnalyticScene scene;
     const ConsumerItem view = scene.view_from_above(4, 1.0);
