@@ -21,7 +21,7 @@
 /// - `sub_texel_caster`: the shadow, or the light beside it, is thinner than a texel there, or its caster is nearer to
 ///   the receiver than the receiver's own rise over the texel: a map may miss such a thing altogether.
 /// - `truth_ambiguous`: which surface is seen, or whether the light reaches it, hangs on less than the rasteriser's
-///   snapping, a mask's filtering in the picture, or the last digits of the position.
+///   snapping or the last digits of the position.
 /// Assumed: the bias is Gnomon's own, not LightShadow::bias; depth is stored as float.
 namespace gnomon::shadow {
 

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kLeastPlaces = 200;
 constexpr double kMostMedianRatio = 3.0;
 /// Places at which an exception would be allowed, of all: where these are many, nothing is proven.
-constexpr double kMostExcusable = 0.4;
+constexpr double kMostExcusable = 0.3;
 constexpr const char* kResolutions[] = {"512", "1024", "2048"};
 
 struct Scene {

@@ -12,11 +12,6 @@ constexpr double kStepPx = 0.25;
 constexpr int kRaysToEachSide = 2;
 /// Vertices snap to this part of a texel, or pixel (rasterisers with 8 sub-texel bits).
 constexpr double kRasterSnap = 1.0 / 256.0;
-/// A picture's masks are filtered over pixels: to the centres of the neighbours.
-constexpr double kMaskFilter_px = 1.0;
-/// A map's masks over its texels: of the two levels between which they are filtered, the coarser one's are twice as
-/// large at most, and reach one of their own width.
-constexpr double kMaskFilter_texel = 2.0;
 
 /// A texel on a plane: its sides, carried along the ray.
 struct Footprint {
@@ -75,9 +70,8 @@ private:
     bool is_certain(std::size_t pixel) const {
         if (truth_.ambiguous[pixel]) return false;
         const glm::dvec2 centre(pixel % hits_.size_px.x, pixel / hits_.size_px.x);
-        const double within_px = tracer_.sees_mask(consumer_, centre) ? kMaskFilter_px : kRasterSnap;
-        for (const double x : {-within_px, within_px})
-            for (const double y : {-within_px, within_px})
+        for (const double x : {-kRasterSnap, kRasterSnap})
+            for (const double y : {-kRasterSnap, kRasterSnap})
                 if (!tracer_.sees_plane(consumer_, centre + glm::dvec2(x, y), hits_.triangle[pixel])) return false;
         return true;
     }
@@ -89,17 +83,13 @@ private:
         Footprint f{middle, texel.u_m, texel.v_m, n, to_light(middle)};
         const double rise_m = (std::abs(glm::dot(f.u_m, n)) + std::abs(glm::dot(f.v_m, n))) / glm::dot(f.ray, n);
         const double least_m = dark ? 2.0 * (texel.filter_texel + kRasterSnap) * rise_m : 0.0;
-        const auto all = [&](double reach_texel, Masked masked) {
-            for (int i = -kRaysToEachSide; i <= kRaysToEachSide; ++i)
-                for (int j = -kRaysToEachSide; j <= kRaysToEachSide; ++j)
-                    if (tracer_.blocked(f.at(i * reach_texel / kRaysToEachSide, j * reach_texel / kRaysToEachSide),
-                                        hits_.triangle[pixel], light_, least_m, masked) != dark)
-                        return false;
-            return true;
-        };
-        if (!all(texel.reach_texel, Masked::cut)) return false;
-        const bool mask_decides = !all(texel.reach_texel, dark ? Masked::absent : Masked::whole);
-        return !mask_decides || all(texel.reach_texel + kMaskFilter_texel, Masked::cut);
+        const double step_texel = texel.reach_texel / kRaysToEachSide;
+        for (int i = -kRaysToEachSide; i <= kRaysToEachSide; ++i)
+            for (int j = -kRaysToEachSide; j <= kRaysToEachSide; ++j)
+                if (tracer_.blocked(f.at(i * step_texel, j * step_texel), hits_.triangle[pixel], light_, least_m) !=
+                    dark)
+                    return false;
+        return true;
     }
 
     glm::dvec3 to_light(const glm::dvec3& point_rel_m) const {

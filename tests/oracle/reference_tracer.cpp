@@ -159,15 +159,8 @@ bool ReferenceTracer::sees_plane(const ConsumerItem& consumer, const glm::dvec2&
     return world.on_plane(point, triangle);
 }
 
-bool ReferenceTracer::sees_mask(const ConsumerItem& consumer, const glm::dvec2& at_px) const {
-    const TracedWorld& world = world_->traced;
-    const PixelRay pixel = pixel_ray(consumer, consumer.position_ws_m - world.origin_ws_m(), at_px);
-    const SurfaceHit hit = world.nearest_surface(pixel.ray, pixel.t_min, pixel.t_max, Masked::whole);
-    return hit.triangle != kNoTriangle && world.triangles()[hit.triangle].masked;
-}
-
 bool ReferenceTracer::blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
-                              double least_m, Masked masked) const {
+                              double least_m) const {
     const bool parallel = light.kind == LightKind::directional;
     const glm::dvec3 to_light =
         parallel ? light.rotation_ws[2] : light.position_ws_m - world_->traced.origin_ws_m() - point_rel_m;
@@ -176,7 +169,7 @@ bool ReferenceTracer::blocked(const glm::dvec3& point_rel_m, std::uint32_t trian
     const glm::dvec3 start = point_rel_m + to_light * (least_m / distance_m);
     const glm::dvec3 rest = parallel ? to_light : to_light * (1.0 - least_m / distance_m);
     return world_->traced.occluder(make_ray(start, rest), parallel ? kInfinity : 1.0, triangle, kNoTriangle,
-                                   light.shadow.layers, masked) != kNoTriangle;
+                                   light.shadow.layers) != kNoTriangle;
 }
 
 std::vector<std::uint8_t> ReferenceTracer::ambiguous(const PrimaryHits& hits, const LightItem& light) const {

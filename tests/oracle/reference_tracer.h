@@ -14,9 +14,6 @@ namespace gnomon::oracle {
 
 inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
-/// What becomes of masked triangles: cut out by their mask, as they are drawn; uncut; left out.
-enum class Masked : std::uint8_t { cut, whole, absent };
-
 /// The surface seen at each pixel centre, rows bottom to top.
 struct PrimaryHits {
     glm::uvec2 size_px{0, 0};
@@ -70,14 +67,10 @@ public:
 
     /// Whether a caster lies between the light and a point on the plane of `triangle`, inside of it or beyond its
     /// borders, at least `least_m` from the point. Range and cone aside.
-    bool blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light, double least_m,
-                 Masked masked = Masked::cut) const;
+    bool blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light, double least_m) const;
 
     /// Whether what is seen at that place of the picture lies on the plane of `triangle`.
     bool sees_plane(const ConsumerItem& consumer, const glm::dvec2& at_px, std::uint32_t triangle) const;
-
-    /// Whether a mask decides what is seen at that place of the picture.
-    bool sees_mask(const ConsumerItem& consumer, const glm::dvec2& at_px) const;
 
     std::size_t triangle_count() const;
     /// Index into the snapshot's instances of a triangle number.

@@ -34,7 +34,6 @@ struct Query {
     const ExactRay* ray = nullptr;
     double t_min = 0.0, t_max = kInfinity;
     ShadowLayers layers = 0;
-    Masked masked = Masked::cut;
     std::uint32_t start_triangle = kNoTriangle;
     SurfaceHit best;
 };
@@ -127,8 +126,8 @@ void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index) {
     }
 }
 
-bool TracedWorld::is_there(const WorldTriangle& triangle, Masked masked, const ExactHit& hit) const {
-    if (!triangle.masked || masked != Masked::cut) return !triangle.masked || masked == Masked::whole;
+bool TracedWorld::is_there(const WorldTriangle& triangle, const ExactHit& hit) const {
+    if (!triangle.masked) return true;
     const assets::Mesh& mesh = library_.meshes[triangle.mesh];
     const auto uv = [&](std::uint32_t corner) {
         return glm::dvec2(mesh.vertices[mesh.indices[triangle.first_index + corner]].uv);
@@ -143,29 +142,27 @@ bool TracedWorld::on_plane(const glm::dvec3& point, std::uint32_t triangle) cons
 }
 
 bool TracedWorld::blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
-                         std::uint32_t triangle, Masked masked) const {
+                         std::uint32_t triangle) const {
     const WorldTriangle& t = triangles_[triangle];
     ExactHit hit;
     if (triangle == start_triangle || (t.cast_layers & layers) == 0 || !intersect(ray, t.a, t.b, t.c, hit))
         return false;
     if (!(hit.t > 0.0 && hit.t < t_max)) return false;
-    return !on_plane(ray.origin, triangle) && is_there(t, masked, hit);
+    return !on_plane(ray.origin, triangle) && is_there(t, hit);
 }
 
-bool TracedWorld::shows(const ExactRay& ray, double t_min, double t_max, Masked masked, std::uint32_t triangle,
-                        double& t_hit) const {
+bool TracedWorld::shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t_hit) const {
     const WorldTriangle& t = triangles_[triangle];
     ExactHit hit;
     if (!t.visible || !intersect(ray, t.a, t.b, t.c, hit)) return false;
     if (!(hit.t >= t_min && hit.t <= t_max)) return false;
     if (!t.double_sided && !(glm::dot(front_normal(t), ray.direction) < 0.0)) return false;
     t_hit = hit.t;
-    return is_there(t, masked, hit);
+    return is_there(t, hit);
 }
 
-SurfaceHit TracedWorld::nearest_surface(const ExactRay& ray, double t_min, double t_max, Masked masked) const {
+SurfaceHit TracedWorld::nearest_surface(const ExactRay& ray, double t_min, double t_max) const {
     Query query = make_query(ray, t_min, t_max);
-    query.masked = masked;
     RTCRayHit r{};
     r.ray = to_embree(ray, t_max);
     r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -174,12 +171,11 @@ SurfaceHit TracedWorld::nearest_surface(const ExactRay& ray, double t_min, doubl
 }
 
 std::uint32_t TracedWorld::occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint,
-                                    ShadowLayers layers, Masked masked) const {
-    if (hint != kNoTriangle && blocks(ray, t_max, layers, start_triangle, hint, masked)) return hint;
+                                    ShadowLayers layers) const {
+    if (hint != kNoTriangle && blocks(ray, t_max, layers, start_triangle, hint)) return hint;
     Query query = make_query(ray, 0.0, t_max);
     query.layers = layers;
     query.start_triangle = start_triangle;
-    query.masked = masked;
     RTCRay r = to_embree(ray, t_max);
     occlude(scene_, query.context, r);
     return query.best.triangle;
@@ -204,7 +200,7 @@ void TracedWorld::intersect_callback(const RTCIntersectFunctionNArguments* args)
     const auto& world = *static_cast<const TracedWorld*>(args->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(args->context);
     double t = 0.0;
-    if (!world.shows(*query.ray, query.t_min, query.t_max, query.masked, args->primID, t)) return;
+    if (!world.shows(*query.ray, query.t_min, query.t_max, args->primID, t)) return;
     const bool nearer = query.best.triangle == kNoTriangle || t < query.best.t ||
                         (t <= query.best.t && args->primID < query.best.triangle);
     if (!nearer) return;
@@ -217,7 +213,7 @@ void TracedWorld::occluded_callback(const RTCOccludedFunctionNArguments* args) {
     if (!args->valid[0]) return;
     const auto& world = *static_cast<const TracedWorld*>(args->geometryUserPtr);
     auto& query = *reinterpret_cast<Query*>(args->context);
-    if (!world.blocks(*query.ray, query.t_max, query.layers, query.start_triangle, args->primID, query.masked)) return;
+    if (!world.blocks(*query.ray, query.t_max, query.layers, query.start_triangle, args->primID)) return;
     query.best = {args->primID, 0.0};
     RTCRayN_tfar(args->ray, args->N, 0) = -std::numeric_limits<float>::infinity();
 }

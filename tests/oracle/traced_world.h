@@ -42,24 +42,24 @@ public:
     const glm::dvec3& origin_ws_m() const { return origin_ws_m_; }
 
     /// Nearest visible surface with t in [t_min, t_max]; of equal t the lowest triangle number.
-    SurfaceHit nearest_surface(const ExactRay& ray, double t_min, double t_max, Masked masked = Masked::cut) const;
+    SurfaceHit nearest_surface(const ExactRay& ray, double t_min, double t_max) const;
 
     /// Number of a caster of these layers that meets the ray at t in (0, t_max), or kNoTriangle. `hint` is tried first
     /// (an occluder of a nearby ray, or kNoTriangle) and changes only the time that is needed.
     std::uint32_t occluder(const ExactRay& ray, double t_max, std::uint32_t start_triangle, std::uint32_t hint,
-                           ShadowLayers layers = kAllShadowLayers, Masked masked = Masked::cut) const;
+                           ShadowLayers layers = kAllShadowLayers) const;
 
     /// Up to the rounding of double.
     bool on_plane(const glm::dvec3& point, std::uint32_t triangle) const;
 
     /// The tests that decide, for one triangle.
     bool blocks(const ExactRay& ray, double t_max, ShadowLayers layers, std::uint32_t start_triangle,
-                std::uint32_t triangle, Masked masked = Masked::cut) const;
-    bool shows(const ExactRay& ray, double t_min, double t_max, Masked masked, std::uint32_t triangle, double& t) const;
+                std::uint32_t triangle) const;
+    bool shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t) const;
 
 private:
     void add_instance(const InstanceItem& item, std::uint32_t index);
-    bool is_there(const WorldTriangle& triangle, Masked masked, const ExactHit& hit) const;
+    bool is_there(const WorldTriangle& triangle, const ExactHit& hit) const;
     static void bounds_callback(const RTCBoundsFunctionArguments* args);
     static void intersect_callback(const RTCIntersectFunctionNArguments* args);
     static void occluded_callback(const RTCOccludedFunctionNArguments* args);
