@@ -5,7 +5,6 @@
 
 #include "bench/exact_visibility.h"
 #include "systems/shadow/demand.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/predicted_error.h"
 #include "systems/shadow/sets.h"
@@ -47,7 +46,7 @@ EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device,
 }
 
 double EdgeBounds::reach_texel(const ShadowView& view) const {
-    return static_cast<double>(shadow::filter_row(frame_.demands[view.demand].filter).reach_texel);
+    return static_cast<double>(frame_.demands[view.demand].filtering.widest_texel);
 }
 
 /// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken.

@@ -12,6 +12,7 @@ namespace {
 /// What the taps of one lookup met.
 struct Trace {
     std::uint8_t layers = 0;
+    std::uint16_t taps = 0;
     double margin_texel = std::numeric_limits<double>::infinity();  // to the nearest change of mind
 };
 
@@ -53,6 +54,11 @@ struct ShadowSampler {
 struct sampler2DArrayShadow : ShadowSampler {};
 struct samplerCubeShadow : ShadowSampler {};
 
+ivec2 textureSize(const samplerCubeShadow& s, int) {
+    const int size = static_cast<int>(s.map->size_px);
+    return {size, size};
+}
+
 ivec3 textureSize(const sampler2DArrayShadow& s, int) {
     const int size = static_cast<int>(s.map->size_px);
     return {size, size, 1};
@@ -61,6 +67,7 @@ ivec3 textureSize(const sampler2DArrayShadow& s, int) {
 double texture(const sampler2DArrayShadow& s, const vec4& at) {
     const int layer = static_cast<int>(at.z);
     s.trace->layers = static_cast<std::uint8_t>(s.trace->layers | (1u << layer));
+    ++s.trace->taps;
     const vec2 texel = at.xy_() * static_cast<double>(s.map->size_px);
     if (!s.linear) {
         s.note_borders(texel);
@@ -101,6 +108,7 @@ double stored_seamless(const samplerCubeShadow& s, std::uint32_t face, const vec
 
 double texture(const samplerCubeShadow& s, const vec4& at) {
     s.trace->layers |= 1u;
+    ++s.trace->taps;
     const double size = s.map->size_px;
     const OnFace face = on_face(at.xyz_(), size);
     if (!s.linear) {
@@ -121,6 +129,8 @@ vec4 to_vec4(const glm::vec4& v) {
     const glm::dvec4 d(v);
     return {d.x, d.y, d.z, d.w};
 }
+
+ivec4 to_ivec4(const glm::ivec4& v) { return {v.x, v.y, v.z, v.w}; }
 
 /// The views of a light in the order in which they were published.
 std::vector<const shadow::ShadowView*> published_views(const shadow::ShadowFrame& frame, std::uint32_t light) {
@@ -144,8 +154,12 @@ public:
         row_.light.to_light = to_vec4(record.to_light);
         row_.light.radiance = to_vec4(record.radiance);
         row_.light.cone = to_vec4(record.cone);
-        row_.light.options = {record.options.x, record.options.y, record.options.z, record.options.w};
+        row_.light.options = to_ivec4(record.options);
         row_.light.bias = to_vec4(record.bias);
+        row_.light.filtering = to_ivec4(record.filtering);
+        row_.light.spread = to_vec4(record.spread);
+        row_.light.seed_cell = to_ivec4(record.seed_cell);
+        row_.light.seed_place = to_vec4(record.seed_place);
         row_.shadow_map.map = &map;
         row_.shadow_map.linear =
             shadow::filter_row(frame.demands[views.empty() ? 0 : views.front()->demand].filter).linear_sampler;
@@ -162,7 +176,7 @@ public:
             trace = {};
             const glm::dvec3 position_ca = points[i].position_ws_m - camera_ws_m_;
             const double value = row.shadow_visibility(to_vec3(position_ca), to_vec3(points[i].normal_ws), 0.0);
-            values[i] = {static_cast<float>(value), trace.layers, trace.margin_texel < kEdge_texel};
+            values[i] = {static_cast<float>(value), trace.layers, trace.margin_texel < kEdge_texel, trace.taps};
         }
     }
 
@@ -209,21 +223,12 @@ struct CompiledRow {
     std::string_view kind_file, filter_file;
     std::unique_ptr<ExactLight> (*make)(const shadow::ShadowFrame&, const ConsumerItem&, std::uint32_t, const MapCopy&);
 };
-constexpr std::string_view kHard = "shadow/filters/hard.glsl", kTwo = "shadow/filters/hardware_2x2.glsl",
-                           kNine = "shadow/filters/pcf_3x3.glsl";
-constexpr std::string_view kDirectional = "shadow/kinds/directional.glsl", kSpot = "shadow/kinds/spot.glsl",
-                           kPoint = "shadow/kinds/point.glsl";
-constexpr CompiledRow kRows[] = {
-    {kDirectional, kHard, make_row<glsl::directional::Hard>},
-    {kDirectional, kTwo, make_row<glsl::directional::Hardware2x2>},
-    {kDirectional, kNine, make_row<glsl::directional::Pcf3x3>},
-    {kSpot, kHard, make_row<glsl::spot::Hard>},
-    {kSpot, kTwo, make_row<glsl::spot::Hardware2x2>},
-    {kSpot, kNine, make_row<glsl::spot::Pcf3x3>},
-    {kPoint, kHard, make_row<glsl::point::Hard>},
-    {kPoint, kTwo, make_row<glsl::point::Hardware2x2>},
-    {kPoint, kNine, make_row<glsl::point::Pcf3x3>},
-};
+#define ROWS_OF_FILTER(name)                                                                                     \
+    {"shadow/kinds/directional.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::directional::row_##name>}, \
+        {"shadow/kinds/spot.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::spot::row_##name>},           \
+        {"shadow/kinds/point.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::point::row_##name>},
+constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};
+#undef ROWS_OF_FILTER
 
 }  // namespace
 

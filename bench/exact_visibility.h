@@ -26,6 +26,7 @@ struct ExactVisibility {
     float value = 1.0f;
     std::uint8_t layers = 0;  // bit per layer that was looked up; a cube counts as one; 0: no map holds the point
     bool on_edge = false;     // some tap lies within kEdge_texel of a texel border, or of a depth tie
+    std::uint16_t taps = 0;   // texture fetches
     bool operator==(const ExactVisibility&) const = default;
 };
 

@@ -23,7 +23,7 @@ struct vec2 {
     double x = 0.0, y = 0.0;
     vec2() = default;
     explicit vec2(double s) : x(s), y(s) {}
-    vec2(double x_, double y_) : x(x_), y(y_) {}
+    constexpr vec2(double x_, double y_) : x(x_), y(y_) {}
     explicit vec2(const ivec2& v) : x(v.x), y(v.y) {}
     double& operator[](int i) { return i == 0 ? x : y; }
     double operator[](int i) const { return i == 0 ? x : y; }
@@ -36,7 +36,7 @@ struct vec3 {
     double x = 0.0, y = 0.0, z = 0.0;
     vec3() = default;
     explicit vec3(double s) : x(s), y(s), z(s) {}
-    vec3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
+    constexpr vec3(double x_, double y_, double z_) : x(x_), y(y_), z(z_) {}
     vec3(const vec2& v, double z_) : x(v.x), y(v.y), z(z_) {}
     double& operator[](int i) { return i == 0 ? x : (i == 1 ? y : z); }
     double operator[](int i) const { return i == 0 ? x : (i == 1 ? y : z); }
@@ -143,7 +143,9 @@ V& operator*=(V& a, double s) {
     return a = a * s;
 }
 
-using std::abs, std::sqrt, std::floor, std::ceil, std::exp, std::exp2, std::log, std::log2, std::pow, std::fma;
+using uint = std::uint32_t;
+
+using std::abs, std::cos, std::sin, std::sqrt, std::floor, std::ceil, std::exp, std::exp2, std::log, std::log2, std::pow, std::fma;
 inline double min(double a, double b) { return b < a ? b : a; }
 inline double max(double a, double b) { return a < b ? b : a; }
 inline int min(int a, int b) { return std::min(a, b); }

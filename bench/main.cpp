@@ -7,6 +7,7 @@
 #include "bench/accuracy.h"
 #include "bench/culling.h"
 #include "bench/drawings.h"
+#include "bench/filters.h"
 #include "bench/frame_times.h"
 #include "bench/heat_pictures.h"
 #include "bench/set_shares.h"
@@ -28,7 +29,7 @@ struct Arguments {
     std::string scene, camera, size = "1280x720", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5;
     StabilityOptions stability;
-    std::string plot, drawings;
+    std::string plot, drawings, filters;
 };
 
 int fail(const Error& error) {
@@ -120,6 +121,15 @@ int run_drawings(const Arguments& arguments) {
     return 0;
 }
 
+int run_filters(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    const auto table = write_filter_pictures(*stage.value(), arguments.filters, {.timed_frames = arguments.repeat, .only = arguments.filter});
+    if (!table) return fail(table.error());
+    std::fputs(table.value().c_str(), stdout);
+    return 0;
+}
+
 int run_set_shares(const Arguments& arguments) {
     const auto table = set_shares(arguments.stage);
     if (!table) return fail(table.error());
@@ -169,6 +179,10 @@ int run(int argc, char** argv) {
     CLI::App* drawings = app.add_subcommand("drawings", "how the maps of each fit lie, as SVG files");
     add_common(*drawings, arguments);
     drawings->add_option("--out", arguments.drawings, "folder for the drawings")->required();
+    CLI::App* filters = app.add_subcommand("filters", "every filter on one scene beside the truth: taps, time, error");
+    add_common(*filters, arguments);
+    filters->add_option("--out", arguments.filters, "folder for the pictures")->required();
+    filters->add_option("--filter", arguments.filter, "part of a filter's name (default: all)");
     CLI::App* culling = app.add_subcommand("culling", "what finding receivers and casters and fitting to them costs");
     culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
     CLI::App* sets = app.add_subcommand("sets", "how many casters each light keeps, and how many of those in vain");
@@ -186,6 +200,7 @@ int run(int argc, char** argv) {
     }
     if (*sets) return run_set_shares(arguments);
     if (*drawings) return run_drawings(arguments);
+    if (*filters) return run_filters(arguments);
     if (*stability) return run_stability(arguments);
     return *accuracy ? run_accuracy(arguments) : run_frame(arguments);
 }

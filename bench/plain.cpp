@@ -6,7 +6,6 @@
 #include "engine/math/frustum.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/demand.h"
-#include "systems/shadow/filter_table.h"
 
 namespace gnomon::bench {
 
@@ -66,7 +65,7 @@ shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::ShadowFrame& fram
             .receiver_points_ws = part(frame.receiver_points_ws, sets.receiver_points),
             .beams = part(frame.beams, sets.beams),
             .frame_points_ws = frame.receiver_points_ws,
-            .reach_texel = shadow::filter_row(frame.demands[0].filter).reach_texel,
+            .reach_texel = frame.demands[0].filtering.widest_texel,
             .scratch = frame.fit_scratch,
             .held = held,
             .next = next};

@@ -8,7 +8,22 @@
 namespace gnomon {
 
 /// Rows of the filter table (systems/shadow/filter_table.h), one per shaders/shadow/filters file.
-enum class ShadowFilter : std::uint8_t { hard, hardware_2x2, pcf_3x3, count };
+enum class ShadowFilter : std::uint8_t {
+    hard,
+    hardware_2x2,
+    pcf_grid,
+    pcf_bilinear,
+    poisson,
+    poisson_rotated,
+    poisson_stratified,
+    cube_grid,
+    cube_directions,
+    count
+};
+
+/// Where a filter that differs from point to point takes its randomness from: the pixel, so that it stays on the screen
+/// when the camera moves, or the cell of the world in which the point lies, so that it stays there.
+enum class FilterSeed : std::uint8_t { screen, world };
 
 /// `automatic` derives the smallest offset that keeps a plane from shadowing itself;
 /// `constant` adds bias_m along the light and nothing else (to compare with).
@@ -48,6 +63,15 @@ enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 struct LightShadow {
     bool enabled = true;
     ShadowFilter filter = ShadowFilter::hard;  // the row that measures best (docs/accuracy.md)
+    std::uint32_t filter_size = 3;     // of pcf_grid and pcf_bilinear, texels along an edge; odd, at most 31
+    std::uint32_t filter_taps = 16;    // of the Poisson filters; 1 to 32
+    /// Half-width of the Poisson and cube filters: in texels of the map, or, where filter_spread_m is above 0, in metres
+    /// across the light. At most 16 texels, and an eighth of the map's edge, are taken.
+    float filter_spread_texel = 2.0f, filter_spread_m = 0.0f;
+    float filter_doubles_m = 0.0f;     // distance from the camera at which that half-width has doubled; 0: it is constant
+    FilterSeed filter_seed = FilterSeed::world;  // of poisson_rotated and poisson_stratified
+    float filter_cell_m = 0.02f;       // FilterSeed::world: edge of a cell; above 0
+    bool early_bail = false;           // filters of many taps: five first, the others only if those differ
     std::uint32_t resolution_px = 0;   // edge of one map or cube face; 0: chosen by the system
     float max_error_px = 1.0f;         // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;

@@ -7,7 +7,6 @@
 
 #include "components/light_shadow.h"
 #include "sample_game/number_text.h"
-#include "systems/shadow/filter_table.h"
 
 /// How the values of light_settings.cpp's table are read and written: set_… changes nothing and returns false on a text
 /// that is none, get_… returns a text that set_… reads back.
@@ -92,16 +91,6 @@ bool set_word(LightShadow& shadow, std::string_view text) {
 template <auto field, class Enum>
 std::string get_word(const LightShadow& shadow) {
     return std::string(word<Enum>(static_cast<std::size_t>(shadow.*field)));
-}
-
-inline bool set_filter(LightShadow& shadow, std::string_view text) {
-    const shadow::FilterRow* row = shadow::find_filter(text);
-    if (row) shadow.filter = row->id;
-    return row != nullptr;
-}
-inline std::string get_filter(const LightShadow& shadow) { return std::string(shadow::filter_row(shadow.filter).name); }
-inline std::string_view filter_name(std::size_t index) {
-    return index < shadow::filter_table().size() ? shadow::filter_table()[index].name : std::string_view{};
 }
 
 inline bool set_resolution(LightShadow& shadow, std::string_view text) {

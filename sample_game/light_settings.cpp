@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
+#include "sample_game/filter_settings.h"
 #include "sample_game/light_setting_values.h"
-#include "systems/shadow/filter_table.h"
 
 namespace gnomon::game {
 namespace {
@@ -22,13 +23,6 @@ constexpr std::array kSettings{
                  .set = set_switch<&S::enabled>,
                  .get = get_switch<&S::enabled>,
                  .editor = kToggle},
-    LightSetting{.key = "filter",
-                 .values = "a filter, see below",
-                 .meaning = "how the map is read",
-                 .set = set_filter,
-                 .get = get_filter,
-                 .editor = kChoice,
-                 .choice = filter_name},
     LightSetting{.key = "resolution",
                  .values = "0 ... 65536 (px)",
                  .meaning = "edge of one map or cube face; 0: chosen by the system",
@@ -170,23 +164,26 @@ Error bad(std::string message, const char* rule) { return {.message = "--set: " 
 
 }  // namespace
 
-std::span<const LightSetting> light_settings() { return kSettings; }
+std::span<const LightSetting> light_settings() {
+    static const auto kAll = [] {
+        std::vector<LightSetting> all(kSettings.begin(), kSettings.end());
+        all.insert(all.begin() + 1, filter_settings().begin(), filter_settings().end());
+        return all;
+    }();
+    return kAll;
+}
 
 std::optional<Error> apply_setting(LightShadow& shadow, std::string_view key_value) {
     const std::size_t equals = key_value.find('=');
     const std::string text(key_value);
     if (equals == std::string_view::npos) return bad("'" + text + "' is not KEY=VALUE", "set.syntax");
     const std::string key(key_value.substr(0, equals));
+    const auto settings = light_settings();
     const auto row =
-        std::find_if(kSettings.begin(), kSettings.end(), [&](const LightSetting& s) { return key == s.key; });
-    if (row == kSettings.end()) return bad("unknown key '" + key + "'; --list shows them", "set.key");
+        std::find_if(settings.begin(), settings.end(), [&](const LightSetting& s) { return key == s.key; });
+    if (row == settings.end()) return bad("unknown key '" + key + "'; --list shows them", "set.key");
     if (!row->set(shadow, key_value.substr(equals + 1))) {
-        std::string allowed = row->values;
-        if (row->set == set_filter) {
-            allowed.clear();
-            for (const shadow::FilterRow& f : shadow::filter_table())
-                allowed += (allowed.empty() ? "" : " | ") + std::string(f.name);
-        }
+        const std::string allowed = key == "filter" ? filter_names() : row->values;
         return bad("'" + text + "': " + key + " takes " + allowed, "set.value");
     }
     return std::nullopt;
@@ -200,14 +197,11 @@ std::string list_settings() {
     };
     constexpr std::size_t kKeyWidth = 16, kValueWidth = 40;
     std::string text = "Keys of --set KEY=VALUE (for every light with a shadow):\n";
-    for (const LightSetting& s : kSettings) {
+    for (const LightSetting& s : light_settings()) {
         text += "  " + padded(s.key, kKeyWidth) + padded(s.values, kValueWidth) + s.meaning;
         text += " (default: " + s.get(defaults) + ")\n";
     }
-    text += "Filters:\n";
-    for (const shadow::FilterRow& f : shadow::filter_table())
-        text += "  " + padded(std::string(f.name), kKeyWidth) + std::to_string(f.taps) +
-                (f.taps == 1 ? " tap" : " taps") + "\n";
+    text += list_filters();
     return text;
 }
 

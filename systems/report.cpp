@@ -62,6 +62,8 @@ const char* reason_code(Reason reason) {
             return "splits_invalid";
         case Reason::depths_unread:
             return "depths_unread";
+        case Reason::filter_cut:
+            return "filter_cut";
     }
     return "unknown";
 }

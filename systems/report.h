@@ -38,7 +38,8 @@ enum class Reason : std::uint8_t {
     range_invalid,           // near_m and far_m are no range, the fitted one is used
     cascades_clamped,        // more cascades than a light can have
     splits_invalid,          // split_m, split_lambda or cascade_blend is absurd, the default is used
-    depths_unread            // the picture's depths could not be had, splits go by the receivers' bounds
+    depths_unread,           // the picture's depths could not be had, splits go by the receivers' bounds
+    filter_cut               // a setting of the filter is absurd, or more than its map can bear
 };
 const char* reason_code(Reason reason);
 

@@ -97,6 +97,8 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
                 std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
+        demand.filtering = filter_demand(light.shadow, demand.resolution_px);
+        if (demand.filtering.cut) demand.note = Reason::filter_cut;
         decide_projection(light, scene.sampled_depths.failed, demand);
         if (light.kind == LightKind::spot) decide_cone(light, find(held, light.entity, i), demand);
         demands.push_back(demand);

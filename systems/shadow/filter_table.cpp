@@ -5,12 +5,36 @@
 namespace gnomon::shadow {
 namespace {
 
-// E is the distance from the receiver's map position to the farthest texel edge that takes part:
-// one nearest tap 1/2; hardware 2x2 blends texels up to one away; 3x3 nearest taps 1 + 1/2.
+std::uint32_t one(const LightShadow&, bool) { return 1; }
+std::uint32_t of_grid(const LightShadow& shadow, bool) { return shadow.filter_size * shadow.filter_size; }
+/// A fetch takes 2x2 texels; a grid of n that slides over them touches n + 1.
+std::uint32_t of_pairs(const LightShadow& shadow, bool) {
+    const std::uint32_t pairs = (shadow.filter_size + 1) / 2;
+    return pairs * pairs;
+}
+std::uint32_t of_disk(const LightShadow& shadow, bool) { return shadow.filter_taps; }
+// On a flat map what differs only toward the light is one tap.
+std::uint32_t of_cube_grid(const LightShadow&, bool cube) { return cube ? 64 : 16; }
+std::uint32_t of_directions(const LightShadow&, bool cube) { return cube ? 20 : 8; }
+
+// E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
+// a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance.
 constexpr FilterRow kRows[] = {
-    {ShadowFilter::hard, "hard", "shadow/filters/hard.glsl", 1, 0.5f, false},
-    {ShadowFilter::hardware_2x2, "hardware_2x2", "shadow/filters/hardware_2x2.glsl", 1, 1.0f, true},
-    {ShadowFilter::pcf_3x3, "pcf_3x3", "shadow/filters/pcf_3x3.glsl", 9, 1.5f, false},
+    {ShadowFilter::hard, "hard", "shadow/filters/hard.glsl", one, 0.5f, FilterWidth::fixed, false},
+    {ShadowFilter::hardware_2x2, "hardware_2x2", "shadow/filters/hardware_2x2.glsl", one, 1.0f, FilterWidth::fixed,
+     true},
+    {ShadowFilter::pcf_grid, "pcf_grid", "shadow/filters/pcf_grid.glsl", of_grid, 0.5f, FilterWidth::size, false},
+    {ShadowFilter::pcf_bilinear, "pcf_bilinear", "shadow/filters/pcf_bilinear.glsl", of_pairs, 1.0f, FilterWidth::size,
+     true},
+    {ShadowFilter::poisson, "poisson", "shadow/filters/poisson.glsl", of_disk, 0.5f, FilterWidth::spread, false},
+    {ShadowFilter::poisson_rotated, "poisson_rotated", "shadow/filters/poisson_rotated.glsl", of_disk, 0.5f,
+     FilterWidth::spread, false},
+    {ShadowFilter::poisson_stratified, "poisson_stratified", "shadow/filters/poisson_stratified.glsl", of_disk, 0.5f,
+     FilterWidth::spread, false},
+    {ShadowFilter::cube_grid, "cube_grid", "shadow/filters/cube_grid.glsl", of_cube_grid, 0.5f, FilterWidth::spread,
+     false},
+    {ShadowFilter::cube_directions, "cube_directions", "shadow/filters/cube_directions.glsl", of_directions, 0.5f,
+     FilterWidth::spread, false},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

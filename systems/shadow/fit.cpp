@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/predicted_error.h"
@@ -10,6 +9,12 @@
 
 namespace gnomon::shadow {
 namespace {
+
+/// Edge of the smallest texel in metres across the light.
+double finest_texel_m(const ShadowView& view) {
+    const double texel = std::min(view.texel_u, view.texel_v);
+    return view.projection == ViewProjection::orthographic ? texel : texel * view.near_m;
+}
 
 /// What the view's texels mean on the screen of the consumer that sees them largest.
 void state_error(const SceneSnapshot& scene, std::span<const glm::dvec3> points_ws, double reach_texel,
@@ -50,7 +55,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
                              points,
                              std::span(frame.beams).subspan(sets.beams.first, sets.beams.count),
                              frame.receiver_points_ws,
-                             filter_row(demand.filter).reach_texel,
+                             demand.filtering.widest_texel,
                              frame.fit_scratch,
                              last ? *last : none,
                              next};
@@ -65,7 +70,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
             ShadowView& view = frame.views[v];
             view.demand = d;
             select_view_casters(scene, view, frame);
-            state_error(scene, points, static_cast<double>(input.reach_texel), view);
+            state_error(scene, points, reach_texel_at(demand.filtering, finest_texel_m(view)), view);
         }
     }
 }

@@ -10,6 +10,7 @@
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
+#include "systems/shadow/seed_cell.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -59,6 +60,18 @@ LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
     record.cone = {static_cast<float>(cos_outer),
                    static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)), 0.0f, 0.0f};
     return record;
+}
+
+/// What filters read.
+void filter_record(const LightShadow& shadow, const FilterDemand& filter, const ConsumerItem& consumer,
+                   LightRecord& record) {
+    record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), shadow.early_bail ? 1 : 0,
+                        shadow.filter_seed == FilterSeed::world ? 1 : 0};
+    record.spread = {filter.spread_texel, filter.spread_m, filter.doubles_m > 0.0f ? 1.0f / filter.doubles_m : 0.0f,
+                     filter.most_spread_texel};
+    const SeedCell cell = seed_cell(consumer.position_ws_m, static_cast<double>(filter.cell_m));
+    record.seed_cell = glm::ivec4(cell.cell, 0);
+    record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
 
 }  // namespace
@@ -145,7 +158,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             LightingLight& out = inputs.lights[demand.light];
             out.row.kind_file = demand.perspective_sun ? kPerspectiveSunFile : kind.file;
             out.row.filter_file = filter.file;
-            out.row.reach_texel = filter.reach_texel;
+            out.row.reach_texel = demand.filtering.reach_texel;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
             out.map = slot.texture;
             out.sampler = filter.linear_sampler ? samplers.linear : samplers.nearest;
@@ -154,6 +167,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.record.options.w |= 1 << view.layer;
             out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
+            filter_record(light.shadow, demand.filtering, consumer, out.record);
             out.record.bias.x = light.shadow.bias_m;
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;

@@ -13,6 +13,7 @@
 #include "engine/math/aabb.h"
 #include "engine/math/frustum.h"
 #include "systems/report.h"
+#include "systems/shadow/filter_demand.h"
 #include "systems/shadow/history.h"
 #include "systems/shadow/kinds/splits.h"
 
@@ -33,6 +34,7 @@ struct ShadowDemand {
     Reason note = Reason::none;  // a degradation that is known already (resolution_clamped, …)
     ShadowFilter filter = ShadowFilter::hard;
     DepthFormat depth_format = DepthFormat::d32f;
+    FilterDemand filtering{};          // its settings
     std::uint32_t resolution_px = 0;   // edge of the map or of a cube face
     std::uint32_t view_count = 0;      // layers of the map
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
@@ -125,9 +127,13 @@ struct LightRecord {
     glm::vec4 cone{0.0f};
     glm::ivec4 options{0};
     glm::vec4 bias{0.0f};
+    glm::ivec4 filtering{0};
+    glm::vec4 spread{0.0f};
+    glm::ivec4 seed_cell{0};
+    glm::vec4 seed_place{0.0f};
     ViewRecord views[kMaxViews];
 };
-static_assert(sizeof(LightRecord) == std::size_t{6} * 16 + kMaxViews * sizeof(ViewRecord));
+static_assert(sizeof(LightRecord) == std::size_t{10} * 16 + kMaxViews * sizeof(ViewRecord));
 
 /// Matches DepthViewBlock in shaders/shadow/depth/depth_view_block.glsl (std140).
 struct DepthViewRecord {
@@ -150,7 +156,7 @@ static_assert(sizeof(CameraRecord) == 160);
 struct ProgramRow {
     std::string_view kind_define;  // LIGHT_DIRECTIONAL, …
     std::string_view kind_file, filter_file;
-    float reach_texel = 0.0f;  // the filter's footprint half-width E
+    float reach_texel = 0.0f;  // the filter's footprint half-width E, without what LightRecord::spread adds
     bool fades = false;        // looks up a second view that the first one fades into
     bool operator==(const ProgramRow&) const = default;
 };

@@ -10,7 +10,6 @@
 #include "engine/math/convex_polygon.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/beams.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/marks.h"
 #include "systems/shadow/sets.h"
 #include "systems/shadow/swept_volume.h"
@@ -48,7 +47,7 @@ public:
           scratch_(frame.set_scratch) {
         const ShadowDemand& demand = frame.demands[view.demand];
         // A tap reaches E texels from its point, which may lie anywhere in its texel.
-        const double reach = std::ceil(static_cast<double>(filter_row(demand.filter).reach_texel)) + 1.0;
+        const double reach = std::ceil(static_cast<double>(demand.filtering.widest_texel)) + 1.0;
         reach_ = reach * glm::dvec2(view.texel_u, view.texel_v);
     }
 

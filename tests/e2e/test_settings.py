@@ -28,7 +28,7 @@ class Settings(GameTest):
             self.assertEqual(set(field.values) - {-1.0, 0.0, 1.0}, set(), name)
 
     def test_soft_filters_have_values_between(self):
-        for kind in ("hardware_2x2", "pcf_3x3"):
+        for kind in ("hardware_2x2", "pcf_grid"):
             fields = self.fields_of("--set", "filter=" + kind, "--set", "resolution=256")
             for name, field in fields.items():
                 self.assertGreater(field.share(lambda v: 0.01 < v < 0.99), 0.001, "%s of %s" % (kind, name))
@@ -80,7 +80,7 @@ class Settings(GameTest):
     def test_every_key_reaches_every_light(self):
         plain = self.fields_of("--set", "filter=hard", "--set", "resolution=256")
         self.assertEqual(len(plain), 3)
-        for change in ("filter=pcf_3x3", "resolution=64", "bias=0", "enabled=off"):
+        for change in ("filter=pcf_grid", "resolution=64", "bias=0", "enabled=off"):
             changed = self.fields_of("--set", "filter=hard", "--set", "resolution=256", "--set", change)
             self.assertEqual(sorted(plain), sorted(changed))
             for name, field in plain.items():

@@ -1,6 +1,8 @@
 #include "bench/exact_visibility.h"
+#include "bench/filters.h"
 #include "bench/stability.h"
 #include "bench/stability_scene.h"
+#include "systems/shadow/filter_table.h"
 #include "tests/gl/truth_scenes.h"
 
 // The flicker bench looks maps up in double; that must be the lookup of the shaders.
@@ -9,10 +11,10 @@ namespace {
 
 class ExactVisibility : public TruthTest {
 protected:
-    static bench::StageOptions small(const char* filter) {
+    static bench::StageOptions small(const std::string& filter) {
         bench::StageOptions options;
         options.size_px = {320, 180};
-        options.settings = {std::string("filter=") + filter};
+        options.settings = {"filter=" + filter};
         return options;
     }
 };
@@ -22,26 +24,31 @@ TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
     // sub-pixel step of the rasteriser, 2^-9 pixel each way, for which the shader's bias allows and the bench's does
     // not.
     constexpr double kMostRounded = 5e-3, kLeastMoved = 2e-2;
-    for (const char* filter : {"hard", "hardware_2x2", "pcf_3x3"}) {
-        const auto stage = open(small(filter));
-        ASSERT_TRUE(stage);
+    const auto stage = open(small("hard"));
+    ASSERT_TRUE(stage);
+    stage->run_frame();
+    const SceneSnapshot scene = stage->frame().snapshot();
+    const ConsumerItem& camera = scene.consumers.front();
+    const oracle::ReferenceTracer tracer(scene, stage->library(), camera.position_ws_m);
+    const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+    std::vector<oracle::LightTruth> truths;
+    for (const LightItem& light : scene.lights) truths.push_back(tracer.trace_light(hits, light, false));
+    for (const shadow::FilterRow& row : shadow::filter_table()) {
+        const std::string filter(row.name);
+        ASSERT_FALSE(stage->apply_setting("filter=" + filter));
         for (int i = 0; i < 2; ++i) stage->run_frame();
-        const SceneSnapshot scene = stage->frame().snapshot();
-        const ConsumerItem& camera = scene.consumers.front();
         std::vector<std::vector<float>> shown(scene.lights.size());
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l)
             ASSERT_TRUE(stage->frame().read_visibility(l, shown[l]));
-        const oracle::ReferenceTracer tracer(scene, stage->library(), camera.position_ws_m);
-        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
 
         auto frames = bench::ShadowFrames::create(*stage);
         ASSERT_TRUE(frames) << to_line(frames.error());
         for (int i = 0; i < 2; ++i) ASSERT_FALSE(frames.value()->run());
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
-            SCOPED_TRACE(std::string(filter) + ", " + scene.lights[l].name);
+            SCOPED_TRACE(filter + ", " + scene.lights[l].name);
             const auto light = bench::make_exact_light(frames.value()->frame(), scene, l, frames.value()->map(l));
             ASSERT_TRUE(light) << "a row that the bench does not know";
-            const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights[l], false);
+            const oracle::LightTruth& truth = truths[l];
             std::size_t scored = 0, different = 0, dark = 0, moved = 0;
             for (std::size_t i = 0; i < hits.count(); ++i) {
                 if (!truth.scored[i] || shown[l][i] < 0.0f) continue;
@@ -64,6 +71,43 @@ TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
                 << "another place looks the same";
         }
     }
+}
+
+TEST_F(ExactVisibility, BailingEarlySavesMostOfSixteenTapsOrMoreAndMakesOnePointOfAThousandWrongAtMost) {
+    constexpr std::uint32_t kPoints = 20000;
+    constexpr double kLeastSaved = 0.6, kMostWrong = 0.001, kMostChanged = 0.01;
+    const auto stage = open(small("poisson"));
+    ASSERT_TRUE(stage);
+    ASSERT_FALSE(stage->apply_setting("resolution=2048"));
+    const std::vector<std::vector<std::string>> rows = {{"filter=poisson", "filter_taps=16"},
+                                                        {"filter=poisson_rotated", "filter_taps=32"},
+                                                        {"filter=pcf_grid", "filter_size=5"},
+                                                        {"filter=pcf_bilinear", "filter_size=7"},
+                                                        {"filter=cube_grid"}};
+    for (const auto& settings : rows) {
+        for (const std::string& setting : settings) ASSERT_FALSE(stage->apply_setting(setting));
+        const auto counts = bench::count_taps(*stage, kPoints);
+        ASSERT_TRUE(counts) << to_line(counts.error());
+        double all = 0.0, early = 0.0, wrong = 0.0, changed = 0.0, points = 0.0;
+        for (const bench::TapCount& count : counts.value()) {
+            const auto weight = static_cast<double>(count.points);
+            all += weight * count.all;
+            early += weight * count.early;
+            wrong += static_cast<double>(count.wrong);
+            changed += static_cast<double>(count.changed);
+            points += weight;
+        }
+        EXPECT_GT(points, 20000.0);
+        EXPECT_GE(all / points, 12.0) << settings.front() << ": places that no map holds take no tap";
+        EXPECT_LE(early, (1.0 - kLeastSaved) * all) << settings.front();
+        EXPECT_LE(wrong, kMostWrong * points) << settings.front();
+        EXPECT_LE(changed, kMostChanged * points) << settings.front();
+        EXPECT_GT(early, 4.0 * points * kLeastSaved) << settings.front() << ": nothing was looked up";
+    }
+    ASSERT_FALSE(stage->apply_setting("filter=hard"));
+    const auto one_tap = bench::count_taps(*stage, kPoints);
+    ASSERT_TRUE(one_tap);
+    for (const bench::TapCount& count : one_tap.value()) EXPECT_EQ(count.saved(), 0.0) << "one tap cannot be spared";
 }
 
 TEST_F(ExactVisibility, AFitThatFollowsTheCameraFlickersAndHoldsEveryPointInView) {

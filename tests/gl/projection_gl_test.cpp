@@ -1,5 +1,6 @@
 #include <limits>
 
+#include "systems/shadow/filter_table.h"
 #include "tests/gl/box_fixture.h"
 
 // A sun that projects from an eye, and depth ranges that are given: the shadows are those of a lamp at the eye, inside
@@ -69,17 +70,17 @@ TEST_F(ProjectionTest, ASunWithoutTheWishIsNoLampAtItsEye) {
 }
 
 TEST_F(ProjectionTest, EveryFilterLeavesAPerspectiveSunsPlanesUnspotted) {
-    for (const auto filter : {ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3})
-        add_sun({.filter = filter, .projection = LightProjection::perspective, .eye_angle_rad = 1.6f}, 2.0);
+    for (const shadow::FilterRow& filter : shadow::filter_table())
+        add_sun({.filter = filter.id, .projection = LightProjection::perspective, .eye_angle_rad = 1.6f}, 2.0);
     add_ground(6.0);
     place(add_mesh(game::make_box({-0.5, 0.0, -0.5}, {0.5, 2.0, 0.5})),
           {.translation_m = {3.0, 0.0, 0.0}, .rotation = glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0))});
     look_down(5.0);
     draw();
-    for (std::uint32_t light = 0; light < 3; ++light) {
+    for (std::uint32_t light = 0; light < shadow::filter_table().size(); ++light) {
         EXPECT_EQ(lit_share(visibility(light), {-5.5, -4.5}, {2.0, 4.5}), 1.0)
-            << "acne on the ground, filter " << light;
-        EXPECT_LT(lit_share(visibility(light), {3.9, -0.2}, {4.0, 0.2}), 0.5) << "and no shadow, filter " << light;
+            << "acne on the ground, filter " << shadow::filter_table()[light].name;
+        EXPECT_LT(lit_share(visibility(light), {3.9, -0.2}, {4.0, 0.2}), 0.5) << "and no shadow, filter " << shadow::filter_table()[light].name;
     }
 }
 

@@ -55,7 +55,11 @@ Block light_block() {
                  {"LightBlock.radiance", offsetof(LightRecord, radiance)},
                  {"LightBlock.cone", offsetof(LightRecord, cone)},
                  {"LightBlock.options", offsetof(LightRecord, options)},
-                 {"LightBlock.bias", offsetof(LightRecord, bias)}}};
+                 {"LightBlock.bias", offsetof(LightRecord, bias)},
+                 {"LightBlock.filtering", offsetof(LightRecord, filtering)},
+                 {"LightBlock.spread", offsetof(LightRecord, spread)},
+                 {"LightBlock.seed_cell", offsetof(LightRecord, seed_cell)},
+                 {"LightBlock.seed_place", offsetof(LightRecord, seed_place)}}};
     for (Member& m : view_members()) block.members.push_back(std::move(m));
     return block;
 }

@@ -1,4 +1,9 @@
+#include <array>
+#include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
+#include <ostream>
+#include <random>
+#include <sstream>
 
 #include "engine/math/projection.h"
 #include "shaders/embedded.h"
@@ -6,6 +11,10 @@
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/types.h"
 #include "tests/gl/gl_test_context.h"
+
+namespace gnomon::shadow {
+void PrintTo(const FilterRow& row, std::ostream* out) { *out << row.name; }
+}  // namespace gnomon::shadow
 
 // shadow_visibility(), as a forward renderer would include it, on a map drawn by hand: what the pipeline's own fits
 // never let happen (a point outside the map or beyond its far plane) must still be lit.
@@ -15,8 +24,22 @@ namespace {
 constexpr std::uint32_t kMap_px = 64;
 constexpr double kNear_m = 1.0, kFar_m = 9.0, kHalf = 1.0;  // half: metres of the sun's map, tangent of the spot's
 
+// The worked example of docs/adding_a_filter.md: a file and a row.
+std::string diamond_file() {
+    std::ifstream file(std::string(GNOMON_SOURCE_DIR) + "/tests/gl/diamond.glsl");
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+// [row]
+std::uint32_t five(const LightShadow&, bool) { return 5; }
+
+constexpr shadow::FilterRow kDiamond{
+    ShadowFilter::count, "diamond", "shadow/filters/diamond.glsl", five, 1.5f, shadow::FilterWidth::fixed, false};
+// [row]
+
 /// Points are relative to the camera, which is at the light; the light shines along -z.
-class VisibilityInclude : public GlTest, public ::testing::WithParamInterface<ShadowFilter> {
+class VisibilityInclude : public GlTest, public ::testing::WithParamInterface<shadow::FilterRow> {
 protected:
     /// A record for a light at the origin that looks along -z.
     static shadow::LightRecord record(LightKind kind) {
@@ -36,17 +59,27 @@ protected:
         return light;
     }
 
-    /// A map whose every texel holds a caster at `depth` (reversed; 0: none).
-    gl::TextureHandle map_with(float depth, gl::TextureKind kind) {
-        const std::vector<float> texels(kMap_px * kMap_px * (kind == gl::TextureKind::cube ? 6 : 1), depth);
-        return keep(device().create_texture({.label = "map", .kind = kind, .format = gl::Format::d32f, .width = kMap_px, .height = kMap_px},
-                                            std::as_bytes(std::span(texels))));
+    void SetUp() override {
+        GlTest::SetUp();
+        row_ = GetParam();
+    }
+    /// Another row than the test's parameter.
+    void use(const shadow::FilterRow& row, const LightShadow& shadow) {
+        row_ = row;
+        shadow_ = shadow;
+        programs_ = {};
     }
 
-    std::vector<float> evaluate(LightKind kind, float map_depth, const std::vector<glm::vec3>& points) {
+    shadow::FilterDemand filtering() const { return shadow::filter_demand(row_, shadow_, kMap_px); }
+    /// E in the tangent or metres of the map.
+    double reach() const { return static_cast<double>(filtering().widest_texel) * 2.0 * kHalf / kMap_px; }
+
+    /// The row as a program that looks up a list of probes.
+    gl::ProgramHandle program_of(LightKind kind) {
+        gl::ProgramHandle& program = programs_[static_cast<std::size_t>(kind)];
+        if (program) return program;
         const auto& kind_row = shadow::light_kind_row(kind);
-        const auto& filter = shadow::filter_row(GetParam());
-        const std::string row = "#include \"" + std::string(kind_row.file) + "\"\n#include \"" + std::string(filter.file) + "\"\n";
+        const std::string row = "#include \"" + std::string(kind_row.file) + "\"\n#include \"" + std::string(row_.file) + "\"\n";
         const std::string fragment =
             "#include \"row.glsl\"\n#include \"shadow/visibility.glsl\"\n"
             "layout(std430, binding = 0) readonly buffer Probes { vec4 probes[]; };\n"
@@ -55,43 +88,111 @@ protected:
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
         files.push_back({"row.glsl", row});
         files.push_back({"probe.frag", fragment});
-        const std::vector<std::string> defines{"SHADOWED 1", "SHADOW_REACH_TEXEL " + std::to_string(filter.reach_texel)};
+        const std::string diamond = diamond_file();
+        files.push_back({kDiamond.file, diamond});
+        const std::vector<std::string> defines{"SHADOWED 1", "SHADOW_REACH_TEXEL " + std::to_string(filtering().reach_texel)};
         const auto vertex = gl::expand_shader(files, "shared/fullscreen.vert", defines);
         const auto expanded = gl::expand_shader(files, "probe.frag", defines);
         if (!vertex || !expanded) {
             ADD_FAILURE() << "the include does not stand alone";
             return {};
         }
-        const auto program = keep(device().create_program({"probe", vertex.value(), expanded.value()}));
+        return program = keep(device().create_program({"probe", vertex.value(), expanded.value()}));
+    }
+
+    /// `texels`: the map's, reversed depth, row by row, face by face.
+    std::vector<float> look_up(LightKind kind, std::span<const float> texels, const std::vector<glm::vec3>& points, bool early_bail = false) {
+        const auto& kind_row = shadow::light_kind_row(kind);
+        const auto map = keep(device().create_texture({.label = "map", .kind = kind_row.texture, .format = gl::Format::d32f, .width = kMap_px, .height = kMap_px},
+                                                      std::as_bytes(texels)));
         std::vector<glm::vec4> probes;
         for (const glm::vec3& p : points) probes.emplace_back(p, 0.0f);
         const auto probe_bytes = std::as_bytes(std::span(probes));
         const auto buffer = keep(device().create_buffer({.label = "probes", .size = probe_bytes.size(), .use = gl::BufferUse::fixed}, probe_bytes));
-        const shadow::LightRecord light = record(kind);
+        shadow::LightRecord light = record(kind);
+        const shadow::FilterDemand filter = filtering();
+        light.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), early_bail ? 1 : 0, 1};
+        light.spread = {filter.spread_texel, 0.0f, 0.0f, filter.most_spread_texel};
+        light.seed_place.w = 1.0f / filter.cell_m;
         const auto uniforms = keep(device().create_buffer({.label = "light", .size = sizeof light, .use = gl::BufferUse::fixed},
                                                           std::as_bytes(std::span(&light, 1))));
         const auto width = static_cast<std::uint32_t>(points.size());
         const auto texture = keep(device().create_texture({.label = "result", .format = gl::Format::r32f, .width = width}, {}));
         const auto target = keep(device().create_target({.label = "result", .colours = {{texture}}}));
-        const auto sampler = keep(device().create_sampler({.label = "compare", .linear = filter.linear_sampler, .compare = true,
+        const auto sampler = keep(device().create_sampler({.label = "compare", .linear = row_.linear_sampler, .compare = true,
                                                            .wrap_u = gl::Wrap::border, .wrap_v = gl::Wrap::border}));
         gl::CommandList list;
         list.add(gl::BeginPass{.target = target, .viewport = {0, 0, static_cast<std::int32_t>(width), 1}});
-        list.add(gl::SetPipeline{{.program = program}});
+        list.add(gl::SetPipeline{{.program = program_of(kind)}});
         list.add(gl::BindUniforms{1, uniforms, 0, sizeof light});
         list.add(gl::BindStorage{0, buffer});
-        list.add(gl::BindTexture{4, map_with(map_depth, kind_row.texture), sampler});
+        list.add(gl::BindTexture{4, map, sampler});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
         run(list);
         return read<float>(texture, width);
     }
 
+    /// A map whose every texel holds a caster at `map_depth` (0: none).
+    std::vector<float> evaluate(LightKind kind, float map_depth, const std::vector<glm::vec3>& points) {
+        return look_up(kind, std::vector<float>(texels_of(kind), map_depth), points);
+    }
+
+    static std::size_t texels_of(LightKind kind) { return std::size_t{kMap_px} * kMap_px * (kind == LightKind::point ? 6 : 1); }
+
+    /// A caster before every texel that looks toward negative x; none before the others.
+    static std::vector<float> half_covered(LightKind kind) {
+        std::vector<float> texels(texels_of(kind), 0.0f);
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            const double u = (static_cast<double>(i % kMap_px) + 0.5) / kMap_px * 2.0 - 1.0;
+            const double v = (static_cast<double>(i / kMap_px % kMap_px) + 0.5) / kMap_px * 2.0 - 1.0;
+            double x = u;
+            if (kind == LightKind::point) {
+                const shadow::CubeFace& face = shadow::cube_face(static_cast<std::uint32_t>(i / kMap_px / kMap_px));
+                x = (face.axis_u * u + face.axis_v * v - face.axis_back).x;
+            }
+            if (x < 0.0) texels[i] = kMiddle;
+        }
+        return texels;
+    }
+
+    /// Places all over what the light sees, seams and corners of cubes, borders of maps and both ends of the range among
+    /// them, between `nearest_m` and `farthest_m` along the view.
+    static std::vector<glm::vec3> places(LightKind kind, double nearest_m, double farthest_m) {
+        std::mt19937 random(20240229);
+        std::uniform_real_distribution<double> share(-1.0, 1.0);
+        std::vector<glm::vec3> found;
+        for (int i = 0; i < 1500; ++i) {
+            const double z_m = i % 5 == 0 ? farthest_m : nearest_m + (farthest_m - nearest_m) * 0.5 * (1.0 + share(random));
+            glm::dvec3 p(share(random), share(random), -1.0);
+            if (i % 3 == 0) p.y = share(random) < 0.0 ? -1.0 : 1.0;  // a border, or a seam
+            if (i % 12 == 0) p.x = share(random) < 0.0 ? -1.0 : 1.0;  // a corner
+            if (kind == LightKind::point && i % 2 == 0) p = share(random) < 0.0 ? glm::dvec3(p.z, p.x, p.y) : glm::dvec3(p.y, -p.z, p.x);
+            if (kind == LightKind::directional) found.emplace_back(p.x * kHalf, p.y * kHalf, -z_m);
+            else found.emplace_back(p * z_m);
+        }
+        return found;
+    }
+
+    /// How far the point is from where half_covered() changes, in metres (sun) or as a tangent.
+    static double from_edge(LightKind kind, const glm::vec3& p) {
+        const double x = static_cast<double>(p.x);
+        if (kind == LightKind::directional) return x;
+        return x / static_cast<double>(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}));
+    }
+
+    static constexpr float kWeights = 1e-6f;  // a sampler's weights sum up to 1 but for rounding
     static constexpr float kMiddle = 0.5f;  // a depth between near and far
+    static constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+
+private:
+    shadow::FilterRow row_{};
+    LightShadow shadow_;
+    std::array<gl::ProgramHandle, 3> programs_{};
 };
 
 TEST_P(VisibilityInclude, InsideTheMapACasterInFrontDarkensAndOneBehindDoesNot) {
-    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) {
+    for (const LightKind kind : kKinds) {
         SCOPED_TRACE(shadow::light_kind_row(kind).name);
         const std::vector<glm::vec3> far_points{{0.1f, 0.2f, -8.5f}}, near_points{{0.05f, -0.1f, -1.05f}};
         EXPECT_NEAR(evaluate(kind, kMiddle, far_points).front(), 0.0f, 1e-5f);
@@ -119,16 +220,110 @@ TEST_P(VisibilityInclude, BehindASpotsMapAPointIsNotMirroredIntoIt) {
 }
 
 TEST_P(VisibilityInclude, BeyondTheFarPlaneAnEmptyMapIsLit) {
-    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) {
+    for (const LightKind kind : kKinds) {
         SCOPED_TRACE(shadow::light_kind_row(kind).name);
         for (const float v : evaluate(kind, 0.0f, {{0.0f, 0.0f, -9.5f}, {0.0f, 0.1f, -1.0e3f}, {0.1f, 0.0f, -1.0e7f}}))
             EXPECT_NEAR(v, 1.0f, 1e-5f);
     }
 }
 
+TEST_P(VisibilityInclude, FartherThanItsHalfWidthFromACastersEdgeItIsLitOrDarkAndNothingBetween) {
+    // Beyond the caster, which is at 1.8 m of a spot and 5 m of a sun.
+    for (const LightKind kind : kKinds)
+        for (const bool early_bail : {false, true}) {
+            SCOPED_TRACE(std::string(shadow::light_kind_row(kind).name) + (early_bail ? ", bailing early" : ""));
+            const auto points = places(kind, 5.5, 8.8);
+            const auto values = look_up(kind, half_covered(kind), points, early_bail);
+            // A flat map leaves a border; a texel of the next face is larger by what lies beyond the seam.
+            const double border = kind == LightKind::point ? 2.0 : 1.0 - reach();
+            const double clear = reach() * (kind == LightKind::point ? 1.0 + 2.0 * reach() : 1.0);
+            std::size_t dark = 0, lit = 0, between = 0, inside = 0;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const double away = from_edge(kind, points[i]);
+                ASSERT_TRUE(values[i] >= 0.0f && values[i] <= 1.0f) << values[i] << " at " << i;
+                const double across = kind == LightKind::directional ? 1.0 : static_cast<double>(-points[i].z);
+                const bool in_map = std::abs(points[i].x / across) < border && std::abs(points[i].y / across) < border;
+                if (kind != LightKind::point && !in_map) continue;
+                between += std::abs(away) < clear && values[i] > 0.0f && values[i] < 1.0f;
+                inside += std::abs(away) < 0.5 * clear;
+                if (std::abs(away) <= clear + 1e-5) continue;
+                const float expected = away < 0.0 ? 0.0f : 1.0f;
+                EXPECT_NEAR(values[i], expected, kWeights) << "at " << points[i].x << " " << points[i].y << " " << points[i].z;
+                (expected > 0.0f ? lit : dark) += 1;
+            }
+            EXPECT_GT(lit, 200u);
+            EXPECT_GT(dark, 200u);
+            EXPECT_GT(inside, 5u) << "nothing near the edge: the test sees nothing";
+            if (GetParam().id != ShadowFilter::hard) {
+                EXPECT_GT(between, 5u);
+            }
+        }
+}
+
+TEST_P(VisibilityInclude, InAnyMapAtAnyPlaceItIsAShare) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> depth(0.0f, 1.0f);
+    for (const LightKind kind : kKinds) {
+        SCOPED_TRACE(shadow::light_kind_row(kind).name);
+        std::vector<float> texels(texels_of(kind));
+        for (float& texel : texels) texel = depth(random);
+        std::vector<glm::vec3> points = places(kind, kNear_m, kFar_m);
+        for (const float size : {0.0f, 1e-30f, 1e-6f, 0.999f, 9.0f, 9.001f, 1e6f, 1e18f})
+            for (const glm::vec3 d : {glm::vec3(0, 0, -1), glm::vec3(0, 0, 1), glm::vec3(1, 1, -1), glm::vec3(-1, 1, 1), glm::vec3(1, 0, 0)})
+                points.push_back(size * d);
+        std::size_t between = 0;
+        for (const bool early_bail : {false, true})
+            for (const float value : look_up(kind, texels, points, early_bail)) {
+                ASSERT_TRUE(value >= 0.0f && value <= 1.0f) << value;
+                between += value > 0.0f && value < 1.0f;
+            }
+        EXPECT_EQ(between > 0, GetParam().id != ShadowFilter::hard);
+    }
+}
+
+// The sampler's weights have 8 bits; positions in the map add some of their own.
+constexpr float kBlendError = 0.02f;
+
+class FewestFetches : public VisibilityInclude {};
+
+TEST_P(FewestFetches, AreTheMeanOfASquareOfHardwareTapsATexelApart) {
+    shadow::FilterRow plain = shadow::filter_row(ShadowFilter::pcf_grid);
+    plain.linear_sampler = true;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> depth(0.0f, 1.0f);
+    for (const LightKind kind : kKinds) {
+        std::vector<float> texels(texels_of(kind));
+        for (float& texel : texels) texel = depth(random) < 0.5f ? 0.0f : 1.0f;
+        std::vector<glm::vec3> points;
+        std::uniform_real_distribution<float> place(-0.7f, 0.7f);  // seams apart: there the grids of two faces meet
+        for (int i = 0; i < 500; ++i) points.push_back({place(random) * (kind == LightKind::directional ? 1.0f : 8.0f), place(random), -8.0f});
+        for (const std::uint32_t size : {1u, 3u, 5u, 7u}) {
+            SCOPED_TRACE(std::string(shadow::light_kind_row(kind).name) + " " + std::to_string(size));
+            const LightShadow shadow{.filter_size = size};
+            use(plain, shadow);
+            const auto wanted = look_up(kind, texels, points);
+            use(GetParam(), shadow);
+            const auto found = look_up(kind, texels, points);
+            float worst = 0.0f, range = 0.0f;
+            for (std::size_t i = 0; i < wanted.size(); ++i) {
+                worst = std::max(worst, std::abs(wanted[i] - found[i]));
+                range = std::max(range, std::abs(wanted[i] - wanted[0]));
+            }
+            EXPECT_LT(worst, kBlendError);
+            EXPECT_GT(range, 5.0f * kBlendError) << "every place looks the same";
+            EXPECT_EQ(GetParam().taps(shadow, false), (size + 1) * (size + 1) / 4);
+            EXPECT_EQ(plain.taps(shadow, false), size * size);
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(EachFilter, VisibilityInclude,
-                         ::testing::Values(ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3),
-                         [](const auto& row) { return std::string(shadow::filter_row(row.param).name); });
+                         ::testing::ValuesIn(shadow::filter_table().begin(), shadow::filter_table().end()),
+                         [](const auto& row) { return std::string(row.param.name); });
+
+INSTANTIATE_TEST_SUITE_P(OfAGrid, FewestFetches, ::testing::Values(shadow::filter_row(ShadowFilter::pcf_bilinear)));
+
+INSTANTIATE_TEST_SUITE_P(AddedByTheGuide, VisibilityInclude, ::testing::Values(kDiamond));
 
 }  // namespace
 }  // namespace gnomon

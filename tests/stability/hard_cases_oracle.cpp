@@ -5,7 +5,6 @@
 #include <limits>
 #include <random>
 
-#include "systems/shadow/filter_table.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::hard {
@@ -273,7 +272,7 @@ private:
                      const std::vector<std::uint32_t>& dark) {
         const LightItem& light = scene_.lights[l];
         const shadow::ShadowDemand& demand = stages_.frame().demands[views.front()->demand];
-        const Number margin = Number(shadow::filter_row(demand.filter).reach_texel) / Number(demand.resolution_px);
+        const Number margin = Number(demand.filtering.widest_texel) / Number(demand.resolution_px);
         const auto held =
             std::find_if(views.begin(), views.end(), [&](const auto* v) { return holds(*v, at, margin); });
         if (held == views.end()) {

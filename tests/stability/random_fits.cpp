@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
+#include "systems/shadow/filter_table.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -21,7 +22,6 @@ constexpr std::uint32_t kSizes_px[] = {16, 64, 512, 1024, 4096, 8192};
 constexpr ShadowFit kFits[] = {ShadowFit::tight, ShadowFit::stable, ShadowFit::quantised};
 constexpr CascadeSplits kSplits[] = {CascadeSplits::practical, CascadeSplits::uniform, CascadeSplits::logarithmic,
                                      CascadeSplits::seen, CascadeSplits::sampled};
-constexpr ShadowFilter kFilters[] = {ShadowFilter::hard, ShadowFilter::hardware_2x2, ShadowFilter::pcf_3x3};
 
 }  // namespace
 
@@ -95,7 +95,7 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     light.intensity = 1.0f;
     light.has_shadow = true;
     light.shadow.resolution_px = kSizes_px[static_cast<std::size_t>(number(0.0, std::size(kSizes_px)))];
-    light.shadow.filter = kFilters[static_cast<std::size_t>(number(0.0, std::size(kFilters)))];
+    light.shadow.filter = filter_table()[static_cast<std::size_t>(number(0.0, static_cast<double>(filter_table().size())))].id;
     if (kind == LightKind::directional) {
         cascades(light.shadow);
         if (chance(0.15)) eye(light.shadow);

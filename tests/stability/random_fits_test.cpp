@@ -8,7 +8,6 @@
 #include <random>
 
 #include "systems/shadow/demand.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/sets.h"
@@ -120,7 +119,7 @@ protected:
         const ShadowDemand& demand = frame.demands[0];
         const LightItem light = source_of(scene.lights[0], frame);
         const Real size_px = demand.resolution_px;
-        const Real reach = static_cast<Real>(filter_row(demand.filter).reach_texel);
+        const Real reach = static_cast<Real>(demand.filtering.widest_texel);
         const oracle::Deciding by = oracle::deciding_views(frame.views, demand, scene.consumers[0], p, reach);
         const bool in_view = by.view && oracle::holds(*by.view, p, size_px, 0);
         const bool in_single = by.single && oracle::holds(*by.single, p, size_px, 0);

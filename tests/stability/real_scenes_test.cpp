@@ -100,7 +100,7 @@ void judge(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v, 
     if (next && frame.views[v + 1].layer != view.layer + 1) return;
     constexpr double kPlace = 31.0 / 32.0;  // the rest is room to stay while the camera walks
     const double size_px = 512.0,
-                 reach = static_cast<double>(filter_row(frame.demands[view.demand].filter).reach_texel);
+                 reach = static_cast<double>(frame.demands[view.demand].filtering.widest_texel);
     const double border = 1.0 - 2.0 * border_px(size_px, reach) / size_px;
     const SliceSphere sphere = slice_sphere(scene.consumers[0], view.seen_from_m, view.seen_to_m);
     found.stable_off =

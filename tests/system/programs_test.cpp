@@ -47,9 +47,9 @@ TEST_F(Programs, EachFilterInUseIsARow) {
     world.add_stage();
     const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     step();
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::pcf_3x3; });
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::pcf_grid; });
     step();
-    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf_3x3.glsl"));
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf_grid.glsl"));
     EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/hard.glsl")));
 }
 

@@ -2,6 +2,7 @@
 // where maps are meant to stay while the camera moves, by the one of its distance along the view.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
+#include "shadow/spread.glsl"
 #include "shadow/kinds/map_2d.glsl"
 
 #ifdef SHADOW_FADES
@@ -15,11 +16,15 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
     vec3 n_map = vec3(dot(normal, view.axis_u.xyz), dot(normal, view.axis_v.xyz), dot(normal, view.axis_back.xyz));
     float rounding_m = error_m + view.numeric.y * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
-    Bias bias = orthographic_bias(view, n_map, reach_texel, rounding_m);
+    vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
+    float reach = reach_texel + max(spread.x, spread.y);
+    Bias bias = orthographic_bias(view, n_map, reach, rounding_m);
     if (light.options.y != 0) bias = Bias(0.0, light.bias.x / view.axis_back.w);
     vec3 moved = position_la + normal * bias.along_normal_m;
     vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
-    ShadowPoint point = point_2d(i, projected, bias.depth, reach_texel);
+    ShadowPoint point = point_2d(i, projected, bias.depth, reach);
+    point.spread_texel = spread;
+    point.position_ca = position_ca;
     // A cascade draws only what can darken its own depth range: before it, the next one knows better.
     point.covered = point.covered && projected.z <= 1.0;
     return point;
@@ -41,7 +46,8 @@ float share_at(int i, float distance_m) {
 // The same toward the border of its map.
 float share_toward_border(ShadowPoint point, float reach_texel) {
     vec3 inside = min(point.map, 1.0 - point.map);
-    float nearest = min(min(inside.x - reach_texel * point.texel_uv.x, inside.y - reach_texel * point.texel_uv.y), inside.z);
+    float reach = reach_texel + max(point.spread_texel.x, point.spread_texel.y);
+    float nearest = min(min(inside.x - reach * point.texel_uv.x, inside.y - reach * point.texel_uv.y), inside.z);
     return clamp(1.0 - nearest / light.bias.y, 0.0, 1.0);
 }
 #endif

@@ -6,11 +6,19 @@ struct ShadowPoint {
     vec3 map;           // u, v, biased reference depth
     float layer;
     vec2 texel_uv;
+    vec2 spread_texel;  // half-width of a disk of taps
+    vec3 position_ca;   // what was asked for
 };
 
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, point.map.z));
 }
+
+// Where the point lies in the map, in texels from its corner.
+vec2 shadow_texel(ShadowPoint point) { return point.map.xy / point.texel_uv; }
+
+// Tangent of a texel's side where directions count (a cube); a flat map does not tell what lies toward the light.
+float shadow_texel_tan() { return 0.0; }
 
 // Beyond the far plane depth is negative: not covered. Before the near plane it is clamped onto it.
 // Nearer than `margin_texel` to the border a filter would read past it: not covered.

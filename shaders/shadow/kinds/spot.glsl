@@ -2,24 +2,31 @@
 // faces first.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
+#include "shadow/spread.glsl"
 #include "shadow/kinds/map_2d.glsl"
 
-ShadowPoint point_in_view(int i, vec3 position_la, vec3 normal, float error_m, float reach_texel) {
+vec3 from_light(vec3 position_ca) { return position_ca + light.views[0].anchor_from_camera.xyz; }
+
+ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
+    vec3 position_la = from_light(position_ca);
     mat3 map_axes = mat3(view.axis_u.xyz, view.axis_v.xyz, view.axis_back.xyz);
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
     float rounding_m = error_m + view.numeric.y * length(position_la);
-    Bias bias = perspective_bias(view, n_map, abs(n_map.xy), position_map, reach_texel, rounding_m);
+    vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, length(position_ca));
+    float reach = reach_texel + max(spread.x, spread.y);
+    Bias bias = perspective_bias(view, n_map, abs(n_map.xy), position_map, reach, rounding_m);
     if (light.options.y != 0) {
         float z_m = -position_map.z;
         bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
     }
     vec3 moved = position_la + normal * bias.along_normal_m;
-    return point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
+    ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
+    point.spread_texel = spread;
+    point.position_ca = position_ca;
+    return point;
 }
-
-vec3 from_light(vec3 position_ca) { return position_ca + light.views[0].anchor_from_camera.xyz; }
 
 // The face that looks most nearly along the direction; -1: none. A face without a view casts nothing that is seen.
 int face_toward(int faces, vec3 position_la) {
@@ -35,8 +42,8 @@ int face_toward(int faces, vec3 position_la) {
     return best;
 }
 
-ShadowPoint point_in_view_or_none(int i, vec3 position_la, vec3 normal, float error_m, float reach_texel) {
-    ShadowPoint point = point_in_view(max(i, 0), position_la, normal, error_m, reach_texel);
+ShadowPoint point_in_view_or_none(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+    ShadowPoint point = point_in_view(max(i, 0), position_ca, normal, error_m, reach_texel);
     point.covered = point.covered && i >= 0;
     return point;
 }
@@ -44,10 +51,9 @@ ShadowPoint point_in_view_or_none(int i, vec3 position_la, vec3 normal, float er
 bool has_single_view() { return light.cone.z < 1.0 && (light.cone.z == 0.0 || (light.options.w & 32) != 0); }
 
 ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    vec3 position_la = from_light(position_ca);
     int view = light.options.x - 1;
-    if (!has_single_view()) view = face_toward(light.options.x, position_la);
-    return point_in_view_or_none(view, position_la, normal, error_m, reach_texel);
+    if (!has_single_view()) view = face_toward(light.options.x, from_light(position_ca));
+    return point_in_view_or_none(view, position_ca, normal, error_m, reach_texel);
 }
 
 #ifdef SHADOW_FADES
@@ -55,7 +61,7 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
 float shadow_fade_share() { return has_single_view() && light.options.x > 1 ? light.cone.z : 0.0; }
 
 ShadowPoint shadow_fade_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    vec3 position_la = from_light(position_ca);
-    return point_in_view_or_none(face_toward(light.options.x - 1, position_la), position_la, normal, error_m, reach_texel);
+    int face = face_toward(light.options.x - 1, from_light(position_ca));
+    return point_in_view_or_none(face, position_ca, normal, error_m, reach_texel);
 }
 #endif

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/light_kinds.h"
@@ -52,7 +51,7 @@ LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand)
     if (light.kind == LightKind::spot) add_spot(light, demand.faces_eighths, openings);
     if (light.kind == LightKind::point) {
         // A receiver in one face may be filtered with texels of the next.
-        const double reach_texel = static_cast<double>(filter_row(demand.filter).reach_texel);
+        const auto reach_texel = static_cast<double>(demand.filtering.widest_texel);
         const TangentRectangle wide = with_border({}, demand.resolution_px, reach_texel);
         for (std::uint32_t face = 0; face < 6; ++face)
             openings.items[openings.count++] = {axes_of(cube_face(face)), wide.low, wide.high, face, face};

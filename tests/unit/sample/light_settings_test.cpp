@@ -11,7 +11,15 @@ using ::testing::HasSubstr;
 
 TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
     LightShadow odd{.enabled = false,
-                    .filter = ShadowFilter::pcf_3x3,
+                    .filter = ShadowFilter::pcf_grid,
+                    .filter_size = 5,
+                    .filter_taps = 9,
+                    .filter_spread_texel = 3.3f,
+                    .filter_spread_m = 0.07f,
+                    .filter_doubles_m = 12.5f,
+                    .filter_seed = FilterSeed::screen,
+                    .filter_cell_m = 0.3f,
+                    .early_bail = true,
                     .resolution_px = 768,
                     .max_error_px = 0.3f,
                     .bias = BiasMode::constant,
@@ -68,6 +76,11 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"split_m=5,4", "set.value"},      {"split_m=", "set.value"},
                 {"split_m=1,2,3,4,5,6,7,8", "set.value"}, {"split_m=1,,2", "set.value"},
                 {"caster_faces=inside", "set.value"}, {"layers=256", "set.value"}, {"layers=-1", "set.value"},
+                {"filter_size=4", "set.value"},    {"filter_size=33", "set.value"},
+                {"filter_taps=0", "set.value"},    {"filter_taps=33", "set.value"},
+                {"filter_spread_texel=17", "set.value"}, {"filter_spread_m=-1", "set.value"},
+                {"filter_doubles_m=nan", "set.value"}, {"filter_seed=time", "set.value"},
+                {"filter_cell_m=0", "set.value"},  {"early_bail=yes", "set.value"},
                 {"split_m=-1", "set.value"},       {"split_m=1,", "set.value"}};
     for (const auto& row : rows) {
         LightShadow shadow;

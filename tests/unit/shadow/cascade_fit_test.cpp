@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/filter_demand.h"
 #include "systems/shadow/kinds/slice_sphere.h"
 #include "tests/unit/shadow/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
@@ -39,7 +39,7 @@ protected:
 
 TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneItFadesInto) {
     RandomScene random(print_seed());
-    const double margin = static_cast<double>(filter_row(ShadowFilter::pcf_3x3).reach_texel) / 512.0;
+    const double margin = static_cast<double>(filter_demand({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
     int points = 0, fading = 0;
     for (int round = 0; round < 150; ++round) {
         SceneSnapshot scene = scene_of(random);
@@ -79,7 +79,7 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
 
 TEST_P(CascadeFitTest, AHistoryOfAnythingLosesNoPoint) {
     RandomScene random(print_seed());
-    const double margin = static_cast<double>(filter_row(ShadowFilter::pcf_3x3).reach_texel) / 512.0;
+    const double margin = static_cast<double>(filter_demand({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
     History history;
     int points = 0;
     for (int round = 0; round < 100; ++round) {

@@ -1,6 +1,5 @@
 #pragma once
 #include "systems/extract/volumes.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/kinds/rectangle.h"
 #include "systems/shadow/types.h"
@@ -28,7 +27,7 @@ inline double waste(const SceneSnapshot& scene, const ShadowFrame& frame, const 
     const ShadowDemand& demand = frame.demands[view.demand];
     const double size_px = demand.resolution_px;
     const double border =
-        1.0 - 2.0 * border_px(size_px, static_cast<double>(filter_row(demand.filter).reach_texel)) / size_px;
+        1.0 - 2.0 * border_px(size_px, static_cast<double>(demand.filtering.widest_texel)) / size_px;
     const glm::dvec2 map = 2.0 * view.half_extent_m * border;
     return 1.0 - size.x * size.y / (map.x * map.y);
 }

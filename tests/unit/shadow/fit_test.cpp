@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/filter_demand.h"
 #include "systems/shadow/light_kinds.h"
 #include "tests/unit/shadow/random_scene.h"
 
@@ -20,7 +20,7 @@ protected:
     /// The view whose map the point is looked up in, and the margin it keeps there, in map edges.
     /// Of faces around a local light, only the one that looks most nearly toward the point.
     const ShadowView* view_of(const ShadowFrame& frame, const SceneSnapshot& scene, const glm::dvec3& p) const {
-        const double margin = static_cast<double>(filter_row(ShadowFilter::pcf_3x3).reach_texel) / scene.lights[0].shadow.resolution_px;
+        const double margin = static_cast<double>(filter_demand(scene.lights[0].shadow, 512).widest_texel) / scene.lights[0].shadow.resolution_px;
         double deepest = 0.0;
         if (GetParam() != LightKind::directional)
             for (const ShadowView& view : frame.views)

@@ -187,7 +187,7 @@ TEST(LocalFit, OnlyFacesWithAReceiverAndACasterAreViews) {
     EXPECT_EQ(frame.views[1].layer, 3u);
     EXPECT_EQ(frame.views[0].near_m, frame.views[1].near_m) << "taps may cross seams";
 
-    s.lights[0].shadow.filter = ShadowFilter::pcf_3x3;
+    s.lights[0].shadow.filter = ShadowFilter::pcf_grid;
     frame = fitted(s);
     ASSERT_EQ(frame.views.size(), 3u) << "a filter reads across the seam of what is seen and has no caster";
     EXPECT_EQ(frame.views[1].layer, 1u);

@@ -49,7 +49,7 @@ public:
         light.intensity = 1.0f;
         light.has_shadow = true;
         light.shadow.resolution_px = 512;
-        light.shadow.filter = ShadowFilter::pcf_3x3;
+        light.shadow.filter = ShadowFilter::pcf_grid;
         light.position_ws_m = vector(12.0);
         light.rotation_ws = math::basis_from_back(light.position_ws_m + vector(4.0));
         light.range_m = number(0.0, 1.0) < 0.3 ? 0.0 : number(5.0, 40.0);

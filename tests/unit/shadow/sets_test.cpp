@@ -6,7 +6,6 @@
 #include <iostream>
 
 #include "systems/extract/scene_tree.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "tests/oracle/caster_need.h"
 #include "tests/oracle/fit_oracle.h"
@@ -68,7 +67,7 @@ TEST(PotentialSets, EveryViewListsTheBlockersOfItsPointsAndOfItsFiltersTaps) {
         const SceneSnapshot scene = random.scene(kKinds[round % 3]);
         const LightItem& light = scene.lights[0];
         const ShadowFrame frame = fitted(scene);
-        const double reach = static_cast<double>(filter_row(light.shadow.filter).reach_texel);
+        const double reach = static_cast<double>(frame.demands[0].filtering.widest_texel);
         for (const ShadowView& view : frame.views) {
             listed += static_cast<int>(view.casters.count);
             all += static_cast<int>(scene.instances.size());

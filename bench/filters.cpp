@@ -1,0 +1,214 @@
+#include "bench/filters.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/accuracy.h"
+#include "bench/stability_scene.h"
+#include "sample_game/picture_files.h"
+#include "systems/shadow/filter_demand.h"
+#include "systems/shadow/filter_table.h"
+
+namespace gnomon::bench {
+namespace {
+
+/// One line of the table: a row of the filter table and what of LightShadow differs from the defaults.
+struct Variant {
+    std::string name;
+    std::vector<std::string> settings;
+    const shadow::FilterRow* row = nullptr;
+    LightShadow shadow;
+};
+
+std::vector<Variant> variants() {
+    std::vector<Variant> found;
+    for (const shadow::FilterRow& row : shadow::filter_table()) {
+        const std::string name(row.name);
+        const auto add = [&](const std::string& suffix, const std::string& setting, const LightShadow& shadow) {
+            found.push_back({name + suffix, {"filter=" + name}, &row, shadow});
+            if (!setting.empty()) found.back().settings.push_back(setting);
+        };
+        LightShadow shadow{.filter = row.id};
+        LightShadow fewer = shadow;
+        fewer.filter_taps = 1;
+        if (row.width == shadow::FilterWidth::size) {
+            for (const std::uint32_t size : {3u, 5u, 7u}) {
+                shadow.filter_size = size;
+                add("_" + std::to_string(size), "filter_size=" + std::to_string(size), shadow);
+            }
+        } else if (row.taps(shadow, false) != row.taps(fewer, false)) {
+            for (const std::uint32_t taps : {4u, 8u, 16u, 32u}) {
+                shadow.filter_taps = taps;
+                add("_" + std::to_string(taps), "filter_taps=" + std::to_string(taps), shadow);
+            }
+        } else {
+            add("", "", shadow);
+        }
+    }
+    return found;
+}
+
+constexpr glm::uvec2 kWindow_px{80, 48};
+constexpr std::uint32_t kMagnified = 4;
+
+/// Where the truth has the most edges: the lower left corner of such a window.
+glm::uvec2 busiest_window(const LightAccuracy& light, glm::uvec2 size_px) {
+    const glm::uvec2 window = glm::min(kWindow_px, size_px);
+    const std::size_t width = size_px.x;
+    const auto edge = [&](std::size_t x, std::size_t y) {
+        const auto at = [&](std::size_t i) { return light.truth.scored[i] ? light.truth.visibility[i] : -1.0f; };
+        const float here = at(y * width + x), beside = at(y * width + x + 1);
+        return here >= 0.0f && beside >= 0.0f && here != beside;
+    };
+    constexpr std::uint32_t kStep_px = 8;
+    glm::uvec2 best{0, 0};
+    std::size_t most = 0;
+    for (std::uint32_t y = 0; y + window.y <= size_px.y; y += kStep_px)
+        for (std::uint32_t x = 0; x + window.x <= size_px.x; x += kStep_px) {
+            std::size_t edges = 0;
+            for (std::uint32_t v = 0; v < window.y; ++v)
+                for (std::uint32_t u = 0; u + 1 < window.x; ++u) edges += edge(x + u, y + v);
+            if (edges <= most) continue;
+            most = edges;
+            best = {x, y};
+        }
+    return best;
+}
+
+std::optional<Error> write_window(const std::vector<float>& values, glm::uvec2 size_px, glm::uvec2 at,
+                                  const std::filesystem::path& file) {
+    constexpr float kByteMax = 255.0f, kRounding = 0.5f;
+    const glm::uvec2 window = glm::min(kWindow_px, size_px);
+    const glm::uvec2 shown = window * kMagnified;
+    std::vector<std::uint8_t> rgba;
+    for (std::uint32_t row = 0; row < shown.y; ++row)  // pictures start at the top, visibility at the bottom
+        for (std::uint32_t column = 0; column < shown.x; ++column) {
+            const std::uint32_t x = at.x + column / kMagnified, y = at.y + window.y - 1 - row / kMagnified;
+            const float value = std::clamp(values[std::size_t{y} * size_px.x + x], 0.0f, 1.0f);
+            const auto level = static_cast<std::uint8_t>(value * kByteMax + kRounding);
+            rgba.insert(rgba.end(), {level, level, level, 255});
+        }
+    return game::write_png(file, shown.x, shown.y, rgba);
+}
+
+/// Mean difference from the truth: what a filter blurs counts by how much.
+double mean_error(const LightAccuracy& light) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < light.measured.size(); ++i) {
+        if (!light.truth.scored[i] || light.truth.ambiguous[i] || !(light.measured[i] >= 0.0f)) continue;
+        sum += static_cast<double>(std::abs(light.measured[i] - light.truth.visibility[i]));
+        ++count;
+    }
+    return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+constexpr double kPercent = 100.0;
+constexpr float kHalf = 0.5f;
+
+std::string table_line(const Variant& variant, const LightAccuracy& light, const TapCount& taps) {
+    const bool cube = light.report.kind == LightKind::point;
+    const double time_ms = light.gpu_us.count == 0 ? 0.0 : light.gpu_us.median / 1000.0;
+    char text[256];
+    std::snprintf(
+        text, sizeof text, "| %s | %s | %u | %.1f | %.2f | %.3f | %.3f | %.1f | %.3f | %.3f |\n", variant.name.c_str(),
+        light.report.name.c_str(), variant.row->taps(variant.shadow, cube),
+        static_cast<double>(shadow::filter_demand(variant.shadow, static_cast<std::uint32_t>(std::sqrt(
+                                                                      static_cast<double>(light.report.texels))))
+                                .widest_texel),
+        time_ms, kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light),
+        kPercent * taps.saved(), kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
+    return text;
+}
+
+std::optional<Error> apply(Stage& stage, const std::vector<std::string>& settings) {
+    for (const std::string& setting : settings)
+        if (auto error = stage.apply_setting(setting)) return error;
+    return std::nullopt;
+}
+
+/// Visibility and taps of each point, as the lights' settings are now.
+std::optional<Error> evaluate(Stage& stage, std::uint32_t count, std::vector<std::vector<ExactVisibility>>& lights,
+                              std::vector<std::string>& names) {
+    constexpr int kSettlingFrames = 2;
+    auto frames = ShadowFrames::create(stage);
+    if (!frames) return frames.error();
+    for (int i = 0; i < kSettlingFrames; ++i)
+        if (auto error = frames.value()->run()) return error;
+    const SceneSnapshot& scene = frames.value()->snapshot();
+    const std::vector<SurfacePoint> points =
+        surface_points(scene, stage.library(), std::span(&scene.consumers.front(), 1), count);
+    for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
+        if (!scene.lights[l].has_shadow) continue;
+        const auto light = make_exact_light(frames.value()->frame(), scene, l, frames.value()->map(l));
+        if (!light) return Error{"a filter that is not compiled in", stage.scene_name(), "", "bench.row"};
+        std::vector<SurfacePoint> lit;
+        std::copy_if(points.begin(), points.end(), std::back_inserter(lit),
+                     [&](const SurfacePoint& p) { return shines_on(scene.lights[l], p); });
+        lights.emplace_back(lit.size());
+        light->evaluate(lit, lights.back());
+        names.push_back(scene.lights[l].name);
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<TapCount>> count_taps(Stage& stage, std::uint32_t points) {
+    std::vector<std::vector<ExactVisibility>> all, early;
+    std::vector<std::string> names, again;
+    if (auto error = apply(stage, {"early_bail=off"})) return *error;
+    if (auto error = evaluate(stage, points, all, names)) return *error;
+    if (auto error = apply(stage, {"early_bail=on"})) return *error;
+    if (auto error = evaluate(stage, points, early, again)) return *error;
+    if (auto error = apply(stage, {"early_bail=off"})) return *error;
+    std::vector<TapCount> counts;
+    for (std::size_t l = 0; l < all.size(); ++l) {
+        TapCount count{names[l], all[l].size()};
+        for (std::size_t i = 0; i < all[l].size(); ++i) {
+            count.all += all[l][i].taps;
+            count.early += early[l][i].taps;
+            const float with = early[l][i].value, without = all[l][i].value;
+            count.changed += with != without;
+            count.wrong += (with >= kHalf) != (without >= kHalf);
+        }
+        count.all /= std::max<double>(1.0, static_cast<double>(count.points));
+        count.early /= std::max<double>(1.0, static_cast<double>(count.points));
+        counts.push_back(std::move(count));
+    }
+    return counts;
+}
+
+Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::path& folder,
+                                          const FilterPicturesOptions& options) {
+    if (auto error = game::make_writable_folder(folder)) return *error;
+    std::string table =
+        "| filter | light | taps | E | ms | wrong % | mean error % | bailing saves % | changes % | makes wrong % |\n"
+        "|---|---|---|---|---|---|---|---|---|---|\n";
+    std::optional<glm::uvec2> window;
+    for (const Variant& variant : variants()) {
+        if (variant.name.find(options.only) == std::string::npos) continue;
+        if (auto error = apply(stage, variant.settings)) return *error;
+        const auto taps = count_taps(stage, options.points);
+        if (!taps) return taps.error();
+        const auto accuracy = measure_accuracy(stage, {options.timed_frames, true});
+        if (!accuracy) return accuracy.error();
+        stage.set_economy(true);
+        const std::vector<LightAccuracy>& lights = accuracy.value().lights;
+        for (const LightAccuracy& light : lights)
+            for (const TapCount& count : taps.value())
+                if (count.light == light.report.name) table += table_line(variant, light, count);
+        if (lights.empty()) continue;
+        const glm::uvec2 size_px = accuracy.value().size_px;
+        if (!window) {
+            window = busiest_window(lights.front(), size_px);
+            if (auto error = write_window(lights.front().truth.visibility, size_px, *window, folder / "truth.png"))
+                return *error;
+        }
+        if (auto error = write_window(lights.front().measured, size_px, *window, folder / (variant.name + ".png")))
+            return *error;
+    }
+    return table;
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,150 @@
+#include "sample_game/filter_settings.h"
+
+#include <array>
+
+#include "sample_game/light_setting_values.h"
+#include "systems/shadow/filter_demand.h"
+#include "systems/shadow/filter_table.h"
+
+namespace gnomon::game {
+
+template <>
+inline constexpr std::array<std::string_view, 2> kWords<FilterSeed>{"screen", "world"};
+
+namespace {
+
+constexpr double kSliderSpread_m = 0.5, kSliderDoubles_m = 100.0, kSliderCell_m = 0.25;
+constexpr double kTexels = static_cast<double>(shadow::kMostSpread_texel);
+
+bool set_filter(LightShadow& shadow, std::string_view text) {
+    const shadow::FilterRow* row = shadow::find_filter(text);
+    if (row) shadow.filter = row->id;
+    return row != nullptr;
+}
+std::string get_filter(const LightShadow& shadow) { return std::string(shadow::filter_row(shadow.filter).name); }
+std::string_view filter_name(std::size_t index) {
+    return index < shadow::filter_table().size() ? shadow::filter_table()[index].name : std::string_view{};
+}
+
+template <std::uint32_t LightShadow::*field, std::uint32_t kMost, std::uint32_t kStep>
+bool set_count(LightShadow& shadow, std::string_view text) {
+    const auto value = read_count(text);
+    if (!value || *value < 1 || *value > kMost || (*value - 1) % kStep != 0) return false;
+    shadow.*field = static_cast<std::uint32_t>(*value);
+    return true;
+}
+template <std::uint32_t LightShadow::*field>
+std::string get_count(const LightShadow& shadow) {
+    return std::to_string(shadow.*field);
+}
+
+bool set_spread_texel(LightShadow& shadow, std::string_view text) {
+    const auto value = read_number(text);
+    return value && *value <= kTexels && set_distance<&LightShadow::filter_spread_texel>(shadow, text);
+}
+bool set_cell(LightShadow& shadow, std::string_view text) {
+    const auto value = read_number(text);
+    return value && static_cast<float>(*value) > 0.0f && set_distance<&LightShadow::filter_cell_m>(shadow, text);
+}
+using S = LightShadow;
+constexpr std::array kSettings{
+    LightSetting{.key = "filter",
+                 .values = "a filter, see below",
+                 .meaning = "how the map is read",
+                 .set = set_filter,
+                 .get = get_filter,
+                 .editor = SettingEditor::choice,
+                 .choice = filter_name},
+    LightSetting{.key = "filter_size",
+                 .values = "1 ... 31, odd",
+                 .meaning = "texels along an edge of a pcf filter",
+                 .set = set_count<&S::filter_size, shadow::kMostFilterSize, 2>,
+                 .get = get_count<&S::filter_size>,
+                 .editor = SettingEditor::number,
+                 .slider_most = shadow::kMostFilterSize,
+                 .whole = true},
+    LightSetting{.key = "filter_taps",
+                 .values = "1 ... 32",
+                 .meaning = "of a poisson filter",
+                 .set = set_count<&S::filter_taps, shadow::kMostFilterTaps, 1>,
+                 .get = get_count<&S::filter_taps>,
+                 .editor = SettingEditor::number,
+                 .slider_most = shadow::kMostFilterTaps,
+                 .whole = true},
+    LightSetting{.key = "filter_spread_texel",
+                 .values = "0 ... 16 (texels)",
+                 .meaning = "half-width of a poisson or cube filter",
+                 .set = set_spread_texel,
+                 .get = get_float<&S::filter_spread_texel>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kTexels},
+    LightSetting{.key = "filter_spread_m",
+                 .values = "0 ... 1e11 (m)",
+                 .meaning = "the same in metres, instead, up to 16 texels; 0: in texels",
+                 .set = set_distance<&S::filter_spread_m>,
+                 .get = get_float<&S::filter_spread_m>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kSliderSpread_m},
+    LightSetting{.key = "filter_doubles_m",
+                 .values = "0 ... 1e11 (m)",
+                 .meaning = "distance from the camera at which it has doubled; 0: never",
+                 .set = set_distance<&S::filter_doubles_m>,
+                 .get = get_float<&S::filter_doubles_m>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kSliderDoubles_m},
+    LightSetting{.key = "filter_seed",
+                 .values = "screen | world",
+                 .meaning = "what poisson_rotated and _stratified differ by",
+                 .set = set_word<&S::filter_seed, FilterSeed>,
+                 .get = get_word<&S::filter_seed, FilterSeed>,
+                 .editor = SettingEditor::choice,
+                 .choice = word<FilterSeed>},
+    LightSetting{.key = "filter_cell_m",
+                 .values = "above 0 ... 1e11 (m)",
+                 .meaning = "edge of a cell of filter_seed=world",
+                 .set = set_cell,
+                 .get = get_float<&S::filter_cell_m>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kSliderCell_m},
+    LightSetting{.key = "early_bail",
+                 .values = "on | off",
+                 .meaning = "five taps first, the others only if those differ",
+                 .set = set_switch<&S::early_bail>,
+                 .get = get_switch<&S::early_bail>,
+                 .editor = SettingEditor::toggle},
+};
+
+std::string taps_text(const shadow::FilterRow& row, const LightShadow& shadow) {
+    const std::uint32_t flat = row.taps(shadow, false), cube = row.taps(shadow, true);
+    std::string text = std::to_string(flat) + (flat == 1 ? " tap" : " taps");
+    if (cube != flat) text += ", " + std::to_string(cube) + " of a cube";
+    return text;
+}
+
+}  // namespace
+
+std::span<const LightSetting> filter_settings() { return kSettings; }
+
+std::string filter_names() {
+    std::string names;
+    for (const shadow::FilterRow& row : shadow::filter_table())
+        names += (names.empty() ? "" : " | ") + std::string(row.name);
+    return names;
+}
+
+std::string list_filters() {
+    constexpr std::size_t kNameWidth = 20;
+    constexpr std::uint32_t kUsualMap_px = 2048;
+    std::string text = "Filters (taps and half-width E as the defaults have it):\n";
+    for (const shadow::FilterRow& row : shadow::filter_table()) {
+        const LightShadow shadow{.filter = row.id};
+        std::string name(row.name);
+        name.resize(std::max(kNameWidth, name.size()), ' ');
+        text += "  " + name + taps_text(row, shadow) + ", E " +
+                number_text(shadow::filter_demand(shadow, kUsualMap_px).widest_texel) + " texels, depth, " +
+                (row.linear_sampler ? "linear" : "nearest") + " sampler\n";
+    }
+    return text;
+}
+
+}  // namespace gnomon::game

@@ -1,0 +1,26 @@
+// The weighted mean of a filter's taps. A filter that includes this defines before
+//   vec4 filter_setup(ShadowPoint point)                    what its taps share, handed to the others
+//   int filter_taps()
+//   vec3 filter_tap(ShadowPoint point, vec4 setup, int i)   xy: offset in texels; z: weight, above 0
+//   vec4 filter_box(ShadowPoint point, vec4 setup)          xy: least, zw: greatest offsets
+// Early bailing takes the corners of that box first, and its middle: a straight edge that parts the taps parts the
+// corners, too, and something thin that lies across the middle is seen.
+float shadow_filter(ShadowPoint point) {
+    vec4 setup = filter_setup(point);
+    if (light.filtering.z != 0) {
+        vec4 box = filter_box(point, setup);
+        float five = shadow_tap(point, box.xy) + shadow_tap(point, vec2(box.z, box.y)) +
+                     shadow_tap(point, vec2(box.x, box.w)) + shadow_tap(point, box.zw) +
+                     shadow_tap(point, 0.5 * (box.xy + box.zw));
+        if (five == 0.0) return 0.0;
+        if (five == 5.0) return 1.0;
+    }
+    float sum = 0.0;
+    float weights = 0.0;
+    for (int i = 0; i < filter_taps(); ++i) {
+        vec3 tap = filter_tap(point, setup, i);
+        sum += tap.z * shadow_tap(point, tap.xy);
+        weights += tap.z;
+    }
+    return sum / weights;
+}

@@ -1,0 +1,6 @@
+// How far a filter's taps may lie from the receiver, in texels along u and v. texel_m: a texel's sides in metres there.
+// light.spread: x: texels, or y: metres where above 0; z: growth per metre of view distance; w: most texels.
+vec2 shadow_spread(vec2 texel_m, float view_distance_m) {
+    vec2 spread = light.spread.y > 0.0 ? light.spread.y / texel_m : vec2(light.spread.x);
+    return min(spread * (1.0 + view_distance_m * light.spread.z), light.spread.w);
+}

@@ -1,0 +1,81 @@
+#include "systems/shadow/filter_demand.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "systems/shadow/filter_table.h"
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr std::uint32_t kMap_px = 1024;
+
+TEST(FilterDemand, OfEveryRowIsAsAskedForByTheDefaults) {
+    for (const FilterRow& row : filter_table()) {
+        SCOPED_TRACE(row.name);
+        const FilterDemand filter = filter_demand({.filter = row.id}, kMap_px);
+        EXPECT_FALSE(filter.cut);
+        EXPECT_GE(filter.reach_texel, row.reach_texel);
+        EXPECT_GE(filter.widest_texel, filter.reach_texel);
+        EXPECT_GE(row.taps({.filter = row.id}, false), 1u);
+        EXPECT_GE(row.taps({.filter = row.id}, true), row.taps({.filter = row.id}, false));
+    }
+}
+
+TEST(FilterDemand, HalfTheGridAddsToWhatOneTapReaches) {
+    for (const std::uint32_t size : {1u, 3u, 5u, 7u, 31u}) {
+        const float half = 0.5f * static_cast<float>(size - 1);
+        EXPECT_EQ(filter_demand({.filter = ShadowFilter::pcf_grid, .filter_size = size}, kMap_px).widest_texel, 0.5f + half);
+        EXPECT_EQ(filter_demand({.filter = ShadowFilter::pcf_bilinear, .filter_size = size}, kMap_px).widest_texel, 1.0f + half);
+        EXPECT_EQ(filter_demand({.filter = ShadowFilter::hard, .filter_size = size}, kMap_px).widest_texel, 0.5f) << "it has no size";
+    }
+}
+
+TEST(FilterDemand, AnEvenOrAbsurdSizeBecomesTheNextOddOneBelowThatTheMapBears) {
+    const auto demand = [](std::uint32_t size, std::uint32_t map_px) {
+        return filter_demand({.filter = ShadowFilter::pcf_grid, .filter_size = size}, map_px);
+    };
+    EXPECT_EQ(demand(4, kMap_px).size, 3u);
+    EXPECT_EQ(demand(0, kMap_px).size, 1u);
+    EXPECT_EQ(demand(4000000000u, kMap_px).size, kMostFilterSize);
+    EXPECT_EQ(demand(31, 16).size, 5u) << "an eighth of 16 texels to either side";
+    for (const std::uint32_t size : {0u, 4u, 33u}) EXPECT_TRUE(demand(size, kMap_px).cut) << size;
+}
+
+TEST(FilterDemand, ASpreadInTexelsIsKeptAndOneInMetresOrThatGrowsIsBoundedByTheMost) {
+    LightShadow shadow{.filter = ShadowFilter::poisson, .filter_spread_texel = 3.0f};
+    EXPECT_EQ(filter_demand(shadow, kMap_px).widest_texel, 3.5f);
+    shadow.filter_doubles_m = 10.0f;
+    EXPECT_EQ(filter_demand(shadow, kMap_px).widest_texel, 0.5f + kMostSpread_texel);
+    shadow.filter_doubles_m = 0.0f;
+    shadow.filter_spread_m = 0.1f;
+    const FilterDemand metres = filter_demand(shadow, kMap_px);
+    EXPECT_EQ(metres.widest_texel, 0.5f + kMostSpread_texel);
+    EXPECT_NEAR(reach_texel_at(metres, 0.05), 2.5, 1e-6);
+    EXPECT_EQ(reach_texel_at(metres, 1e-9), 0.5 + static_cast<double>(kMostSpread_texel));
+    EXPECT_EQ(reach_texel_at(metres, 0.0), 0.5 + static_cast<double>(kMostSpread_texel));
+    EXPECT_EQ(filter_demand(shadow, 64).widest_texel, 8.5f) << "an eighth of the map";
+}
+
+TEST(FilterDemand, NumbersThatAreNoneGiveWayToTheDefaultsAndAreReported) {
+    for (const float absurd : {kNan, kInfinity, -1.0f})
+        for (const auto field : {&LightShadow::filter_spread_texel, &LightShadow::filter_spread_m, &LightShadow::filter_doubles_m,
+                                 &LightShadow::filter_cell_m}) {
+            LightShadow shadow{.filter = ShadowFilter::poisson_rotated};
+            const FilterDemand usual = filter_demand(shadow, kMap_px);
+            shadow.*field = absurd;
+            const FilterDemand filter = filter_demand(shadow, kMap_px);
+            EXPECT_TRUE(filter.cut) << absurd;
+            EXPECT_EQ(filter.widest_texel, usual.widest_texel) << absurd;
+            EXPECT_GT(filter.cell_m, 0.0f);
+        }
+    EXPECT_TRUE(filter_demand({.filter = ShadowFilter::poisson, .filter_taps = 0}, kMap_px).cut);
+    EXPECT_EQ(filter_demand({.filter = ShadowFilter::poisson, .filter_taps = 99}, kMap_px).taps, kMostFilterTaps);
+    EXPECT_FALSE(filter_demand({.filter = ShadowFilter::hard, .filter_spread_m = kNan}, kMap_px).cut) << "it has no spread";
+}
+
+}  // namespace
+}  // namespace gnomon::shadow
