@@ -225,6 +225,7 @@ struct CompiledRow {
 };
 #define ROWS_OF_FILTER(name)                                                                                     \
     {"shadow/kinds/directional.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::directional::row_##name>}, \
+        {shadow::kWarpedSunFile, "shadow/filters/" #name ".glsl", make_row<glsl::directional_warped::row_##name>},  \
         {"shadow/kinds/spot.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::spot::row_##name>},           \
         {"shadow/kinds/point.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::point::row_##name>},
 constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};

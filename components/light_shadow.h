@@ -93,6 +93,9 @@ struct LightShadow {
     /// CascadeSplits::manual: metres along the view, rising; 0 ends the list. One cascade more than distances.
     std::array<float, kMaxCascades - 1> split_m{};
     float cascade_blend = 0.0f;  // share of a cascade that fades into the next one, 0 to 0.5
+    /// Of a sun's tight maps: how far their texels may grow with the distance from the camera, 0 (not) to 1 (as light-space
+    /// perspective shadow maps do). Up to there it goes as far as it gains (docs/fits.md).
+    float warp = 0.0f;
     CasterFaces caster_faces = CasterFaces::automatic;  // automatic: front, which measures best (docs/accuracy.md)
     ShadowLayers layers = kAllShadowLayers;             // whose shadows fall on whom (shadow_layers.h)
     bool economy = true;               // false: redraw every view every frame, change nothing else

@@ -58,6 +58,8 @@ const char* reason_code(Reason reason) {
             return "range_invalid";
         case Reason::cascades_clamped:
             return "cascades_clamped";
+        case Reason::warp_unsupported:
+            return "warp_unsupported";
         case Reason::splits_invalid:
             return "splits_invalid";
         case Reason::depths_unread:

@@ -37,6 +37,7 @@ enum class Reason : std::uint8_t {
     eye_invalid,             // a sun's eye distance or angle is absurd, it stays orthographic
     range_invalid,           // near_m and far_m are no range, the fitted one is used
     cascades_clamped,        // more cascades than a light can have
+    warp_unsupported,        // warp is absurd, or asked of other than a tight sun for one camera with a fitted depth range
     splits_invalid,          // split_m, split_lambda or cascade_blend is absurd, the default is used
     depths_unread,           // the picture's depths could not be had, splits go by the receivers' bounds
     filter_cut               // a setting of the filter is absurd, or more than its map can bear

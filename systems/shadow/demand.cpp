@@ -58,6 +58,17 @@ void decide_projection(const LightItem& light, bool depths_failed, ShadowDemand&
     }
 }
 
+/// How far a sun's maps may be warped. The fit measures what a warp gains for one camera alone.
+void decide_warp(const LightShadow& shadow, bool one_consumer, ShadowDemand& demand) {
+    if (shadow.warp == 0.0f) return;
+    const bool possible = shadow.fit == ShadowFit::tight && one_consumer && !demand.perspective_sun &&
+                          demand.near_m == 0.0 && demand.far_m == 0.0;
+    if (possible && shadow.warp > 0.0f && shadow.warp <= 1.0f)
+        demand.warp = shadow.warp;
+    else
+        demand.note = Reason::warp_unsupported;
+}
+
 void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {
     demand.faces_eighths = next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
     demand.view_count = cone_layers(demand.faces_eighths);
@@ -100,6 +111,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         demand.filtering = filter_demand(light.shadow, demand.resolution_px);
         if (demand.filtering.cut) demand.note = Reason::filter_cut;
         decide_projection(light, scene.sampled_depths.failed, demand);
+        if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
         if (light.kind == LightKind::spot) decide_cone(light, find(held, light.entity, i), demand);
         demands.push_back(demand);
     }

@@ -16,15 +16,13 @@ double finest_texel_m(const ShadowView& view) {
     return view.projection == ViewProjection::orthographic ? texel : texel * view.near_m;
 }
 
-/// What the view's texels mean on the screen of the consumer that sees them largest.
-void state_error(const SceneSnapshot& scene, std::span<const glm::dvec3> points_ws, double reach_texel,
-                 ShadowView& view) {
+/// What the view's texels mean on the screen of the consumer that sees them largest. A warped map serves its own slice
+/// alone: its fit has said it.
+void state_errors(const SceneSnapshot& scene, std::span<const glm::dvec3> points_ws, double reach_texel,
+                  ShadowView& view) {
     for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
         view.consumer_mask |= 1u << c;
-        const ViewError error = predict_error(view, scene.consumers[c], points_ws, reach_texel);
-        view.texel_m = std::max(view.texel_m, error.texel_m);
-        view.texel_extent_px = std::max(view.texel_extent_px, error.extent_px);
-        view.predicted_error_px = std::max(view.predicted_error_px, error.edge_px);
+        if (view.warp == glm::dvec2(0.0)) state_error(scene.consumers[c], points_ws, reach_texel, view);
     }
 }
 
@@ -70,7 +68,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
             ShadowView& view = frame.views[v];
             view.demand = d;
             select_view_casters(scene, view, frame);
-            state_error(scene, points, reach_texel_at(demand.filtering, finest_texel_m(view)), view);
+            state_errors(scene, points, reach_texel_at(demand.filtering, finest_texel_m(view)), view);
         }
     }
 }

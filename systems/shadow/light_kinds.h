@@ -46,6 +46,8 @@ struct LightKindRow {
 
 /// A sun seen from an eye is looked up as a spot is.
 inline constexpr std::string_view kPerspectiveSunFile = "shadow/kinds/spot.glsl";
+/// A sun whose maps are warped.
+inline constexpr std::string_view kWarpedSunFile = "shadow/kinds/directional_warped.glsl";
 
 /// In the order of LightKind. To add a kind: systems/shadow/kinds/x.cpp, shaders/shadow/kinds/x.glsl, a row here.
 std::span<const LightKindRow> light_kind_table();

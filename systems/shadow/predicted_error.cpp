@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "systems/extract/volumes.h"
+#include "systems/shadow/kinds/warp.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -44,6 +45,24 @@ double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
     return std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y) / (depth_m * footprint);
 }
 
+glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
+    const glm::dvec3 p = p_ws - view.anchor_ws_m;
+    return {glm::dot(p, view.axis_u), glm::dot(p, view.axis_v)};
+}
+
+/// Diagonal of a texel across the light at a point that the view holds: in a warped map the bound that counts
+/// everywhere between such points.
+double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
+    const glm::dvec2 texel(view.texel_u, view.texel_v);
+    if (!orthographic(view)) return glm::length(texel) * depth_from_light(view, p_ws);
+    const double steepness = glm::length(view.warp);
+    if (!(steepness > 0.0)) return glm::length(texel);
+    const glm::dvec2 aside(-view.warp.y / steepness, view.warp.x / steepness);
+    const double farthest_aside =
+        std::abs(glm::dot(aside, view.centre_ls_m)) + glm::dot(glm::abs(aside), view.half_extent_m);
+    return longest_cell(view.warp, texel, farthest_aside, warp_w(view.warp, across(view, p_ws)));
+}
+
 bool within(const ShadowView& view, const glm::dvec3& p_ws) {
     if (orthographic(view)) return true;
     const glm::dvec3 p = p_ws - view.anchor_ws_m;
@@ -57,8 +76,12 @@ bool within(const ShadowView& view, const glm::dvec3& p_ws) {
 }  // namespace
 
 TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
-    const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
-    return {view.axis_u * (view.texel_u * z_m), view.axis_v * (view.texel_v * z_m)};
+    const auto side = [&](const glm::dvec2& texel) {
+        const glm::dvec2 step = orthographic(view) ? unwarped_step(view.warp, across(view, p_ws), texel)
+                                                   : texel * depth_from_light(view, p_ws);
+        return view.axis_u * step.x + view.axis_v * step.y;
+    };
+    return {side({view.texel_u, 0.0}), side({0.0, view.texel_v})};
 }
 
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
@@ -87,19 +110,26 @@ double stated_error_px(const ShadowView& view, double cosine, double reach_texel
 
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                         double reach_texel) {
-    const double texel = std::hypot(view.texel_u, view.texel_v);
     ViewError error;
     // Texel over pixel is a ratio of two linear functions of the point: largest at a corner.
     for (const glm::dvec3& p_ws : points_ws) {
         const double depth_m = depth_from(consumer, p_ws);
         if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
         const double served_m = std::max({depth_m, consumer.near_m, view.seen_from_m});
-        const double texel_m = orthographic(view) ? texel : texel * depth_from_light(view, p_ws);
+        const double texel_m = texel_at(view, p_ws);
         error.texel_m = std::max(error.texel_m, texel_m);
         error.extent_px = std::max(error.extent_px, kSteepestReceiver * texel_m * pixels_per_metre(consumer, served_m));
     }
     if (error.texel_m > 0.0) error.edge_px = edge_error_px(error.extent_px, reach_texel);
     return error;
+}
+
+void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
+                 ShadowView& view) {
+    const ViewError error = predict_error(view, consumer, points_ws, reach_texel);
+    view.texel_m = std::max(view.texel_m, error.texel_m);
+    view.texel_extent_px = std::max(view.texel_extent_px, error.extent_px);
+    view.predicted_error_px = std::max(view.predicted_error_px, error.edge_px);
 }
 
 }  // namespace gnomon::shadow

@@ -62,4 +62,8 @@ struct ViewError {
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                         double reach_texel);
 
+/// Raises what the view states of itself (texel_m, texel_extent_px, predicted_error_px) to that bound.
+void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
+                 ShadowView& view);
+
 }  // namespace gnomon::shadow

@@ -47,6 +47,11 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     return record;
 }
 
+std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind) {
+    if (demand.perspective_sun) return kPerspectiveSunFile;
+    return demand.warp > 0.0f ? kWarpedSunFile : kind.file;
+}
+
 /// What every light has, map or not.
 LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
     LightRecord record;
@@ -156,7 +161,7 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             const LightKindRow& kind = light_kind_row(light.kind);
             const FilterRow& filter = filter_row(demand.filter);
             LightingLight& out = inputs.lights[demand.light];
-            out.row.kind_file = demand.perspective_sun ? kPerspectiveSunFile : kind.file;
+            out.row.kind_file = kind_file(demand, kind);
             out.row.filter_file = filter.file;
             out.row.reach_texel = demand.filtering.reach_texel;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);

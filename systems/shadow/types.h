@@ -40,6 +40,7 @@ struct ShadowDemand {
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
     bool perspective_sun = false;      // one view from an eye instead of cascades
     float cascade_blend = 0.0f;        // share of a cascade that fades into the next
+    float warp = 0.0f;                 // a sun's maps are warped (kinds/directional_warped.h) by so much at most
     double near_m = 0.0, far_m = 0.0;  // asked for, from the light or a sun's eye; 0: fitted
 };
 
@@ -82,7 +83,9 @@ struct ShadowView {
     double near_m = 0.0, far_m = 0.0;     // along -axis_back from the anchor's plane; perspective: from the light
     double depth_alpha = 0.0, depth_beta = 0.0;  // perspective: depth = alpha + beta / distance
     glm::dvec2 half_extent_m{0.0};               // orthographic: half of the map's sides along axis_u and axis_v
-    glm::dvec2 centre_ls_m{0.0};             // orthographic: the map's centre from the anchor, along axis_u and axis_v
+    glm::dvec2 centre_ls_m{0.0};  // orthographic: the map's centre from the anchor, along axis_u and axis_v
+    glm::dvec2 warp{0.0};  // orthographic: gradient of w along axis_u and axis_v, per metre (kinds/warp.h); extents,
+                           // centre and texels are then those of the warped plane, near_m that at the anchor
     glm::dvec2 tan_low{0.0}, tan_high{0.0};  // perspective, cube face: sides of the map at distance 1
     double seen_from_m = 0.0;                // cascades: nearest view distance this one serves
     double seen_to_m = 0.0;                  // view distance from which the next cascade serves; 0: where its map ends
@@ -179,7 +182,7 @@ struct LightingInputs {
 /// Reused storage of the fits; holds nothing between them.
 struct FitScratch {
     std::vector<glm::dvec3> points_ws;
-    std::vector<glm::dvec2> points, hull;
+    std::vector<glm::dvec2> points, hull, outline, profile;
     std::vector<DepthSpan> depths;
 };
 

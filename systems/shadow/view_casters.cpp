@@ -10,6 +10,7 @@
 #include "engine/math/convex_polygon.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/beams.h"
+#include "systems/shadow/kinds/warp.h"
 #include "systems/shadow/marks.h"
 #include "systems/shadow/sets.h"
 #include "systems/shadow/swept_volume.h"
@@ -77,16 +78,45 @@ private:
             });
     }
 
+    /// scratch_.polygon into the warped plane, without what has a smaller w than anything in the map. Its largest w.
+    double warp_polygon() {
+        const double nearest =
+            glm::dot(view_.warp, view_.centre_ls_m) - glm::dot(glm::abs(view_.warp), view_.half_extent_m + reach_);
+        math::clip_polygon(view_.warp, 1.0 - 1.0 / (1.0 - nearest), scratch_.polygon, scratch_.clipped);
+        double largest_w = 1.0;
+        for (glm::dvec2& p : scratch_.polygon) {
+            largest_w = std::max(largest_w, warp_w(view_.warp, p));
+            p = warped(view_.warp, p);
+        }
+        return largest_w;
+    }
+
+    /// Back, without what is farther than twice what there is to see: the map's corners may lie in infinity. The
+    /// filter's reach in metres.
+    double unwarp_polygon(double farthest_w) {
+        math::clip_polygon(-view_.warp, 1.0 - 0.5 / farthest_w, scratch_.polygon, scratch_.clipped);
+        double reach_m = 0.0;
+        for (glm::dvec2& q : scratch_.polygon) {
+            q = unwarped(view_.warp, q);
+            for (const glm::dvec2& step : {reach_, glm::dvec2(reach_.x, -reach_.y)})
+                reach_m = std::max(reach_m, glm::length(unwarped_step(view_.warp, q, step)));
+        }
+        return reach_m;
+    }
+
     /// A cascade: the receivers' outline within the map's rectangle.
     void look_along() {
         Beam beam = beams().front();
-        const glm::dvec3 origin_ws_m =
-            view_.anchor_ws_m + view_.axis_u * view_.centre_ls_m.x + view_.axis_v * view_.centre_ls_m.y;
+        const bool warps = view_.warp != glm::dvec2(0.0);
+        const glm::dvec2 origin_m = warps ? glm::dvec2(0.0) : view_.centre_ls_m,
+                         centre_m = view_.centre_ls_m - origin_m;
+        const glm::dvec3 origin_ws_m = view_.anchor_ws_m + view_.axis_u * origin_m.x + view_.axis_v * origin_m.y;
+        double reach_m = reach_.x + reach_.y;
         const glm::dvec3 offset = beam.origin_ws_m - origin_ws_m;
-        const double centre_m = glm::dot(view_.axis_back, origin_ws_m - view_.anchor_ws_m);
+        const double far_m = view_.far_m + glm::dot(view_.axis_back, origin_ws_m - view_.anchor_ws_m);
         if (view_.held) {
             assign_rectangle(-view_.half_extent_m, view_.half_extent_m, scratch_.polygon);
-            beam.far_m = view_.far_m + centre_m;
+            beam.far_m = far_m;
         } else {
             scratch_.polygon.clear();
             for (std::uint32_t i = beam.outline.first; i < beam.outline.first + beam.outline.count; ++i) {
@@ -94,19 +124,21 @@ private:
                 const glm::dvec3 at = offset + beam.axes[0] * p.x + beam.axes[1] * p.y;
                 scratch_.polygon.emplace_back(glm::dot(at, view_.axis_u), glm::dot(at, view_.axis_v));
             }
+            const double farthest_w = warps ? warp_polygon() : 1.0;
             // In turned axes the outline's own widening (two slacks) is a chamfer of any direction.
             math::drop_flat_corners(kOutlineSlacks * beam.slack, scratch_.polygon, scratch_.clipped);
             widen(scratch_.polygon, reach_, scratch_);
             const glm::dvec2 half = view_.half_extent_m;
-            math::clip_polygon({1, 0}, half.x, scratch_.polygon, scratch_.clipped);
-            math::clip_polygon({-1, 0}, half.x, scratch_.polygon, scratch_.clipped);
-            math::clip_polygon({0, 1}, half.y, scratch_.polygon, scratch_.clipped);
-            math::clip_polygon({0, -1}, half.y, scratch_.polygon, scratch_.clipped);
-            beam.far_m = std::min(view_.far_m + centre_m, beam.far_m - glm::dot(offset, view_.axis_back));
+            math::clip_polygon({1, 0}, half.x - centre_m.x, scratch_.polygon, scratch_.clipped);
+            math::clip_polygon({-1, 0}, half.x + centre_m.x, scratch_.polygon, scratch_.clipped);
+            math::clip_polygon({0, 1}, half.y - centre_m.y, scratch_.polygon, scratch_.clipped);
+            math::clip_polygon({0, -1}, half.y + centre_m.y, scratch_.polygon, scratch_.clipped);
+            if (warps) reach_m = unwarp_polygon(farthest_w);
+            beam.far_m = std::min(far_m, beam.far_m - glm::dot(offset, view_.axis_back));
         }
         beam.origin_ws_m = origin_ws_m;
         beam.axes = axes_of(view_);
-        mark_casters(beam, reach_.x + reach_.y);
+        mark_casters(beam, reach_m);
     }
 
     /// A spot's view, a cube's face, a sun's view from an eye.

@@ -12,7 +12,7 @@
 
 namespace gnomon {
 
-/// Every row of (light kind × filter), with and without fading, each kind unshadowed, and suns in perspective.
+/// Every row of (light kind × filter), with and without fading, each kind unshadowed, suns in perspective and warped.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
@@ -25,6 +25,9 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     const shadow::LightKindRow& sun = shadow::light_kind_row(LightKind::directional);
     for (const shadow::FilterRow& filter : shadow::filter_table())
         rows.push_back({sun.define, shadow::kPerspectiveSunFile, filter.file, filter.reach_texel});
+    for (const shadow::FilterRow& filter : shadow::filter_table())
+        for (const bool fades : {false, true})
+            rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades});
     return rows;
 }
 

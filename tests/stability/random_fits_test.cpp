@@ -201,6 +201,17 @@ protected:
         tally.move_differs += same ? 0 : 1;
     }
 
+    /// A sun that one camera sees, as warped as it may be, or less.
+    void warp(SceneSnapshot& scene) {
+        LightShadow& shadow = scene.lights[0].shadow;
+        shadow.fit = ShadowFit::tight;
+        shadow.projection = LightProjection::automatic;
+        shadow.near_m = shadow.far_m = 0.0f;
+        shadow.cascades = random.chance(0.7) ? 1 : 3;
+        shadow.warp = random.chance(0.5) ? 1.0f : static_cast<float>(random.number(0.05, 1.0));
+        scene.consumers.resize(1);
+    }
+
     RandomFits random{fit_seed()};
     Tally tally;
     ShadowFrame here, elsewhere;
@@ -238,6 +249,47 @@ TEST_P(RandomFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
     EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
     EXPECT_GT(tally.blockers, count / 8);
 }
+
+class WarpedFitsTest : public RandomFitsTest {};
+
+TEST_P(WarpedFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlace) {
+    const std::uint64_t count = fit_count();
+    std::uint64_t warped = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        SceneSnapshot scene = random.scene(GetParam());
+        warp(scene);
+        ++tally.fits;
+        judge_numbers(fit(scene, here));
+        for (const ShadowView& view : here.views) warped += view.warp != glm::dvec2(0.0) ? 1 : 0;
+        judge_points(scene, here);
+        if (i % kMoveEvery == 0) judge_scale(scene, here, static_cast<int>(random.number(-13.0, 27.0)));
+        if (i % kMoveEvery == 1) judge_move(scene, here, glm::round(random.vector(random.size(1.0, 0x1p25))));
+    }
+    print(tally, "warped sun");
+    std::cout << warped << " views are warped\n";
+    EXPECT_EQ(tally.not_finite + tally.unflagged, 0u);
+    EXPECT_EQ(tally.outside, 0u);
+    EXPECT_EQ(tally.missed, 0u);
+    EXPECT_EQ(tally.scale_differs, 0u);
+    EXPECT_LE(tally.move_differs, tally.moved / 100);
+    EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
+    EXPECT_GT(tally.blockers, count / 8);
+    EXPECT_GT(warped, count / 8) << "too few are warped to prove anything";
+}
+
+TEST_P(WarpedFitsTest, AnyFiniteInputGivesFiniteViewsOrAReason) {
+    const std::uint64_t count = fit_count() / 4;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        SceneSnapshot scene = random.wild_scene(GetParam());
+        warp(scene);
+        judge_numbers(fit(scene, here));
+    }
+    EXPECT_EQ(tally.not_finite, 0u);
+    EXPECT_EQ(tally.unflagged, 0u);
+    EXPECT_GT(tally.views, count / 8);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfASun, WarpedFitsTest, ::testing::Values(LightKind::directional));
 
 TEST_P(RandomFitsTest, AnyFiniteInputGivesFiniteViewsOrAReason) {
     const std::uint64_t count = fit_count() / 4;

@@ -4,6 +4,14 @@
 #include "shadow/bias.glsl"
 #include "shadow/spread.glsl"
 #include "shadow/kinds/map_2d.glsl"
+#ifdef SHADOW_WARPED
+#include "shadow/bias_warped.glsl"
+#else
+Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, float reach_texel, float error_m) {
+    return orthographic_bias(view, n_map, reach_texel, error_m);
+}
+float cascade_range_m(ViewRecord view, vec3 position_la) { return view.axis_back.w; }
+#endif
 
 #ifdef SHADOW_FADES
 // What the cascade that shadow_point chose fades into.
@@ -18,15 +26,15 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     float rounding_m = error_m + view.numeric.y * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
-    Bias bias = orthographic_bias(view, n_map, reach, rounding_m);
-    if (light.options.y != 0) bias = Bias(0.0, light.bias.x / view.axis_back.w);
+    Bias bias = cascade_bias(view, position_la, normal, n_map, reach, rounding_m);
+    if (light.options.y != 0) bias = Bias(0.0, light.bias.x / cascade_range_m(view, position_la));
     vec3 moved = position_la + normal * bias.along_normal_m;
     vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
     ShadowPoint point = point_2d(i, projected, bias.depth, reach);
     point.spread_texel = spread;
     point.position_ca = position_ca;
     // A cascade draws only what can darken its own depth range: before it, the next one knows better.
-    point.covered = point.covered && projected.z <= 1.0;
+    point.covered = point.covered && projected.z <= projected.w;
     return point;
 }
 

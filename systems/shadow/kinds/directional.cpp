@@ -7,9 +7,12 @@
 #include "systems/extract/volumes.h"
 #include "systems/shadow/kinds/cascade_fit.h"
 #include "systems/shadow/kinds/cascade_slices.h"
+#include "systems/shadow/kinds/directional_warped.h"
 #include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/kinds/sun_eye.h"
+#include "systems/shadow/predicted_error.h"
 #include "systems/shadow/range_override.h"
+#include "systems/shadow/sampled_depths.h"
 
 /// Directional light: cascades along the first consumer's view, each an orthographic view that LightShadow::fit places.
 /// Casters nearer to the light than the depth range are flattened onto the near plane by depth clamping and cast all
@@ -104,12 +107,18 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         if (counts_from_eye) override_from_eye(input.demand, eye, box);
         // No receiver lies in the slices that were left out, their part of the fading included.
         if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());
-        ShadowView view = orthographic_view(box, input.demand.resolution_px);
+        // What a map holds beyond its slice it serves as well, with the texels that a warp makes coarsest: only the
+        // last one holds nothing of others.
+        const auto warp = static_cast<double>(input.demand.warp);
+        ShadowView view = warp > 0.0 ? warped_view(cascade, last ? warp : 0.0, box)
+                                     : orthographic_view(box, input.demand.resolution_px);
         view.layer = i;
         view.held = input.light.shadow.fit != ShadowFit::tight;
         view.seen_from_m = alone ? slice.holds_from_m : 0.0;
         view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
         view.fades_from_m = alone && view.held ? slice.fades_from_m : 0.0;
+        if (view.warp != glm::dvec2(0.0))
+            state_error(consumer, points_ws, static_cast<double>(input.reach_texel), view);
         views.push_back(view);
     }
     return views.size() > before;

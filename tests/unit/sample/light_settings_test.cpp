@@ -37,6 +37,7 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .split_lambda = 0.35f,
                     .split_m = {1.5f, 7.1f, 1e11f},
                     .cascade_blend = 0.21f,
+                    .warp = 0.75f,
                     .caster_faces = CasterFaces::back,
                     .layers = 0x42,
                     .economy = false};
