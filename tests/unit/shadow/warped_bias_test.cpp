@@ -26,10 +26,10 @@ ivec3 textureSize(const sampler2DArrayShadow&, int) { return {kSize_px, kSize_px
 #define xy xy_()
 #define xyz xyz_()
 struct Shader {
-#include "shadow/light_block.glsl"
-#include "shadow/bias.glsl"
+#include "shaders/shadow/light_block.glsl"
+#include "shaders/shadow/bias.glsl"
     sampler2DArrayShadow shadow_map;
-#include "shadow/bias_warped.glsl"
+#include "shaders/shadow/bias_warped.glsl"
 };
 #undef float
 #undef const
