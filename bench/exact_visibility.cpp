@@ -1,5 +1,6 @@
 #include "bench/exact_visibility.h"
 
+#include <concepts>
 #include <limits>
 
 #include "bench/glsl_in_double.h"
@@ -53,13 +54,18 @@ struct ShadowSampler {
 
 struct sampler2DArrayShadow : ShadowSampler {};
 struct samplerCubeShadow : ShadowSampler {};
+struct sampler2DArrayDepths : ShadowSampler {};
+struct samplerCubeDepths : ShadowSampler {};
 
-ivec2 textureSize(const samplerCubeShadow& s, int) {
+template <class Sampler>
+concept CubeSampler = std::same_as<Sampler, samplerCubeShadow> || std::same_as<Sampler, samplerCubeDepths>;
+
+ivec2 textureSize(const CubeSampler auto& s, int) {
     const int size = static_cast<int>(s.map->size_px);
     return {size, size};
 }
 
-ivec3 textureSize(const sampler2DArrayShadow& s, int) {
+ivec3 textureSize(const ShadowSampler& s, int) {
     const int size = static_cast<int>(s.map->size_px);
     return {size, size, 1};
 }
@@ -122,6 +128,43 @@ double texture(const samplerCubeShadow& s, const vec4& at) {
     return mix(mix(tap(0, 0), tap(1, 0), share.x), mix(tap(0, 1), tap(1, 1), share.x), share.y);
 }
 
+vec4 textureLod(const sampler2DArrayDepths& s, const vec3& at, double) {
+    const int layer = static_cast<int>(at.z);
+    s.trace->layers = static_cast<std::uint8_t>(s.trace->layers | (1u << layer));
+    ++s.trace->taps;
+    const vec2 texel = floor(at.xy_() * static_cast<double>(s.map->size_px));
+    return {s.stored(layer, texel.x, texel.y), 0.0, 0.0, 0.0};
+}
+
+vec4 textureGather(const sampler2DArrayDepths& s, const vec3& at) {
+    const int layer = static_cast<int>(at.z);
+    s.trace->layers = static_cast<std::uint8_t>(s.trace->layers | (1u << layer));
+    ++s.trace->taps;
+    const vec2 corner = floor(at.xy_() * static_cast<double>(s.map->size_px) + 0.5);
+    const auto tap = [&](double x, double y) { return s.stored(layer, corner.x + x, corner.y + y); };
+    return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
+}
+
+vec4 textureLod(const samplerCubeDepths& s, const vec3& at, double) {
+    s.trace->layers |= 1u;
+    ++s.trace->taps;
+    const OnFace face = on_face(at, s.map->size_px);
+    const vec2 texel = clamp(floor(face.texel), 0.0, s.map->size_px - 1.0);
+    return {s.stored(static_cast<int>(face.face), texel.x, texel.y), 0.0, 0.0, 0.0};
+}
+
+/// Inside a face only: that is all the shader asks for.
+vec4 textureGather(const samplerCubeDepths& s, const vec3& at) {
+    s.trace->layers |= 1u;
+    ++s.trace->taps;
+    const OnFace face = on_face(at, s.map->size_px);
+    const vec2 corner = floor(face.texel + 0.5);
+    const auto tap = [&](double x, double y) {
+        return s.stored(static_cast<int>(face.face), corner.x + x, corner.y + y);
+    };
+    return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
+}
+
 #include "bench/exact_shaders.inc"
 
 vec3 to_vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -162,7 +205,8 @@ public:
         row_.light.seed_place = to_vec4(record.seed_place);
         row_.shadow_map.map = &map;
         row_.shadow_map.linear =
-            shadow::filter_row(frame.demands[views.empty() ? 0 : views.front()->demand].filter).linear_sampler;
+            shadow::filter_row(frame.demands[views.empty() ? 0 : views.front()->demand].filter).reading ==
+            shadow::MapReading::compare_linear;
         for (std::size_t i = 0; i < views.size() && i < shadow::kMaxViews; ++i)
             fill(record.views[i], *views[i], row_.light.views[i], row_.shadow_map.scales[views[i]->layer]);
         if (map.is_cube && !views.empty()) row_.shadow_map.scales[0] = row_.shadow_map.scales[views.front()->layer];
@@ -223,11 +267,13 @@ struct CompiledRow {
     std::string_view kind_file, filter_file;
     std::unique_ptr<ExactLight> (*make)(const shadow::ShadowFrame&, const ConsumerItem&, std::uint32_t, const MapCopy&);
 };
-#define ROWS_OF_FILTER(name)                                                                                     \
-    {"shadow/kinds/directional.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::directional::row_##name>}, \
-        {shadow::kWarpedSunFile, "shadow/filters/" #name ".glsl", make_row<glsl::directional_warped::row_##name>},  \
-        {"shadow/kinds/spot.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::spot::row_##name>},           \
-        {"shadow/kinds/point.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::point::row_##name>},
+#define ROWS_OF_FILTER(name, reading)                                                                           \
+    {"shadow/kinds/directional.glsl", "shadow/filters/" #name ".glsl",                                          \
+     make_row<glsl::reading::directional::row_##name>},                                                         \
+        {shadow::kWarpedSunFile, "shadow/filters/" #name ".glsl",                                               \
+         make_row<glsl::reading::directional_warped::row_##name>},                                              \
+        {"shadow/kinds/spot.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::reading::spot::row_##name>}, \
+        {"shadow/kinds/point.glsl", "shadow/filters/" #name ".glsl", make_row<glsl::reading::point::row_##name>},
 constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};
 #undef ROWS_OF_FILTER
 
@@ -243,6 +289,6 @@ std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, c
     return nullptr;
 }
 
-double steep_tangent() { return glsl::directional::Kind::kSteepTangent; }
+double steep_tangent() { return glsl::compare::directional::Kind::kSteepTangent; }
 
 }  // namespace gnomon::bench

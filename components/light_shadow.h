@@ -18,6 +18,7 @@ enum class ShadowFilter : std::uint8_t {
     poisson_stratified,
     cube_grid,
     cube_directions,
+    sharp_4x4,
     count
 };
 

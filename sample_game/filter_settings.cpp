@@ -121,6 +121,11 @@ std::string taps_text(const shadow::FilterRow& row, const LightShadow& shadow) {
     return text;
 }
 
+const char* sampler_text(shadow::MapReading reading) {
+    if (reading == shadow::MapReading::depths) return "read as it is";
+    return reading == shadow::MapReading::compare_linear ? "linear sampler" : "nearest sampler";
+}
+
 }  // namespace
 
 std::span<const LightSetting> filter_settings() { return kSettings; }
@@ -142,7 +147,7 @@ std::string list_filters() {
         name.resize(std::max(kNameWidth, name.size()), ' ');
         text += "  " + name + taps_text(row, shadow) + ", E " +
                 number_text(shadow::filter_demand(shadow, kUsualMap_px).widest_texel) + " texels, depth, " +
-                (row.linear_sampler ? "linear" : "nearest") + " sampler\n";
+                sampler_text(row.reading) + "\n";
     }
     return text;
 }

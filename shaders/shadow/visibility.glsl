@@ -1,18 +1,33 @@
 // visibility(position, normal, error): the fraction of `light` that reaches a point, for any renderer.
-// Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint.
+// Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint, and
+// SHADOW_DEPTHS is defined if it reads depths.
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface
+#ifdef SHADOWED
+#ifdef SHADOW_DEPTHS
+// Compares on the receiver's own plane: of the offset, only what snapping and rounding need is left.
+float shadow_bias_texel() { return 0.0; }
+float filtered(ShadowPoint point, vec3 normal) {
+    if (!point.covered) return 1.0;
+    point.slope = shadow_slope(point, normal);
+    return shadow_filter(point);
+}
+#else
+float shadow_bias_texel() { return SHADOW_REACH_TEXEL; }
+float filtered(ShadowPoint point, vec3 normal) { return point.covered ? shadow_filter(point) : 1.0; }
+#endif
+#endif
+
 float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
 #ifdef SHADOWED
-    ShadowPoint point = shadow_point(position_ca, normal, error_m, SHADOW_REACH_TEXEL);
-    float visible = point.covered ? shadow_filter(point) : 1.0;
+    float visible = filtered(shadow_point(position_ca, normal, error_m, shadow_bias_texel()), normal);
 #ifdef SHADOW_FADES
-    // A second lookup that the first one fades into: shadow_fade_share() of it.
-    float share = shadow_fade_share();
-    if (share > 0.0) {
-        ShadowPoint other = shadow_fade_point(position_ca, normal, error_m, SHADOW_REACH_TEXEL);
-        visible = mix(visible, other.covered ? shadow_filter(other) : 1.0, share);
+    // A second lookup that the first one fades into: shadow_fade_share() of it. A loop of one round at most, because
+    // software devices run both sides of an if, but no empty loop.
+    for (float share = shadow_fade_share(); share > 0.0; share = 0.0) {
+        ShadowPoint other = shadow_fade_point(position_ca, normal, error_m, shadow_bias_texel());
+        visible = mix(visible, filtered(other, normal), share);
     }
 #endif
     return visible;

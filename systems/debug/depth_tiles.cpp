@@ -6,7 +6,7 @@
 namespace gnomon::debug {
 namespace {
 
-/// A face in the cross: its column and row from the lower left, and the world's axes in its picture.
+/// A face in the cross: its column and row from the lower left, and the cube's axes in its picture.
 struct Unfolded {
     int column, row;
     glm::vec3 right, up, forward;

@@ -12,7 +12,7 @@ namespace gnomon::debug {
 struct DepthTile {
     glm::vec4 place{0.0f};  // left, bottom and edge in pixels of the picture; w: layer
     glm::vec4 depth{0.0f};  // near and far in metres; alpha and beta of a perspective map, beta 0: orthographic
-    glm::vec4 right{0.0f}, up{0.0f}, forward{0.0f};  // of a cube's face, seen from the light; world axes
+    glm::vec4 right{0.0f}, up{0.0f}, forward{0.0f};  // of a cube's face, seen from the light; the cube's axes
 };
 static_assert(sizeof(DepthTile) == 80);
 

@@ -61,6 +61,7 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput
     if (!row.filter_file.empty()) {
         defines.emplace_back("SHADOWED 1");
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
+        if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
     }
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");

@@ -31,6 +31,7 @@ FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std:
         filter.reach_texel += 0.5f * static_cast<float>(filter.size - 1);
     }
     filter.widest_texel = filter.reach_texel;
+    filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread) {
         const LightShadow usual;
         const auto valid = [&](float LightShadow::*field) {
@@ -60,6 +61,10 @@ double reach_texel_at(const FilterDemand& filter, double texel_m) {
     const auto most_texel = static_cast<double>(filter.most_spread_texel);
     // Not a finite number: the widest.
     return static_cast<double>(filter.reach_texel) + (spread_texel < most_texel ? spread_texel : most_texel);
+}
+
+double edge_texel_at(const FilterDemand& filter, double texel_m) {
+    return reach_texel_at(filter, texel_m) - static_cast<double>(filter.still_texel);
 }
 
 }  // namespace gnomon::shadow

@@ -22,6 +22,8 @@ struct FilterDemand {
     float cell_m = 1.0f;
     /// Bound on E: what a map's border leaves room for.
     float widest_texel = 0.5f;
+    /// What of E cannot move an edge.
+    float still_texel = 0.0f;
     bool cut = false;  // not all is as asked for
 };
 
@@ -30,5 +32,7 @@ FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std:
 
 /// Bound on E where no texel is finer than `texel_m` metres.
 double reach_texel_at(const FilterDemand& filter, double texel_m);
+/// The same of what can move a shadow's edge.
+double edge_texel_at(const FilterDemand& filter, double texel_m);
 
 }  // namespace gnomon::shadow

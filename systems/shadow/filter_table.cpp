@@ -17,24 +17,34 @@ std::uint32_t of_disk(const LightShadow& shadow, bool) { return shadow.filter_ta
 std::uint32_t of_cube_grid(const LightShadow&, bool cube) { return cube ? 64 : 16; }
 std::uint32_t of_directions(const LightShadow&, bool cube) { return cube ? 20 : 8; }
 
+/// Where the first, a fetch of four, does not settle it: sixteen, and two neighbours of each that is above the plane.
+std::uint32_t of_votes(const LightShadow&, bool) { return 1 + 16 * 3; }
+
 // E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
-// a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance.
+// a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts
+// the votes of texels up to 2 away and looks at their neighbours, but only where the four around the receiver do not
+// agree: the edge is then less than a texel away, as under one nearest tap.
 constexpr FilterRow kRows[] = {
-    {ShadowFilter::hard, "hard", "shadow/filters/hard.glsl", one, 0.5f, FilterWidth::fixed, false},
+    {ShadowFilter::hard, "hard", "shadow/filters/hard.glsl", one, 0.5f, FilterWidth::fixed,
+     MapReading::compare_nearest},
     {ShadowFilter::hardware_2x2, "hardware_2x2", "shadow/filters/hardware_2x2.glsl", one, 1.0f, FilterWidth::fixed,
-     true},
-    {ShadowFilter::pcf_grid, "pcf_grid", "shadow/filters/pcf_grid.glsl", of_grid, 0.5f, FilterWidth::size, false},
+     MapReading::compare_linear},
+    {ShadowFilter::pcf_grid, "pcf_grid", "shadow/filters/pcf_grid.glsl", of_grid, 0.5f, FilterWidth::size,
+     MapReading::compare_nearest},
     {ShadowFilter::pcf_bilinear, "pcf_bilinear", "shadow/filters/pcf_bilinear.glsl", of_pairs, 1.0f, FilterWidth::size,
-     true},
-    {ShadowFilter::poisson, "poisson", "shadow/filters/poisson.glsl", of_disk, 0.5f, FilterWidth::spread, false},
+     MapReading::compare_linear},
+    {ShadowFilter::poisson, "poisson", "shadow/filters/poisson.glsl", of_disk, 0.5f, FilterWidth::spread,
+     MapReading::compare_nearest},
     {ShadowFilter::poisson_rotated, "poisson_rotated", "shadow/filters/poisson_rotated.glsl", of_disk, 0.5f,
-     FilterWidth::spread, false},
+     FilterWidth::spread, MapReading::compare_nearest},
     {ShadowFilter::poisson_stratified, "poisson_stratified", "shadow/filters/poisson_stratified.glsl", of_disk, 0.5f,
-     FilterWidth::spread, false},
+     FilterWidth::spread, MapReading::compare_nearest},
     {ShadowFilter::cube_grid, "cube_grid", "shadow/filters/cube_grid.glsl", of_cube_grid, 0.5f, FilterWidth::spread,
-     false},
+     MapReading::compare_nearest},
     {ShadowFilter::cube_directions, "cube_directions", "shadow/filters/cube_directions.glsl", of_directions, 0.5f,
-     FilterWidth::spread, false},
+     FilterWidth::spread, MapReading::compare_nearest},
+    {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
+     MapReading::depths, FilterStorage::depth, 2.5f},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

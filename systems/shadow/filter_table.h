@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -16,19 +17,24 @@ enum class FilterWidth : std::uint8_t {
 /// What a filter reads.
 enum class FilterStorage : std::uint8_t { depth };
 
+/// What its sampler returns: results of comparing, as they are or blended by hardware, or what is stored.
+enum class MapReading : std::uint8_t { compare_nearest, compare_linear, depths };
+
 /// One way of looking a depth map up. To add one: a file under shaders/shadow/filters, an enumerator, a row
 /// (docs/adding_a_filter.md).
 struct FilterRow {
     ShadowFilter id;
     std::string_view name;  // as in --set filter=
     std::string_view file;  // under shaders/
-    /// Texture fetches per lookup, without early bailing; `cube`: of a point light.
+    /// Most texture fetches per lookup, without early bailing; `cube`: of a point light.
     std::uint32_t (*taps)(const LightShadow& shadow, bool cube);
     /// E, the half-width of the footprint that decides a pixel, in texels: this, and what `width` adds.
     float reach_texel;
     FilterWidth width;
-    bool linear_sampler;  // compare results blended by hardware
+    MapReading reading;
     FilterStorage storage = FilterStorage::depth;
+    /// What of E is read but cannot move a shadow's edge.
+    float still_texel = 0.0f;
 };
 
 /// In the order of ShadowFilter.

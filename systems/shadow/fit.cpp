@@ -68,7 +68,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
             ShadowView& view = frame.views[v];
             view.demand = d;
             select_view_casters(scene, view, frame);
-            state_errors(scene, points, reach_texel_at(demand.filtering, finest_texel_m(view)), view);
+            state_errors(scene, points, edge_texel_at(demand.filtering, finest_texel_m(view)), view);
         }
     }
 }

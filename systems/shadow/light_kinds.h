@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <glm/ext/quaternion_double.hpp>
 #include <span>
 #include <string_view>
 
@@ -68,5 +69,10 @@ struct CubeFace {
     glm::dvec3 axis_u, axis_v, axis_back;  // s and t grow along u and v; the face looks along -back
 };
 const CubeFace& cube_face(std::uint32_t face);
+
+/// How a point light's cube lies in the world, from the cube's axes to the world's: askew, the same for all. What people
+/// build runs along the world's axes; texels that do the same put the whole length of its edges off by the same part of
+/// a texel, where texels askew to it are wrong to either side in turn, which a filter evens out (docs/accuracy.md).
+const glm::dquat& cube_turn();
 
 }  // namespace gnomon::shadow

@@ -64,6 +64,10 @@ LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
     constexpr double kLeastConeWidth = 0.001;
     record.cone = {static_cast<float>(cos_outer),
                    static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)), 0.0f, 0.0f};
+    if (light.kind == LightKind::point) {
+        const glm::dquat& turn = cube_turn();
+        record.cone = with_w({turn.x, turn.y, turn.z}, turn.w);
+    }
     return record;
 }
 
@@ -132,7 +136,7 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
             static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
 }
 
-void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers, ShadowFrame& frame) {
+void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, ShadowFrame& frame) {
     frame.inputs.resize(scene.consumers.size());
     for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
         const ConsumerItem& consumer = scene.consumers[c];
@@ -164,13 +168,14 @@ void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers,
             out.row.kind_file = kind_file(demand, kind);
             out.row.filter_file = filter.file;
             out.row.reach_texel = demand.filtering.reach_texel;
+            out.row.depths = filter.reading == MapReading::depths;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
             out.map = slot.texture;
-            out.sampler = filter.linear_sampler ? samplers.linear : samplers.nearest;
+            out.sampler = samplers.of(filter.reading);
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.w |= 1 << view.layer;
-            out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
+            if (light.kind == LightKind::spot) out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
             filter_record(light.shadow, demand.filtering, consumer, out.record);
             out.record.bias.x = light.shadow.bias_m;

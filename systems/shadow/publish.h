@@ -1,13 +1,18 @@
 #pragma once
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::shadow {
 
-/// Compare samplers, one per way the filter table names.
-struct CompareSamplers {
-    gl::SamplerHandle nearest{}, linear{};
+/// One per way of reading a map that the filter table names (MapReading); those that nobody asked for are {0}.
+struct MapSamplers {
+    gl::SamplerHandle nearest{}, linear{}, depths{};
+    gl::SamplerHandle of(MapReading reading) const {
+        if (reading == MapReading::depths) return depths;
+        return reading == MapReading::compare_linear ? linear : nearest;
+    }
 };
 
 /// The consumer's camera as shaders see it.
@@ -19,6 +24,6 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
 
 /// Stage 6: for each consumer, each light with its program row, record and textures. A light without a map is published
 /// unshadowed. Fills frame.inputs.
-void publish_lights(const SceneSnapshot& scene, const CompareSamplers& samplers, ShadowFrame& frame);
+void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, ShadowFrame& frame);
 
 }  // namespace gnomon::shadow

@@ -16,16 +16,21 @@ ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
     device_.destroy(samplers_.linear);
+    device_.destroy(samplers_.depths);
 }
 
 bool ShadowSystem::samplers_ready() {
-    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear) {
+    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare) {
         if (sampler) return;
-        sampler = device_.create_sampler({label, linear, false, true, gl::Wrap::border, gl::Wrap::border}).handle;
+        sampler = device_.create_sampler({label, linear, false, compare, gl::Wrap::border, gl::Wrap::border}).handle;
     };
-    ensure(samplers_.nearest, "shadow compare nearest", false);
-    ensure(samplers_.linear, "shadow compare linear", true);
-    return samplers_.nearest && samplers_.linear;
+    ensure(samplers_.nearest, "shadow compare nearest", false, true);
+    ensure(samplers_.linear, "shadow compare linear", true, true);
+    const bool reads_depths = std::any_of(frame_.demands.begin(), frame_.demands.end(), [](const ShadowDemand& d) {
+        return d.skip == Reason::none && filter_row(d.filter).reading == MapReading::depths;
+    });
+    if (reads_depths) ensure(samplers_.depths, "shadow depths", false, false);
+    return samplers_.nearest && samplers_.linear && (samplers_.depths || !reads_depths);
 }
 
 const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows,

@@ -40,7 +40,7 @@ private:
     gl::Device& device_;
     MapStore maps_;
     DepthRecorder recorder_;
-    CompareSamplers samplers_;
+    MapSamplers samplers_;
     ShadowFrame frame_;
     History history_;
 };

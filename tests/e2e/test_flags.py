@@ -112,7 +112,7 @@ class Flags(GameTest):
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         text = done.stdout.decode()
         for word in ("enabled", "filter", "resolution", "max_error_px", "bias", "economy", "hard", "hardware_2x2",
-                     "pcf_grid", "automatic", "depth"):
+                     "pcf_grid", "sharp_4x4", "automatic", "depth"):
             self.assertRegex(text, r"\b%s\b" % word)
 
     def test_help_is_no_error(self):

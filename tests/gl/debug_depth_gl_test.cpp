@@ -1,6 +1,8 @@
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "systems/debug/debug_view.h"
+#include "systems/shadow/light_kinds.h"
 #include "tests/gl/frame_fixture.h"
 
 // The debug view "depth" against distances that are known: pixels of grey against metres.
@@ -86,11 +88,11 @@ TEST_F(DebugDepth, WhatNoCasterCoversIsBlue) {
 
 TEST_F(DebugDepth, EachFaceOfACubeLiesWhereItsCasterIs) {
     add_wall({0.0, 0.0, -8.0}, 8.0);
-    // One caster along each axis, each at its own distance, upright where the cross has it.
-    const glm::dvec3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
-    for (int face = 0; face < 6; ++face) {
-        const glm::dvec3 middle = (1.5 + 0.5 * face) * axes[face];
-        place(add_mesh(game::make_box(middle - 0.3, middle + 0.3)));
+    // One caster before each face and along its axes, each at its own distance, upright where the cross has it.
+    const auto box = add_mesh(game::make_box(glm::dvec3(-0.3), glm::dvec3(0.3)));
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        const glm::dvec3 ahead = shadow::cube_turn() * -shadow::cube_face(face).axis_back;
+        place(box, {.translation_m = (1.5 + 0.5 * face) * ahead, .rotation = shadow::cube_turn()});
     }
     add_light({.kind = LightKind::point, .intensity = 1000.0f}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     draw();

@@ -12,6 +12,8 @@
 
 namespace gnomon {
 
+inline bool reads_depths(const shadow::FilterRow& filter) { return filter.reading == shadow::MapReading::depths; }
+
 /// Every row of (light kind × filter), with and without fading, each kind unshadowed, suns in perspective and warped.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
@@ -20,14 +22,14 @@ inline std::vector<shadow::ProgramRow> all_rows() {
         for (const shadow::FilterRow& filter : shadow::filter_table())
             for (const bool fades : {false, true})
                 if (!fades || kind.kind != LightKind::point)  // a cube has nothing to fade into
-                    rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, fades});
+                    rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, fades, reads_depths(filter)});
     }
     const shadow::LightKindRow& sun = shadow::light_kind_row(LightKind::directional);
     for (const shadow::FilterRow& filter : shadow::filter_table())
-        rows.push_back({sun.define, shadow::kPerspectiveSunFile, filter.file, filter.reach_texel});
+        rows.push_back({sun.define, shadow::kPerspectiveSunFile, filter.file, filter.reach_texel, false, reads_depths(filter)});
     for (const shadow::FilterRow& filter : shadow::filter_table())
         for (const bool fades : {false, true})
-            rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades});
+            rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
     return rows;
 }
 

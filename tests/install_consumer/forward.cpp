@@ -58,7 +58,7 @@ void main() {
 // [fragment]
 
 // [program]
-/// The fragment shader for one light: which kind and which filter is said by row.glsl and three defines.
+/// The fragment shader for one light: which kind and which filter is said by row.glsl and its defines.
 Result<std::string> fragment_for(const shadow::ProgramRow& row) {
     const bool shadowed = !row.filter_file.empty();
     const std::string row_text = shadowed ? "#include \"" + std::string(row.kind_file) + "\"\n#include \"" +
@@ -71,6 +71,7 @@ Result<std::string> fragment_for(const shadow::ProgramRow& row) {
     if (shadowed) {
         defines.emplace_back("SHADOWED 1");
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
+        if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
     }
     return gl::expand_shader(files, "mine/forward.frag", defines);

@@ -30,7 +30,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     if (light.options.y != 0) bias = Bias(0.0, light.bias.x / cascade_range_m(view, position_la));
     vec3 moved = position_la + normal * bias.along_normal_m;
     vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
-    ShadowPoint point = point_2d(i, projected, bias.depth, reach);
+    ShadowPoint point = point_2d(i, projected, bias.depth, read_texel(reach));
     point.spread_texel = spread;
     point.position_ca = position_ca;
     // A cascade draws only what can darken its own depth range: before it, the next one knows better.
@@ -54,7 +54,7 @@ float share_at(int i, float distance_m) {
 // The same toward the border of its map.
 float share_toward_border(ShadowPoint point, float reach_texel) {
     vec3 inside = min(point.map, 1.0 - point.map);
-    float reach = reach_texel + max(point.spread_texel.x, point.spread_texel.y);
+    float reach = read_texel(reach_texel + max(point.spread_texel.x, point.spread_texel.y));
     float nearest = min(min(inside.x - reach * point.texel_uv.x, inside.y - reach * point.texel_uv.y), inside.z);
     return clamp(1.0 - nearest / light.bias.y, 0.0, 1.0);
 }

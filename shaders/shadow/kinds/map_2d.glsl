@@ -1,5 +1,10 @@
-// What the kinds with flat maps share: one compare tap, `offset_texel` texels away from the receiver.
+// What the kinds with flat maps share: one compare tap, `offset_texel` texels away from the receiver; or, for filters
+// that read depths (SHADOW_DEPTHS), what is stored and how the receiver's plane lies in the map.
+#ifdef SHADOW_DEPTHS
+layout(binding = 4) uniform sampler2DArray shadow_map;
+#else
 layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
+#endif
 
 struct ShadowPoint {
     bool covered;       // false: no map holds this point, it is lit
@@ -8,11 +13,51 @@ struct ShadowPoint {
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec3 position_ca;   // what was asked for
+#ifdef SHADOW_DEPTHS
+    int view;
+    float reference;    // map.z
+    vec2 slope;         // of the receiver's plane: reversed depth per texel along u and v
+#endif
 };
+
+#ifdef SHADOW_DEPTHS
+// How far from a point texels are read, where the bias is for those within reach_texel.
+float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }
+
+// In texels; the middle of the first is at 1/2.
+vec2 shadow_place(ShadowPoint point) { return point.map.xy / point.texel_uv; }
+
+float shadow_depth(ShadowPoint point, vec2 middle) {
+    return textureLod(shadow_map, vec3(middle * point.texel_uv, point.layer), 0.0).x;
+}
+
+// Of the four texels around a corner between texels, in textureGather's order.
+vec4 shadow_depths(ShadowPoint point, vec2 corner) {
+    return textureGather(shadow_map, vec3(corner * point.texel_uv, point.layer));
+}
+
+vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
+
+// A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
+vec2 shadow_slope(ShadowPoint point, vec3 normal) {
+    mat4 map_from_anchor = light.views[point.view].map_from_anchor;
+    vec3 along_w = row_xyz(map_from_anchor, 3);
+    vec3 along_u = row_xyz(map_from_anchor, 0) - point.map.x * along_w;
+    vec3 along_v = row_xyz(map_from_anchor, 1) - point.map.y * along_w;
+    vec3 along_depth = row_xyz(map_from_anchor, 2) - point.map.z * along_w;
+    vec3 ray = cross(along_u, along_v);
+    float facing = dot(ray, normal);
+    float least = kNormalError_rad * length(ray);
+    if (abs(facing) < least) facing = facing < 0.0 ? -least : least;
+    return vec2(dot(cross(along_v, normal), along_depth), dot(cross(normal, along_u), along_depth)) * (point.texel_uv / facing);
+}
+#else
+float read_texel(float reach_texel) { return reach_texel; }
 
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, point.map.z));
 }
+#endif
 
 // Where the point lies in the map, in texels from its corner.
 vec2 shadow_texel(ShadowPoint point) { return point.map.xy / point.texel_uv; }
@@ -30,5 +75,9 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
     point.covered = projected.w > 0.0 && map.z >= 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
     point.layer = light.views[view].numeric.w;
+#ifdef SHADOW_DEPTHS
+    point.view = view;
+    point.reference = point.map.z;
+#endif
     return point;
 }

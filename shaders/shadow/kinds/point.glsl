@@ -3,7 +3,11 @@
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
 #include "shadow/spread.glsl"
+#ifdef SHADOW_DEPTHS
+layout(binding = 4) uniform samplerCube shadow_map;
+#else
 layout(binding = 4) uniform samplerCubeShadow shadow_map;
+#endif
 
 struct ShadowPoint {
     bool covered;
@@ -12,6 +16,11 @@ struct ShadowPoint {
     float bias_depth;
     vec2 spread_texel;    // half-width of a disk of taps
     vec3 position_ca;     // what was asked for
+#ifdef SHADOW_DEPTHS
+    float reference;      // biased depth
+    vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
+    vec2 tangent;         // of its direction along the face's axes
+#endif
 };
 
 float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
@@ -26,6 +35,73 @@ bool is_drawn(vec3 direction) {
     return (light.options.w >> face & 1) != 0;
 }
 
+// From the world's axes to the cube's.
+vec3 turned_back(vec3 v) {
+    vec3 axis = vec3(light.cone.x, light.cone.y, light.cone.z);
+    return v + 2.0 * cross(axis, cross(axis, v) - light.cone.w * v);
+}
+
+// The face of OpenGL's table that a direction falls on; axes as cube_face() has them.
+mat3 face_axes(vec3 direction) {
+    vec3 size = abs(direction);
+    if (size.x >= size.y && size.x >= size.z) {
+        float side = direction.x < 0.0 ? -1.0 : 1.0;
+        return mat3(vec3(0.0, 0.0, -side), vec3(0.0, -1.0, 0.0), vec3(-side, 0.0, 0.0));
+    }
+    if (size.y >= size.z) {
+        float side = direction.y < 0.0 ? -1.0 : 1.0;
+        return mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, side), vec3(0.0, -side, 0.0));
+    }
+    float side = direction.z < 0.0 ? -1.0 : 1.0;
+    return mat3(vec3(side, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -side));
+}
+
+#ifdef SHADOW_DEPTHS
+// How far from a point texels are read, where the bias is for those within reach_texel.
+float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }
+
+// What the neighbour stores is half a texel of its own off the middle that is asked for.
+float seam_texel(float reach_texel) { return max(reach_texel, 0.5); }
+
+float face_size() { return float(textureSize(shadow_map, 0).x); }
+
+// In texels of the face; the middle of the first is at 1/2.
+vec2 shadow_place(ShadowPoint point) { return (point.tangent * 0.5 + 0.5) * face_size(); }
+
+vec3 direction_to(ShadowPoint point, vec2 place) {
+    vec2 tangent = place / face_size() * 2.0 - 1.0;
+    return face_axes(point.position) * vec3(tangent, -1.0);
+}
+
+// Beyond the face's edge: what its neighbour stores in that direction, as depth of this one.
+float shadow_depth(ShadowPoint point, vec2 middle) {
+    vec3 direction = direction_to(point, middle);
+    if (!is_drawn(direction)) return 0.0;
+    float stored = textureLod(shadow_map, direction, 0.0).x, alpha = light.views[0].numeric.z;
+    return stored > 0.0 ? alpha + (stored - alpha) * largest(direction) : 0.0;
+}
+
+// Of the four texels around a corner between texels, in textureGather's order.
+vec4 shadow_depths(ShadowPoint point, vec2 corner) {
+    float size = face_size();
+    if (min(corner.x, corner.y) >= 1.0 && max(corner.x, corner.y) <= size - 1.0 && is_drawn(point.position))
+        return textureGather(shadow_map, direction_to(point, corner));
+    return vec4(shadow_depth(point, corner + vec2(-0.5, 0.5)), shadow_depth(point, corner + vec2(0.5, 0.5)),
+                shadow_depth(point, corner + vec2(0.5, -0.5)), shadow_depth(point, corner - vec2(0.5, 0.5)));
+}
+
+// 1 / z is linear in the tangents on any plane; see perspective_bias().
+vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
+    vec3 normal = turned_back(normal_ws);
+    ViewRecord view = light.views[0];
+    float plane_m = max(-dot(normal, point.position), kNormalError_rad * length(point.position));
+    vec3 n_map = normal * face_axes(point.position);
+    return vec2(n_map.x, n_map.y) * (-view.axis_back.w * view.axis_u.w / plane_m);
+}
+#else
+float read_texel(float reach_texel) { return reach_texel; }
+float seam_texel(float reach_texel) { return reach_texel; }
+
 // A tap that leaves the face is compared by the depth of the face it lands on.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     vec3 direction = point.position + offset_texel.x * point.step_u + offset_texel.y * point.step_v;
@@ -34,6 +110,7 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     float depth = view.numeric.z + view.axis_back.w / largest(direction);
     return texture(shadow_map, vec4(direction, clamp(depth + point.bias_depth, 0.0, 1.0)));
 }
+#endif
 
 // Where the point lies in its face, in texels from a corner.
 vec2 shadow_texel(ShadowPoint point) {
@@ -46,17 +123,12 @@ vec2 shadow_texel(ShadowPoint point) {
 // Tangent of a texel's side: how much nearer to the light an offset along a direction brings a tap.
 float shadow_texel_tan() { return light.views[0].axis_u.w; }
 
-ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+ShadowPoint shadow_point(vec3 position_ca, vec3 normal_ws, float error_m, float reach_texel) {
     ViewRecord view = light.views[0];
-    vec3 position_la = position_ca + view.anchor_from_camera.xyz;
-    vec3 size = abs(position_la);
-    bool x_major = size.x >= size.y && size.x >= size.z;
-    bool y_major = !x_major && size.y >= size.z;
-    vec3 axis_u = x_major ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
-    vec3 axis_v = x_major || y_major ? vec3(0.0, 0.0, 1.0) : vec3(0.0, 1.0, 0.0);
-    vec3 axis_back = x_major ? vec3(-sign(position_la.x), 0.0, 0.0)
-                             : (y_major ? vec3(0.0, -sign(position_la.y), 0.0) : vec3(0.0, 0.0, -sign(position_la.z)));
-    mat3 map_axes = mat3(axis_u, axis_v, axis_back);
+    vec3 position_la = turned_back(position_ca + view.anchor_from_camera.xyz);
+    vec3 normal = turned_back(normal_ws);
+    mat3 map_axes = face_axes(position_la);
+    vec3 axis_u = map_axes[0], axis_v = map_axes[1];
     float rounding_m = error_m + view.numeric.y * length(position_la);
     // Near a seam some taps land on the neighbour, whose axes see the plane's other tangents: take all three.
     vec3 n_map = normal * map_axes;
@@ -66,8 +138,11 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
     vec2 tangents = abs(n_map.xy);
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * z_m, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
-    float beyond = (reach + 1.0) * view.axis_u.w;
-    if (second > z_m * (1.0 - 2.0 * beyond)) tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
+    float beyond = (read_texel(reach) + 1.0) * view.axis_u.w;
+    if (second > z_m * (1.0 - 2.0 * beyond)) {
+        tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
+        reach = seam_texel(reach);
+    }
     Bias bias = perspective_bias(view, n_map, tangents, position_la * map_axes, reach, rounding_m);
     if (light.options.y != 0) bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
     ShadowPoint point;
@@ -79,5 +154,12 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float rea
     point.bias_depth = bias.depth;
     point.spread_texel = spread;
     point.position_ca = position_ca;
+#ifdef SHADOW_DEPTHS
+    map_axes = face_axes(point.position);
+    z_m = largest(point.position);
+    vec3 in_face = point.position * map_axes;
+    point.tangent = vec2(in_face.x, in_face.y) / z_m;
+    point.reference = view.numeric.z + view.axis_back.w / z_m + bias.depth;
+#endif
     return point;
 }

@@ -118,7 +118,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
         view.fades_from_m = alone && view.held ? slice.fades_from_m : 0.0;
         if (view.warp != glm::dvec2(0.0))
-            state_error(consumer, points_ws, static_cast<double>(input.reach_texel), view);
+            state_error(consumer, points_ws,
+                        static_cast<double>(input.reach_texel - input.demand.filtering.still_texel), view);
         views.push_back(view);
     }
     return views.size() > before;

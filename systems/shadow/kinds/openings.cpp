@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/perspective_view.h"
@@ -53,8 +54,9 @@ LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand)
         // A receiver in one face may be filtered with texels of the next.
         const auto reach_texel = static_cast<double>(demand.filtering.widest_texel);
         const TangentRectangle wide = with_border({}, demand.resolution_px, reach_texel);
+        const glm::dmat3 turn = glm::mat3_cast(cube_turn());
         for (std::uint32_t face = 0; face < 6; ++face)
-            openings.items[openings.count++] = {axes_of(cube_face(face)), wide.low, wide.high, face, face};
+            openings.items[openings.count++] = {turn * axes_of(cube_face(face)), wide.low, wide.high, face, face};
     }
     return openings;
 }

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/ext/quaternion_double.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "systems/shadow/kinds/held_fit.h"
 #include "systems/shadow/kinds/local_content.h"
@@ -25,14 +27,20 @@ const CubeFace& cube_face(std::uint32_t face) {
     return kFaces[face % 6];
 }
 
+const glm::dquat& cube_turn() {
+    // No axis of the world, diagonal of two or diagonal of three comes near an axis or a diagonal of the cube.
+    static const glm::dquat kTurn = glm::normalize(glm::dquat(5.0, 1.0, 2.0, 1.0));
+    return kTurn;
+}
+
 namespace {
 
 constexpr double kOneTap_texel = 0.5;  // half-width of a filter that reads the nearest texel and no other
 
-ShadowView face_view(const FitInput& input, std::uint32_t face, const PerspectiveRange& range) {
-    const CubeFace& f = cube_face(face);
-    ShadowView view = perspective_view(input.light.position_ws_m, {f.axis_u, f.axis_v, f.axis_back}, TangentRectangle{},
-                                       range, input.demand.resolution_px);
+ShadowView face_view(const FitInput& input, const LightOpening& opening, const PerspectiveRange& range) {
+    const std::uint32_t face = opening.layer;
+    ShadowView view = perspective_view(input.light.position_ws_m, opening.axes, TangentRectangle{}, range,
+                                       input.demand.resolution_px);
     view.projection = ViewProjection::cube_face;
     view.layer = face;
     view.held = true;
@@ -65,7 +73,8 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     // A filter that blends texels reads across seams on its own: what is seen but has no caster must then hold nothing.
     const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
     for (std::uint32_t face = 0; face < openings.count; ++face)
-        if (faces[face].receivers && (faces[face].casters || blends)) views.push_back(face_view(input, face, range));
+        if (faces[face].receivers && (faces[face].casters || blends))
+            views.push_back(face_view(input, openings.items[face], range));
     return true;
 }
 

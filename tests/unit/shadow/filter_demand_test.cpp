@@ -25,6 +25,17 @@ TEST(FilterDemand, OfEveryRowIsAsAskedForByTheDefaults) {
     }
 }
 
+TEST(FilterDemand, WhatIsReadButCannotMoveAnEdgeIsLeftOutOfTheEdgesBound) {
+    for (const FilterRow& row : filter_table()) {
+        SCOPED_TRACE(row.name);
+        const FilterDemand filter = filter_demand({.filter = row.id}, kMap_px);
+        EXPECT_EQ(edge_texel_at(filter, 0.01), reach_texel_at(filter, 0.01) - static_cast<double>(row.still_texel));
+        EXPECT_GE(edge_texel_at(filter, 0.01), 0.5) << "the texel that is hit";
+        EXPECT_EQ(row.still_texel > 0.0f, row.reading == MapReading::depths);
+    }
+    EXPECT_EQ(edge_texel_at(filter_demand({.filter = ShadowFilter::sharp_4x4}, kMap_px), 0.01), 0.5);
+}
+
 TEST(FilterDemand, HalfTheGridAddsToWhatOneTapReaches) {
     for (const std::uint32_t size : {1u, 3u, 5u, 7u, 31u}) {
         const float half = 0.5f * static_cast<float>(size - 1);

@@ -172,14 +172,17 @@ TEST(LocalFit, AnyHistoryIsSafe) {
 TEST(LocalFit, OnlyFacesWithAReceiverAndACasterAreViews) {
     SceneSnapshot s = stage(LightKind::point);
     s.consumers[0].position_ws_m = {0.0, 5.0, 30.0};
-    const auto add_pair = [&](const glm::dvec3& direction) {
-        s.instances.push_back(instance(box(s.lights[0].position_ws_m + 4.0 * direction, 0.5), false));
-        s.instances.push_back(instance(box(s.lights[0].position_ws_m + 2.0 * direction, 0.3), true));
+    const auto through = [&](std::uint32_t face, double distance_m) {
+        return s.lights[0].position_ws_m - cube_turn() * cube_face(face).axis_back * distance_m;
     };
-    add_pair({1.0, 0.0, 0.0});
-    add_pair({0.0, -1.0, 0.0});
-    s.instances.push_back(instance(box(s.lights[0].position_ws_m + glm::dvec3(-4.0, 0.0, 0.0), 0.5), false));  // no caster
-    s.instances.push_back(instance(box(s.lights[0].position_ws_m + glm::dvec3(0.0, 2.0, 0.0), 0.3), true));    // nothing behind
+    const auto add_pair = [&](std::uint32_t face) {
+        s.instances.push_back(instance(box(through(face, 4.0), 0.5), false));
+        s.instances.push_back(instance(box(through(face, 2.0), 0.3), true));
+    };
+    add_pair(0);
+    add_pair(3);
+    s.instances.push_back(instance(box(through(1, 4.0), 0.5), false));  // no caster
+    s.instances.push_back(instance(box(through(2, 2.0), 0.3), true));   // nothing behind
     s.instances.back().receives = false;
     ShadowFrame frame = fitted(s);
     ASSERT_EQ(frame.views.size(), 2u);
