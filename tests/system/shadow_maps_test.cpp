@@ -59,12 +59,12 @@ TEST_F(ShadowMaps, ASpotGetsOneMapOfOneLayer) {
 TEST_F(ShadowMaps, ADepthFormatIsTheLightsOwnAndChangesWithIt) {
     const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     std::uint64_t bytes_d32f = 0;
-    for (const auto& [wish, format] : {std::pair{DepthFormat::d32f, gl::Format::d32f},
-                                       std::pair{DepthFormat::d16, gl::Format::d16},
-                                       std::pair{DepthFormat::d24, gl::Format::d24}}) {
+    for (const auto& row : {std::pair{DepthFormat::d32f, gl::Format::d32f}, std::pair{DepthFormat::d16, gl::Format::d16},
+                            std::pair{DepthFormat::d24, gl::Format::d24}}) {
+        const DepthFormat wish = row.first;
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.depth_format = wish; });
         step();
-        EXPECT_EQ(map_of("lamp").format, format);
+        EXPECT_EQ(map_of("lamp").format, row.second);
         EXPECT_THAT(map_labels(device), SizeIs(2)) << "the map of another format is left";
         EXPECT_EQ(light("lamp").state, LightState::rendered);
         if (wish == DepthFormat::d32f) bytes_d32f = light("lamp").bytes;
