@@ -81,6 +81,19 @@ protected:
         if (frame.views.empty() == (frame.sets[0].skip == Reason::none)) ++tally.unflagged;
     }
 
+    /// What `count` drawn fits must have shown.
+    void expect_proven(std::uint64_t count) const {
+        EXPECT_EQ(tally.not_finite, 0u);
+        EXPECT_EQ(tally.unflagged, 0u);
+        EXPECT_EQ(tally.outside, 0u);
+        EXPECT_EQ(tally.missed, 0u);
+        EXPECT_EQ(tally.scale_differs, 0u);
+        // Where two choices are equal but for rounding, another place may take the other one.
+        EXPECT_LE(tally.move_differs, tally.moved / 100);
+        EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
+        EXPECT_GT(tally.blockers, count / 8);
+    }
+
     /// A point of the box that the camera is likely to see: a corner, any, or where the edge of its sight meets the box.
     Vector sample(const ConsumerItem& camera, const math::Aabb& box) {
         const double which = random.number(0.0, 1.0);
@@ -239,15 +252,7 @@ TEST_P(RandomFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
         if (i % kMoveEvery == 1) judge_move(scene, here, glm::round(random.vector(random.size(1.0, 0x1p25))));
     }
     print(tally, light_kind_row(GetParam()).name);
-    EXPECT_EQ(tally.not_finite, 0u);
-    EXPECT_EQ(tally.unflagged, 0u);
-    EXPECT_EQ(tally.outside, 0u);
-    EXPECT_EQ(tally.missed, 0u);
-    EXPECT_EQ(tally.scale_differs, 0u);
-    // Where two choices are equal but for rounding, another place may take the other one.
-    EXPECT_LE(tally.move_differs, tally.moved / 100);
-    EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
-    EXPECT_GT(tally.blockers, count / 8);
+    expect_proven(count);
 }
 
 class WarpedFitsTest : public RandomFitsTest {};
@@ -267,13 +272,7 @@ TEST_P(WarpedFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
     }
     print(tally, "warped sun");
     std::cout << warped << " views are warped\n";
-    EXPECT_EQ(tally.not_finite + tally.unflagged, 0u);
-    EXPECT_EQ(tally.outside, 0u);
-    EXPECT_EQ(tally.missed, 0u);
-    EXPECT_EQ(tally.scale_differs, 0u);
-    EXPECT_LE(tally.move_differs, tally.moved / 100);
-    EXPECT_GT(tally.points, count / 2) << "too little is seen to prove anything";
-    EXPECT_GT(tally.blockers, count / 8);
+    expect_proven(count);
     EXPECT_GT(warped, count / 8) << "too few are warped to prove anything";
 }
 
