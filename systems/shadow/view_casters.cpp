@@ -125,10 +125,12 @@ private:
                 scratch_.polygon.emplace_back(glm::dot(at, view_.axis_u), glm::dot(at, view_.axis_v));
             }
             const double farthest_w = warps ? warp_polygon() : 1.0;
-            // In turned axes the outline's own widening (two slacks) is a chamfer of any direction.
-            math::drop_flat_corners(kOutlineSlacks * beam.slack, scratch_.polygon, scratch_.clipped);
-            widen(scratch_.polygon, reach_, scratch_);
-            const glm::dvec2 half = view_.half_extent_m;
+            // In turned axes the outline's own widening (two slacks) is a chamfer of any direction. What goes with it
+            // comes back: of receivers edge-on to the sun it may be more than their whole map.
+            const double dropped_m = kOutlineSlacks * beam.slack;
+            math::drop_flat_corners(dropped_m, scratch_.polygon, scratch_.clipped);
+            widen(scratch_.polygon, reach_ + dropped_m, scratch_);
+            const glm::dvec2 half = view_.half_extent_m + beam.slack;
             math::clip_polygon({1, 0}, half.x - centre_m.x, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({-1, 0}, half.x + centre_m.x, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({0, 1}, half.y - centre_m.y, scratch_.polygon, scratch_.clipped);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 #include "systems/shadow/light_kinds.h"
@@ -70,6 +71,37 @@ TEST_P(FitNumerics, AMillionMetresAwayTheMapCoordinatesAreTheSame) {
         SCOPED_TRACE("round " + std::to_string(round));
         expect_same(random.scene(GetParam()), 1.0, glm::dvec3(1e6, -1e6, 1e6));
     }
+}
+
+/// A wall edge-on to a high sun, seen from aside through a narrow lens; over it a roof, and a post that darkens nothing of it.
+SceneSnapshot wall_edge_on(const glm::dvec3& at, std::uint32_t cascades) {
+    SceneSnapshot s = RandomScene(1).scene(LightKind::directional, 3);
+    const math::Aabb wall{{0, -2, -2}, {0, 2, 2}}, roof{{-10, 3, -10}, {10, 4, 10}}, post{{12, -2, -1}, {13, 4, 1}};
+    for (std::uint32_t i = 0; i < s.instances.size(); ++i) {
+        s.instances[i].bounds_ws = std::array{wall, roof, post}[i];
+        s.instances[i].casts = !(s.instances[i].receives = s.instances[i].visible = i == 0);
+    }
+    s.consumers[0].position_ws_m = {-1.5, -0.4, -0.3};
+    s.consumers[0].rotation_ws = math::basis_from_back(s.consumers[0].position_ws_m);
+    s.consumers[0].fov_y_rad = 0.04;
+    s.lights[0].rotation_ws = math::basis_from_back({0, 1, 0});
+    s.lights[0].shadow.cascades = cascades;
+    s.lights[0].shadow.fit = ShadowFit::tight;
+    place(s, 1.0, at);
+    return s;
+}
+
+TEST(FarFromTheOrigin, AWallEdgeOnToTheSunKeepsItsCasters) {
+    for (const double away_m : {0.0, 1e3, 1e5, 4e6, 1e7})
+        for (const std::uint32_t cascades : {1u, 4u, 7u}) {
+            SCOPED_TRACE(std::to_string(away_m) + " m away, cascades " + std::to_string(cascades));
+            const ShadowFrame frame = fitted(wall_edge_on(away_m * glm::dvec3(1.0, -1.0, 0.25), cascades));
+            ASSERT_EQ(frame.views.size(), cascades);
+            for (const ShadowView& view : frame.views) {
+                ASSERT_EQ(view.casters.count, 1u);
+                EXPECT_EQ(frame.view_caster_items[view.casters.first], 1u);
+            }
+        }
 }
 
 bool finite(const ShadowView& view) {
