@@ -9,6 +9,9 @@ const float kSteepTangent = 4.0;
 // Reversed perspective depth in D32F: half a quantum (1u of depth) and the projection's rounding (6u).
 const float kRelativeRounding = 7.0 * kUnitRoundoff;
 
+// Of that growth: beyond it a texel is half as wide as the receiver is far, and nothing is told apart.
+const float kMostGrowth = 0.5;
+
 struct Bias {
     float along_normal_m;   // move the receiver by this much along its normal first
     float depth;            // then add this to its reversed depth
@@ -30,8 +33,10 @@ Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float err
 
 // Perspective depth d = alpha + beta / z is affine in the map's coordinates on any plane, so the slope term is exact.
 // position: from the light, in the map's axes (u, v, toward the light); its -z is the distance along the axis.
-// tangents: |n_map.xy|, or a bound on them where the footprint reaches a neighbouring face.
-Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, vec3 position_map, float reach_texel, float error_m) {
+// tangents: |n_map.xy|, or a bound on them where the footprint reaches a neighbouring face. leaving: how much farther along
+// the face's axis a metre along the normal takes the receiver, 0 if nearer; its texel grows with it.
+Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving, vec3 position_map, float reach_texel,
+                      float error_m) {
     vec2 texel_tan = vec2(view.axis_u.w, view.axis_v.w);
     float z_m = -position_map.z;
     vec2 lateral = tangents + kNormalError_rad;
@@ -43,7 +48,7 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, vec3 position_
     float beta = view.axis_back.w;
     float depth = view.numeric.z + beta / z_m;
     Bias bias;
-    bias.along_normal_m = steep ? across_m : 0.0;
+    bias.along_normal_m = steep ? across_m / (1.0 - min(spread * leaving, kMostGrowth)) : 0.0;
     bias.depth = view.numeric.x + kRelativeRounding * depth +
                  (steep ? 0.0 : beta * across_m / (z_m * plane_m));
     return bias;

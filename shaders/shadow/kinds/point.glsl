@@ -136,14 +136,16 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal_ws, float error_m, float 
     float second = max(abs(dot(position_la, axis_u)), abs(dot(position_la, axis_v)));
     // Its texels are larger there, by the share that the tap lies beyond the seam.
     vec2 tangents = abs(n_map.xy);
+    float leaving = max(-n_map.z, 0.0);
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * z_m, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
     float beyond = (read_texel(reach) + 1.0) * view.axis_u.w;
     if (second > z_m * (1.0 - 2.0 * beyond)) {
+        leaving = max(leaving, max(tangents.x, tangents.y));
         tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
         reach = seam_texel(reach);
     }
-    Bias bias = perspective_bias(view, n_map, tangents, position_la * map_axes, reach, rounding_m);
+    Bias bias = perspective_bias(view, n_map, tangents, leaving, position_la * map_axes, reach, rounding_m);
     if (light.options.y != 0) bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
     ShadowPoint point;
     point.covered = z_m > 0.0 && view.numeric.z + view.axis_back.w / z_m >= 0.0;

@@ -16,7 +16,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     float rounding_m = error_m + view.numeric.y * length(position_la);
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
-    Bias bias = perspective_bias(view, n_map, abs(n_map.xy), position_map, reach, rounding_m);
+    Bias bias = perspective_bias(view, n_map, abs(n_map.xy), max(-n_map.z, 0.0), position_map, reach, rounding_m);
     if (light.options.y != 0) {
         float z_m = -position_map.z;
         bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
