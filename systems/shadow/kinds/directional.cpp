@@ -71,6 +71,17 @@ ConsumerItem cut(ConsumerItem consumer, const CascadeSlice& slice) {
     return consumer;
 }
 
+/// Corners of what is seen of the receivers in the slice; they live until the next slice's.
+std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerItem& consumer, const FitInput& input) {
+    std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
+    points_ws.clear();
+    if (!(slice.holds_from_m < slice.holds_to_m)) return {};
+    const math::Frustum frustum = consumer_frustum(cut(consumer, slice));
+    for (const std::uint32_t r : input.receivers)
+        math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws);
+    return points_ws;
+}
+
 /// The view serves up to there, and fades into none.
 void end_before(double distance_m, ShadowView& view) {
     if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = distance_m;
@@ -89,18 +100,11 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.demand.view_count;
     const std::size_t before = views.size();
-    std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     for (std::uint32_t i = 0; i < count; ++i) {
         const CascadeSlice& slice = slices[i];
         const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
-        points_ws.clear();
-        if (of_all || (last && first)) {
-            points_ws.assign(input.receiver_points_ws.begin(), input.receiver_points_ws.end());
-        } else if (slice.holds_from_m < slice.holds_to_m) {
-            const math::Frustum frustum = consumer_frustum(cut(consumer, slice));
-            for (const std::uint32_t r : input.receivers)
-                math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws);
-        }
+        const bool whole = of_all || (last && first);
+        const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input);
         OrthographicBox box;
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
         if (points_ws.empty() || !cascade_fit(input.light.shadow.fit)(cascade, box)) continue;

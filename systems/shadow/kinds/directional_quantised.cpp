@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "systems/shadow/kinds/cascade_fit.h"
+#include "systems/shadow/kinds/extents.h"
 #include "systems/shadow/kinds/steps.h"
 
 namespace gnomon::shadow {
@@ -45,18 +45,13 @@ Side hold(double low, double high, double room, double grid, const Holding& hold
 }  // namespace
 
 bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
-    glm::dvec3 lowest(std::numeric_limits<double>::infinity()), highest = -lowest;
-    for (const glm::dvec3& p_ws : input.points_ws) {
-        const glm::dvec3 p = p_ws * input.basis;
-        lowest = glm::min(lowest, p);
-        highest = glm::max(highest, p);
-    }
-    const glm::dvec3 extent = highest - lowest;
+    Extents seen = extents_along(input.basis, input.points_ws);
+    const glm::dvec3 extent = seen.high - seen.low;
     const double largest = std::max({extent.x, extent.y, extent.z});
     if (!(largest > 0.0) || !std::isfinite(largest)) return false;
     const glm::dvec3 widened = glm::max(glm::dvec3(0.0), glm::dvec3(largest * kLeastExtent) - extent) * 0.5;
-    lowest -= widened;
-    highest += widened;
+    seen.low -= widened;
+    seen.high += widened;
 
     const HeldView& held = input.light.held.views[input.index];
     HeldView& next = input.light.next.views[input.index];
@@ -64,13 +59,13 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
     glm::dvec3 low, size;
     for (int axis = 0; axis < 2; ++axis) {
-        const Side side = hold(lowest[axis], highest[axis], room, texel, kAcross, held.used, held.low[axis],
+        const Side side = hold(seen.low[axis], seen.high[axis], room, texel, kAcross, held.used, held.low[axis],
                                held.extent_step[axis], next.extent_step[axis]);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
-    const Side depth = hold(lowest.z, highest.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, kAlong, held.used, held.near_m,
-                            held.far_step, next.far_step);
+    const Side depth = hold(seen.low.z, seen.high.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, kAlong, held.used,
+                            held.near_m, held.far_step, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;
     next.used = true;
