@@ -26,9 +26,19 @@ enum class ShadowFilter : std::uint8_t {
 /// when the camera moves, or the cell of the world in which the point lies, so that it stays there.
 enum class FilterSeed : std::uint8_t { screen, world };
 
-/// `automatic` derives the smallest offset that keeps a plane from shadowing itself;
-/// `constant` adds bias_m along the light and nothing else (to compare with).
-enum class BiasMode : std::uint8_t { automatic, constant };
+/// `automatic` derives the smallest offset that keeps a plane from shadowing itself; the others are there to compare with,
+/// a function each in shaders/shadow/bias_manual.glsl. bias_m and bias_texel are theirs; docs/bias.md has the formulas.
+enum class BiasMode : std::uint8_t {
+    automatic,
+    constant,           // bias_m along the light
+    slope,              // and bias_texel texels times the tangent of the angle between normal and light
+    normal_offset,      // bias_m along the light, bias_texel texels times the sine along the normal
+    receiver_plane,     // each tap against the receiver's plane there, bias_m and bias_texel texels of its slope added
+    tutorial_constant,  // 0.005 of the map's depth; of a point light, metres
+    tutorial_cosine,    // max(0.05 (1 - n.l), 0.005) of it
+    tutorial_tangent,   // 0.005 tan(acos(n.l)) of it, 0 to 0.01
+    count
+};
 
 /// How a light projects onto its map. A sun's is orthographic, a spot's and a point's perspective; a sun may be given one
 /// perspective view instead. What a kind cannot do is reported (projection_unsupported), its own is used.
@@ -76,7 +86,8 @@ struct LightShadow {
     std::uint32_t resolution_px = 0;   // edge of one map or cube face; 0: chosen by the system
     float max_error_px = 1.0f;         // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;
-    float bias_m = 0.0f;               // used by BiasMode::constant; metres along the light, >= 0
+    float bias_m = 0.0f;               // of a BiasMode that takes it, >= 0; what is no such number counts as the default
+    float bias_texel = 1.0f;           // the same
     LightProjection projection = LightProjection::automatic;
     /// A sun's eye stands this far from the middle of what is seen, toward the light; 0: so far that eye_angle_rad
     /// holds all that is seen. Perspective views look from it, near_m and far_m are counted from it.

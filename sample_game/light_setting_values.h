@@ -15,8 +15,9 @@ namespace gnomon::game {
 // Larger than any texture OpenGL devices make; the shadow system clamps to the device's own limit and reports it.
 inline constexpr std::uint64_t kMaxResolution_px = 65536;
 inline constexpr double kMaxError_px = 1.0e4;
-inline constexpr double kMaxBias_m = 1.0e6;
-inline constexpr double kSliderResolution_px = 4096.0, kSliderError_px = 16.0, kSliderBias_m = 0.2;
+inline constexpr int kMaxBias = 1000000;
+inline constexpr double kSliderResolution_px = 4096.0, kSliderError_px = 16.0, kSliderBias_m = 0.2,
+                        kSliderBias_texel = 8.0;
 
 // Distances of a scene, as --set takes them: a hundred million kilometres.
 inline constexpr double kMaxDistance_m = 1.0e11;
@@ -77,6 +78,12 @@ inline constexpr std::array<std::string_view, 6> kWords<CascadeSplits>{"practica
 template <>
 inline constexpr std::array<std::string_view, 4> kWords<CasterFaces>{"automatic", "front", "back", "both"};
 
+template <>
+inline constexpr std::array<std::string_view, 8> kWords<BiasMode>{
+    "automatic",      "constant",          "slope",           "normal_offset",
+    "receiver_plane", "tutorial_constant", "tutorial_cosine", "tutorial_tangent"};
+static_assert(kWords<BiasMode>.size() == static_cast<std::size_t>(BiasMode::count));
+
 template <class Enum>
 std::string_view word(std::size_t index) {
     return index < kWords<Enum>.size() ? kWords<Enum>[index] : std::string_view{};
@@ -108,19 +115,22 @@ inline bool set_max_error(LightShadow& shadow, std::string_view text) {
     return true;
 }
 
-inline bool set_bias(LightShadow& shadow, std::string_view text) {
-    if (text == "automatic") {
-        shadow.bias = BiasMode::automatic;
-        return true;
-    }
+/// A number of 0 to kMost / kParts.
+template <float LightShadow::*field, int kMost, int kParts = 1>
+bool set_up_to(LightShadow& shadow, std::string_view text) {
+    constexpr double kGreatest = static_cast<double>(kMost) / kParts;
     const auto value = read_number(text);
-    if (!value || !(*value >= 0.0 && *value <= kMaxBias_m)) return false;
-    shadow.bias = BiasMode::constant;
-    shadow.bias_m = static_cast<float>(*value);
+    if (!value || !(*value >= 0.0 && *value <= kGreatest)) return false;
+    shadow.*field = static_cast<float>(*value);
     return true;
 }
-inline std::string get_bias(const LightShadow& shadow) {
-    return shadow.bias == BiasMode::automatic ? "automatic" : number_text(shadow.bias_m);
+
+/// A mode, or metres: a constant bias of so much.
+inline bool set_bias(LightShadow& shadow, std::string_view text) {
+    if (set_word<&LightShadow::bias, BiasMode>(shadow, text)) return true;
+    if (!set_up_to<&LightShadow::bias_m, kMaxBias>(shadow, text)) return false;
+    shadow.bias = BiasMode::constant;
+    return true;
 }
 
 inline bool set_eye_angle(LightShadow& shadow, std::string_view text) {
@@ -154,15 +164,6 @@ inline bool set_layers(LightShadow& shadow, std::string_view text) {
     return true;
 }
 inline std::string get_layers(const LightShadow& shadow) { return std::to_string(shadow.layers); }
-
-/// A share of 0 to kMost hundredths.
-template <float LightShadow::*field, int kMost>
-bool set_share(LightShadow& shadow, std::string_view text) {
-    const auto value = read_number(text);
-    if (!value || !(*value >= 0.0 && *value <= 0.01 * kMost)) return false;
-    shadow.*field = static_cast<float>(*value);
-    return true;
-}
 
 /// Rising distances with commas between; a lone 0 for none.
 inline bool set_splits_m(LightShadow& shadow, std::string_view text) {

@@ -24,9 +24,8 @@ struct LightSetting {
     std::string (*get)(const LightShadow& shadow);  // a text that `set` reads back to the same value
     SettingEditor editor;
     std::string_view (*choice)(std::size_t index) = nullptr;  // of a choice: its words; empty beyond the last
-    double slider_most = 0.0;         // of a number: where a slider ends; `set` takes more
-    bool whole = false;               // of a number: only whole ones
-    const char* automatic = nullptr;  // of a number: the word that `set` takes as well
+    double slider_most = 0.0;  // of a number: where a slider ends; `set` takes more
+    bool whole = false;        // of a number: only whole ones
 };
 std::span<const LightSetting> light_settings();
 

@@ -42,13 +42,6 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
         case SettingEditor::number:
             break;
     }
-    if (setting.automatic) {
-        bool automatic = now == setting.automatic;
-        const std::string label = std::string(setting.automatic) + " " + setting.key;
-        if (ImGui::Checkbox(label.c_str(), &automatic)) return automatic ? setting.automatic : "0";
-        if (automatic) return {};
-        ImGui::SameLine();
-    }
     float value = std::strtof(now.c_str(), nullptr);
     const char* format = setting.whole ? "%.0f" : "%.4g";
     const auto flags = ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoInput;

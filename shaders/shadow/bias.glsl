@@ -1,5 +1,5 @@
 // The smallest offset that keeps a plane from shadowing itself, in closed form, per projection.
-// Derivation and sources: docs/architecture.md, "Bias". Reversed depth: an offset toward the light adds.
+// Derivation and sources: docs/bias.md. Reversed depth: an offset toward the light adds.
 #include "shared/numerics.glsl"
 
 // Above this slope the offset moves the receiver along its normal instead of along the light: bounded where
@@ -17,6 +17,13 @@ struct Bias {
     float depth;            // then add this to its reversed depth
 };
 
+// Tests take a share of an offset, to show that less is not enough.
+#ifdef SHADOW_BIAS_SHARE
+Bias taken(Bias bias) { return Bias(SHADOW_BIAS_SHARE * bias.along_normal_m, SHADOW_BIAS_SHARE * bias.depth); }
+#else
+Bias taken(Bias bias) { return bias; }
+#endif
+
 // n_map: normal in the map's axes (u, v, toward the light). error_m: how far the receiver may be off its plane.
 Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float error_m) {
     vec2 texel_m = vec2(view.axis_u.w, view.axis_v.w);
@@ -28,7 +35,7 @@ Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float err
     Bias bias;
     bias.along_normal_m = steep ? across_m : 0.0;
     bias.depth = view.numeric.x + (steep ? 0.0 : across_m / (cosine * range_m));
-    return bias;
+    return taken(bias);
 }
 
 // Perspective depth d = alpha + beta / z is affine in the map's coordinates on any plane, so the slope term is exact.
@@ -51,5 +58,5 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving,
     bias.along_normal_m = steep ? across_m / (1.0 - min(spread * leaving, kMostGrowth)) : 0.0;
     bias.depth = view.numeric.x + kRelativeRounding * depth +
                  (steep ? 0.0 : beta * across_m / (z_m * plane_m));
-    return bias;
+    return taken(bias);
 }

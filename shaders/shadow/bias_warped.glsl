@@ -1,11 +1,12 @@
 // The smallest offset that keeps a plane from shadowing itself in an orthographic map that is warped across the light:
 // depth is h / (range * w), h metres toward the light from the anchor, w = 1 + dot(gradient, position).
-// Derivation: docs/architecture.md, "Bias".
+// Derivation: docs/bias.md.
 
 // A row of the map's matrix: its entries, products and sums.
 const float kRowRounding = 4.0 * kUnitRoundoff;
 // Coordinates in the map, of its whole side: as it is drawn and as it is looked up.
 const float kMapRounding = 12.0 * kUnitRoundoff;
+
 // A move along the normal changes w; where it would by more than half of itself, the offset goes along the light.
 const float kMostMove = 0.5;
 
@@ -38,5 +39,5 @@ Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, fl
     Bias bias;
     bias.along_normal_m = steep ? across_m * w / (1.0 - move) : 0.0;
     bias.depth = view.numeric.x + depth * w_error / w + (steep ? 0.0 : across_m / (max(cosine, kNormalError_rad) * range_m));
-    return bias;
+    return taken(bias);
 }

@@ -13,8 +13,8 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its shadow layers, 0 to 255
     vec4 radiance;             // rgb: lux (directional) or candela
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces; or a point's: the quaternion cube_turn()
-    ivec4 options;             // x: views; y: 1 for constant bias; z: 1 if cascades are chosen by view distance; w: bit per layer that a view was drawn to
-    vec4 bias;                 // x: constant bias in metres; y: share of a cascade that fades
+    ivec4 options;             // x: views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view distance; w: bit per layer that a view was drawn to
+    vec4 bias;                 // x: metres, z: texels of a manual bias; y: share of a cascade that fades
     ivec4 filtering;           // x: texels along a grid's edge; y: taps; z: 1 to bail early; w: 1 if seeds come from the world
     vec4 spread;               // see shadow/spread.glsl
     ivec4 seed_cell;           // see shadow/filters/seed.glsl

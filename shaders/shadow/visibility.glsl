@@ -1,6 +1,6 @@
 // visibility(position, normal, error): the fraction of `light` that reaches a point, for any renderer.
 // Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint, and
-// SHADOW_DEPTHS is defined if it reads depths.
+// SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one.
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface
@@ -10,12 +10,20 @@
 float shadow_bias_texel() { return 0.0; }
 float filtered(ShadowPoint point, vec3 normal) {
     if (!point.covered) return 1.0;
+#ifdef SHADOW_MANUAL_BIAS
+    if (compares_on_plane()) point = on_receiver_plane(point, normal);
+#endif
     point.slope = shadow_slope(point, normal);
     return shadow_filter(point);
 }
 #else
 float shadow_bias_texel() { return SHADOW_REACH_TEXEL; }
-float filtered(ShadowPoint point, vec3 normal) { return point.covered ? shadow_filter(point) : 1.0; }
+float filtered(ShadowPoint point, vec3 normal) {
+#ifdef SHADOW_MANUAL_BIAS
+    if (point.covered && compares_on_plane()) point = on_receiver_plane(point, normal);
+#endif
+    return point.covered ? shadow_filter(point) : 1.0;
+}
 #endif
 #endif
 

@@ -83,6 +83,18 @@ void filter_record(const LightShadow& shadow, const FilterDemand& filter, const 
     record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
 
+void bias_record(const LightShadow& shadow, LightingLight& out) {
+    const LightShadow usual;
+    const auto valid = [&](float LightShadow::*field) {
+        return std::isfinite(shadow.*field) && shadow.*field >= 0.0f ? shadow.*field : usual.*field;
+    };
+    out.row.manual_bias = shadow.bias != BiasMode::automatic && shadow.bias < BiasMode::count;
+    if (!out.row.manual_bias) return;
+    out.record.options.y = static_cast<std::int32_t>(shadow.bias);
+    out.record.bias.x = valid(&LightShadow::bias_m);
+    out.record.bias.z = valid(&LightShadow::bias_texel);
+}
+
 }  // namespace
 
 CameraRecord camera_record(const ConsumerItem& c) {
@@ -176,9 +188,8 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.w |= 1 << view.layer;
             if (light.kind == LightKind::spot) out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
-            out.record.options.y = light.shadow.bias == BiasMode::constant ? 1 : 0;
+            bias_record(light.shadow, out);
             filter_record(light.shadow, demand.filtering, consumer, out.record);
-            out.record.bias.x = light.shadow.bias_m;
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }

@@ -162,6 +162,7 @@ struct ProgramRow {
     float reach_texel = 0.0f;  // the filter's footprint half-width E, without what LightRecord::spread adds
     bool fades = false;        // looks up a second view that the first one fades into
     bool depths = false;       // reads depths from the map, where other filters read results of comparing with it
+    bool manual_bias = false;  // any BiasMode but automatic
     bool operator==(const ProgramRow&) const = default;
 };
 

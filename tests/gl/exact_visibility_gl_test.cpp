@@ -33,9 +33,14 @@ TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
     const oracle::PrimaryHits hits = tracer.trace_primary(camera);
     std::vector<oracle::LightTruth> truths;
     for (const LightItem& light : scene.lights) truths.push_back(tracer.trace_light(hits, light, false));
-    for (const shadow::FilterRow& row : shadow::filter_table()) {
-        const std::string filter(row.name);
+    std::vector<std::pair<std::string, std::string>> looks;
+    for (const shadow::FilterRow& row : shadow::filter_table()) looks.emplace_back(row.name, "automatic");
+    for (const char* filter : {"pcf_grid", "sharp_4x4"})
+        for (const char* bias : {"0.05", "slope", "normal_offset", "receiver_plane", "tutorial_cosine"})
+            looks.emplace_back(filter, bias);
+    for (const auto& [filter, bias] : looks) {
         ASSERT_FALSE(stage->apply_setting("filter=" + filter));
+        ASSERT_FALSE(stage->apply_setting("bias=" + bias));
         for (int i = 0; i < 2; ++i) stage->run_frame();
         std::vector<std::vector<float>> shown(scene.lights.size());
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l)
@@ -45,7 +50,7 @@ TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
         ASSERT_TRUE(frames) << to_line(frames.error());
         for (int i = 0; i < 2; ++i) ASSERT_FALSE(frames.value()->run());
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
-            SCOPED_TRACE(filter + ", " + scene.lights[l].name);
+            SCOPED_TRACE(filter + ", " + bias + ", " + scene.lights[l].name);
             const auto light = bench::make_exact_light(frames.value()->frame(), scene, l, frames.value()->map(l));
             ASSERT_TRUE(light) << "a row that the bench does not know";
             const oracle::LightTruth& truth = truths[l];

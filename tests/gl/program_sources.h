@@ -14,7 +14,8 @@ namespace gnomon {
 
 inline bool reads_depths(const shadow::FilterRow& filter) { return filter.reading == shadow::MapReading::depths; }
 
-/// Every row of (light kind × filter), with and without fading, each kind unshadowed, suns in perspective and warped.
+/// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns in perspective
+/// and warped.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
@@ -23,6 +24,8 @@ inline std::vector<shadow::ProgramRow> all_rows() {
             for (const bool fades : {false, true})
                 if (!fades || kind.kind != LightKind::point)  // a cube has nothing to fade into
                     rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, fades, reads_depths(filter)});
+        for (const shadow::FilterRow& filter : shadow::filter_table())
+            rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, false, reads_depths(filter), true});
     }
     const shadow::LightKindRow& sun = shadow::light_kind_row(LightKind::directional);
     for (const shadow::FilterRow& filter : shadow::filter_table())

@@ -2,6 +2,9 @@
 // where maps are meant to stay while the camera moves, by the one of its distance along the view.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
+#ifdef SHADOW_MANUAL_BIAS
+#include "shadow/bias_manual.glsl"
+#endif
 #include "shadow/spread.glsl"
 #include "shadow/kinds/map_2d.glsl"
 #ifdef SHADOW_WARPED
@@ -27,7 +30,9 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
     Bias bias = cascade_bias(view, position_la, normal, n_map, reach, rounding_m);
-    if (light.options.y != 0) bias = Bias(0.0, light.bias.x / cascade_range_m(view, position_la));
+#ifdef SHADOW_MANUAL_BIAS
+    if (light.options.y != 0) bias = manual_bias(orthographic_place(view, n_map.z, cascade_range_m(view, position_la)));
+#endif
     vec3 moved = position_la + normal * bias.along_normal_m;
     vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
     ShadowPoint point = point_2d(i, projected, bias.depth, read_texel(reach));

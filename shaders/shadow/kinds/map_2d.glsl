@@ -6,6 +6,7 @@ layout(binding = 4) uniform sampler2DArray shadow_map;
 layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
 #endif
 
+
 struct ShadowPoint {
     bool covered;       // false: no map holds this point, it is lit
     vec3 map;           // u, v, biased reference depth
@@ -14,11 +15,31 @@ struct ShadowPoint {
     vec2 spread_texel;  // half-width of a disk of taps
     vec3 position_ca;   // what was asked for
 #ifdef SHADOW_DEPTHS
-    int view;
     float reference;    // map.z
-    vec2 slope;         // of the receiver's plane: reversed depth per texel along u and v
+#endif
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+    int view;
+    vec2 slope;         // of the receiver's plane: reversed depth per texel along u and v; 0 if taps are not compared on it
 #endif
 };
+
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
+
+// A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
+vec2 shadow_slope(ShadowPoint point, vec3 normal) {
+    mat4 map_from_anchor = light.views[point.view].map_from_anchor;
+    vec3 along_w = row_xyz(map_from_anchor, 3);
+    vec3 along_u = row_xyz(map_from_anchor, 0) - point.map.x * along_w;
+    vec3 along_v = row_xyz(map_from_anchor, 1) - point.map.y * along_w;
+    vec3 along_depth = row_xyz(map_from_anchor, 2) - point.map.z * along_w;
+    vec3 ray = cross(along_u, along_v);
+    float facing = dot(ray, normal);
+    float least = kNormalError_rad * length(ray);
+    if (abs(facing) < least) facing = facing < 0.0 ? -least : least;
+    return vec2(dot(cross(along_v, normal), along_depth), dot(cross(normal, along_u), along_depth)) * (point.texel_uv / facing);
+}
+#endif
 
 #ifdef SHADOW_DEPTHS
 // How far from a point texels are read, where the bias is for those within reach_texel.
@@ -36,26 +57,15 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
     return textureGather(shadow_map, vec3(corner * point.texel_uv, point.layer));
 }
 
-vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
-
-// A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
-vec2 shadow_slope(ShadowPoint point, vec3 normal) {
-    mat4 map_from_anchor = light.views[point.view].map_from_anchor;
-    vec3 along_w = row_xyz(map_from_anchor, 3);
-    vec3 along_u = row_xyz(map_from_anchor, 0) - point.map.x * along_w;
-    vec3 along_v = row_xyz(map_from_anchor, 1) - point.map.y * along_w;
-    vec3 along_depth = row_xyz(map_from_anchor, 2) - point.map.z * along_w;
-    vec3 ray = cross(along_u, along_v);
-    float facing = dot(ray, normal);
-    float least = kNormalError_rad * length(ray);
-    if (abs(facing) < least) facing = facing < 0.0 ? -least : least;
-    return vec2(dot(cross(along_v, normal), along_depth), dot(cross(normal, along_u), along_depth)) * (point.texel_uv / facing);
-}
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
-    return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, point.map.z));
+    float reference = point.map.z;
+#ifdef SHADOW_MANUAL_BIAS
+    reference = clamp(reference + dot(point.slope, offset_texel), 0.0, 1.0);
+#endif
+    return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, reference));
 }
 #endif
 
@@ -76,8 +86,22 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
     point.layer = light.views[view].numeric.w;
 #ifdef SHADOW_DEPTHS
+    point.reference = point.map.z;
+#endif
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
     point.view = view;
+    point.slope = vec2(0.0);
+#endif
+    return point;
+}
+
+#ifdef SHADOW_MANUAL_BIAS
+ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal) {
+    point.slope = shadow_slope(point, normal);
+    point.map.z = clamp(point.map.z + receiver_plane_margin(point.slope), 0.0, 1.0);
+#ifdef SHADOW_DEPTHS
     point.reference = point.map.z;
 #endif
     return point;
 }
+#endif

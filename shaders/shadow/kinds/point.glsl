@@ -2,6 +2,9 @@
 // its own axis, so the lookup needs only the largest coordinate, z.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
+#ifdef SHADOW_MANUAL_BIAS
+#include "shadow/bias_manual.glsl"
+#endif
 #include "shadow/spread.glsl"
 #ifdef SHADOW_DEPTHS
 layout(binding = 4) uniform samplerCube shadow_map;
@@ -21,7 +24,15 @@ struct ShadowPoint {
     vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
     vec2 tangent;         // of its direction along the face's axes
 #endif
+#ifdef SHADOW_MANUAL_BIAS
+    vec3 plane;           // the receiver's, where dot(plane, position) is 1, if taps are compared on it
+#endif
 };
+
+// How far the light lies from the receiver's plane; more than rounding.
+float light_from_plane_m(ShadowPoint point, vec3 normal) {
+    return max(-dot(normal, point.position), kNormalError_rad * length(point.position));
+}
 
 float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
@@ -55,6 +66,16 @@ mat3 face_axes(vec3 direction) {
     float side = direction.z < 0.0 ? -1.0 : 1.0;
     return mat3(vec3(side, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -side));
 }
+
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+// 1 / z is linear in the tangents on any plane; see perspective_bias().
+vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
+    vec3 normal = turned_back(normal_ws);
+    ViewRecord view = light.views[0];
+    vec3 n_map = normal * face_axes(point.position);
+    return vec2(n_map.x, n_map.y) * (-view.axis_back.w * view.axis_u.w / light_from_plane_m(point, normal));
+}
+#endif
 
 #ifdef SHADOW_DEPTHS
 // How far from a point texels are read, where the bias is for those within reach_texel.
@@ -90,14 +111,6 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
                 shadow_depth(point, corner + vec2(0.5, -0.5)), shadow_depth(point, corner - vec2(0.5, 0.5)));
 }
 
-// 1 / z is linear in the tangents on any plane; see perspective_bias().
-vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
-    vec3 normal = turned_back(normal_ws);
-    ViewRecord view = light.views[0];
-    float plane_m = max(-dot(normal, point.position), kNormalError_rad * length(point.position));
-    vec3 n_map = normal * face_axes(point.position);
-    return vec2(n_map.x, n_map.y) * (-view.axis_back.w * view.axis_u.w / plane_m);
-}
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 float seam_texel(float reach_texel) { return reach_texel; }
@@ -108,6 +121,11 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     if (!is_drawn(direction)) return 1.0;
     ViewRecord view = light.views[0];
     float depth = view.numeric.z + view.axis_back.w / largest(direction);
+#ifdef SHADOW_MANUAL_BIAS
+    // Where the tap's direction meets the plane.
+    if (compares_on_plane())
+        depth = view.numeric.z + max(dot(point.plane, direction), 0.0) * view.axis_back.w / largest(direction);
+#endif
     return texture(shadow_map, vec4(direction, clamp(depth + point.bias_depth, 0.0, 1.0)));
 }
 #endif
@@ -146,7 +164,13 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal_ws, float error_m, float 
         reach = seam_texel(reach);
     }
     Bias bias = perspective_bias(view, n_map, tangents, leaving, position_la * map_axes, reach, rounding_m);
-    if (light.options.y != 0) bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
+#ifdef SHADOW_MANUAL_BIAS
+    if (light.options.y != 0) {
+        BiasPlace at = perspective_place(view, normal, position_la, z_m);
+        at.distance_m = length(position_la);
+        bias = manual_bias(at);
+    }
+#endif
     ShadowPoint point;
     point.covered = z_m > 0.0 && view.numeric.z + view.axis_back.w / z_m >= 0.0;
     point.position = position_la + normal * bias.along_normal_m;
@@ -165,3 +189,16 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal_ws, float error_m, float 
 #endif
     return point;
 }
+
+#ifdef SHADOW_MANUAL_BIAS
+ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal_ws) {
+    vec3 normal = turned_back(normal_ws);
+    float margin = receiver_plane_margin(shadow_slope(point, normal_ws));
+    point.plane = -normal / light_from_plane_m(point, normal);
+    point.bias_depth += margin;
+#ifdef SHADOW_DEPTHS
+    point.reference += margin;
+#endif
+    return point;
+}
+#endif

@@ -2,6 +2,9 @@
 // faces first.
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
+#ifdef SHADOW_MANUAL_BIAS
+#include "shadow/bias_manual.glsl"
+#endif
 #include "shadow/spread.glsl"
 #include "shadow/kinds/map_2d.glsl"
 
@@ -17,10 +20,9 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
     Bias bias = perspective_bias(view, n_map, abs(n_map.xy), max(-n_map.z, 0.0), position_map, reach, rounding_m);
-    if (light.options.y != 0) {
-        float z_m = -position_map.z;
-        bias = Bias(0.0, view.axis_back.w * light.bias.x / (z_m * z_m));
-    }
+#ifdef SHADOW_MANUAL_BIAS
+    if (light.options.y != 0) bias = manual_bias(perspective_place(view, normal, position_la, -position_map.z));
+#endif
     vec3 moved = position_la + normal * bias.along_normal_m;
     ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
     point.spread_texel = spread;

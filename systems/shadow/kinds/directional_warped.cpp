@@ -110,7 +110,7 @@ public:
         view.texel_u = c.extent_m.x / size_px;
         view.texel_v = c.extent_m.y / size_px;
         view.near_m = -range(c, far_z, tight.far_m - tight.near_m);
-        set_matrices(view);
+        set_warped_matrices(view);
         return view;
     }
 
@@ -227,18 +227,6 @@ private:
         return range_m;
     }
 
-    static void set_matrices(ShadowView& view) {
-        const glm::dvec4 w(view.warp, 0.0, 1.0);
-        const glm::dvec4 u = (glm::dvec4(1, 0, 0, 0) - view.centre_ls_m.x * w) / view.half_extent_m.x;
-        const glm::dvec4 v = (glm::dvec4(0, 1, 0, 0) - view.centre_ls_m.y * w) / view.half_extent_m.y;
-        const glm::dvec4 depth(0.0, 0.0, -1.0 / view.near_m, 0.0);
-        const glm::dmat4 clip_from_view = glm::transpose(glm::dmat4(u, v, depth, w));
-        const glm::dmat3 axes(view.axis_u, view.axis_v, view.axis_back);
-        const glm::dmat4 clip_from_anchor = clip_from_view * glm::dmat4(glm::transpose(axes));
-        view.clip_from_anchor = glm::mat4(clip_from_anchor);
-        view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);
-    }
-
     const CascadeInput& input_;
     FitScratch& scratch_;
     const ConsumerItem& camera_;
@@ -254,6 +242,18 @@ private:
 };
 
 }  // namespace
+
+void set_warped_matrices(ShadowView& view) {
+    const glm::dvec4 w(view.warp, 0.0, 1.0);
+    const glm::dvec4 u = (glm::dvec4(1, 0, 0, 0) - view.centre_ls_m.x * w) / view.half_extent_m.x;
+    const glm::dvec4 v = (glm::dvec4(0, 1, 0, 0) - view.centre_ls_m.y * w) / view.half_extent_m.y;
+    const glm::dvec4 depth(0.0, 0.0, -1.0 / view.near_m, 0.0);
+    const glm::dmat4 clip_from_view = glm::transpose(glm::dmat4(u, v, depth, w));
+    const glm::dmat3 axes(view.axis_u, view.axis_v, view.axis_back);
+    const glm::dmat4 clip_from_anchor = clip_from_view * glm::dmat4(glm::transpose(axes));
+    view.clip_from_anchor = glm::mat4(clip_from_anchor);
+    view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);
+}
 
 ShadowView warped_view(const CascadeInput& input, double strength, const OrthographicBox& tight) {
     const WarpSearch search(input, strength);

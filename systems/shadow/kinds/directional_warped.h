@@ -14,4 +14,7 @@ namespace gnomon::shadow {
 /// without perspective there is none. `tight`: fit_tight's box for these points.
 ShadowView warped_view(const CascadeInput& input, double strength, const OrthographicBox& tight);
 
+/// From the view's axes, warp, centre, half extents and depth range (near_m < 0 = far_m). w > 0 all over the map.
+void set_warped_matrices(ShadowView& view);
+
 }  // namespace gnomon::shadow

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "sample_game/light_setting_values.h"
 #include "systems/shadow/filter_table.h"
 
 namespace gnomon::game {
@@ -22,8 +23,9 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .early_bail = true,
                     .resolution_px = 768,
                     .max_error_px = 0.3f,
-                    .bias = BiasMode::constant,
+                    .bias = BiasMode::tutorial_cosine,
                     .bias_m = 0.0125f,
+                    .bias_texel = 2.5f,
                     .projection = LightProjection::perspective,
                     .eye_distance_m = 12.3f,
                     .eye_angle_rad = 0.7f,
@@ -65,7 +67,10 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"filter=soft", "set.value"},      {"resolution=-1", "set.value"},
                 {"resolution=65537", "set.value"}, {"max_error_px=0", "set.value"},
                 {"max_error_px=nan", "set.value"}, {"max_error_px=1e-60", "set.value"},
-                {"bias=-1", "set.value"},          {"economy=1", "set.value"},
+                {"bias=-1", "set.value"},          {"bias=steep", "set.value"},
+                {"bias=", "set.value"},            {"bias_m=2e6", "set.value"},
+                {"bias_m=-0.1", "set.value"},      {"bias_m=nan", "set.value"},
+                {"bias_texel=-1", "set.value"},    {"bias_texel=inf", "set.value"}, {"economy=1", "set.value"},
                 {"projection=flat", "set.value"},  {"projection=", "set.value"},
                 {"eye_distance_m=-1", "set.value"}, {"eye_angle_deg=0", "set.value"},
                 {"eye_angle_deg=161", "set.value"}, {"eye_angle_deg=1e-60", "set.value"},
@@ -99,6 +104,16 @@ TEST(LightSettings, AMetreValueSwitchesTheBiasToConstantAndAutomaticSwitchesBack
     EXPECT_FLOAT_EQ(shadow.bias_m, 0.02f);
     EXPECT_FALSE(apply_setting(shadow, "bias=automatic"));
     EXPECT_EQ(shadow.bias, BiasMode::automatic);
+}
+
+TEST(LightSettings, EveryBiasModeHasAWordAndKeepsItsNumbers) {
+    for (std::size_t mode = 0; mode < static_cast<std::size_t>(BiasMode::count); ++mode) {
+        LightShadow shadow{.bias_m = 0.5f, .bias_texel = 3.0f};
+        const std::string name(word<BiasMode>(mode));
+        EXPECT_FALSE(apply_setting(shadow, "bias=" + name)) << name;
+        EXPECT_EQ(shadow, (LightShadow{.bias = static_cast<BiasMode>(mode), .bias_m = 0.5f, .bias_texel = 3.0f}));
+        EXPECT_THAT(list_settings(), HasSubstr(name));
+    }
 }
 
 }  // namespace

@@ -1,0 +1,57 @@
+#pragma once
+#include <algorithm>
+#include <span>
+
+#include "bench/exact_samplers.h"
+#include "systems/shadow/types.h"
+
+/// What a light was published with, for a row of exact_shaders.inc.
+namespace gnomon::bench::glsl {
+
+inline vec3 to_vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+inline vec4 to_vec4(const glm::vec4& v) {
+    const glm::dvec4 d(v);
+    return {d.x, d.y, d.z, d.w};
+}
+inline ivec4 to_ivec4(const glm::ivec4& v) { return {v.x, v.y, v.z, v.w}; }
+
+template <class Record>
+void set_view(const shadow::ViewRecord& from, const shadow::ShadowView& view, const glm::dvec3& camera_ws_m, Record& to,
+              DepthScale& scale) {
+    for (int c = 0; c < 4; ++c) to.map_from_anchor[c] = to_vec4(from.map_from_anchor[c]);
+    to.axis_u = to_vec4(from.axis_u);
+    to.axis_v = to_vec4(from.axis_v);
+    to.axis_back = to_vec4(from.axis_back);
+    to.numeric = to_vec4(from.numeric);
+    to.anchor_from_camera =
+        vec4(to_vec3(camera_ws_m - view.anchor_ws_m), static_cast<double>(from.anchor_from_camera.w));
+    scale.perspective = view.projection != shadow::ViewProjection::orthographic;
+    scale.texel_tan = std::max(view.texel_u, view.texel_v);
+    scale.alpha = view.depth_alpha;
+    scale.texels_per_depth = (view.far_m - view.near_m) / std::max(view.texel_u, view.texel_v);
+}
+
+/// `views`: the light's, in the order in which they were published; a cube's samplers take the first one's scale.
+template <class Row>
+void set_light(const shadow::LightingLight& published, std::span<const shadow::ShadowView* const> views,
+               const glm::dvec3& camera_ws_m, Row& row) {
+    const shadow::LightRecord& record = published.record;
+    row.reach = static_cast<double>(published.row.reach_texel);
+    row.light.position = to_vec4(record.position);
+    row.light.to_light = to_vec4(record.to_light);
+    row.light.radiance = to_vec4(record.radiance);
+    row.light.cone = to_vec4(record.cone);
+    row.light.options = to_ivec4(record.options);
+    row.light.bias = to_vec4(record.bias);
+    row.light.filtering = to_ivec4(record.filtering);
+    row.light.spread = to_vec4(record.spread);
+    row.light.seed_cell = to_ivec4(record.seed_cell);
+    row.light.seed_place = to_vec4(record.seed_place);
+    DepthScale(&scales)[shadow::kMaxViews] = row.shadow_map.scales;
+    for (std::size_t i = 0; i < views.size() && i < shadow::kMaxViews; ++i)
+        set_view(record.views[i], *views[i], camera_ws_m, row.light.views[i], scales[views[i]->layer]);
+    if (!views.empty() && views.front()->projection == shadow::ViewProjection::cube_face)
+        scales[0] = scales[views.front()->layer];
+}
+
+}  // namespace gnomon::bench::glsl

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "components/light_shadow.h"
+
+/// Random lone planes, each in the map that it would draw, looked up by the shaders' own text
+/// (bench/exact_shaders.inc).
+namespace gnomon {
+
+enum class PlaneKind : std::uint8_t { sun, warped_sun, spot, point, count };
+const char* plane_kind_name(PlaneKind kind);
+
+struct PlaneTally {
+    std::uint64_t planes = 0;
+    std::uint64_t looked_up = 0;       // the others were lit without a look at the map
+    std::uint64_t dark = 0;            // shadowed by themselves, if only in part: must be 0
+    std::uint64_t dark_with_less = 0;  // the same with nine tenths of the automatic offset
+    std::uint64_t steep = 0;           // of a slope that is offset along the normal
+};
+
+/// How a plane gets into its map, at worst; half of the planes take the worst of each at once, the others any.
+///   vertices     snapped, so that all of the plane lies up to 1/256 texel aside along u and v
+///   matrices     the floats that a frame would hand to the GPU
+///   arithmetic   2u of an orthographic range, 3u of a perspective depth and u of alpha: half of what the bias allows,
+///   as
+///                the other half is the lookup's own; u = 2^-24
+///   format       float: the nearest; fixed point: either neighbour
+///   receiver     error_m below its plane, half of kPositionRounding aside, its normal kNormalError_rad off
+/// Receivers lie at the borders and corners between texels or anywhere in them; of a cube, a third beside seams.
+/// Slopes are spread evenly over the logarithm of their tangent, 0.001 to 1000.
+PlaneTally judge_planes(PlaneKind kind, ShadowFilter filter, DepthFormat format, std::uint64_t count,
+                        std::uint64_t seed);
+
+/// False if a filter's text is none of exact_shaders.inc: nothing can be judged.
+bool can_judge(ShadowFilter filter);
+
+}  // namespace gnomon
