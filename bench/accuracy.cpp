@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "bench/edge_bounds.h"
+#include "systems/shadow/predicted_error.h"
 
 namespace gnomon::bench {
 namespace {
@@ -60,6 +61,20 @@ void judge_edges(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHit
     }
 }
 
+/// On planes the bias is proven; what its filter reads may show an edge half a texel and E from the true one.
+void judge_planes(const oracle::PrimaryHits& hits, const std::vector<std::uint8_t>& creases, const EdgeBounds& bounds,
+                  std::uint32_t index, glm::uvec2 size_px, LightAccuracy& light) {
+    const double picture_px = shadow::edge_error_px(0.0, 0.0);
+    std::vector<float> allowed_px(hits.count(), 0.0f);
+    for (std::size_t i = 0; i < hits.count(); ++i)
+        if (light.truth.scored[i] != 0)
+            allowed_px[i] =
+                static_cast<float>(bounds.at(index, hits.position_rel_m[i], hits.normal_ws[i]).error_px - picture_px);
+    light.far =
+        oracle::far_errors({size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous},
+                           creases, allowed_px);
+}
+
 void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector<std::uint32_t>& indices,
                  Accuracy& accuracy) {
     const auto start = std::chrono::steady_clock::now();
@@ -72,11 +87,13 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;
     const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().held_fits());
+    const std::vector<std::uint8_t> creases = oracle::creases(hits);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
         judge_edges(tracer, hits, snapshot, bounds, indices[k], options.telling, light);
+        judge_planes(hits, creases, bounds, indices[k], accuracy.size_px, light);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "engine/core/result.h"
 #include "systems/report.h"
 #include "tests/oracle/edge_exceptions.h"
+#include "tests/oracle/far_errors.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"
 
@@ -20,6 +21,7 @@ struct LightAccuracy {
     std::vector<float> measured;  // as of --visibility
     oracle::LightTruth truth;
     oracle::EdgeExceptions exceptions;  // edges farther off than predicted there, by name
+    oracle::FarErrors far;              // wrong pixels that neither an edge nor the map's texels there explain
     std::size_t beyond_stated = 0;      // scored pixels with a larger bound than their view states for their slope: 0
     Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
     std::size_t redrawn_differs = 0;    // pixels that changed when every view was drawn anew; must be 0

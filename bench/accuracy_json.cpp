@@ -27,6 +27,10 @@ Json to_json(const LightAccuracy& light) {
     json["uncovered_px"] = m.uncovered;
     json["acne_px"] = m.acne;
     json["leak_px"] = m.leak;
+    json["false_shadow_far_px"] = light.far.false_shadow;
+    json["false_light_far_px"] = light.far.false_light;
+    json["false_shadow_crease_px"] = light.far.crease_shadow;
+    json["false_light_crease_px"] = light.far.crease_light;
     json["ambiguous_px"] = m.ambiguous;
     json["coverage_mismatch_px"] = m.coverage_mismatch;
     json["wrong"] = m.fraction(m.wrong);

@@ -23,10 +23,14 @@ constexpr std::size_t kLineLength = 512;
 void append_light(const LightAccuracy& light, std::string& text) {
     const oracle::Metrics& m = light.metrics;
     const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
-    append(text, "%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6.2f %6.2f %6.2f %5zu %5zu %6zu %6zu %7.2f",
-           light.report.name.c_str(), m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
-           percent(m.acne), percent(m.leak), m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, m.ambiguous,
-           m.uncovered, m.coverage_mismatch, light.report.predicted_error_px);
+    const oracle::FarErrors& far = light.far;
+    append(
+        text,
+        "%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6zu %6zu %6zu %6zu %6.2f %6.2f %6.2f %5zu %5zu %6zu %6zu %7.2f",
+        light.report.name.c_str(), m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
+        percent(m.acne), percent(m.leak), far.false_shadow, far.false_light, far.crease_shadow, far.crease_light,
+        m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, m.ambiguous, m.uncovered, m.coverage_mismatch,
+        light.report.predicted_error_px);
     append(text, " %10llu %8.2f", static_cast<unsigned long long>(light.report.texels),
            static_cast<double>(light.report.bytes) / kBytesPerMb);
     if (light.gpu_us.count == 0)
@@ -44,15 +48,18 @@ std::string accuracy_table(const Accuracy& accuracy) {
     std::string text;
     append(text, "scene   %s\ndevice  %s\npicture %u x %u\n\n", accuracy.scene.c_str(), accuracy.device.c_str(),
            accuracy.size_px.x, accuracy.size_px.y);
-    append(text, "%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %5s %5s %6s %6s %7s %10s %8s %24s  %s\n", "light", "pixels",
-           "wrong%", "fshadow%", "flight%", "acne%", "leak%", "edge", "p95", "max", "lost", "ambig", "uncov", "cover",
-           "predict", "texels", "MB", "ms (min-max)", "state");
+    append(text, "%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %6s %6s %6s %5s %5s %6s %6s %7s %10s %8s %24s  %s\n",
+           "light", "pixels", "wrong%", "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr",
+           "edge", "p95", "max", "lost", "ambig", "uncov", "cover", "predict", "texels", "MB", "ms (min-max)", "state");
     for (const LightAccuracy& light : accuracy.lights) append_light(light, text);
     for (const std::string& name : accuracy.unshadowed) append(text, "%-18.18s has no shadow\n", name.c_str());
     text +=
         "\npixels: surfaces the light reaches and faces; every % is of them. acne, leak: wrong more than 2 px from "
         "any\n"
-        "true edge. edge, p95, max, predict: distance of shadow edges from the true ones in pixels; lost: places with\n"
+        "true edge. fs, fl far: pixels of false shadow and light that are also farther than half a texel and the "
+        "filter's\n"
+        "half-width from true edges and from creases of the surface; cr: near creases alone. edge, p95, max, predict: "
+        "distance of shadow edges from the true ones in pixels; lost: places with\n"
         "no edge within 8 px. ambig: left out, the truth hangs on the last digits. uncov: no surface measured, "
         "counted\n"
         "as wrong. cover: the same over the whole picture. ms: depth and lighting pass, every view drawn anew.\n";

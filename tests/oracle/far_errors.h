@@ -1,0 +1,32 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tests/oracle/metrics.h"
+#include "tests/oracle/reference_tracer.h"
+
+/// Wrong pixels that no edge explains: where a bias proven for planes must not err.
+namespace gnomon::oracle {
+
+/// Per pixel, whether the surface ends or bends toward its right (kCreaseRight) and its upper neighbour (kCreaseUp):
+/// either of the two does not lie on the other's plane, to within kPlaneTolerance of the distance from the camera, or
+/// only one of them is a surface. Silhouettes, the edges of boxes, and those of each triangle of a curved mesh.
+std::vector<std::uint8_t> creases(const PrimaryHits& hits);
+inline constexpr std::uint8_t kCreaseRight = 1, kCreaseUp = 2;
+inline constexpr double kPlaneTolerance = 1.0e-6;  // as kJitter: positions are not told apart below
+
+/// Wrong pixels, scored and not ambiguous, farther from every true edge than max(kEdgeBandPx, allowed_px): those that
+/// are as far from every crease, and the others.
+struct FarErrors {
+    std::size_t false_shadow = 0, false_light = 0;
+    std::size_t crease_shadow = 0, crease_light = 0;
+    std::vector<std::size_t> each;  // pixels of the first two
+};
+/// `creases` as above, `allowed_px` what half a texel and the filter's half-width measure on the screen, per pixel;
+/// both of the picture's size.
+FarErrors far_errors(const ComparedPictures& pictures, std::span<const std::uint8_t> creases,
+                     std::span<const float> allowed_px);
+
+}  // namespace gnomon::oracle
