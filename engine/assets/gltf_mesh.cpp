@@ -11,6 +11,7 @@
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_limits.h"
 #include "engine/assets/gltf_triangles.h"
+#include "engine/assets/mesh_shape.h"
 #include "engine/assets/mesh_topology.h"
 
 namespace gnomon::assets::gltf {
@@ -75,6 +76,8 @@ private:
             mesh.bounds_ms.max = glm::max(mesh.bounds_ms.max, position);
         }
         mesh.topology = analyse_topology(mesh);
+        mesh.shape = shape_of(mesh);
+        if (mesh.shape) document_.charge(mesh.shape->bytes(), pointer("meshes", index));
         return mesh;
     }
 

@@ -4,10 +4,12 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/math/aabb.h"
+#include "engine/math/shape_tree.h"
 
 /// A scene as neutral data: what a file holds, before any entity exists.
 namespace gnomon::assets {
@@ -45,6 +47,7 @@ struct Mesh {
     std::vector<Submesh> submeshes;      // cover indices in order, without gaps
     math::Aabb bounds_ms;                // recomputed, never the file's
     Topology topology;
+    std::shared_ptr<const math::ShapeTree> shape;  // by shape_of() (mesh_shape.h); may be left out
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };

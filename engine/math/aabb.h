@@ -22,6 +22,10 @@ bool is_finite(const Aabb& b);
 
 inline glm::dvec3 centre(const Aabb& b) { return 0.5 * (b.min + b.max); }
 inline glm::dvec3 half_extent(const Aabb& b) { return 0.5 * (b.max - b.min); }
+/// Axis of the largest number; the first of equal ones.
+inline int longest_side(const glm::dvec3& size) {
+    return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+}
 
 /// Smallest box around both; an empty (or NaN) box adds nothing, nor does a point with a NaN.
 Aabb merged(const Aabb& a, const Aabb& b);

@@ -60,8 +60,7 @@ void BoundsTree::make_node(std::uint32_t first_slot, std::uint32_t end_slot, std
         Aabb centres;
         for (auto i = begin; i != end; ++i)
             if (!is_empty(scratch_[*i])) centres = extended(centres, centre(scratch_[*i]));
-        const glm::dvec3 size = is_empty(centres) ? glm::dvec3(0.0) : centres.max - centres.min;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const int axis = longest_side(is_empty(centres) ? glm::dvec3(0.0) : centres.max - centres.min);
         const auto key = [&](std::uint32_t item) {
             const Aabb& box = scratch_[item];
             return is_empty(box) ? std::numeric_limits<double>::infinity() : box.min[axis] + box.max[axis];

@@ -4,6 +4,7 @@
 
 #include "engine/math/aabb.h"
 #include "engine/math/frustum.h"
+#include "engine/math/lowest_in_tree.h"
 
 namespace gnomon::math {
 
@@ -46,6 +47,24 @@ public:
             }
             n = overlap == Overlap::partial ? n + 1 : node.next;
         }
+    }
+
+    /// The lowest value of any item; infinite without one. rank(box) -> double, no more than the value of any item in
+    /// the box; value(item, lowest) -> double, or `lowest` where the item's is none the lower.
+    template <class Rank, class Value>
+    double lowest(Rank&& rank, Value&& value) const {
+        constexpr double kNone = std::numeric_limits<double>::infinity();
+        if (nodes_.empty()) return kNone;
+        const auto rank_of = [&](std::uint32_t n) { return rank(nodes_[n].box); };
+        const auto children = [&](std::uint32_t n) {
+            const bool leaf = nodes_[n].next == n + 1;
+            return leaf ? std::nullopt : std::optional(std::pair(n + 1, nodes_[n + 1].next));
+        };
+        return lowest_in_tree(kNone, rank_of, children, [&](std::uint32_t leaf, double lowest) {
+            for (std::uint32_t s = nodes_[leaf].first_slot; s < nodes_[leaf].end_slot; ++s)
+                if (rank(boxes_[s]) < lowest) lowest = value(items_[s], lowest);
+            return lowest;
+        });
     }
 
 private:

@@ -115,6 +115,14 @@ void sort_by_entity(std::vector<Item>& items) {
     std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.entity.index < b.entity.index; });
 }
 
+/// None at all where no mesh has one: then nobody looks for any.
+void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
+    snapshot.shapes.clear();
+    const auto has_shape = [](const assets::Mesh& mesh) { return mesh.shape != nullptr; };
+    if (std::none_of(library.meshes.begin(), library.meshes.end(), has_shape)) return;
+    for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(mesh.shape);
+}
+
 /// Reports and files name lights: a repeated name gets .1, .2, …
 void make_names_unique(std::vector<LightItem>& lights) {
     std::set<std::string> taken;
@@ -192,6 +200,7 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
     snapshot.instances.clear();
     snapshot.lights.clear();
     snapshot.consumers.clear();
+    list_shapes(library, snapshot);
     unusable_.clear();
     registry.each<MeshRef, WorldTransform>(
         [&](ecs::Entity e, const MeshRef&, const WorldTransform&) { list_instance(registry, library, e, snapshot); });

@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
+#include "engine/math/shape_tree.h"
 #include "systems/extract/sampled_depths.h"
 
 /// Struct 1 of the frame: everything later stages know of the world, in world-space double.
@@ -102,6 +104,9 @@ struct SceneSnapshot {
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
     std::uint64_t version = 0;                     // grows whenever anything changed
     math::BoundsTree tree;           // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
+    /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all: the
+    /// instances' bounds stand for it, as they must where a mesh changes.
+    std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
     SampledDepths sampled_depths;  // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
     std::uint64_t tree_version = 0;  // the version it is of; of another one it is not used
 };

@@ -1,5 +1,6 @@
 #include "systems/shadow/sets.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/marks.h"
+#include "systems/shadow/nearest_receiver.h"
 #include "systems/shadow/swept_volume.h"
 
 namespace gnomon::shadow {
@@ -172,6 +174,28 @@ void select_casters(const SceneSnapshot& scene, const LightItem& light, Potentia
     sets.casters.count = static_cast<std::uint32_t>(frame.caster_items.size()) - sets.casters.first;
 }
 
+/// A half-space without a point.
+constexpr math::Plane kNothing{glm::dvec3(0.0), -1.0};
+
+/// What the consumer sees from the nearest receiver on: bounds of meshes tell less, since a camera stands in the middle
+/// of the larger ones. A scene without shapes has its bounds alone.
+math::Frustum seen_receivers(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
+                             SetScratch& scratch) {
+    if (scene.shapes.empty()) return consumer_frustum(consumer);
+    const double from_m = nearest_receiver_m(scene, consumer, layers, scratch.points_ws);
+    if (std::isfinite(from_m)) return consumer_frustum(consumer, std::max(consumer.near_m, from_m));
+    math::Frustum nothing = consumer_frustum(consumer);
+    nothing.planes[0] = kNothing;
+    return nothing;
+}
+
+ShadowLayers layers_of_all(const SceneSnapshot& scene, const ShadowFrame& frame) {
+    ShadowLayers layers = 0;
+    for (const ShadowDemand& demand : frame.demands)
+        if (demand.skip == Reason::none) layers |= scene.lights[demand.light].shadow.layers;
+    return layers;
+}
+
 }  // namespace
 
 std::span<const math::Plane> seen_by_the_only_consumer(const ShadowFrame& frame) {
@@ -187,7 +211,9 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
     frame.beams.clear();
     frame.outlines.clear();
     frame.seen.clear();
-    for (const ConsumerItem& consumer : scene.consumers) frame.seen.push_back(consumer_frustum(consumer));
+    const ShadowLayers layers = layers_of_all(scene, frame);
+    for (const ConsumerItem& consumer : scene.consumers)
+        frame.seen.push_back(seen_receivers(scene, consumer, layers, frame.set_scratch));
     for (const ShadowDemand& demand : frame.demands) {
         const LightTime time(frame, demand.light);
         PotentialSets sets;

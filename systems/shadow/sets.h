@@ -9,8 +9,9 @@ namespace gnomon::shadow {
 /// Stage 3: for each demand that is not skipped, the receivers that a consumer sees and the light reaches (PSR), with
 /// the corner points of what is seen of them, and the casters in the volume swept from those points toward the light
 /// (PSC), whether a camera sees those or not. Fills frame.sets, receiver_items, caster_items (both by index),
-/// receiver_points_ws, beams, outlines, seen. Conservative: bounds stand for meshes. Searches scene.tree where the
-/// scene has one (systems/extract/scene_tree.h); the result is the same without, the time is not.
+/// receiver_points_ws, beams, outlines, seen. Conservative: bounds stand for meshes, but for the depth from which a
+/// consumer sees any (nearest_receiver.h). Searches scene.tree where the scene has one (systems/extract/scene_tree.h);
+/// the result is the same without, the time is not.
 void select_sets(const SceneSnapshot& scene, ShadowFrame& frame);
 
 /// Planes that hold all that is seen; none where several look on.

@@ -1,3 +1,4 @@
+#include "engine/assets/mesh_shape.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/unit/allocation_counter.h"
 
@@ -69,8 +70,8 @@ private:
 
 /// Allocations of the eighth frame; `edit` changes the world before each.
 template <class Edit>
-std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const FrameSettings& settings, Edit edit) {
-    const assets::MeshLibrary library = test_library();
+std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const FrameSettings& settings, Edit edit,
+                                  const assets::MeshLibrary& library = test_library()) {
     SilentDevice silent;
     auto made = Frame::create(silent, library);
     if (!made) return ~std::size_t{0};
@@ -104,6 +105,12 @@ TEST_F(FrameCost, AMovingSceneOfLocalLightsAllocatesNothingOnceWarm) {
 TEST_F(FrameCost, ASunAllocatesNothingOnceWarm) {
     EXPECT_EQ(allocations_when_warm({LightKind::directional}, settings, still), 0u);
     EXPECT_EQ(allocations_when_warm({LightKind::directional}, settings, moving), 0u);
+}
+
+TEST_F(FrameCost, LookingForTheNearestReceiverInItsMeshAllocatesNothingOnceWarm) {
+    assets::MeshLibrary shaped = test_library();
+    for (assets::Mesh& mesh : shaped.meshes) mesh.shape = assets::shape_of(mesh);
+    EXPECT_EQ(allocations_when_warm({LightKind::directional, LightKind::spot}, settings, moving, shaped), 0u);
 }
 
 }  // namespace

@@ -1,0 +1,11 @@
+#pragma once
+#include <memory>
+
+#include "engine/assets/scene_data.h"
+
+namespace gnomon::assets {
+
+/// A tree of boxes around the mesh's triangles, for Mesh::shape. Null without triangles.
+std::shared_ptr<const math::ShapeTree> shape_of(const Mesh& mesh);
+
+}  // namespace gnomon::assets
