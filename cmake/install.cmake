@@ -10,6 +10,7 @@ set(GNOMON_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon)
 set(GNOMON_ENGINE_HEADERS
   engine/assets/gltf_loader.h
   engine/assets/mesh_library.h
+  engine/assets/mesh_shape.h
   engine/assets/mesh_topology.h
   engine/assets/scene_data.h
   engine/core/result.h
@@ -26,7 +27,9 @@ set(GNOMON_ENGINE_HEADERS
   engine/math/cone.h
   engine/math/convex_polygon.h
   engine/math/frustum.h
+  engine/math/lowest_in_tree.h
   engine/math/projection.h
+  engine/math/shape_tree.h
   engine/platform/context.h)
 list(TRANSFORM GNOMON_ENGINE_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
 # Components and systems are public whole: whoever brings an own frame may take any stage.
