@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::bench {
@@ -20,6 +21,10 @@ struct MapCopy {
 struct SurfacePoint {
     glm::dvec3 position_ws_m{0.0}, normal_ws{0.0, 1.0, 0.0};  // unit, on the lit side
 };
+
+/// Whether the filter's lookups are compiled in: all but those that read triangles, which lie in buffers that the lighting
+/// pass alone binds; these are judged by pictures, against ray-traced truth.
+inline bool knows_filter(const shadow::FilterRow& row) { return row.storage == shadow::FilterStorage::depth; }
 
 /// What the shader makes of one point.
 struct ExactVisibility {

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "bench/accuracy.h"
+#include "bench/exact_visibility.h"
 #include "bench/stability_scene.h"
 #include "sample_game/picture_files.h"
 #include "systems/shadow/filter_demand.h"
@@ -189,15 +190,21 @@ Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::p
     for (const Variant& variant : variants()) {
         if (variant.name.find(options.only) == std::string::npos) continue;
         if (auto error = apply(stage, variant.settings)) return *error;
-        const auto taps = count_taps(stage, options.points);
-        if (!taps) return taps.error();
+        std::vector<TapCount> taps;
+        if (knows_filter(*variant.row)) {
+            auto counted = count_taps(stage, options.points);
+            if (!counted) return counted.error();
+            taps = std::move(counted).value();
+        }
         const auto accuracy = measure_accuracy(stage, {options.timed_frames, true});
         if (!accuracy) return accuracy.error();
         stage.set_economy(true);
         const std::vector<LightAccuracy>& lights = accuracy.value().lights;
-        for (const LightAccuracy& light : lights)
-            for (const TapCount& count : taps.value())
-                if (count.light == light.report.name) table += table_line(variant, light, count);
+        for (const LightAccuracy& light : lights) {
+            const auto count = std::find_if(taps.begin(), taps.end(),
+                                            [&](const TapCount& c) { return c.light == light.report.name; });
+            table += table_line(variant, light, count == taps.end() ? TapCount{} : *count);
+        }
         if (lights.empty()) continue;
         const glm::uvec2 size_px = accuracy.value().size_px;
         if (!window) {

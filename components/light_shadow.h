@@ -19,6 +19,7 @@ enum class ShadowFilter : std::uint8_t {
     cube_grid,
     cube_directions,
     sharp_4x4,
+    triangles,
     count
 };
 

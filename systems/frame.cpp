@@ -106,7 +106,7 @@ bool Frame::read_picture(std::vector<std::uint8_t>& rgba) {
 bool Frame::read_visibility(std::uint32_t light, std::vector<float>& values) {
     if (!has_picture_) return false;
     gl::CommandList list;
-    if (!lighting_->record_visibility(shadows_->frame().inputs.front(), light, list)) return false;
+    if (!lighting_->record_visibility(shadows_->frame().inputs.front(), light, gpu_scene_, list)) return false;
     if (device_.submit(list).failure != gl::Failure::none) return false;
     values.resize(std::size_t{lighting_->size_px().x} * lighting_->size_px().y);
     return device_.read_texture(lighting_->visibility_texture(), 0, std::as_writable_bytes(std::span(values)));

@@ -43,17 +43,34 @@ bool has_area(const Mesh& mesh, std::size_t first_index) {
     return glm::cross(b - a, c - a) != glm::dvec3(0.0);
 }
 
-/// Faces with three different welded vertices. A sliver without area stays: it closes a gap that only rounding opened.
-std::vector<WeldedFace> proper_faces(const Mesh& mesh, const std::vector<std::uint32_t>& welded, Topology& topology) {
+/// Faces with three different welded vertices, and the triangle of the list that each is. A sliver without area stays: it
+/// closes a gap that only rounding opened.
+struct ProperFaces {
     std::vector<WeldedFace> faces;
-    faces.reserve(mesh.indices.size() / 3);
+    std::vector<std::uint32_t> triangles;
+    std::uint32_t vertex_count = 0;
+};
+
+ProperFaces proper_faces(const Mesh& mesh, const std::vector<std::uint32_t>& welded) {
+    ProperFaces proper;
+    proper.faces.reserve(mesh.indices.size() / 3);
+    proper.triangles.reserve(mesh.indices.size() / 3);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const WeldedFace face{welded[mesh.indices[i]], welded[mesh.indices[i + 1]], welded[mesh.indices[i + 2]]};
-        const bool proper = face[0] != face[1] && face[1] != face[2] && face[2] != face[0];
-        if (!proper || !has_area(mesh, i)) ++topology.degenerate_faces;
-        if (proper) faces.push_back(face);
+        if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) continue;
+        proper.faces.push_back(face);
+        proper.triangles.push_back(static_cast<std::uint32_t>(i / 3));
     }
-    return faces;
+    proper.vertex_count = welded.empty() ? 0 : *std::max_element(welded.begin(), welded.end()) + 1;
+    return proper;
+}
+
+/// Zero area or repeated vertices.
+std::uint32_t degenerate_faces(const Mesh& mesh, const ProperFaces& proper) {
+    auto count = static_cast<std::uint32_t>(mesh.indices.size() / 3 - proper.faces.size());
+    for (const std::uint32_t triangle : proper.triangles)
+        count += has_area(mesh, std::size_t{3} * triangle) ? 0 : 1;
+    return count;
 }
 
 /// The cut mesh as OpenMesh connectivity. OpenMesh's add_face refuses what is not manifold and searches around the
@@ -169,9 +186,10 @@ std::vector<double> volumes(const Mesh& mesh, const std::vector<std::uint32_t>& 
 Topology analyse_topology(const Mesh& mesh) {
     Topology topology;
     const std::vector<std::uint32_t> welded = weld_by_position(mesh.vertices);
-    const std::vector<WeldedFace> faces = proper_faces(mesh, welded, topology);
-    const std::uint32_t vertex_count = welded.empty() ? 0 : *std::max_element(welded.begin(), welded.end()) + 1;
-    const EdgePairing pairing = pair_half_edges(faces, vertex_count);
+    const ProperFaces proper = proper_faces(mesh, welded);
+    const std::vector<WeldedFace>& faces = proper.faces;
+    topology.degenerate_faces = degenerate_faces(mesh, proper);
+    const EdgePairing pairing = pair_half_edges(faces, proper.vertex_count);
     const OpenMesh::TriConnectivity manifold = ManifoldBuilder(faces.size(), pairing).build();
     topology.non_manifold_edges = pairing.non_manifold_edges;
     topology.boundary_edges = boundary_edges(manifold, pairing);
@@ -185,6 +203,16 @@ Topology analyse_topology(const Mesh& mesh) {
         topology.outward = topology.outward && volume[f] > 0.0;
     }
     return topology;
+}
+
+std::vector<std::uint32_t> triangle_neighbours(const Mesh& mesh) {
+    const ProperFaces proper = proper_faces(mesh, weld_by_position(mesh.vertices));
+    const EdgePairing pairing = pair_half_edges(proper.faces, proper.vertex_count);
+    std::vector<std::uint32_t> neighbours(mesh.indices.size() / 3 * 3, kNoNeighbour);
+    for (std::uint32_t h = 0; h < pairing.opposite.size(); ++h)
+        if (pairing.opposite[h] != kNoHalfEdge)
+            neighbours[std::size_t{3} * proper.triangles[h / 3] + h % 3] = proper.triangles[pairing.opposite[h] / 3];
+    return neighbours;
 }
 
 }  // namespace gnomon::assets

@@ -27,6 +27,7 @@ std::uint32_t texel_bytes(Format format) {
         case Format::rgba16_snorm:
         case Format::rgba16f:
         case Format::rg32f:
+        case Format::rg32ui:
             return 8;
     }
     return 0;
@@ -35,6 +36,8 @@ std::uint32_t texel_bytes(Format format) {
 std::uint32_t transfer_bytes(Format format) { return is_depth(format) ? kDepthTransferBytes : texel_bytes(format); }
 
 bool is_depth(Format format) { return format == Format::d16 || format == Format::d24 || format == Format::d32f; }
+
+bool is_integer(Format format) { return format == Format::rg32ui; }
 
 std::uint32_t layer_count(const TextureDesc& desc) {
     return desc.kind == TextureKind::cube ? kCubeFaces : desc.kind == TextureKind::array ? desc.layers : 1;
@@ -69,6 +72,8 @@ const char* to_text(Format format) {
             return "r32f";
         case Format::rg32f:
             return "rg32f";
+        case Format::rg32ui:
+            return "rg32ui";
         case Format::d16:
             return "d16";
         case Format::d24:

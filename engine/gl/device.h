@@ -11,7 +11,7 @@
 namespace gnomon::gl {
 
 enum class TextureKind : std::uint8_t { flat, array, cube };
-enum class Format : std::uint8_t { r8, rgba8, srgb8_a8, rgba16_snorm, rgba16f, r32f, rg32f, d16, d24, d32f };
+enum class Format : std::uint8_t { r8, rgba8, srgb8_a8, rgba16_snorm, rgba16f, r32f, rg32f, rg32ui, d16, d24, d32f };
 /// fixed: contents given at creation, never changed by lists. read_back: written by CopyBuffer alone, for read_buffer.
 enum class BufferUse : std::uint8_t { fixed, updated, read_back };
 
@@ -20,6 +20,8 @@ std::uint32_t texel_bytes(Format format);
 /// Bytes of one texel as it is uploaded and read back: depth formats travel as one float.
 std::uint32_t transfer_bytes(Format format);
 bool is_depth(Format format);
+/// Whether shaders read and write whole numbers; BeginPass::colour is cut to such.
+bool is_integer(Format format);
 const char* to_text(Format format);
 
 struct TextureDesc {

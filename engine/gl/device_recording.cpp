@@ -250,7 +250,7 @@ Created<SamplerHandle> RecordingDevice::create_sampler(const SamplerDesc& desc) 
 
 Created<BufferHandle> RecordingDevice::create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) {
     const auto kind = Kind::create_buffer;
-    const std::optional<Failure> failure = injected(Call::creation, nullptr);
+    const std::optional<Failure> failure = injected(Call::creation, &desc.label);
     const Failure checked = check_buffer(desc, bytes.size());
     if (checked != Failure::none) {
         find(Misuse::bad_description, quoted(desc.label, "size or bytes"));

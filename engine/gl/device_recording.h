@@ -105,7 +105,7 @@ public:
     void fail_call(std::uint64_t index, Failure failure);
     /// Fails that call and every later one until stop_failing(); without `submissions`, all but creations succeed.
     void fail_from(std::uint64_t index, Failure failure, bool submissions);
-    /// Fails every create_texture, create_target and create_program whose label contains `text`.
+    /// Fails every create_texture, create_buffer, create_target and create_program whose label contains `text`.
     void fail_label(std::string text, Failure failure);
     void stop_failing();
     std::uint64_t calls() const;  // create_*, submit and read_buffer calls so far

@@ -1,6 +1,7 @@
 #include "engine/gl/gl45_execute.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "engine/gl/validate.h"
@@ -142,7 +143,7 @@ public:
         set_enabled(GL_FRAMEBUFFER_SRGB, target != nullptr);
         glViewport(c.viewport.x, c.viewport.y, c.viewport.width, c.viewport.height);
         set_scissor({});
-        clear(c, target == nullptr ? 1 : target->colours);
+        clear(c, target == nullptr ? GlTarget{0, 0, 0, 1} : *target);
     }
     void operator()(const EndPass&) {
         if (!in_pass_) note(Failure::invalid_value);
@@ -297,7 +298,7 @@ private:
         set_enabled(GL_SCISSOR_TEST, rect.width > 0);
         if (rect.width > 0) glScissor(rect.x, rect.y, rect.width, rect.height);
     }
-    void clear(const BeginPass& c, std::size_t colours) {
+    void clear(const BeginPass& c, const GlTarget& target) {
         in_target_ = static_cast<bool>(c.target);
         if (c.clear_depth) {
             glDepthMask(GL_TRUE);  // clears obey the mask of the pipeline before
@@ -305,8 +306,14 @@ private:
             if (pipeline_) glDepthMask(pipeline_->depth_write ? GL_TRUE : GL_FALSE);
         }
         if (!c.clear_colour) return;
-        for (std::size_t i = 0; i < colours; ++i) {
-            glClearBufferfv(GL_COLOR, static_cast<GLint>(i), c.colour.data());
+        std::array<GLuint, 4> whole{};
+        std::transform(c.colour.begin(), c.colour.end(), whole.begin(),
+                       [](float value) { return static_cast<GLuint>(std::max(value, 0.0f)); });
+        for (std::size_t i = 0; i < target.colours; ++i) {
+            if ((target.integer_colours >> i & 1u) != 0)
+                glClearBufferuiv(GL_COLOR, static_cast<GLint>(i), whole.data());
+            else
+                glClearBufferfv(GL_COLOR, static_cast<GLint>(i), c.colour.data());
         }
     }
     bool can_draw(GLuint layout) {

@@ -127,6 +127,8 @@ GlFormat gl_format(Format format) {
             return {GL_R32F, GL_RED, GL_FLOAT};
         case Format::rg32f:
             return {GL_RG32F, GL_RG, GL_FLOAT};
+        case Format::rg32ui:
+            return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
         case Format::d16:
             return {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_FLOAT};
         case Format::d24:
@@ -314,6 +316,8 @@ Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects) {
     for (std::size_t i = 0; i < desc.colours.size(); ++i) {
         points[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
         add(points[i], desc.colours[i]);
+        const GlTexture* texture = find_object(objects.textures, desc.colours[i].texture.id);
+        if (texture != nullptr && is_integer(texture->desc.format)) target.integer_colours |= 1u << i;
     }
     if (desc.depth.texture) add(GL_DEPTH_ATTACHMENT, desc.depth);
     if (desc.colours.empty()) glNamedFramebufferReadBuffer(target.name, GL_NONE);

@@ -21,6 +21,7 @@ struct GlTarget {
     GLuint name = 0;
     std::uint32_t width = 0, height = 0;  // what all attachments share
     std::size_t colours = 0;
+    std::uint32_t integer_colours = 0;  // a bit per colour attachment
 };
 
 struct GlObjects {

@@ -1,6 +1,7 @@
 // visibility(position, normal, error): the fraction of `light` that reaches a point, for any renderer.
 // Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint, and
-// SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one.
+// SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one,
+// SHADOW_TRIANGLES if it reads which triangles texels show (then row.glsl brings CameraBlock and InstanceBuffer).
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface
@@ -8,17 +9,20 @@
 #ifdef SHADOW_DEPTHS
 // Compares on the receiver's own plane: of the offset, only what snapping and rounding need is left.
 float shadow_bias_texel() { return 0.0; }
-float filtered(ShadowPoint point, vec3 normal) {
+float filtered(ShadowPoint point, vec3 normal, float error_m) {
     if (!point.covered) return 1.0;
 #ifdef SHADOW_MANUAL_BIAS
     if (compares_on_plane()) point = on_receiver_plane(point, normal);
 #endif
     point.slope = shadow_slope(point, normal);
+#ifdef SHADOW_TRIANGLES
+    point.error_m = error_m;
+#endif
     return shadow_filter(point);
 }
 #else
 float shadow_bias_texel() { return SHADOW_REACH_TEXEL; }
-float filtered(ShadowPoint point, vec3 normal) {
+float filtered(ShadowPoint point, vec3 normal, float error_m) {
 #ifdef SHADOW_MANUAL_BIAS
     if (point.covered && compares_on_plane()) point = on_receiver_plane(point, normal);
 #endif
@@ -29,13 +33,13 @@ float filtered(ShadowPoint point, vec3 normal) {
 
 float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
 #ifdef SHADOWED
-    float visible = filtered(shadow_point(position_ca, normal, error_m, shadow_bias_texel()), normal);
+    float visible = filtered(shadow_point(position_ca, normal, error_m, shadow_bias_texel()), normal, error_m);
 #ifdef SHADOW_FADES
     // A second lookup that the first one fades into: shadow_fade_share() of it. A loop of one round at most, because
     // software devices run both sides of an if, but no empty loop.
     for (float share = shadow_fade_share(); share > 0.0; share = 0.0) {
         ShadowPoint other = shadow_fade_point(position_ca, normal, error_m, shadow_bias_texel());
-        visible = mix(visible, filtered(other, normal), share);
+        visible = mix(visible, filtered(other, normal, error_m), share);
     }
 #endif
     return visible;

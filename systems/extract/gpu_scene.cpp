@@ -77,11 +77,40 @@ gl::Created<gl::BufferHandle> fixed_buffer(gl::Device& device, const char* label
     return device.create_buffer({label, bytes.size(), gl::BufferUse::fixed}, bytes);
 }
 
+/// Whether each triangle of the mesh is wholly there: what masks cut is not told by its corners.
+std::vector<bool> opaque_triangles(const assets::MeshLibrary& library, const assets::Mesh& mesh) {
+    std::vector<bool> opaque(mesh.indices.size() / 3, false);
+    for (const assets::Submesh& s : mesh.submeshes)
+        for (std::uint32_t i = s.first_index / 3; i < (s.first_index + s.index_count) / 3; ++i)
+            opaque[i] = library.materials[s.material].alpha_mode == assets::AlphaMode::opaque;
+    return opaque;
+}
+
 }  // namespace
+
+std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library) {
+    std::vector<CasterTriangle> triangles;
+    for (const assets::Mesh& mesh : library.meshes) {
+        const auto first = static_cast<std::uint32_t>(triangles.size());
+        const std::vector<std::uint32_t> neighbours = assets::triangle_neighbours(mesh);
+        const std::vector<bool> opaque = opaque_triangles(library, mesh);
+        for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
+            CasterTriangle& triangle = triangles.emplace_back();
+            for (std::size_t c = 0; c < 3; ++c) {
+                triangle.corners[c].position_ms = mesh.vertices[mesh.indices[3 * t + c]].position_ms;
+                const std::uint32_t across = neighbours[3 * t + c];
+                if (across != assets::kNoNeighbour && opaque[t] && opaque[across])
+                    triangle.corners[c].across = first + across;
+            }
+        }
+    }
+    return triangles;
+}
 
 Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary& library) {
     GpuScene scene;
     scene.device_ = &device;
+    scene.library_ = &library;
     const auto failed = [](const char* what, gl::Failure failure) {
         return Error{
             std::string("the GPU could not hold ") + what + " (" + gl::to_text(failure) + ")", {}, {}, "gpu.scene"};
@@ -167,6 +196,13 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
     return scene;
 }
 
+bool GpuScene::provide_caster_triangles() {
+    if (caster_triangles_ || !triangles_retry_.due(++triangles_asked_)) return static_cast<bool>(caster_triangles_);
+    caster_triangles_ = fixed_buffer(*device_, "caster triangles", caster_triangles_of(*library_)).handle;
+    if (!caster_triangles_) triangles_retry_.failed(triangles_asked_);
+    return static_cast<bool>(caster_triangles_);
+}
+
 GpuScene::GpuScene(GpuScene&& other) noexcept { *this = std::move(other); }
 
 GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
@@ -178,6 +214,10 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     instances_ = std::exchange(other.instances_, {});
     triangle_normals_ = std::exchange(other.triangle_normals_, {});
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
+    caster_triangles_ = std::exchange(other.caster_triangles_, {});
+    library_ = other.library_;
+    triangles_retry_ = other.triangles_retry_;
+    triangles_asked_ = other.triangles_asked_;
     instance_capacity_ = std::exchange(other.instance_capacity_, 0);
     upload_all_ = std::exchange(other.upload_all_, false);
     records_ = std::move(other.records_);
@@ -195,7 +235,8 @@ GpuScene::~GpuScene() { release(); }
 
 void GpuScene::release() {
     if (!device_) return;
-    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_})
+    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_,
+                                     caster_triangles_})
         device_->destroy(b);
     for (const gl::TextureHandle t : textures_) device_->destroy(t);
     for (const gl::SamplerHandle s : samplers_) device_->destroy(s);

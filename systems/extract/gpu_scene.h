@@ -1,11 +1,14 @@
 #pragma once
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
+#include "engine/assets/mesh_topology.h"
 #include "engine/core/result.h"
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
+#include "systems/retry.h"
 
 namespace gnomon {
 
@@ -26,10 +29,24 @@ struct MaterialRecord {
 };
 static_assert(sizeof(MaterialRecord) == 48);
 
+/// Matches CasterTriangle in shaders/shadow/caster_triangles.glsl (std430): corners in model space, and what lies beyond
+/// the edge that starts at each.
+struct CasterTriangle {
+    struct Corner {
+        glm::vec3 position_ms{0.0f};
+        std::uint32_t across = assets::kNoNeighbour;  // a triangle of the common index buffer
+    };
+    Corner corners[3];
+};
+static_assert(sizeof(CasterTriangle) == 48);
+
+/// All triangles of a library, in the order of the common index buffer. Neighbours are of the same mesh and opaque both.
+std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library);
+
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
 class GpuScene {
 public:
-    /// Error (rule "gpu.scene") if the device cannot hold the library; nothing is left behind then.
+    /// `library` must outlive the scene: what only some lights ask for is made of it later. Error (rule "gpu.scene") if the device cannot hold the library; nothing is left behind then.
     static Result<GpuScene> create(gl::Device& device, const assets::MeshLibrary& library);
     GpuScene(GpuScene&&) noexcept;
     GpuScene& operator=(GpuScene&&) noexcept;
@@ -41,6 +58,10 @@ public:
     std::uint32_t capacity() const { return instance_capacity_; }
     /// To be called when a submission failed: what it was to upload is uploaded again by the next update().
     void forget_uploads() { upload_all_ = true; }
+
+    /// Makes caster_triangles() where there is none; to be called each frame that a light reads them. False: the device
+    /// has no room; it is asked again after Retry::kFrames such frames.
+    bool provide_caster_triangles();
 
     struct MeshRange {
         std::int32_t base_vertex = 0;
@@ -73,6 +94,8 @@ public:
     gl::BufferHandle triangle_normals() const {
         return triangle_normals_;
     }  // vec4 per triangle of `indices`, model space
+    /// CasterTriangle per triangle of `indices`; {0} until provided.
+    gl::BufferHandle caster_triangles() const { return caster_triangles_; }
     gl::BufferHandle material_uniforms() const { return material_uniforms_; }
 
 private:
@@ -80,7 +103,11 @@ private:
     void release();
 
     gl::Device* device_ = nullptr;
+    const assets::MeshLibrary* library_ = nullptr;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
+    gl::BufferHandle caster_triangles_{};
+    Retry triangles_retry_;
+    std::uint64_t triangles_asked_ = 0;
     std::uint32_t instance_capacity_ = 0;
     bool upload_all_ = false;
     std::vector<InstanceRecord> records_;

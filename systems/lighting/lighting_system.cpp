@@ -211,10 +211,15 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
     list.add(gl::BindTexture{3, targets_.material, point_sampler_});
 }
 
-void LightingSystem::bind_light(const shadow::LightingLight& light, std::uint32_t index, gl::CommandList& list) const {
+void LightingSystem::bind_light(const shadow::LightingLight& light, std::uint32_t index, const GpuScene& gpu,
+                                gl::CommandList& list) const {
     list.add(
         gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
     if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
+    if (!light.row.triangles) return;
+    list.add(gl::BindTexture{5, light.triangles, {}});
+    list.add(gl::BindStorage{0, gpu.instances()});
+    list.add(gl::BindStorage{2, gpu.caster_triangles()});
 }
 
 /// The program of a row; where it cannot be had, that of the same light without its shadow.
@@ -227,7 +232,7 @@ LightingSystem::RowProgram LightingSystem::row_program(const shadow::ProgramRow&
 }
 
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
-                                   gl::CommandList& list, FrameReport& report) {
+                                   const GpuScene& gpu, gl::CommandList& list, FrameReport& report) {
     list.add(gl::BeginGroup{"lights"});
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
@@ -245,7 +250,7 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         list.add(gl::SetPipeline{
             {row.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
         bind_surface_textures(list);
-        bind_light(light, i, list);
+        bind_light(light, i, gpu, list);
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
         list.add(gl::EndTimer{lighting_timer(light.light)});
@@ -284,7 +289,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
             if (!state.program || inputs.lights[i].screen.width <= 0) continue;
             state.blend = gl::Blend::add;
             list.add(gl::SetPipeline{state});
-            bind_light(inputs.lights[i], i, list);
+            bind_light(inputs.lights[i], i, gpu, list);
             list.add(meshes);
         }
     }
@@ -336,14 +341,14 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
         depths_.record({scene.consumers[inputs.consumer].entity, targets_.depth, point_sampler_, uniforms_.handle(),
                         targets_.size_px()},
                        list);
-    record_lights(inputs, scene, list, report);
+    record_lights(inputs, scene, gpu, list, report);
     record_blended(inputs, gpu, list, report);
     record_finish(list);
     return true;
 }
 
 bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light,
-                                       gl::CommandList& list) {
+                                       const GpuScene& gpu, gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
     const shadow::LightingLight& item = inputs.lights[light];
     const gl::ProgramHandle program = programs_.row(item.row, RowOutput::visibility);
@@ -353,7 +358,7 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
     list.add(gl::BeginPass{targets_.visibility_target, viewport(), false, 0.0f, true, {kNoSurface, 0.0f, 0.0f, 0.0f}});
     list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     bind_surface_textures(list);
-    bind_light(item, light, list);
+    bind_light(item, light, gpu, list);
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::EndGroup{});

@@ -53,7 +53,8 @@ public:
 
     /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of
     /// the last record() of the same inputs. False if it cannot be done.
-    bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, gl::CommandList& list);
+    bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
+                           gl::CommandList& list);
 
     /// Where the pixels of an earlier picture lie, the newest that is known: see DepthSampler::collect().
     void collect_depths(SampledDepths& depths) { depths_.collect(depths); }
@@ -87,15 +88,16 @@ private:
     void upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const LightingSettings& settings,
                 gl::CommandList& list);
     void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
-    void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, gl::CommandList& list,
-                       FrameReport& report);
+    void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
+                       gl::CommandList& list, FrameReport& report);
     void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
                         FrameReport& report);
     void record_finish(gl::CommandList& list);
     void bind_surface_textures(gl::CommandList& list) const;
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
-    void bind_light(const shadow::LightingLight& light, std::uint32_t index, gl::CommandList& list) const;
+    void bind_light(const shadow::LightingLight& light, std::uint32_t index, const GpuScene& gpu,
+                    gl::CommandList& list) const;
     gl::Rect viewport() const;
 
     gl::Device& device_;

@@ -20,6 +20,9 @@ std::uint32_t of_directions(const LightShadow&, bool cube) { return cube ? 20 : 
 /// Where the first, a fetch of four, does not settle it: sixteen, and two neighbours of each that is above the plane.
 std::uint32_t of_votes(const LightShadow&, bool) { return 1 + 16 * 3; }
 
+/// The same, and which triangles the four show.
+std::uint32_t of_triangles(const LightShadow& shadow, bool cube) { return of_votes(shadow, cube) + 4; }
+
 // E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
 // a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts
 // the votes of texels up to 2 away and looks at their neighbours, but only where the four around the receiver do not
@@ -45,6 +48,8 @@ constexpr FilterRow kRows[] = {
      FilterWidth::spread, MapReading::compare_nearest},
     {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
      MapReading::depths, FilterStorage::depth, 2.5f},
+    {ShadowFilter::triangles, "triangles", "shadow/filters/triangles.glsl", of_triangles, 3.0f, FilterWidth::fixed,
+     MapReading::depths, FilterStorage::depth_and_triangle, 2.5f},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

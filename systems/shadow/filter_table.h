@@ -14,8 +14,8 @@ enum class FilterWidth : std::uint8_t {
     spread  // filter_spread_texel, filter_spread_m, filter_doubles_m
 };
 
-/// What a filter reads.
-enum class FilterStorage : std::uint8_t { depth };
+/// What a map holds for a filter: depth, or also which triangle each texel shows (shaders/shadow/caster_triangles.glsl).
+enum class FilterStorage : std::uint8_t { depth, depth_and_triangle };
 
 /// What its sampler returns: results of comparing, as they are or blended by hardware, or what is stored.
 enum class MapReading : std::uint8_t { compare_nearest, compare_linear, depths };

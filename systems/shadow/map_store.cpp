@@ -5,6 +5,7 @@
 
 #include "systems/shadow/cube_route.h"
 #include "systems/shadow/depth_format.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 
@@ -20,6 +21,19 @@ struct Signature {
     void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
     void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
 };
+
+/// What each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl).
+gl::TextureDesc triangles_of(gl::TextureDesc desc) {
+    desc.label += ", triangles";
+    desc.format = gl::Format::rg32ui;
+    return desc;
+}
+
+gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
+    gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
+    if (map.triangles) target.colours.push_back({map.triangles, layer});
+    return target;
+}
 
 }  // namespace
 
@@ -48,10 +62,14 @@ const LightHistory* MapStore::find(ecs::Entity light) const {
     return it == lights_.end() ? nullptr : &*it;
 }
 
+std::uint64_t MapStore::bytes(const LightHistory& history) {
+    if (!history.texture) return 0;
+    return gl::byte_size(history.desc) + (history.triangles ? gl::byte_size(triangles_of(history.desc)) : 0);
+}
+
 std::uint64_t MapStore::bytes() const {
     std::uint64_t sum = 0;
-    for (const LightHistory& h : lights_)
-        if (h.texture) sum += gl::byte_size(h.desc);
+    for (const LightHistory& history : lights_) sum += bytes(history);
     return sum;
 }
 
@@ -67,32 +85,41 @@ void MapStore::release(LightHistory& history) {
     for (const gl::TargetHandle target : history.targets) device_.destroy(target);
     device_.destroy(history.whole);
     device_.destroy(history.texture);
+    device_.destroy(history.triangles);
     history.whole = {};
     history.targets.clear();
     history.content.clear();
-    history.texture = {};
+    history.texture = history.triangles = {};
 }
 
-Reason MapStore::try_create(const gl::TextureDesc& desc, LightHistory& history) {
-    const auto texture = device_.create_texture(desc, {});
-    if (!texture) return Reason::map_allocation_failed;
-    std::vector<gl::TargetHandle> targets;
-    const std::uint32_t layers = desc.kind == gl::TextureKind::cube ? 6u : desc.layers;
-    for (std::uint32_t layer = 0; layer < layers; ++layer) {
-        const auto target = device_.create_target({desc.label, {}, {texture.handle, static_cast<std::int32_t>(layer)}});
-        if (!target) {
-            for (const gl::TargetHandle made : targets) device_.destroy(made);
-            device_.destroy(texture.handle);
-            return Reason::target_incomplete;
-        }
-        targets.push_back(target.handle);
+bool MapStore::make_targets(LightHistory& map) const {
+    for (std::uint32_t layer = 0; layer < gl::layer_count(map.desc); ++layer) {
+        const auto target = device_.create_target(target_of(map, static_cast<std::int32_t>(layer)));
+        if (!target) return false;
+        map.targets.push_back(target.handle);
+    }
+    return true;
+}
+
+Reason MapStore::try_create(const gl::TextureDesc& desc, bool triangles, LightHistory& history) {
+    LightHistory made;
+    made.desc = desc;
+    made.texture = device_.create_texture(desc, {}).handle;
+    if (made.texture && triangles) made.triangles = device_.create_texture(triangles_of(desc), {}).handle;
+    Reason reason = Reason::none;
+    if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
+    if (reason == Reason::none && !make_targets(made)) reason = Reason::target_incomplete;
+    if (reason != Reason::none) {
+        release(made);
+        return reason;
     }
     // The new map stands; only now does the old one go.
     release(history);
     history.desc = desc;
-    history.texture = texture.handle;
-    history.targets = std::move(targets);
-    history.content.assign(layers, 0);
+    history.texture = made.texture;
+    history.triangles = made.triangles;
+    history.targets = std::move(made.targets);
+    history.content.assign(history.targets.size(), 0);
     return Reason::none;
 }
 
@@ -100,8 +127,10 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     const LightKindRow& kind = light_kind_row(light.kind);
     const std::uint32_t layers = kind.texture == gl::TextureKind::cube ? 1u : demand.view_count;
     const gl::Format format = depth_format_row(demand.depth_format).texture;
+    const bool triangles = filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
     const gl::TextureDesc& held = history.desc;
-    if (history.texture && !(held.kind == kind.texture && held.layers == layers && held.format == format)) {
+    if (history.texture && !(held.kind == kind.texture && held.layers == layers && held.format == format &&
+                             static_cast<bool>(history.triangles) == triangles)) {
         // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
         release(history);
         history.wanted_px = 0;
@@ -121,7 +150,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(demand.resolution_px >> halving, 1u);
         if (halving > 0 && fits && desc.width <= history.desc.width) break;  // what we hold is as good
-        const Reason reason = try_create(desc, history);
+        const Reason reason = try_create(desc, triangles, history);
         if (reason == Reason::none) {
             if (halving > 0) history.failure = Reason::map_shrunk;
             break;
@@ -169,6 +198,7 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
         const LightHistory& history = *find(light.entity);
         ShadowSlot& slot = frame.slots[v];
         slot.texture = history.texture;
+        slot.triangles = history.triangles;
         slot.target = history.targets[view.layer];
         slot.size_px = history.desc.width;
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
@@ -190,8 +220,7 @@ void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
         const CubeRoute route = cube_route(light.shadow.cube_route, device_.info(), faces);
         if (route == CubeRoute::six_passes) continue;
         LightHistory& history = entry(light.entity);
-        if (!history.whole)
-            history.whole = device_.create_target({history.desc.label, {}, {history.texture, gl::kAllLayers}}).handle;
+        if (!history.whole) history.whole = device_.create_target(target_of(history, gl::kAllLayers)).handle;
         for (std::size_t v = first; v < end; ++v)
             if (drawn(v) && history.whole) {
                 frame.slots[v].whole = history.whole;

@@ -15,6 +15,7 @@ struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
+    gl::TextureHandle triangles{};          // beside it for a filter of FilterStorage::depth_and_triangle; else {0}
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
@@ -43,6 +44,7 @@ public:
 
     const LightHistory* find(ecs::Entity light) const;
     std::uint64_t bytes() const;
+    static std::uint64_t bytes(const LightHistory& history);
 
     static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
     static constexpr std::uint64_t kRetryFrames = 30;  // shadows are back within a second after memory is
@@ -53,7 +55,8 @@ private:
     void release(LightHistory& history);
     bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
     void choose_routes(const SceneSnapshot& scene, ShadowFrame& frame);
-    Reason try_create(const gl::TextureDesc& desc, LightHistory& history);
+    Reason try_create(const gl::TextureDesc& desc, bool triangles, LightHistory& history);
+    bool make_targets(LightHistory& map) const;
 
     gl::Device& device_;
     std::vector<LightHistory> lights_;

@@ -181,8 +181,10 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out.row.filter_file = filter.file;
             out.row.reach_texel = demand.filtering.reach_texel;
             out.row.depths = filter.reading == MapReading::depths;
+            out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
             out.map = slot.texture;
+            out.triangles = slot.triangles;
             out.sampler = samplers.of(filter.reading);
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);

@@ -7,19 +7,16 @@
 #include "shaders/embedded.h"
 #include "systems/extract/instance_order.h"
 #include "systems/frame_timers.h"
+#include "systems/shadow/depth_runs.h"
 #include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Index of a depth program. `automatic` has become one of the others by now.
-std::size_t which(CubeRoute route, bool masked) {
-    const std::size_t way = route == CubeRoute::layered_vertex ? 1 : (route == CubeRoute::layered_geometry ? 2 : 0);
-    return 2 * way + (masked ? 1 : 0);
-}
-
 /// Room for the uniforms of all faces of a cube, by face.
 constexpr std::size_t kFaces = 6;
+/// Of DrawItem::place, for the layer.
+constexpr std::uint32_t kLayerBits = 3;
 
 bool is_drawn(const ShadowFrame& frame, std::size_t view) {
     return frame.slots[view].target && !frame.slots[view].reuse;
@@ -68,17 +65,30 @@ DepthRecorder::~DepthRecorder() {
     for (const gl::ProgramHandle p : programs_) device_.destroy(p);
 }
 
-bool DepthRecorder::program(CubeRoute route, bool masked) {
-    const std::size_t i = which(route, masked);
+/// Index of a depth program. `automatic` has become one of the others by now.
+std::size_t DepthRecorder::which(const Way& way, bool masked) {
+    const std::size_t route =
+        way.route == CubeRoute::layered_vertex ? 1 : (way.route == CubeRoute::layered_geometry ? 2 : 0);
+    return 4 * route + (way.triangles ? 2 : 0) + (masked ? 1 : 0);
+}
+
+DepthRecorder::Way DepthRecorder::way_of(const ShadowSlot& slot) {
+    return {slot.route, static_cast<bool>(slot.triangles)};
+}
+
+bool DepthRecorder::program(const Way& way, bool masked) {
+    const std::size_t i = which(way, masked);
     if (programs_[i]) return true;
     if (!retries_[i].due(frame_)) return false;
     std::vector<std::string> defines;
     std::string label = masked ? "depth masked" : "depth opaque";
     if (masked) defines.emplace_back("MASKED 1");
-    if (route != CubeRoute::six_passes) defines.emplace_back("LAYERED 1");
-    if (route == CubeRoute::layered_vertex) defines.emplace_back("LAYER_BY_VERTEX 1");
-    const bool geometry = route == CubeRoute::layered_geometry;
-    if (route != CubeRoute::six_passes) label += geometry ? ", layer by geometry" : ", layer by vertex";
+    if (way.triangles) defines.emplace_back("TRIANGLES 1");
+    if (way.triangles) label += ", triangles";
+    if (way.route != CubeRoute::six_passes) defines.emplace_back("LAYERED 1");
+    if (way.route == CubeRoute::layered_vertex) defines.emplace_back("LAYER_BY_VERTEX 1");
+    const bool geometry = way.route == CubeRoute::layered_geometry;
+    if (way.route != CubeRoute::six_passes) label += geometry ? ", layer by geometry" : ", layer by vertex";
     const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
     const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
     const auto layer = gl::expand_shader(shader_files(), "shadow/depth/layer.geom", defines);
@@ -91,14 +101,24 @@ bool DepthRecorder::program(CubeRoute route, bool masked) {
 }
 
 /// What keeps these casters from being drawn: nothing, a program, or that the device has no room for their records.
-Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, CubeRoute route,
+Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way,
                             std::span<const std::uint32_t> casters) {
     bool masked = false;
     for (const std::uint32_t i : casters) {
         if (scene.instances[i].gpu_slot >= gpu.capacity()) return Reason::buffer_failed;
         masked = masked || has_masked(gpu, scene.instances[i].mesh);
     }
-    return program(route, false) && (!masked || program(route, true)) ? Reason::none : Reason::depth_program_failed;
+    return program(way, false) && (!masked || program(way, true)) ? Reason::none : Reason::depth_program_failed;
+}
+
+std::size_t DepthRecorder::item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
+                                      std::size_t v) const {
+    const IndexRange casters = frame.views[v].casters;
+    if (!frame.slots[v].triangles) return casters.count;
+    std::size_t items = 0;
+    for (const std::uint32_t i : std::span(frame.view_caster_items).subspan(casters.first, casters.count))
+        for_each_depth_run(gpu, scene.instances[i].mesh, [&](const DepthRun&) { ++items; });
+    return items;
 }
 
 void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
@@ -110,14 +130,14 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
         const LightTime time(frame, frame.demands[view.demand].light);
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
         const ShadowSlot& slot = frame.slots[v];
-        if (slot.whole && ready(scene, gpu, slot.route, casters) == Reason::depth_program_failed)
+        if (slot.whole && ready(scene, gpu, way_of(slot), casters) == Reason::depth_program_failed)
             draw_separately(frame, view.demand);
-        const Reason reason = ready(scene, gpu, slot.route, casters);
+        const Reason reason = ready(scene, gpu, way_of(slot), casters);
         if (reason != Reason::none) {
             drop_light(frame, view.demand, reason);
             continue;
         }
-        items += view.casters.count;
+        items += item_count(scene, gpu, frame, v);
         ++views;
     }
     if (views == 0) return;
@@ -134,7 +154,7 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
 /// light is in its box, there are only back faces, and the box does not tell which it is.
 gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                               const InstanceItem& item) const {
-    gl::PipelineState state = depth_state(programs_[which(route_, false)]);
+    gl::PipelineState state = depth_state(programs_[which(way_, false)]);
     const CasterFaces faces = light.shadow.caster_faces;
     const bool outside =
         view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
@@ -144,40 +164,23 @@ gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowV
     return state;
 }
 
+/// Draws `count` instances of a mesh. `items_per_draw`: between the items of one draw and those of the next.
 void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque,
-                             std::uint32_t count, gl::CommandList& list, LightReport& report) {
-    const GpuScene::MeshRange& range = gpu.mesh(mesh);
-    const auto draw = [&](const gl::PipelineState& state, std::uint32_t first_index, std::uint32_t index_count) {
+                             std::uint32_t first_item, std::uint32_t count, std::uint32_t items_per_draw,
+                             gl::CommandList& list, LightReport& report) {
+    for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
+        if (run.mask) {
+            list.add(gl::BindTexture{0, run.mask->texture, run.mask->sampler});
+            list.add(gl::BindUniforms{2, gpu.material_uniforms(), run.mask->uniform_offset, sizeof(MaterialRecord)});
+        }
+        const gl::PipelineState state = run.mask ? depth_state(programs_[which(way_, true)]) : opaque;
         if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
         pipeline_ = state;
-        list.add(gl::DrawMeshes{first_index, index_count, range.base_vertex, next_item_, count});
+        list.add(gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(mesh).base_vertex, first_item, count});
+        first_item += items_per_draw;
         ++report.draws;
-        report.triangles += std::uint64_t{index_count} / 3 * count;
-    };
-    // Opaque submeshes side by side are one draw; blended ones let light through and are left out.
-    std::uint32_t first = 0, length = 0;
-    const auto flush = [&] {
-        if (length > 0) draw(opaque, first, length);
-        length = 0;
-    };
-    for (std::uint32_t s = 0; s < range.submesh_count; ++s) {
-        const GpuScene::SubmeshRange& submesh = gpu.submesh(range.first_submesh + s);
-        const GpuScene::MaterialInfo& material = gpu.material(submesh.material);
-        if (material.alpha_mode == assets::AlphaMode::opaque && length > 0 && first + length == submesh.first_index) {
-            length += submesh.index_count;
-            continue;
-        }
-        flush();
-        if (material.alpha_mode == assets::AlphaMode::opaque) {
-            first = submesh.first_index;
-            length = submesh.index_count;
-        } else if (material.alpha_mode == assets::AlphaMode::mask) {
-            list.add(gl::BindTexture{0, material.texture, material.sampler});
-            list.add(gl::BindUniforms{2, gpu.material_uniforms(), material.uniform_offset, sizeof(MaterialRecord)});
-            draw(depth_state(programs_[which(route_, true)]), submesh.first_index, submesh.index_count);
-        }
-    }
-    flush();
+        report.triangles += std::uint64_t{run.index_count} / 3 * count;
+    });
 }
 
 void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
@@ -198,15 +201,14 @@ void DepthRecorder::gather_view(const SceneSnapshot& scene, const ShadowFrame& f
     if (std::any_of(casters.begin(), casters.end(), mirrored))
         std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });
-    for (std::size_t i = first; i < caster_scratch_.size(); ++i)
-        item_scratch_.push_back({scene.instances[caster_scratch_[i]].gpu_slot, 0});
+    layer_scratch_.resize(caster_scratch_.size(), 0);
 }
 
 /// The casters of all views, by mesh: one draw per mesh draws it into every face.
 void DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, Pass& pass) {
     const std::size_t at = view_scratch_.size();
     view_scratch_.resize(at + aligned(kFaces * sizeof(DepthViewRecord), device_.info().uniform_alignment));
-    layer_scratch_.clear();
+    pair_scratch_.clear();
     pass.views = 0;
     for (std::size_t v = pass.first; v < pass.end; ++v) {
         if (!is_drawn(frame, v)) continue;
@@ -214,27 +216,49 @@ void DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame&
         ++pass.views;
         append_uniforms(view, at + view.layer * sizeof(DepthViewRecord));
         for (std::uint32_t i = 0; i < view.casters.count; ++i)
-            layer_scratch_.emplace_back(frame.view_caster_items[view.casters.first + i], view.layer);
+            pair_scratch_.emplace_back(frame.view_caster_items[view.casters.first + i], view.layer);
     }
-    std::sort(layer_scratch_.begin(), layer_scratch_.end(), [&](const auto& a, const auto& b) {
+    std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
         return a.first != b.first ? drawn_before(scene, a.first, b.first) : a.second < b.second;
     });
-    for (const auto& [item, layer] : layer_scratch_) {
+    for (const auto& [item, layer] : pair_scratch_) {
         caster_scratch_.push_back(item);
-        item_scratch_.push_back({scene.instances[item].gpu_slot, layer});
+        layer_scratch_.push_back(layer);
     }
 }
 
+/// The items of a pass whose casters are known, in the order in which draw() takes them.
+void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
+                                 Pass& pass) {
+    pass.first_item = static_cast<std::uint32_t>(item_scratch_.size());
+    const auto casters = std::span(caster_scratch_).subspan(pass.casters.first, pass.casters.count);
+    const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
+        item_scratch_.push_back({scene.instances[casters[i]].gpu_slot,
+                                 layer_scratch_[pass.casters.first + i] | first_triangle << kLayerBits});
+    };
+    if (!frame.slots[pass.first].triangles) {
+        for (std::uint32_t i = 0; i < casters.size(); ++i) append(i, 0);
+        return;
+    }
+    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
+        for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
+            for (std::uint32_t i = first; i < first + count; ++i) append(i, run.first_index / 3);
+        });
+    });
+}
+
 /// What this frame draws, pass by pass.
-void DepthRecorder::gather(const SceneSnapshot& scene, const ShadowFrame& frame) {
+void DepthRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame) {
     passes_.clear();
+    layer_scratch_.clear();
     caster_scratch_.clear();
     item_scratch_.clear();
     view_scratch_.clear();
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
         if (!is_drawn(frame, v)) continue;
         Pass pass{
-            v, v + 1, static_cast<bool>(frame.slots[v].whole), 1, static_cast<std::uint32_t>(view_scratch_.size()), {}};
+            v,  v + 1, static_cast<bool>(frame.slots[v].whole), 1, static_cast<std::uint32_t>(view_scratch_.size()),
+            {}, 0};
         pass.casters.first = static_cast<std::uint32_t>(caster_scratch_.size());
         if (pass.layered) {
             while (pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand) ++pass.end;
@@ -243,6 +267,7 @@ void DepthRecorder::gather(const SceneSnapshot& scene, const ShadowFrame& frame)
             gather_view(scene, frame, v);
         }
         pass.casters.count = static_cast<std::uint32_t>(caster_scratch_.size()) - pass.casters.first;
+        append_items(scene, gpu, frame, pass);
         passes_.push_back(pass);
         v = pass.end - 1;
     }
@@ -274,23 +299,28 @@ void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const 
     const auto casters = std::span(caster_scratch_).subspan(pass.casters.first, pass.casters.count);
     const ShadowView& view = frame.views[pass.first];
     pipeline_ = {};
-    route_ = frame.slots[pass.first].route;
-    next_item_ = pass.casters.first;
+    way_ = way_of(frame.slots[pass.first]);
+    std::uint32_t next_item = pass.first_item;
     const LightItem& light = scene.lights[frame.demands[view.demand].light];
     const auto state_of = [&](std::uint32_t i) { return opaque_state(gpu, view, light, scene.instances[casters[i]]); };
     for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t from = first, to = first; from < first + count; from = to) {
             const gl::PipelineState state = state_of(from);
             while (to < first + count && state_of(to) == state) ++to;
-            draw_run(gpu, mesh, state, to - from, list, report);
-            next_item_ += to - from;
+            draw_run(gpu, mesh, state, next_item + from - first, to - from, way_.triangles ? count : 0, list, report);
         }
+        std::uint32_t draws = 1;
+        if (way_.triangles) {
+            draws = 0;
+            for_each_depth_run(gpu, mesh, [&](const DepthRun&) { ++draws; });
+        }
+        next_item += draws * count;
     });
 }
 
 void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                            FrameReport& report) {
-    gather(scene, frame);
+    gather(scene, gpu, frame);
     if (passes_.empty()) return;
     list.update(items_.handle(), 0, std::span<const DrawItem>(item_scratch_));
     list.update(views_.handle(), 0, std::span<const std::byte>(view_scratch_));

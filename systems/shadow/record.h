@@ -31,19 +31,31 @@ public:
 
 private:
     struct DrawItem {
-        std::uint32_t instance, layer;
+        std::uint32_t instance;
+        std::uint32_t place;  // layer, and above its three bits the first triangle of the draw
+    };
+    /// Which of the depth programs a pass uses; each has an opaque and a masked one.
+    struct Way {
+        CubeRoute route = CubeRoute::six_passes;
+        bool triangles = false;  // writes which triangle each texel shows
     };
     /// Views [first, end) of one light that one pass draws (those of them that are drawn), and what they draw.
     struct Pass {
         std::size_t first = 0, end = 0;
         bool layered = false;
         std::uint32_t views = 0, uniform_offset = 0;
-        IndexRange casters;  // into caster_scratch_, and into the items
+        IndexRange casters;            // into caster_scratch_ and layer_scratch_
+        std::uint32_t first_item = 0;  // an item per caster; with triangles, one per caster and draw of its mesh
     };
-    bool program(CubeRoute route, bool masked);
-    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, CubeRoute route,
+    static std::size_t which(const Way& way, bool masked);
+    static Way way_of(const ShadowSlot& slot);
+    bool program(const Way& way, bool masked);
+    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way,
                  std::span<const std::uint32_t> casters);
-    void gather(const SceneSnapshot& scene, const ShadowFrame& frame);
+    std::size_t item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
+                           std::size_t view) const;
+    void gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame);
+    void append_items(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, Pass& pass);
     void gather_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t view);
     void gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, Pass& pass);
     void append_uniforms(const ShadowView& view, std::size_t at);
@@ -52,11 +64,12 @@ private:
               gl::CommandList& list, LightReport& report);
     gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                    const InstanceItem& item) const;
-    void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t count,
-                  gl::CommandList& list, LightReport& report);
+    void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t first_item,
+                  std::uint32_t count, std::uint32_t items_per_draw, gl::CommandList& list, LightReport& report);
 
     gl::Device& device_;
-    static constexpr std::size_t kPrograms = 6;  // three ways to choose the layer, opaque and masked
+    static constexpr std::size_t kPrograms =
+        12;  // three ways to choose the layer, opaque and masked, depth alone or triangles, too
     gl::ProgramHandle programs_[kPrograms]{};
     Retry retries_[kPrograms];
     std::uint64_t frame_ = 0;
@@ -64,11 +77,11 @@ private:
     std::vector<Pass> passes_;
     std::vector<std::uint32_t> caster_scratch_;  // indices into the scene's instances, one per item
     std::vector<DrawItem> item_scratch_;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> layer_scratch_;  // instance, layer
+    std::vector<std::uint32_t> layer_scratch_;                           // one per caster_scratch_
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pair_scratch_;  // instance, layer
     std::vector<std::byte> view_scratch_;
-    std::uint32_t next_item_ = 0;
-    gl::PipelineState pipeline_;               // of the pass being recorded
-    CubeRoute route_ = CubeRoute::six_passes;  // of that pass
+    gl::PipelineState pipeline_;  // of the pass being recorded
+    Way way_;                     // of that pass
 };
 
 }  // namespace gnomon::shadow

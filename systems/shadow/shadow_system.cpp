@@ -33,8 +33,17 @@ bool ShadowSystem::samplers_ready() {
     return samplers_.nearest && samplers_.linear && (samplers_.depths || !reads_depths);
 }
 
-const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows,
-                                        gl::CommandList& list, FrameReport& report) {
+/// Lights that read triangles are lit while the device has no room for them.
+void ShadowSystem::provide_triangles(GpuScene& gpu) {
+    for (std::size_t d = 0; d < frame_.demands.size(); ++d)
+        if (frame_.sets[d].skip == Reason::none &&
+            filter_row(frame_.demands[d].filter).storage == FilterStorage::depth_and_triangle &&
+            !gpu.caster_triangles() && !gpu.provide_caster_triangles())
+            frame_.sets[d].skip = Reason::buffer_failed;
+}
+
+const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
+                                        FrameReport& report) {
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
@@ -46,6 +55,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, const GpuSce
             if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
     select_sets(scene, frame_);
     fit_views(scene, history_, frame_);
+    provide_triangles(gpu);
     maps_.assign_slots(scene, frame_);
     recorder_.prepare(scene, gpu, frame_);
     publish_lights(scene, samplers_, frame_);
@@ -74,7 +84,7 @@ void ShadowSystem::write_report(const SceneSnapshot& scene, FrameReport& report)
         if (desc) {
             const std::uint64_t faces = desc->kind == gl::TextureKind::cube ? 6 : desc->layers;
             out.texels = std::uint64_t{desc->width} * desc->height * faces;
-            out.bytes = gl::byte_size(*desc);
+            out.bytes = MapStore::bytes(*history);
         }
         for (std::size_t v = 0; v < frame_.views.size(); ++v) {
             if (frame_.views[v].demand != i || !frame_.slots[v].texture) continue;

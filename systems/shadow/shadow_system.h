@@ -23,7 +23,7 @@ public:
 
     /// Runs all stages for `scene`, records the depth passes into `list` and fills report.lights.
     /// `shadows` false: every light is treated as disabled. Never throws; no device failure stops the frame.
-    const ShadowFrame& update(const SceneSnapshot& scene, const GpuScene& gpu, bool shadows, gl::CommandList& list,
+    const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report);
 
     /// To be called after the list was submitted: `drawn` says whether it was executed without failure.
@@ -35,6 +35,7 @@ public:
 
 private:
     bool samplers_ready();
+    void provide_triangles(GpuScene& gpu);
     void write_report(const SceneSnapshot& scene, FrameReport& report) const;
 
     gl::Device& device_;

@@ -102,6 +102,7 @@ struct ShadowView {
 /// Struct 5. Where the view lives, and whether last frame's content still holds.
 struct ShadowSlot {
     gl::TextureHandle texture{};
+    gl::TextureHandle triangles{};  // FilterStorage::depth_and_triangle: what each texel shows; else {0}
     gl::TargetHandle target{};
     gl::TargetHandle whole{};  // all layers of the light's map, where one pass draws all of its views; else {0}
     CubeRoute route = CubeRoute::six_passes;
@@ -163,6 +164,7 @@ struct ProgramRow {
     bool fades = false;        // looks up a second view that the first one fades into
     bool depths = false;       // reads depths from the map, where other filters read results of comparing with it
     bool manual_bias = false;  // any BiasMode but automatic
+    bool triangles = false;    // reads which triangles texels show, and those triangles
     bool operator==(const ProgramRow&) const = default;
 };
 
@@ -170,7 +172,7 @@ struct ProgramRow {
 struct LightingLight {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
     ProgramRow row;
-    gl::TextureHandle map{};
+    gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
     gl::SamplerHandle sampler{};
     gl::Rect screen{};  // pixels the light can reach; empty: none
     LightRecord record;

@@ -38,7 +38,7 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
         const auto* first = reinterpret_cast<const std::byte*>(&value);
         bytes.insert(bytes.end(), first, first + sizeof value);
     };
-    const std::size_t channels = format == Format::rg32f                                                  ? 2
+    const std::size_t channels = format == Format::rg32f || format == Format::rg32ui                      ? 2
                                  : format == Format::r8 || format == Format::r32f || gl::is_depth(format) ? 1
                                                                                                           : 4;
     for (std::size_t i = 0; i < texels * channels; ++i) {
@@ -58,6 +58,9 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
             case Format::r32f:
             case Format::rg32f:
                 add(static_cast<float>(i) * -1.25f);
+                break;
+            case Format::rg32ui:
+                add(0xffffffffu - static_cast<std::uint32_t>(i));
                 break;
             case Format::d16:
             case Format::d24:
@@ -149,6 +152,7 @@ constexpr std::array kFormatNames = {std::pair{"r8", Format::r8},
                                      std::pair{"rgba16f", Format::rgba16f},
                                      std::pair{"r32f", Format::r32f},
                                      std::pair{"rg32f", Format::rg32f},
+                                     std::pair{"rg32ui", Format::rg32ui},
                                      std::pair{"d16", Format::d16},
                                      std::pair{"d24", Format::d24},
                                      std::pair{"d32f", Format::d32f}};

@@ -14,6 +14,10 @@ namespace gnomon {
 
 inline bool reads_depths(const shadow::FilterRow& filter) { return filter.reading == shadow::MapReading::depths; }
 
+inline bool reads_triangles(const shadow::FilterRow& filter) {
+    return filter.storage == shadow::FilterStorage::depth_and_triangle;
+}
+
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns in perspective
 /// and warped.
 inline std::vector<shadow::ProgramRow> all_rows() {
@@ -33,6 +37,9 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     for (const shadow::FilterRow& filter : shadow::filter_table())
         for (const bool fades : {false, true})
             rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
+    for (shadow::ProgramRow& row : rows)
+        for (const shadow::FilterRow& filter : shadow::filter_table())
+            row.triangles = row.triangles || (filter.file == row.filter_file && reads_triangles(filter));
     return rows;
 }
 
@@ -56,12 +63,16 @@ inline std::vector<gl::ProgramDesc> all_programs() {
                  {lighting::RowOutput::picture, lighting::RowOutput::visibility, lighting::RowOutput::blended})
                 add(lighting.row(row, output));
     }
-    for (const bool masked : {false, true}) {
-        const std::vector<std::string> defines(masked ? 1 : 0, "MASKED 1");
+    for (const int kind : {0, 1, 2, 3}) {
+        const bool masked = kind % 2 != 0, triangles = kind >= 2;
+        std::vector<std::string> defines;
+        if (masked) defines.emplace_back("MASKED 1");
+        if (triangles) defines.emplace_back("TRIANGLES 1");
         const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
         const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
         if (vertex && fragment)
-            programs.push_back({masked ? "depth masked" : "depth opaque", vertex.value(), fragment.value()});
+            programs.push_back({std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : ""), vertex.value(),
+                                fragment.value()});
     }
     if (const auto compute = gl::expand_shader(shader_files(), "shadow/depth_bins.comp", {}))
         programs.push_back({.label = "view distances", .compute = compute.value()});

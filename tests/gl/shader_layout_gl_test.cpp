@@ -132,6 +132,16 @@ std::vector<Block> expected_blocks() {
           {"instances[0].basis_z", offsetof(InstanceRecord, basis_z_high_z)},
           {"instances[0].low", offsetof(InstanceRecord, low_receives)}}},
         {GL_SHADER_STORAGE_BLOCK, "TriangleNormalBuffer", 1, 4 * sizeof(float), {{"triangle_normals[0]", 0}}},
+        {GL_SHADER_STORAGE_BLOCK,
+         "CasterTriangleBuffer",
+         2,
+         sizeof(CasterTriangle),
+         {{"caster_triangles[0].a", offsetof(CasterTriangle, corners[0].position_ms)},
+          {"caster_triangles[0].across_ab", offsetof(CasterTriangle, corners[0].across)},
+          {"caster_triangles[0].b", offsetof(CasterTriangle, corners[1].position_ms)},
+          {"caster_triangles[0].across_bc", offsetof(CasterTriangle, corners[1].across)},
+          {"caster_triangles[0].c", offsetof(CasterTriangle, corners[2].position_ms)},
+          {"caster_triangles[0].across_ca", offsetof(CasterTriangle, corners[2].across)}}},
         {GL_SHADER_STORAGE_BLOCK, "DepthBinBuffer", 0, sizeof(SampledDepths::pixels[0]), {{"depth_bins[0]", 0}}},
     };
 }

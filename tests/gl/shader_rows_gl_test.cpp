@@ -14,7 +14,7 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const std::size_t kinds = shadow::light_kind_table().size(), filters = shadow::filter_table().size();
     const std::size_t rows =
         kinds * (2 * filters + 1) + (kinds - 1) * filters + 3 * filters;  // all but cubes fade; perspective and warped suns
-    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 2, kCompute = 1;
+    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 4, kCompute = 1;
     ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + kCompute + debug::view_table().size());
     std::set<std::string> sources;
     for (const gl::ProgramDesc& desc : programs) {

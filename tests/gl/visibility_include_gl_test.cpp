@@ -22,6 +22,7 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kMap_px = 64;
+constexpr std::uint32_t kProbeBinding = 7;  // in probe.frag, beyond what rows bind
 constexpr double kNear_m = 1.0, kFar_m = 9.0, kHalf = 1.0;  // half: metres of the sun's map, tangent of the spot's
 
 // The worked example of docs/adding_a_filter.md: a file and a row.
@@ -72,6 +73,13 @@ protected:
     }
 
     bool reads_depths() const { return row_.reading == shadow::MapReading::depths; }
+    bool reads_triangles() const { return row_.storage == shadow::FilterStorage::depth_and_triangle; }
+    /// A map drawn by hand shows casters that are no triangles.
+    gl::TextureHandle no_triangles(gl::TextureKind kind) {
+        const std::vector<std::uint32_t> none(std::size_t{kMap_px} * kMap_px * 2 * (kind == gl::TextureKind::cube ? 6 : 1), 0xffffffffu);
+        return keep(device().create_texture({.label = "triangles", .kind = kind, .format = gl::Format::rg32ui, .width = kMap_px, .height = kMap_px},
+                                            std::as_bytes(std::span(none))));
+    }
     /// Whether values between lit and dark occur.
     bool blends() const { return row_.id != ShadowFilter::hard && !reads_depths(); }
     shadow::FilterDemand filtering() const { return shadow::filter_demand(row_, shadow_, kMap_px); }
@@ -86,7 +94,7 @@ protected:
         const std::string row = "#include \"" + std::string(kind_row.file) + "\"\n#include \"" + std::string(row_.file) + "\"\n";
         const std::string fragment =
             "#include \"row.glsl\"\n#include \"shadow/visibility.glsl\"\n"
-            "layout(std430, binding = 0) readonly buffer Probes { vec4 probes[]; };\n"
+            "layout(std430, binding = 7) readonly buffer Probes { vec4 probes[]; };\n"
             "layout(location = 0) out float result;\n"
             "void main() { result = shadow_visibility(probes[2 * int(gl_FragCoord.x)].xyz, probes[2 * int(gl_FragCoord.x) + 1].xyz, 0.0); }\n";
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
@@ -96,6 +104,7 @@ protected:
         files.push_back({kDiamond.file, diamond});
         std::vector<std::string> defines{"SHADOWED 1", "SHADOW_REACH_TEXEL " + std::to_string(filtering().reach_texel)};
         if (reads_depths()) defines.emplace_back("SHADOW_DEPTHS 1");
+        if (reads_triangles()) defines.emplace_back("SHADOW_TRIANGLES 1");
         const auto vertex = gl::expand_shader(files, "shared/fullscreen.vert", defines);
         const auto expanded = gl::expand_shader(files, "probe.frag", defines);
         if (!vertex || !expanded) {
@@ -140,8 +149,9 @@ protected:
         list.add(gl::BeginPass{.target = target, .viewport = {0, 0, static_cast<std::int32_t>(width), 1}});
         list.add(gl::SetPipeline{{.program = program_of(kind)}});
         list.add(gl::BindUniforms{1, uniforms, 0, sizeof light});
-        list.add(gl::BindStorage{0, buffer});
+        list.add(gl::BindStorage{kProbeBinding, buffer});
         list.add(gl::BindTexture{4, map, sampler});
+        if (reads_triangles()) list.add(gl::BindTexture{5, no_triangles(kind_row.texture), {}});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
         run(list);

@@ -11,7 +11,7 @@ namespace gnomon {
 struct Pass {
     std::string group;
     gl::BeginPass begin;
-    bool is_depth = false;                    // its target has no colours
+    bool is_depth = false;                    // its target has no colours but triangles
     std::vector<gl::PipelineState> pipelines; // as set, in order
     std::vector<gl::DrawMeshes> draws;
 };
@@ -24,7 +24,11 @@ inline std::vector<Pass> passes_of(const gl::CommandList& list, const gl::Record
         if (std::get_if<gl::EndGroup>(&command) && !groups.empty()) groups.pop_back();
         if (const auto* b = std::get_if<gl::BeginPass>(&command)) {
             const gl::TargetDesc* target = device.target(b->target);
-            passes.push_back({groups.empty() ? "" : groups.back(), *b, target && target->colours.empty(), {}, {}});
+            const auto is_triangles = [&](const gl::Attachment& colour) {
+                return gl::is_integer(device.texture(colour.texture)->format);
+            };
+            const bool is_depth = target && std::all_of(target->colours.begin(), target->colours.end(), is_triangles);
+            passes.push_back({groups.empty() ? "" : groups.back(), *b, is_depth, {}, {}});
         }
         if (const auto* p = std::get_if<gl::SetPipeline>(&command); p && !passes.empty()) passes.back().pipelines.push_back(p->state);
         if (const auto* d = std::get_if<gl::DrawMeshes>(&command); d && !passes.empty()) passes.back().draws.push_back(*d);

@@ -1,18 +1,22 @@
 // Depth of casters as a light sees them. Needs neither normals nor colours.
 // LAYERED: one pass for all faces of a cube; each draw item names its face. This stage sends it there (LAYER_BY_VERTEX),
 // or layer.geom does.
+// TRIANGLES: each draw item names the first triangle of its draw, too.
 #ifdef LAYER_BY_VERTEX
 #extension GL_ARB_shader_viewport_layer_array : require
 #endif
 #include "shared/instances.glsl"
 #include "shadow/depth/depth_view_block.glsl"
 layout(location = 0) in vec3 position_ms;
-layout(location = 3) in uvec2 draw_item;   // instance, face (LAYERED)
+layout(location = 3) in uvec2 draw_item;   // instance; face (LAYERED) in the lowest three bits, first triangle above
 #if defined(LAYERED) && !defined(LAYER_BY_VERTEX)
-layout(location = 0) flat out uint vertex_face;
+layout(location = 0) flat out uvec2 vertex_item;
 #define UV_OUT vertex_uv
 #else
 #define UV_OUT fragment_uv
+#if defined(TRIANGLES) && !defined(MASKED)
+layout(location = 0) flat out uvec2 fragment_item;
+#endif
 #endif
 #ifdef MASKED
 layout(location = 2) in vec2 uv;
@@ -20,8 +24,9 @@ out vec2 UV_OUT;
 #endif
 
 void main() {
+    uint face = draw_item.y & 7u;
 #ifdef LAYERED
-    DepthView depth_view = depth_views[draw_item.y];
+    DepthView depth_view = depth_views[face];
 #endif
     vec3 position_as = position_from_anchor(instances[draw_item.x], position_ms, depth_view.anchor_high.xyz,
                                             depth_view.anchor_low.xyz);
@@ -31,8 +36,11 @@ void main() {
     UV_OUT = uv;
 #endif
 #ifdef LAYER_BY_VERTEX
-    gl_Layer = int(draw_item.y);
+    gl_Layer = int(face);
 #elif defined(LAYERED)
-    vertex_face = draw_item.y;
+    vertex_item = draw_item;
+#endif
+#if defined(TRIANGLES) && !defined(MASKED) && (!defined(LAYERED) || defined(LAYER_BY_VERTEX))
+    fragment_item = uvec2(draw_item.x, draw_item.y >> 3);
 #endif
 }

@@ -6,6 +6,9 @@ layout(binding = 4) uniform sampler2DArray shadow_map;
 layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
 #endif
 
+#ifdef SHADOW_TRIANGLES
+layout(binding = 5) uniform usampler2DArray shadow_triangles;   // see shadow/caster_triangles.glsl
+#endif
 
 struct ShadowPoint {
     bool covered;       // false: no map holds this point, it is lit
@@ -14,6 +17,9 @@ struct ShadowPoint {
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec3 position_ca;   // what was asked for
+#ifdef SHADOW_TRIANGLES
+    float error_m;        // how far position_ca may be off the true surface
+#endif
 #ifdef SHADOW_DEPTHS
     float reference;    // map.z
 #endif
@@ -57,6 +63,11 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
     return textureGather(shadow_map, vec3(corner * point.texel_uv, point.layer));
 }
 
+#ifdef SHADOW_TRIANGLES
+uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
+    return texelFetch(shadow_triangles, ivec3(ivec2(middle), int(point.layer)), 0).xy;
+}
+#endif
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 

@@ -12,6 +12,10 @@ layout(binding = 4) uniform samplerCube shadow_map;
 layout(binding = 4) uniform samplerCubeShadow shadow_map;
 #endif
 
+#ifdef SHADOW_TRIANGLES
+layout(binding = 5) uniform usamplerCube shadow_triangles;   // see shadow/caster_triangles.glsl
+#endif
+
 struct ShadowPoint {
     bool covered;
     vec3 position;        // from the light, after the bias moved it
@@ -19,6 +23,9 @@ struct ShadowPoint {
     float bias_depth;
     vec2 spread_texel;    // half-width of a disk of taps
     vec3 position_ca;     // what was asked for
+#ifdef SHADOW_TRIANGLES
+    float error_m;        // how far position_ca may be off the true surface
+#endif
 #ifdef SHADOW_DEPTHS
     float reference;      // biased depth
     vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
@@ -111,6 +118,11 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
                 shadow_depth(point, corner + vec2(0.5, -0.5)), shadow_depth(point, corner - vec2(0.5, 0.5)));
 }
 
+#ifdef SHADOW_TRIANGLES
+uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
+    return textureLod(shadow_triangles, direction_to(point, middle), 0.0).xy;
+}
+#endif
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 float seam_texel(float reach_texel) { return reach_texel; }

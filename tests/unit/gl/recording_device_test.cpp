@@ -204,6 +204,7 @@ TEST_F(RecordingTest, LabelsFailUntilStopped) {
     device.fail_label("shadow", Failure::compile_failed);
     EXPECT_EQ(device.create_program({"spot shadow", "v", "f"}).failure, Failure::compile_failed);
     EXPECT_EQ(device.create_texture({.label = "shadow map"}, {}).failure, Failure::compile_failed);
+    EXPECT_EQ(device.create_buffer({.label = "shadow views", .size = 4}, {}).failure, Failure::compile_failed);
     EXPECT_EQ(device.create_target({.label = "shadow", .colours = {{colour}}}).failure, Failure::compile_failed);
     EXPECT_TRUE(device.create_program({"lighting", "v", "f"}));
     device.stop_failing();

@@ -1,0 +1,74 @@
+// Whether a triangle that a texel shows, or one beside it in its mesh, stands between a receiver and its light: the casters'
+// own corners decide, so that no texel's size enters.
+#include "shared/numerics.glsl"
+#include "shared/instances.glsl"
+#include "shared/camera_block.glsl"
+
+// C++ twin: CasterTriangle in systems/extract/gpu_scene.h. `across`: the triangle beyond the edge that starts at a corner.
+struct CasterTriangle {
+    vec3 a;
+    uint across_ab;
+    vec3 b;
+    uint across_bc;
+    vec3 c;
+    uint across_ca;
+};
+layout(std430, binding = 2) readonly buffer CasterTriangleBuffer { CasterTriangle caster_triangles[]; };
+
+const uint kNoTriangle = 0xffffffffu;
+const int kPasses = 0, kBlocked = 1, kUnknown = 2;
+// A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on.
+const int kMostSteps = 8;
+// Rounding of a difference, a cross product and a dot product, with their sums.
+const float kPlaneRounding = 12.0 * kUnitRoundoff;
+
+// From a point toward the light.
+vec3 toward_light(vec3 position_ca) {
+#ifdef LIGHT_DIRECTIONAL
+    return light.to_light.xyz;
+#else
+    return light.position.xyz - position_ca;
+#endif
+}
+
+vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
+    return position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
+}
+
+// Starts at the triangle that a texel shows (instance, triangle) and walks the mesh toward the receiver's ray, as long as it
+// faces the light the same way: past a contour or a boundary the sheet is over, and the ray passes it.
+// Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than rounding.
+int caster_verdict(uvec2 shown, vec3 position_ca, float error_m) {
+    InstanceRecord instance = instances[shown.x];
+    vec3 ray = toward_light(position_ca);
+    uint triangle = shown.y, came_from = kNoTriangle;
+    float facing = 0.0;
+    int verdict = kUnknown;
+    for (int step = 0; step < kMostSteps && verdict == kUnknown; ++step) {
+        CasterTriangle t = caster_triangles[triangle];
+        vec3 a_ca = corner_ca(instance, t.a);
+        vec3 a = a_ca - position_ca;
+        vec3 b = corner_ca(instance, t.b) - position_ca;
+        vec3 c = corner_ca(instance, t.c) - position_ca;
+        vec3 ab = b - a, ac = c - a;
+        vec3 normal = cross(ab, ac);
+        float faces = dot(normal, toward_light(a_ca));
+        float side = faces < 0.0 ? -1.0 : 1.0;
+        // Above 0: the ray passes on the inner side of the edge. That one came over it counts as such.
+        vec3 inside = side * vec3(dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a)));
+        uvec3 across = uvec3(t.across_ab, t.across_bc, t.across_ca);
+        if (came_from != kNoTriangle)
+            inside = vec3(across.x == came_from ? 0.0 : inside.x, across.y == came_from ? 0.0 : inside.y, across.z == came_from ? 0.0 : inside.z);
+        float least = min(inside.x, min(inside.y, inside.z));
+        uint next = inside.x == least ? across.x : (inside.y == least ? across.y : across.z);
+        float behind = side * dot(normal, a);
+        float rounding = error_m * length(normal) + kPlaneRounding * length(ab) * length(ac) * length(a);
+        if (facing * faces < 0.0) verdict = kPasses;
+        else if (least >= 0.0) verdict = behind > rounding ? kBlocked : kPasses;
+        else if (next == kNoTriangle) verdict = kPasses;
+        facing = faces;
+        came_from = triangle;
+        triangle = next;
+    }
+    return verdict;
+}

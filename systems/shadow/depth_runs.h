@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+
+#include "systems/extract/gpu_scene.h"
+
+namespace gnomon::shadow {
+
+/// Indices that one draw of a depth pass takes.
+struct DepthRun {
+    std::uint32_t first_index = 0, index_count = 0;
+    const GpuScene::MaterialInfo* mask = nullptr;  // of a masked run
+};
+
+/// Calls `use(DepthRun)` for each draw of a mesh: opaque submeshes side by side are one, masked ones one each; blended
+/// ones let light through and are left out.
+template <class Use>
+void for_each_depth_run(const GpuScene& gpu, std::uint32_t mesh, Use&& use) {
+    const GpuScene::MeshRange& range = gpu.mesh(mesh);
+    DepthRun opaque;
+    const auto flush = [&] {
+        if (opaque.index_count > 0) use(opaque);
+        opaque = {};
+    };
+    for (std::uint32_t s = 0; s < range.submesh_count; ++s) {
+        const GpuScene::SubmeshRange& submesh = gpu.submesh(range.first_submesh + s);
+        const GpuScene::MaterialInfo& material = gpu.material(submesh.material);
+        const bool solid = material.alpha_mode == assets::AlphaMode::opaque;
+        if (solid && opaque.index_count > 0 && opaque.first_index + opaque.index_count == submesh.first_index) {
+            opaque.index_count += submesh.index_count;
+            continue;
+        }
+        flush();
+        if (solid) opaque = {submesh.first_index, submesh.index_count, nullptr};
+        if (material.alpha_mode == assets::AlphaMode::mask)
+            use(DepthRun{submesh.first_index, submesh.index_count, &material});
+    }
+    flush();
+}
+
+}  // namespace gnomon::shadow

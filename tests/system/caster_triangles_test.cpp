@@ -1,0 +1,169 @@
+#include "systems/shadow/filter_table.h"
+#include "tests/system/frame_fixture.h"
+
+/// What a light whose filter reads triangles asks for, and that no other light pays for it.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+class CasterTriangles : public FrameTest {
+protected:
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+    }
+    ecs::Entity add_light(LightKind kind, const std::string& name, ShadowFilter filter) {
+        const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
+        choose(light, filter);
+        return light;
+    }
+    void choose(ecs::Entity light, ShadowFilter filter) {
+        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
+            s.filter = filter;
+            s.resolution_px = 256;
+        });
+    }
+    /// Units and storage bindings that the list binds to something.
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> bindings() const {
+        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> found;
+        for (const gl::Command& c : frame->commands().commands) {
+            if (const auto* t = std::get_if<gl::BindTexture>(&c); t && t->texture) found.first.push_back(t->unit);
+            if (const auto* s = std::get_if<gl::BindStorage>(&c)) found.second.push_back(s->binding);
+        }
+        return found;
+    }
+    std::vector<std::string> program_labels() const {
+        std::vector<std::string> labels;
+        for (const Pass& pass : depth_passes())
+            for (const gl::PipelineState& state : pass.pipelines) labels.push_back(device.program(state.program)->label);
+        return labels;
+    }
+    std::vector<std::string> triangle_labels() const { return map_labels(device, "caster triangles"); }
+    TestWorld::Stage stage;
+    static constexpr std::uint64_t kDepthBytes = 4, kTriangleBytes = 8;
+};
+
+TEST_F(CasterTriangles, LightsOfEveryOtherRowMakeBindAndDrawNothingOfThem) {
+    for (const shadow::FilterRow& row : shadow::filter_table())
+        if (row.storage == shadow::FilterStorage::depth)
+            add_light(LightKind::spot, std::string(row.name), row.id);
+    step();
+    EXPECT_THAT(triangle_labels(), IsEmpty());
+    EXPECT_THAT(bindings().first, Not(Contains(5u)));
+    EXPECT_THAT(bindings().second, Not(Contains(2u)));
+    EXPECT_THAT(program_labels(), Not(Contains(::testing::HasSubstr("triangles"))));
+    for (const LightReport& light : frame->report().lights) EXPECT_EQ(light.bytes, light.texels * kDepthBytes);
+}
+
+TEST_F(CasterTriangles, AreOneBufferForAllLightsThatReadThem) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    add_light(LightKind::directional, "sun", ShadowFilter::triangles);
+    add_light(LightKind::point, "bulb", ShadowFilter::triangles);
+    step();
+    EXPECT_THAT(triangle_labels(), SizeIs(1));
+    EXPECT_THAT(bindings().first, Contains(5u));
+    EXPECT_THAT(bindings().second, Contains(2u));
+    EXPECT_THAT(program_labels(), Each(::testing::HasSubstr("triangles")));
+    for (const LightReport& light : frame->report().lights) {
+        EXPECT_EQ(light.state, LightState::rendered) << light.name;
+        EXPECT_EQ(light.bytes, light.texels * (kDepthBytes + kTriangleBytes)) << light.name;
+    }
+    for (const Pass& pass : depth_passes()) EXPECT_FALSE(pass.begin.clear_colour) << "what depth does not cover is not read";
+    step();
+    for (const LightReport& light : frame->report().lights) EXPECT_EQ(light.state, LightState::reused) << light.name;
+    EXPECT_THAT(triangle_labels(), SizeIs(1));
+}
+
+TEST_F(CasterTriangles, OfALightThatReadsThemNoMoreAreFreed) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    EXPECT_THAT(map_labels(device), SizeIs(3)) << "depth, triangles, target";
+    choose(lamp, ShadowFilter::hard);
+    step();
+    EXPECT_THAT(map_labels(device), SizeIs(2));
+    EXPECT_EQ(light("lamp").bytes, light("lamp").texels * kDepthBytes);
+    EXPECT_EQ(light("lamp").state, LightState::rendered) << "what the old map held is gone";
+    choose(lamp, ShadowFilter::triangles);
+    step();
+    EXPECT_THAT(map_labels(device), SizeIs(3));
+}
+
+TEST_F(CasterTriangles, NameTheirInstanceAndTheFirstOfTheirDraw) {
+    // Its first half is opaque and its second masked: two draws, whose triangles are counted apart.
+    const ecs::Entity mixed = world.add_mesh(kMixedBox, {1, 1, 0}, true);
+    const ecs::Entity second = world.add_mesh(kMixedBox, {-1, 1, 0}, true);
+    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    const std::vector<Pass> drawn = depth_passes();
+    ASSERT_THAT(drawn, SizeIs(1));
+    gl::BufferHandle items{};
+    for (const gl::Command& c : frame->commands().commands)
+        if (const auto* bind = std::get_if<gl::BindMeshes>(&c); bind && device.buffer(bind->draw_items)->label == "shadow draw items")
+            items = bind->draw_items;
+    const auto bytes = device.buffer_bytes(items);
+    std::vector<std::uint32_t> slots;
+    for (const gl::DrawMeshes& draw : drawn[0].draws)
+        for (std::uint32_t i = 0; i < draw.item_count; ++i) {
+            std::uint32_t item[2] = {};
+            std::memcpy(item, bytes.data() + (draw.first_item + i) * sizeof item, sizeof item);
+            slots.push_back(item[0]);
+            EXPECT_EQ(item[1], draw.first_index / 3 << 3) << "face 0 in the lowest three bits";
+        }
+    EXPECT_THAT(slots, ::testing::UnorderedElementsAre(slot_of(stage.box), slot_of(mixed), slot_of(second), slot_of(mixed), slot_of(second)));
+}
+
+TEST_F(CasterTriangles, WithoutRoomForThemTheLightIsLitAndTriedAgain) {
+    device.fail_label("caster triangles", gl::Failure::out_of_memory);
+    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    add_light(LightKind::spot, "other", ShadowFilter::hard);
+    step();
+    EXPECT_EQ(light("lamp").state, LightState::skipped);
+    EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+    EXPECT_EQ(light("other").state, LightState::rendered);
+    device.stop_failing();
+    for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+}
+
+TEST(CasterTriangleRecords, HoldTheCornersAndCountNeighboursOverAllMeshes) {
+    const assets::MeshLibrary library = test_library();
+    const auto triangles = caster_triangles_of(library);
+    std::size_t at = 0, found = 0;
+    for (const assets::Mesh& mesh : library.meshes) {
+        const std::size_t first = at;
+        for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+            const CasterTriangle::Corner& corner = triangles.at(first + i / 3).corners[i % 3];
+            EXPECT_EQ(corner.position_ms, mesh.vertices[mesh.indices[i]].position_ms);
+            if (corner.across == assets::kNoNeighbour) continue;
+            ++found;
+            EXPECT_GE(corner.across, first);
+            EXPECT_LT(corner.across, first + mesh.indices.size() / 3);
+        }
+        at += mesh.indices.size() / 3;
+    }
+    EXPECT_EQ(triangles.size(), at);
+    EXPECT_GT(found, 0u);
+}
+
+TEST(CasterTriangleRecords, OfMasksHaveNoNeighbours) {
+    assets::MeshLibrary library = test_library();
+    const auto neighbours = [&](std::uint32_t mesh) {
+        library.meshes = {test_library().meshes[mesh]};
+        std::size_t count = 0;
+        for (const CasterTriangle& triangle : caster_triangles_of(library))
+            for (const auto& corner : triangle.corners) count += corner.across != assets::kNoNeighbour;
+        return count;
+    };
+    EXPECT_GT(neighbours(kSolidBox), 0u);
+    EXPECT_EQ(neighbours(kMaskedBox), 0u);
+    EXPECT_EQ(neighbours(kBlendedBox), 0u);
+    EXPECT_LT(neighbours(kMixedBox), neighbours(kSolidBox));
+}
+
+}  // namespace
+}  // namespace gnomon
