@@ -17,6 +17,14 @@ struct Bias {
     float depth;            // then add this to its reversed depth
 };
 
+#ifdef SHADOW_DEPTHS
+// How far off its plane a receiver seems to a filter that carries the plane to the texels around it, up to a texel away along
+// u and v: by as much as its normal is off. cosine: of the angle between normal and light.
+float carried_error_m(vec2 texel_m, float cosine) {
+    return kNormalError_rad * (texel_m.x + texel_m.y) * (1.0 + 1.0 / max(cosine, kNormalError_rad));
+}
+#endif
+
 // Tests take a share of an offset, to show that less is not enough.
 #ifdef SHADOW_BIAS_SHARE
 Bias taken(Bias bias) { return Bias(SHADOW_BIAS_SHARE * bias.along_normal_m, SHADOW_BIAS_SHARE * bias.depth); }

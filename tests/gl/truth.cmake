@@ -4,6 +4,7 @@ if(GNOMON_SAMPLE)
     truth_accuracy_gl_test.cpp
     truth_controls_gl_test.cpp
     truth_edges_gl_test.cpp
+    truth_planes_gl_test.cpp
     truth_warp_gl_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()

@@ -48,6 +48,11 @@ public:
         return any_within(pixel, reach_px,
                           [&](std::size_t a, std::size_t, std::uint8_t bit) { return (creases_[a] & bit) != 0; });
     }
+    /// Beyond it nobody looked for edges.
+    bool near_border(std::size_t pixel, double reach_px) const {
+        const std::size_t x = pixel % width_, y = pixel / width_;
+        return static_cast<double>(std::min({x, y, width_ - 1 - x, height_ - 1 - y})) < reach_px;
+    }
     static bool lit(float visibility) { return visibility >= 0.5f; }
 
 private:
@@ -79,7 +84,7 @@ FarErrors far_errors(const ComparedPictures& pictures, std::span<const std::uint
         if (shown_lit == Search::lit(pictures.truth[i])) continue;
         const double reach_px = std::max(kEdgeBandPx, static_cast<double>(allowed_px[i]));
         if (search.near_edge(i, reach_px)) continue;
-        if (search.near_crease(i, reach_px)) {
+        if (search.near_border(i, reach_px) || search.near_crease(i, reach_px)) {
             ++(shown_lit ? errors.crease_light : errors.crease_shadow);
         } else {
             ++(shown_lit ? errors.false_light : errors.false_shadow);

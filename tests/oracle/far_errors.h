@@ -18,7 +18,7 @@ inline constexpr std::uint8_t kCreaseRight = 1, kCreaseUp = 2;
 inline constexpr double kPlaneTolerance = 1.0e-6;  // as kJitter: positions are not told apart below
 
 /// Wrong pixels, scored and not ambiguous, farther from every true edge than max(kEdgeBandPx, allowed_px): those that
-/// are as far from every crease, and the others.
+/// are as far from every crease and from the picture's border, beyond which an edge may lie, and the others.
 struct FarErrors {
     std::size_t false_shadow = 0, false_light = 0;
     std::size_t crease_shadow = 0, crease_light = 0;

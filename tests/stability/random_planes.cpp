@@ -353,10 +353,11 @@ PlaneTally judge_planes(PlaneKind kind, ShadowFilter filter, DepthFormat format,
 
             const glm::dvec3 from_camera = place.position_m + views[0]->anchor_ws_m - maps.camera_ws_m;
             const double error_m = bench::glsl::kRebuiltRelative * glm::length(from_camera);
-            const double sum_m =
-                std::abs(place.position_m.x) + std::abs(place.position_m.y) + std::abs(place.position_m.z);
+            // As the shaders count it: a sun's along the axes, a lamp's from the light.
+            const glm::dvec3 far_m = glm::abs(place.position_m);
+            const double counted_m = orthographic ? far_m.x + far_m.y + far_m.z : glm::length(far_m);
             bench::glsl::Lookup::Question question{
-                from_camera - normal * (share() * error_m) + random.direction() * (kPositionRounding * sum_m), normal,
+                from_camera - normal * (share() * error_m) + random.direction() * (kPositionRounding * counted_m), normal,
                 error_m, 1.0};
             const glm::dvec3 off = random.direction() * bench::glsl::kNormalError_rad;
             question.normal = glm::normalize(normal + off - normal * glm::dot(normal, off));

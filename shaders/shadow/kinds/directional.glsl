@@ -29,6 +29,9 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     float rounding_m = error_m + view.numeric.y * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
+#ifdef SHADOW_DEPTHS
+    rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * (cascade_range_m(view, position_la) / view.axis_back.w), n_map.z);
+#endif
     Bias bias = cascade_bias(view, position_la, normal, n_map, reach, rounding_m);
 #ifdef SHADOW_MANUAL_BIAS
     if (light.options.y != 0) bias = manual_bias(orthographic_place(view, n_map.z, cascade_range_m(view, position_la)));

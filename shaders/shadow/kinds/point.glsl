@@ -163,6 +163,9 @@ ShadowPoint shadow_point(vec3 position_ca, vec3 normal_ws, float error_m, float 
     // Near a seam some taps land on the neighbour, whose axes see the plane's other tangents: take all three.
     vec3 n_map = normal * map_axes;
     float z_m = largest(position_la);
+#ifdef SHADOW_DEPTHS
+    rounding_m += carried_error_m(vec2(view.axis_u.w * z_m), -dot(normal, normalize(position_la)));
+#endif
     float second = max(abs(dot(position_la, axis_u)), abs(dot(position_la, axis_v)));
     // Its texels are larger there, by the share that the tap lies beyond the seam.
     vec2 tangents = abs(n_map.xy);

@@ -64,6 +64,15 @@ TEST(FarErrors, BesideACreaseAreCountedApart) {
     EXPECT_EQ(p.errors().crease_shadow, 1u);
 }
 
+TEST(FarErrors, BesideThePicturesBorderAreNotHeldAgainstPlanes) {
+    Picture p;
+    p.measured[Picture::at(37, 20)] = 0.0f;  // 2 px
+    EXPECT_EQ(p.errors().false_shadow, 1u);
+    p.allowed_px[Picture::at(37, 20)] = 3.0f;
+    EXPECT_EQ(p.errors().false_shadow, 0u);
+    EXPECT_EQ(p.errors().crease_shadow, 1u);
+}
+
 TEST(Creases, AreWhereSurfacesBendOrEndAndNotWhereTrianglesOfOnePlaneMeet) {
     PrimaryHits hits;  // four in a row, seen from above
     hits.size_px = {4, 1};
