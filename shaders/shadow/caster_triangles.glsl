@@ -39,6 +39,7 @@ vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
 // faces the light the same way: past a contour or a boundary the sheet is over, and the ray passes it.
 // Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than rounding.
 int caster_verdict(uvec2 shown, vec3 position_ca, float error_m) {
+    if (shown.y == kNoTriangle) return kUnknown;
     InstanceRecord instance = instances[shown.x];
     vec3 ray = toward_light(position_ca);
     uint triangle = shown.y, came_from = kNoTriangle;

@@ -3,18 +3,34 @@
 #include "shadow/filters/votes.glsl"
 #include "shadow/caster_triangles.glsl"
 
-float shadow_filter(ShadowPoint point) {
-    FourTexels four = four_texels(point);
-    int verdict = kPasses;
-    uvec2 last = uvec2(kNoTriangle);
-    bool unknown = false;
-    for (int i = 0; i < (four.all_lit || four.all_dark ? 0 : 4) && verdict != kBlocked; ++i) {
+// What the four show above the receiver's plane: each triangle once, as many as `count`. Found first and tested together,
+// because software devices take as many rounds as the slowest of neighbouring pixels.
+struct Shown {
+    uvec2 triangles[4];
+    int count;
+};
+
+// `texels`: 4, or 0 for none.
+Shown shown_above(ShadowPoint point, FourTexels four, int texels) {
+    Shown shown;
+    shown.count = 0;
+    for (int i = 0; i < texels; ++i) {
         if (four.plane[i] >= four.stored[i] || four.stored[i] == 0.0) continue;
         vec2 middle = four.corner + vec2(i == 1 || i == 2 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5);
-        uvec2 shown = shadow_triangle(point, middle);
-        if (shown == last) continue;
-        last = shown;
-        verdict = shown.y == kNoTriangle ? kUnknown : caster_verdict(shown, point.position_ca, point.error_m);
+        uvec2 triangle = shadow_triangle(point, middle);
+        if (shown.count > 0 && shown.triangles[shown.count - 1] == triangle) continue;
+        shown.triangles[shown.count++] = triangle;
+    }
+    return shown;
+}
+
+float shadow_filter(ShadowPoint point) {
+    FourTexels four = four_texels(point);
+    Shown shown = shown_above(point, four, four.all_lit || four.all_dark ? 0 : 4);
+    int verdict = kPasses;
+    bool unknown = false;
+    for (int i = 0; i < shown.count && verdict != kBlocked; ++i) {
+        verdict = caster_verdict(shown.triangles[i], point.position_ca, point.error_m);
         unknown = unknown || verdict == kUnknown;
     }
     float voted = lit_by_sixteen(point, four.place, four.corner, unknown && verdict != kBlocked ? 4 : 0);
