@@ -50,6 +50,34 @@ TEST_F(TruthAccuracy, TheBuiltInSceneIsRightFromItsOtherCamerasAndTimes) {
     }
 }
 
+TEST_F(TruthAccuracy, TrianglesErrByLessThanAThousandthWhereVotesOfAsManyTexelsErrByMore) {
+    constexpr double kThousandth = 0.001;
+    for (const char* filter : {"filter=triangles", "filter=sharp_4x4"}) {
+        SCOPED_TRACE(filter);
+        bench::StageOptions options;
+        options.settings = {filter, "resolution=1024"};
+        const bench::Accuracy accuracy = measure(options);
+        expect_right(accuracy, 3);
+        for (const bench::LightAccuracy& light : accuracy.lights)
+            EXPECT_EQ(wrong_share(light.metrics) <= kThousandth, std::string(filter) == "filter=triangles")
+                << light.report.name << ": " << light.metrics.wrong << " of " << light.metrics.scored;
+    }
+}
+
+TEST_F(TruthAccuracy, TrianglesErrNoMoreByOtherRoutesFitsAndFaces) {
+    constexpr double kThousandth = 0.001;
+    for (const char* setting : {"cube_route=layered_vertex", "cube_route=layered_geometry", "fit=quantised", "cascade_blend=0.1",
+                                "caster_faces=back"}) {
+        SCOPED_TRACE(setting);
+        bench::StageOptions options;
+        options.settings = {"filter=triangles", "resolution=2048", setting};
+        const bench::Accuracy accuracy = measure(options);
+        ASSERT_EQ(accuracy.lights.size(), 3u);
+        for (const bench::LightAccuracy& light : accuracy.lights)
+            EXPECT_LE(wrong_share(light.metrics), kThousandth) << light.report.name;
+    }
+}
+
 struct SceneFile {
     const char* name;
     const char* path;  // below the data folder
