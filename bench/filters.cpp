@@ -201,8 +201,8 @@ Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::p
         stage.set_economy(true);
         const std::vector<LightAccuracy>& lights = accuracy.value().lights;
         for (const LightAccuracy& light : lights) {
-            const auto count = std::find_if(taps.begin(), taps.end(),
-                                            [&](const TapCount& c) { return c.light == light.report.name; });
+            const auto count =
+                std::find_if(taps.begin(), taps.end(), [&](const TapCount& c) { return c.light == light.report.name; });
             table += table_line(variant, light, count == taps.end() ? TapCount{} : *count);
         }
         if (lights.empty()) continue;

@@ -43,8 +43,8 @@ bool has_area(const Mesh& mesh, std::size_t first_index) {
     return glm::cross(b - a, c - a) != glm::dvec3(0.0);
 }
 
-/// Faces with three different welded vertices, and the triangle of the list that each is. A sliver without area stays: it
-/// closes a gap that only rounding opened.
+/// Faces with three different welded vertices, and the triangle of the list that each is. A sliver without area stays:
+/// it closes a gap that only rounding opened.
 struct ProperFaces {
     std::vector<WeldedFace> faces;
     std::vector<std::uint32_t> triangles;
@@ -68,8 +68,7 @@ ProperFaces proper_faces(const Mesh& mesh, const std::vector<std::uint32_t>& wel
 /// Zero area or repeated vertices.
 std::uint32_t degenerate_faces(const Mesh& mesh, const ProperFaces& proper) {
     auto count = static_cast<std::uint32_t>(mesh.indices.size() / 3 - proper.faces.size());
-    for (const std::uint32_t triangle : proper.triangles)
-        count += has_area(mesh, std::size_t{3} * triangle) ? 0 : 1;
+    for (const std::uint32_t triangle : proper.triangles) count += has_area(mesh, std::size_t{3} * triangle) ? 0 : 1;
     return count;
 }
 

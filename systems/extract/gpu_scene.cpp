@@ -235,8 +235,8 @@ GpuScene::~GpuScene() { release(); }
 
 void GpuScene::release() {
     if (!device_) return;
-    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_,
-                                     caster_triangles_})
+    for (const gl::BufferHandle b :
+         {vertices_, indices_, instances_, triangle_normals_, material_uniforms_, caster_triangles_})
         device_->destroy(b);
     for (const gl::TextureHandle t : textures_) device_->destroy(t);
     for (const gl::SamplerHandle s : samplers_) device_->destroy(s);

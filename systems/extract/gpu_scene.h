@@ -29,8 +29,8 @@ struct MaterialRecord {
 };
 static_assert(sizeof(MaterialRecord) == 48);
 
-/// Matches CasterTriangle in shaders/shadow/caster_triangles.glsl (std430): corners in model space, and what lies beyond
-/// the edge that starts at each.
+/// Matches CasterTriangle in shaders/shadow/caster_triangles.glsl (std430): corners in model space, and what lies
+/// beyond the edge that starts at each.
 struct CasterTriangle {
     struct Corner {
         glm::vec3 position_ms{0.0f};
@@ -40,13 +40,15 @@ struct CasterTriangle {
 };
 static_assert(sizeof(CasterTriangle) == 48);
 
-/// All triangles of a library, in the order of the common index buffer. Neighbours are of the same mesh and opaque both.
+/// All triangles of a library, in the order of the common index buffer. Neighbours are of the same mesh and opaque
+/// both.
 std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library);
 
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
 class GpuScene {
 public:
-    /// `library` must outlive the scene: what only some lights ask for is made of it later. Error (rule "gpu.scene") if the device cannot hold the library; nothing is left behind then.
+    /// `library` must outlive the scene: what only some lights ask for is made of it later. Error (rule "gpu.scene") if
+    /// the device cannot hold the library; nothing is left behind then.
     static Result<GpuScene> create(gl::Device& device, const assets::MeshLibrary& library);
     GpuScene(GpuScene&&) noexcept;
     GpuScene& operator=(GpuScene&&) noexcept;

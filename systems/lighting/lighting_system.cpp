@@ -347,8 +347,8 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     return true;
 }
 
-bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light,
-                                       const GpuScene& gpu, gl::CommandList& list) {
+bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
+                                       gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
     const shadow::LightingLight& item = inputs.lights[light];
     const gl::ProgramHandle program = programs_.row(item.row, RowOutput::visibility);
