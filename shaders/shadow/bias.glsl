@@ -58,7 +58,8 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving,
     float spread = (reach_texel + kRasterSnap_texel) * dot(lateral, texel_tan);
     float across_m = spread * z_m + error_m;
     float distance_m = length(position_map);
-    float plane_m = -dot(n_map, position_map) - kNormalError_rad * distance_m;   // distance of the light from the plane
+    // Least distance of the light from the true plane: the receiver's own passes error_m farther from it at most.
+    float plane_m = -dot(n_map, position_map) - kNormalError_rad * distance_m - error_m;
     bool steep = !(sqrt(max(distance_m * distance_m - plane_m * plane_m, 0.0)) <= kSteepTangent * plane_m);
     float beta = view.axis_back.w;
     float depth = view.numeric.z + beta / z_m;

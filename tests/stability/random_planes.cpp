@@ -1,95 +1,22 @@
 #include "tests/stability/random_planes.h"
 
-#include <array>
 #include <cmath>
-#include <glm/gtc/matrix_inverse.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <memory>
 #include <random>
 #include <vector>
 
-#include "bench/exact_record.h"
-#include "engine/math/projection.h"
-#include "systems/shadow/depth_format.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/directional_warped.h"
 #include "systems/shadow/kinds/orthographic_view.h"
 #include "systems/shadow/kinds/perspective_view.h"
-#include "systems/shadow/publish.h"
-
-namespace gnomon::bench::glsl {
-namespace {
-
-#include "bench/exact_shaders.inc"
-
-/// One row of the shaders' table, whatever its struct.
-class Lookup {
-public:
-    virtual ~Lookup() = default;
-    virtual void set(const shadow::LightingLight& light, std::span<const shadow::ShadowView* const> views,
-                     const glm::dvec3& camera_ws_m) = 0;
-    struct Question {
-        glm::dvec3 position_ca_m, normal;
-        double error_m, bias_share;
-    };
-    virtual double visibility(const DepthTexels& map, const Question& question, Trace& trace) = 0;
-};
-
-template <class Row>
-class RowLookup final : public Lookup {
-public:
-    explicit RowLookup(bool linear) { row_.shadow_map.linear = linear; }
-    void set(const shadow::LightingLight& light, std::span<const shadow::ShadowView* const> views,
-             const glm::dvec3& camera_ws_m) override {
-        set_light(light, views, camera_ws_m, row_);
-    }
-    double visibility(const DepthTexels& map, const Question& q, Trace& trace) override {
-        row_.shadow_map.map = &map;
-        row_.shadow_map.trace = &trace;
-        row_.bias_share = q.bias_share;
-        return row_.shadow_visibility(to_vec3(q.position_ca_m), to_vec3(q.normal), q.error_m);
-    }
-
-private:
-    Row row_;
-};
-
-template <class Row>
-std::unique_ptr<Lookup> make_lookup(bool linear) {
-    return std::make_unique<RowLookup<Row>>(linear);
-}
-
-struct CompiledRow {
-    std::string_view filter_file;
-    std::array<std::unique_ptr<Lookup> (*)(bool), static_cast<std::size_t>(PlaneKind::count)> make;
-};
-#define ROWS_OF_FILTER(name, reading)                                                                      \
-    {"shadow/filters/" #name ".glsl",                                                                      \
-     {make_lookup<reading::directional::row_##name>, make_lookup<reading::directional_warped::row_##name>, \
-      make_lookup<reading::spot::row_##name>, make_lookup<reading::point::row_##name>}},
-constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};
-#undef ROWS_OF_FILTER
-
-constexpr double kSnap_texel = compare::directional::Kind::kRasterSnap_texel;
-constexpr double kUnitRoundoff = compare::directional::Kind::kUnitRoundoff;
-constexpr double kNormalError_rad = compare::directional::Kind::kNormalError_rad;
-constexpr double kRebuiltRelative = compare::directional::Kind::kRebuiltRelative;
-constexpr double kSteepTangent = compare::directional::Kind::kSteepTangent;
-
-}  // namespace
-}  // namespace gnomon::bench::glsl
 
 namespace gnomon {
 namespace {
 
-using bench::glsl::CompiledRow;
 using shadow::ShadowView;
 
 constexpr double kLessBias = 0.9;
-constexpr double kLit = 1.0 - 1e-6;  // a filter's weights sum up to 1 but for rounding
 constexpr int kPlanesPerMap = 16;
 constexpr int kKeepOff_texel = 12;  // from a flat map's border: no filter with its usual settings reads past it
-constexpr double kPositionRounding = 6.0 * bench::glsl::kUnitRoundoff;  // half of publish.cpp's
 
 class Random {
 public:
@@ -111,55 +38,6 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// The plane normal . p = offset_m, p relative to the light's anchor, as one view draws it: depth is linear in texels.
-struct DrawnPlane {
-    double start = 0.0, per_u = 0.0, per_v = 0.0;
-    double at(double u, double v) const { return start + per_u * u + per_v * v; }
-};
-
-DrawnPlane drawn_plane(const ShadowView& view, double size_px, const glm::dvec3& normal, double offset_m) {
-    using Matrix = glm::mat<4, 4, long double>;
-    using Vector = glm::vec<4, long double>;
-    const Matrix map_from_anchor(math::texture_from_clip() * glm::dmat4(view.clip_from_anchor));
-    const Vector plane = glm::inverseTranspose(map_from_anchor) * Vector(glm::dvec4(normal, -offset_m));
-    return {static_cast<double>(-plane.w / plane.z), static_cast<double>(-plane.x / plane.z) / size_px,
-            static_cast<double>(-plane.y / plane.z) / size_px};
-}
-
-/// What the rasteriser makes of it, see judge_planes().
-class PlaneTexels final : public bench::glsl::DepthTexels {
-public:
-    std::array<DrawnPlane, 6> faces;
-    DepthFormat format = DepthFormat::d32f;
-    glm::dvec2 aside_texel{0.0};            // by how much it is snapped; the sign is the slope's
-    double absolute = 0.0, relative = 0.0;  // most rounding
-    bool worst = false;
-    std::uint64_t salt = 0;
-
-    double texel(int layer, std::uint32_t column, std::uint32_t row) const override {
-        const DrawnPlane& face = faces[static_cast<std::size_t>(layer)];
-        const double exact = face.at(column + 0.5, row + 0.5) + std::abs(face.per_u) * aside_texel.x +
-                             std::abs(face.per_v) * aside_texel.y;
-        const double share = worst ? 1.0 : 2.0 * noise(static_cast<std::uint64_t>(layer) + 1, column, row) - 1.0;
-        return stored(exact + share * (absolute + relative * std::abs(exact)),
-                      noise(static_cast<std::uint64_t>(layer) + 7, column, row));
-    }
-
-private:
-    double stored(double depth, double chance) const {
-        const double clamped = std::min(std::max(depth, 0.0), 1.0);
-        const double step = shadow::depth_format_row(format).step;
-        if (step == 0.0) return static_cast<double>(static_cast<float>(clamped));
-        const double steps = clamped / step;
-        return std::min(step * (worst || chance < 0.5 ? std::ceil(steps) : std::floor(steps)), 1.0);
-    }
-    double noise(std::uint64_t a, std::uint64_t b, std::uint64_t c) const {
-        std::uint64_t x = salt ^ (a * 0x9e3779b97f4a7c15u) ^ (b * 0xbf58476d1ce4e5b9u) ^ (c * 0x94d049bb133111ebu);
-        x = (x ^ (x >> 31)) * 0xbf58476d1ce4e5b9u;
-        return static_cast<double>((x ^ (x >> 29)) >> 11) * 0x1p-53;
-    }
-};
-
 /// A light's views as a fit could have made them, and a place in one of them.
 class Maps {
 public:
@@ -167,7 +45,7 @@ public:
         size_px = 1u << random.whole(6, 12);
         scale_m_ = random.power(-3.0, 4.0);
         if (kind == PlaneKind::point) {
-            cube();
+            views = cube_views(anchor_ws_m_, range(), size_px);
         } else if (kind == PlaneKind::spot) {
             const glm::dvec2 low(random.between(-2.0, 1.0), random.between(-2.0, 1.0));
             const shadow::TangentRectangle sides{low,
@@ -244,58 +122,11 @@ private:
         view.warp = glm::dvec2(std::cos(turn), std::sin(turn)) * (random_.between(0.0, 0.97) / farthest_m);
         shadow::set_warped_matrices(view);
     }
-    void cube() {
-        const shadow::PerspectiveRange common = range();
-        for (std::uint32_t i = 0; i < 6; ++i) {
-            const shadow::CubeFace& face = shadow::cube_face(i);
-            const glm::dmat3 axes =
-                glm::dmat3(shadow::cube_turn()) * glm::dmat3(face.axis_u, face.axis_v, face.axis_back);
-            views.push_back(shadow::perspective_view(anchor_ws_m_, axes, shadow::TangentRectangle{}, common, size_px));
-            views.back().projection = shadow::ViewProjection::cube_face;
-            views.back().layer = i;
-        }
-    }
 
     PlaneKind kind_;
     Random& random_;
     double scale_m_ = 1.0;
     glm::dvec3 anchor_ws_m_{1234.5, -67.8, 910.1};
-};
-
-/// What a frame would hand to the lighting.
-class Published {
-public:
-    Published(PlaneKind kind, ShadowFilter filter, DepthFormat format) {
-        scene_.consumers.resize(1);
-        LightItem light;
-        light.kind = kind == PlaneKind::spot    ? LightKind::spot
-                     : kind == PlaneKind::point ? LightKind::point
-                                                : LightKind::directional;
-        light.has_shadow = true;
-        light.shadow.filter = filter;
-        light.shadow.depth_format = format;
-        scene_.lights = {light};
-    }
-    const shadow::LightingLight& of(const Maps& maps) {
-        scene_.consumers[0].position_ws_m = maps.camera_ws_m;
-        LightItem& light = scene_.lights[0];
-        light.position_ws_m = maps.views[0].anchor_ws_m;
-        light.rotation_ws = {maps.views[0].axis_u, maps.views[0].axis_v, maps.views[0].axis_back};
-        shadow::ShadowDemand demand;
-        demand.filter = light.shadow.filter;
-        demand.depth_format = light.shadow.depth_format;
-        demand.resolution_px = maps.size_px;
-        demand.filtering = shadow::filter_demand(light.shadow, maps.size_px);
-        frame_.demands = {demand};
-        frame_.views = maps.views;
-        frame_.slots.assign(maps.views.size(), {.texture = {1}, .size_px = maps.size_px});
-        shadow::publish_lights(scene_, {}, frame_);
-        return frame_.inputs[0].lights[0];
-    }
-
-private:
-    SceneSnapshot scene_;
-    shadow::ShadowFrame frame_;
 };
 
 /// Unit, the angle to `to_light` of a tangent that is any power of ten between.
@@ -305,68 +136,52 @@ glm::dvec3 sloped_normal(Random& random, const glm::dvec3& to_light, double& tan
     return glm::normalize(to_light + aside * tangent);
 }
 
-const CompiledRow* compiled(ShadowFilter filter) {
-    for (const CompiledRow& row : bench::glsl::kRows)
-        if (row.filter_file == shadow::filter_row(filter).file) return &row;
-    return nullptr;
+/// Of any slope, drawn and seen as docs/bias.md says ("What is tested").
+LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& place, const glm::dvec3& normal) {
+    const PlaneBounds bounds = plane_bounds();
+    LonePlane plane;
+    plane.normal = normal;
+    plane.worst = random.chance(0.5);
+    plane.salt = random.bits();
+    const auto share = [&] { return plane.worst ? 1.0 : random.between(-1.0, 1.0); };
+    plane.aside_texel = glm::dvec2(share(), share()) * bounds.snap_texel;
+
+    const ShadowView& view = maps.views[0];
+    plane.error_m = bounds.rebuilt_relative * glm::length(place.position_m + view.anchor_ws_m - maps.camera_ws_m);
+    // As the shaders count it: a sun's along the axes, a lamp's from the light.
+    const glm::dvec3 far_m = glm::abs(place.position_m);
+    const bool orthographic = view.projection == shadow::ViewProjection::orthographic;
+    const double counted_m = orthographic ? far_m.x + far_m.y + far_m.z : glm::length(far_m);
+    const double half_rounding = 6.0 * bounds.unit_roundoff;  // half of publish.cpp's kPositionRounding
+    plane.receiver_m = place.position_m + random.direction() * (half_rounding * counted_m);
+    // The receiver stays where its texel is worst: it is the plane that lies off it, on this side of the light.
+    const double off_m = share() * plane.error_m, light_m = -glm::dot(normal, place.position_m);
+    plane.at_m = place.position_m + normal * (orthographic ? off_m : std::min(off_m, 0.5 * light_m));
+    const glm::dvec3 off = random.direction() * bounds.normal_error_rad;
+    plane.receiver_normal = glm::normalize(normal + off - normal * glm::dot(normal, off));
+    return plane;
 }
 
 }  // namespace
 
-const char* plane_kind_name(PlaneKind kind) {
-    constexpr const char* kNames[] = {"sun", "warped_sun", "spot", "point"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-bool can_judge(ShadowFilter filter) { return compiled(filter) != nullptr; }
-
 PlaneTally judge_planes(PlaneKind kind, ShadowFilter filter, DepthFormat format, std::uint64_t count,
                         std::uint64_t seed) {
-    using bench::glsl::kUnitRoundoff;
     Random random(seed);
-    Published published(kind, filter, format);
-    const bool linear = shadow::filter_row(filter).reading == shadow::MapReading::compare_linear;
-    const auto lookup = compiled(filter)->make[static_cast<std::size_t>(kind)](linear);
+    LonePlaneLookup lookup(kind, filter, format);
     PlaneTally tally;
-    PlaneTexels texels;
-    texels.format = format;
     while (tally.planes < count) {
         Maps maps(kind, random);
-        std::vector<const ShadowView*> views;
-        for (const ShadowView& view : maps.views) views.push_back(&view);
-        lookup->set(published.of(maps), views, maps.camera_ws_m);
-        texels.size_px = maps.size_px;
-        const bool orthographic = views[0]->projection == shadow::ViewProjection::orthographic;
-        texels.absolute = orthographic ? 2.0 * kUnitRoundoff : kUnitRoundoff * std::abs(views[0]->depth_alpha);
-        texels.relative = orthographic ? 0.0 : 3.0 * kUnitRoundoff;
+        lookup.set_maps(maps.views, maps.size_px, maps.camera_ws_m);
         for (int i = 0; i < kPlanesPerMap && tally.planes < count; ++i, ++tally.planes) {
             const Maps::Place place = maps.place();
             double tangent = 0.0;
             const glm::dvec3 normal = sloped_normal(random, place.to_light, tangent);
-            for (const ShadowView* view : views)
-                texels.faces[view->layer] =
-                    drawn_plane(*view, maps.size_px, normal, glm::dot(normal, place.position_m));
-            texels.worst = random.chance(0.5);
-            texels.salt = random.bits();
-            const auto share = [&] { return texels.worst ? 1.0 : random.between(-1.0, 1.0); };
-            texels.aside_texel = glm::dvec2(share(), share()) * bench::glsl::kSnap_texel;
-
-            const glm::dvec3 from_camera = place.position_m + views[0]->anchor_ws_m - maps.camera_ws_m;
-            const double error_m = bench::glsl::kRebuiltRelative * glm::length(from_camera);
-            // As the shaders count it: a sun's along the axes, a lamp's from the light.
-            const glm::dvec3 far_m = glm::abs(place.position_m);
-            const double counted_m = orthographic ? far_m.x + far_m.y + far_m.z : glm::length(far_m);
-            bench::glsl::Lookup::Question question{
-                from_camera - normal * (share() * error_m) + random.direction() * (kPositionRounding * counted_m), normal,
-                error_m, 1.0};
-            const glm::dvec3 off = random.direction() * bench::glsl::kNormalError_rad;
-            question.normal = glm::normalize(normal + off - normal * glm::dot(normal, off));
-            bench::glsl::Trace trace;
-            tally.dark += lookup->visibility(texels, question, trace) < kLit;
-            tally.looked_up += trace.taps > 0;
-            question.bias_share = kLessBias;
-            tally.dark_with_less += lookup->visibility(texels, question, trace) < kLit;
-            tally.steep += tangent > bench::glsl::kSteepTangent;
+            const LonePlane plane = random_plane(random, maps, place, normal);
+            const LonePlaneLookup::Answer answer = lookup.look_up(plane, 1.0);
+            tally.dark += !answer.lit;
+            tally.looked_up += answer.looked_up;
+            tally.dark_with_less += !lookup.look_up(plane, kLessBias).lit;
+            tally.steep += tangent > plane_bounds().steep_tangent;
         }
     }
     return tally;

@@ -1,15 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <string>
 
-#include "components/light_shadow.h"
+#include "tests/stability/lone_plane.h"
 
-/// Random lone planes, each in the map that it would draw, looked up by the shaders' own text
-/// (bench/exact_shaders.inc).
+/// Random lone planes, each in the map that it would draw.
 namespace gnomon {
-
-enum class PlaneKind : std::uint8_t { sun, warped_sun, spot, point, count };
-const char* plane_kind_name(PlaneKind kind);
 
 struct PlaneTally {
     std::uint64_t planes = 0;
@@ -23,16 +18,13 @@ struct PlaneTally {
 ///   vertices     snapped, so that all of the plane lies up to 1/256 texel aside along u and v
 ///   matrices     the floats that a frame would hand to the GPU
 ///   arithmetic   2u of an orthographic range, 3u of a perspective depth and u of alpha: half of what the bias allows,
-///   as
-///                the other half is the lookup's own; u = 2^-24
+///                as the other half is the lookup's own; u = 2^-24
 ///   format       float: the nearest; fixed point: either neighbour
 ///   receiver     error_m below its plane, half of kPositionRounding aside, its normal kNormalError_rad off
 /// Receivers lie at the borders and corners between texels or anywhere in them; of a cube, a third beside seams.
+/// The camera is up to a thousand times as far as the map is large, and error_m up to half of the light's distance.
 /// Slopes are spread evenly over the logarithm of their tangent, 0.001 to 1000.
 PlaneTally judge_planes(PlaneKind kind, ShadowFilter filter, DepthFormat format, std::uint64_t count,
                         std::uint64_t seed);
-
-/// False if a filter's text is none of exact_shaders.inc: nothing can be judged.
-bool can_judge(ShadowFilter filter);
 
 }  // namespace gnomon

@@ -75,12 +75,13 @@ mat3 face_axes(vec3 direction) {
 }
 
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
-// 1 / z is linear in the tangents on any plane; see perspective_bias().
+// 1 / z is linear in the tangents on any plane, see perspective_bias(); this one is the biased receiver's.
 vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
     vec3 normal = turned_back(normal_ws);
     ViewRecord view = light.views[0];
     vec3 n_map = normal * face_axes(point.position);
-    return vec2(n_map.x, n_map.y) * (-view.axis_back.w * view.axis_u.w / light_from_plane_m(point, normal));
+    float biased = view.axis_back.w + point.bias_depth * largest(point.position);
+    return vec2(n_map.x, n_map.y) * (-biased * view.axis_u.w / light_from_plane_m(point, normal));
 }
 #endif
 

@@ -1,0 +1,63 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/kinds/perspective_view.h"
+#include "tests/stability/lone_plane.h"
+
+/// Planes that random ones led to, reduced to what mattered.
+namespace gnomon {
+namespace {
+
+using shadow::ShadowView;
+
+constexpr std::uint32_t kSize_px = 64;
+constexpr double kLight_m = 0.05;  // from the plane
+constexpr double kCamera_m = 1000.0;
+
+constexpr shadow::PerspectiveRange kRange{0.02, 1.0};
+
+std::vector<ShadowView> spot() {
+    return {shadow::perspective_view(glm::dvec3(0.0), glm::dmat3(1.0), {}, kRange, kSize_px)};
+}
+
+/// Rising toward the light by 1 along u and 1/2 along v. The receiver is in the low corner of a texel, as far behind
+/// the plane as it may be, and the plane is drawn as much too near as it may be.
+LonePlane seen_from_afar(const ShadowView& view) {
+    LonePlane plane;
+    plane.normal = glm::normalize(view.axis_back - view.axis_u - 0.5 * view.axis_v);
+    plane.worst = true;
+    plane.aside_texel = glm::dvec2(plane_bounds().snap_texel);
+    plane.error_m = plane_bounds().rebuilt_relative * kCamera_m;
+    constexpr double kBesideCorner_texel = 1e-6;
+    const glm::dvec2 tangent = (glm::dvec2(40.0, 36.0) + kBesideCorner_texel) / (0.5 * kSize_px) - 1.0;
+    const glm::dvec3 way = view.axis_u * tangent.x + view.axis_v * tangent.y - view.axis_back;
+    plane.receiver_m = way * (-(kLight_m + plane.error_m) / glm::dot(way, plane.normal));
+    plane.at_m = plane.receiver_m + plane.normal * plane.error_m;
+    plane.receiver_normal = plane.normal;
+    return plane;
+}
+
+/// The bias in perspective is inverse to how far the light is from the plane. The receiver's own plane passes error_m
+/// farther from it, here 0.16 mm of 50 mm: divided by that, the offset was 0.3 % short. Of 100 000 random planes of
+/// each combination four had shown it, with errors of 0.04 to 0.23 %. The first: 4.503 mm from a point light of 64 x 64
+/// texels per face, 2 um off, seen from 12.5 m, its offset 0.02 % short.
+TEST(LonePlane, IsLitWhereTheReceiverSeemsFartherFromTheLightThanThePlaneIs) {
+    for (const PlaneKind kind : {PlaneKind::point, PlaneKind::spot})
+        for (const ShadowFilter filter : {ShadowFilter::hard, ShadowFilter::pcf_grid}) {
+            SCOPED_TRACE(plane_kind_name(kind) + (" " + std::string(shadow::filter_row(filter).name)));
+            LonePlaneLookup lookup(kind, filter, DepthFormat::d32f);
+            const std::vector<ShadowView> views =
+                kind == PlaneKind::point ? cube_views(glm::dvec3(0.0), kRange, kSize_px) : spot();
+            lookup.set_maps(views, kSize_px, glm::dvec3(0.0, 0.0, kCamera_m));
+            const LonePlane plane = seen_from_afar(views.back());
+            EXPECT_TRUE(lookup.look_up(plane, 1.0).lit);
+            EXPECT_TRUE(lookup.look_up(plane, 1.0).looked_up);
+            EXPECT_FALSE(lookup.look_up(plane, kLight_m / (kLight_m + plane.error_m)).lit) << "more than is needed";
+        }
+}
+
+}  // namespace
+}  // namespace gnomon
