@@ -74,7 +74,7 @@ enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
     bool enabled = true;
-    ShadowFilter filter = ShadowFilter::hard;  // the row that measures best (docs/accuracy.md)
+    ShadowFilter filter = ShadowFilter::triangles;  // the row that measures best (docs/accuracy.md)
     std::uint32_t filter_size = 3;     // of pcf_grid and pcf_bilinear, texels along an edge; odd, at most 31
     std::uint32_t filter_taps = 16;    // of the Poisson filters; 1 to 32
     /// Half-width of the Poisson and cube filters: in texels of the map, or, where filter_spread_m is above 0, in metres

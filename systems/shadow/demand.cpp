@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/splits.h"
 #include "systems/shadow/kinds/sun_eye.h"
@@ -76,10 +77,12 @@ void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& de
 
 }  // namespace
 
-std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, std::uint32_t limit_px) {
+std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,
+                                   std::uint32_t limit_px) {
     const double wished_error_px = max_error_px > 0.0f ? static_cast<double>(max_error_px) : 1.0;
     const std::uint32_t most_px = std::min(limit_px, kLargestAutomatic_px);
-    const double wish_px = std::ceil(std::max(viewport_px.x, viewport_px.y) * kTexelsPerPixel / wished_error_px);
+    const double wish_px =
+        std::ceil(std::max(viewport_px.x, viewport_px.y) * static_cast<double>(texels_per_pixel) / wished_error_px);
     const auto bounded_px =
         static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
     return std::min(std::bit_ceil(bounded_px), most_px);
@@ -102,7 +105,8 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         const std::uint32_t limit_px =
             kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
         if (light.shadow.resolution_px == 0) {
-            demand.resolution_px = automatic_resolution(viewport_px, light.shadow.max_error_px, limit_px);
+            demand.resolution_px = automatic_resolution(viewport_px, filter_row(demand.filter).texels_per_pixel,
+                                                        light.shadow.max_error_px, limit_px);
         } else {
             demand.resolution_px =
                 std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);

@@ -7,13 +7,11 @@
 
 namespace gnomon::shadow {
 
-/// Map edge when LightShadow::resolution_px is 0: the power of two at or above kTexelsPerPixel / max_error_px times the
-/// picture's larger side, within [256, min(limit_px, 8192)]. max_error_px not above 0, or NaN, counts as 1.
-std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float max_error_px, std::uint32_t limit_px);
-
-/// Texels per pixel of the picture's larger side, for one cascade, spot view or cube face, at a wish of one pixel: what
-/// is seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
-inline constexpr double kTexelsPerPixel = 1.5;
+/// Map edge when LightShadow::resolution_px is 0: the power of two at or above texels_per_pixel (FilterRow) /
+/// max_error_px times the picture's larger side, within [256, min(limit_px, 8192)]. max_error_px not above 0, or NaN,
+/// counts as 1.
+std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,
+                                   std::uint32_t limit_px);
 
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
 /// `shadows` false treats every light as disabled. `held`: what the fits left last frame.

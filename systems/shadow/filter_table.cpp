@@ -49,7 +49,7 @@ constexpr FilterRow kRows[] = {
     {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
      MapReading::depths, FilterStorage::depth, 2.5f},
     {ShadowFilter::triangles, "triangles", "shadow/filters/triangles.glsl", of_triangles, 3.0f, FilterWidth::fixed,
-     MapReading::depths, FilterStorage::depth_and_triangle, 2.5f},
+     MapReading::depths, FilterStorage::depth_and_triangle, 2.5f, 0.75f},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

@@ -14,7 +14,8 @@ enum class FilterWidth : std::uint8_t {
     spread  // filter_spread_texel, filter_spread_m, filter_doubles_m
 };
 
-/// What a map holds for a filter: depth, or also which triangle each texel shows (shaders/shadow/caster_triangles.glsl).
+/// What a map holds for a filter: depth, or also which triangle each texel shows
+/// (shaders/shadow/caster_triangles.glsl).
 enum class FilterStorage : std::uint8_t { depth, depth_and_triangle };
 
 /// What its sampler returns: results of comparing, as they are or blended by hardware, or what is stored.
@@ -35,6 +36,9 @@ struct FilterRow {
     FilterStorage storage = FilterStorage::depth;
     /// What of E is read but cannot move a shadow's edge.
     float still_texel = 0.0f;
+    /// Of one cascade, spot view or cube face, per pixel of the picture's larger side, where the light says no size.
+    /// What is seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
+    float texels_per_pixel = 1.5f;
 };
 
 /// In the order of ShadowFilter.

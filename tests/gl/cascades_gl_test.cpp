@@ -29,7 +29,8 @@ protected:
             add_box({1.2, 1.0, z - 0.6}, {2.0, 1.6, z + 0.5});
         }
         add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, {-0.5, -1.0, -0.3},
-                  {.resolution_px = 1024,
+                  {.filter = ShadowFilter::hard,  // so that cascades differ where edges are
+                   .resolution_px = 1024,
                    .fit = cascades.fit,
                    .cascades = cascades.count,
                    .splits = cascades.splits,

@@ -15,7 +15,7 @@
 namespace gnomon {
 
 // The bounds that every light of every scene must meet with default settings.
-inline constexpr double kMostWrong = 0.01, kMostAcneAndLeak = 0.001;
+inline constexpr double kMostWrong = 0.003, kMostAcneAndLeak = 0.001;
 
 /// A folder that is gone at the end of the test.
 class TruthTest : public ::testing::Test {

@@ -141,7 +141,7 @@ SceneSnapshot stage_with(LightKind kind, const assets::MeshLibrary& library) {
                      .intensity = 50000.0f,
                      .outer_cone_rad = 0.1,
                      .has_shadow = true,
-                     .shadow = {.resolution_px = 2048},
+                     .shadow = {.filter = ShadowFilter::sharp_4x4, .resolution_px = 2048},
                      .version = 1}};
     for (const std::uint32_t mesh : {kGroundMesh, kBoxMesh}) {
         InstanceItem item;

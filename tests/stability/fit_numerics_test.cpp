@@ -69,7 +69,9 @@ TEST_P(FitNumerics, AMillionMetresAwayTheMapCoordinatesAreTheSame) {
     RandomScene random(print_seed());
     for (int round = 0; round < 60; ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
-        expect_same(random.scene(GetParam()), 1.0, glm::dvec3(1e6, -1e6, 1e6));
+        SceneSnapshot scene = random.scene(GetParam());
+        scene.lights[0].shadow.fit = ShadowFit::tight;  // the others lie on lattices of the world
+        expect_same(scene, 1.0, glm::dvec3(1e6, -1e6, 1e6));
     }
 }
 

@@ -121,7 +121,8 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
     std::vector<std::string> lost, expected;
     for (const LightOutcome& light : lights)
         if (is_loss(light.reason)) lost.push_back(light.name);
-    const bool of_all = starts_with(call.label, "shadow compare") || (call.frame == 0 && call.label == "instances");
+    const bool is_sampler = starts_with(call.label, "shadow compare") || call.label == "shadow depths";
+    const bool of_all = is_sampler || (call.frame == 0 && call.label == "instances");
     const bool of_some = starts_with(call.label, "depth ") || starts_with(call.label, "shadow draw items") ||
                          starts_with(call.label, "shadow views") || (call.frame > 0 && call.label == "instances");
     const bool of_kind = call.label.find("filters") != std::string::npos;

@@ -112,7 +112,7 @@ TEST_F(ShadowMaps, RemovingTheShadowFreesTheMapAndItsTargets) {
     world.registry.remove<LightShadow>(lamp);
     step();
     expect_no_shadow(Reason::no_light_shadow);
-    world.registry.emplace<LightShadow>(lamp);
+    world.registry.emplace<LightShadow>(lamp, {.filter = ShadowFilter::hardware_2x2});
     step();
     EXPECT_THAT(map_labels(device), SizeIs(7)) << "and adding it again brings it back";
     EXPECT_EQ(light("lamp").state, LightState::rendered);

@@ -1,5 +1,6 @@
 // Edges of the casters themselves: where four texels do not agree, the triangles that they show are tested against the ray
-// from the receiver to the light. Texels that show no triangle that could be tested are voted on.
+// from the receiver to the light. Where a texel shows none that could be tested (leaves cut out of a card, meshes finer than the
+// walk), the nearest texel decides: votes would take from coarse maps the leaves that are narrower than a texel.
 #include "shadow/filters/votes.glsl"
 #include "shadow/caster_triangles.glsl"
 
@@ -33,7 +34,8 @@ float shadow_filter(ShadowPoint point) {
         verdict = caster_verdict(shown.triangles[i], point.position_ca, point.error_m);
         unknown = unknown || verdict == kUnknown;
     }
-    float voted = lit_by_sixteen(point, four.place, four.corner, unknown && verdict != kBlocked ? 4 : 0);
-    bool lit = four.all_lit || (!four.all_dark && verdict != kBlocked && (!unknown || voted > 0.0));
+    vec2 middle = floor(four.place) + 0.5;
+    float nearest = lit_at(point, four.place, middle, shadow_depth(point, middle));
+    bool lit = four.all_lit || (!four.all_dark && verdict != kBlocked && (!unknown || nearest > 0.0));
     return lit ? 1.0 : 0.0;
 }

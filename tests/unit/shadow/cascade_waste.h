@@ -6,12 +6,13 @@
 
 namespace gnomon::shadow {
 
-/// 1 - smallest rectangle around the points of a cascade's own slice / what the map has before its border.
+/// 1 - smallest rectangle around the points of a cascade's own slice, up to where the next one serves alone, / what the
+/// map has before its border.
 inline double waste(const SceneSnapshot& scene, const ShadowFrame& frame, const ShadowView& view) {
     ConsumerItem slice = scene.consumers[0];
     slice.near_m = view.seen_from_m;
     const bool last = &view == &frame.views.back() || (&view + 1)->demand != view.demand;
-    if (!last) slice.far_m = (&view + 1)->seen_from_m;
+    if (!last) slice.far_m = std::max(view.seen_to_m, (&view + 1)->seen_from_m);
     const math::Frustum frustum = consumer_frustum(slice);
     std::vector<glm::dvec3> points_ws;
     const IndexRange receivers = frame.sets[view.demand].receivers;

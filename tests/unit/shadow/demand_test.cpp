@@ -1,4 +1,5 @@
 #include "systems/shadow/demand.h"
+#include "systems/shadow/filter_table.h"
 
 #include <gtest/gtest.h>
 
@@ -60,27 +61,41 @@ TEST_F(DemandTest, WhatNobodyWantsEndsHereWithItsReason) {
     EXPECT_EQ(decide()[2].skip, Reason::light_off);
 }
 
+constexpr float kUsual = FilterRow{}.texels_per_pixel;
+
+TEST_F(DemandTest, AFilterThatNeedsFewerTexelsGetsThem) {
+    for (const FilterRow& row : filter_table()) {
+        scene.lights[1].shadow.filter = row.id;
+        EXPECT_EQ(decide()[1].resolution_px,
+                  automatic_resolution(scene.consumers[0].viewport_px, row.texels_per_pixel, 1.0f, 16384))
+            << row.name;
+    }
+    EXPECT_LT(automatic_resolution({1280, 720}, filter_row(ShadowFilter::triangles).texels_per_pixel, 1.0f, 16384),
+              automatic_resolution({1280, 720}, kUsual, 1.0f, 16384));
+}
+
 TEST_F(DemandTest, TheAutomaticSizeGrowsWithThePictureUpToTheLimit) {
     std::uint32_t last = 0;
     for (const std::uint32_t side : {1u, 64u, 640u, 1280u, 1920u, 3840u, 100000u, 0xffffffffu}) {
-        const std::uint32_t size = automatic_resolution({side, 1}, 1.0f, 8192);
-        EXPECT_EQ(size, automatic_resolution({1, side}, 1.0f, 8192));
+        const std::uint32_t size = automatic_resolution({side, 1}, kUsual, 1.0f, 8192);
+        EXPECT_EQ(size, automatic_resolution({1, side}, kUsual, 1.0f, 8192));
         EXPECT_TRUE(std::has_single_bit(size)) << size;
         EXPECT_GE(size, std::max(last, 256u));
         EXPECT_LE(size, 8192u);
         EXPECT_GE(size, std::min(side, 8192u)) << "at least a texel per pixel";
         last = size;
     }
-    EXPECT_EQ(automatic_resolution({640, 480}, 1.0f, 100), 100u) << "the device's limit comes first";
+    EXPECT_EQ(automatic_resolution({640, 480}, kUsual, 1.0f, 100), 100u) << "the device's limit comes first";
 }
 
 TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
-    const auto size = [](float max_error_px) { return automatic_resolution({1280, 720}, max_error_px, 16384); };
+    const auto size = [](float max_error_px) { return automatic_resolution({1280, 720}, kUsual, max_error_px, 16384); };
     EXPECT_EQ(size(0.5f), 2 * size(1.0f));
     EXPECT_EQ(2 * size(2.0f), size(1.0f));
     EXPECT_EQ(size(1e9f), 256u);
     EXPECT_EQ(size(1e-9f), 8192u);
-    for (const float absurd : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) EXPECT_EQ(size(absurd), size(1.0f));
+    for (const float absurd : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()})
+        EXPECT_EQ(size(absurd), size(1.0f));
 }
 
 TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {

@@ -184,6 +184,7 @@ TEST(LocalFit, OnlyFacesWithAReceiverAndACasterAreViews) {
     s.instances.push_back(instance(box(through(1, 4.0), 0.5), false));  // no caster
     s.instances.push_back(instance(box(through(2, 2.0), 0.3), true));   // nothing behind
     s.instances.back().receives = false;
+    s.lights[0].shadow.filter = ShadowFilter::hard;
     ShadowFrame frame = fitted(s);
     ASSERT_EQ(frame.views.size(), 2u);
     EXPECT_EQ(frame.views[0].layer, 0u);

@@ -186,7 +186,7 @@ TEST(NearestReceiver, WouldBeCaughtIfAShapeWereTheUnmirroredOne) {
         world.scene.instances[0].basis[0] *= -1.0;
         caught += world.nearest_m() > least_m ? 1 : 0;
     }
-    EXPECT_GT(caught, 20);
+    EXPECT_GT(caught, 5) << "about one in ten is";
 }
 
 TEST(NearestReceiver, IsTheWallOfARoomAndNotItsBox) {

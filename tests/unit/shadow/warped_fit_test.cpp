@@ -34,6 +34,7 @@ SceneSnapshot floor_scene(double angle_rad, float warp) {
     light.has_shadow = true;
     light.shadow.resolution_px = 1024;
     light.shadow.cascades = 1;
+    light.shadow.fit = ShadowFit::tight;
     light.shadow.warp = warp;
     const glm::dvec3 along = -camera.rotation_ws[2], up = camera.rotation_ws[1];
     // The light's own turn about its axis must not matter, so that it may be any.
@@ -109,6 +110,7 @@ TEST(WarpedFit, TheWorstTexelIsNeverLargerThanWithoutAWarp) {
     for (int i = 0; i < 400; ++i) {
         SceneSnapshot scene = random.scene(LightKind::directional);
         scene.lights[0].shadow.cascades = 1;
+        scene.lights[0].shadow.fit = ShadowFit::tight;
         const ShadowFrame flat = fitted(scene);
         scene.lights[0].shadow.warp = 1.0f;
         const ShadowFrame frame = fitted(scene);
