@@ -57,17 +57,18 @@ TEST_F(TruthAccuracy, TrianglesErrByLessThanAThousandthWhereVotesOfAsManyTexelsE
         bench::StageOptions options;
         options.settings = {filter, "resolution=1024"};
         const bench::Accuracy accuracy = measure(options);
-        expect_right(accuracy, 3);
+        const bool exact = std::string(filter) == "filter=triangles";
+        if (exact) expect_right(accuracy, 3);
         for (const bench::LightAccuracy& light : accuracy.lights)
-            EXPECT_EQ(wrong_share(light.metrics) <= kThousandth, std::string(filter) == "filter=triangles")
+            EXPECT_EQ(wrong_share(light.metrics) <= kThousandth, exact)
                 << light.report.name << ": " << light.metrics.wrong << " of " << light.metrics.scored;
     }
 }
 
 TEST_F(TruthAccuracy, TrianglesErrNoMoreByOtherRoutesFitsAndFaces) {
     constexpr double kThousandth = 0.001;
-    for (const char* setting : {"cube_route=layered_vertex", "cube_route=layered_geometry", "fit=quantised", "cascade_blend=0.1",
-                                "caster_faces=back"}) {
+    for (const char* setting : {"cube_route=layered_vertex", "cube_route=layered_geometry", "fit=quantised",
+                                "cascade_blend=0.1", "caster_faces=back"}) {
         SCOPED_TRACE(setting);
         bench::StageOptions options;
         options.settings = {"filter=triangles", "resolution=2048", setting};

@@ -53,7 +53,7 @@ void duelling_checks() {
         yard(w);
         w.box({-40.0, 0.0, -60.0}, {-39.0, 3.0, -50.0});
         w.ground(100.0, {0.0, -0.01, 0.0});
-        w.sun(sign * (kOrigin - glm::dvec3(5.0, 6.0, 8.0)));
+        w.sun(sign * (kOrigin - glm::dvec3(5.0, 6.0, 8.0)), {.resolution_px = 512});
         Stages stages(w);
         stages.run();
         EXPECT_GT(expect_sound(w, "a sun along the view"), 100u);
@@ -223,7 +223,7 @@ void slow_sun() {
 void grazing_sun(World& w) {
     w.ground(6.0);
     w.box({-0.6, 0.0, -0.5}, {0.5, 0.4, 0.6});
-    w.sun({1.0, -1.75e-4, 0.2});  // 0.01 degrees above the ground
+    w.sun({1.0, -1.75e-4, 0.2}, {.resolution_px = 512});  // 0.01 degrees above the ground
     w.camera();
 }
 

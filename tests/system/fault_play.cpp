@@ -122,12 +122,14 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
     for (const LightOutcome& light : lights)
         if (is_loss(light.reason)) lost.push_back(light.name);
     const bool is_sampler = starts_with(call.label, "shadow compare") || call.label == "shadow depths";
-    const bool of_all = is_sampler || (call.frame == 0 && call.label == "instances");
+    const bool of_all =
+        is_sampler || call.label == "caster triangles" || (call.frame == 0 && call.label == "instances");
     const bool of_some = starts_with(call.label, "depth ") || starts_with(call.label, "shadow draw items") ||
                          starts_with(call.label, "shadow views") || (call.frame > 0 && call.label == "instances");
     const bool of_kind = call.label.find("filters") != std::string::npos;
     for (const LightOutcome& light : lights) {
-        const bool own = call.label == "shadow map " + light.name;
+        const std::string map = "shadow map " + light.name;
+        const bool own = call.label == map || call.label == map + ", triangles";
         const std::string define = " " + std::string(shadow::light_kind_row(light.kind).define) + " ";
         const bool sun_unread = call.is_reading && light.kind == LightKind::directional;
         if (own || of_all || sun_unread || (of_kind && call.label.find(define) != std::string::npos))

@@ -7,6 +7,13 @@
 #include "systems/shadow/kinds/rectangle.h"
 
 namespace gnomon::shadow {
+namespace {
+
+/// Of the largest extent. The anchor lies up to eight of it away (place()), where a float is worth 2^-21 of it; a lookup
+/// rounds about four times. Finer texels would tell nothing apart, and whole maps of edge-on receivers be missed.
+constexpr double kLeastTexel = 4.0 / (1 << 21);
+
+}  // namespace
 
 bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
     FitScratch& scratch = input.light.scratch;
@@ -28,8 +35,8 @@ bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
     box.axes[0] = input.basis[0] * rectangle.axis_u.x + input.basis[1] * rectangle.axis_u.y;
     box.axes[1] = input.basis[1] * rectangle.axis_u.x - input.basis[0] * rectangle.axis_u.y;
     box.axes[2] = input.basis[2];
-    const glm::dvec2 least(largest * kLeastExtent);
-    const double depth_m = std::max(highest - lowest, least.x) * (1.0 + 2.0 * kDepthSlack);
+    const glm::dvec2 least(largest * std::max(kLeastExtent, kLeastTexel * input.light.demand.resolution_px));
+    const double depth_m = std::max(highest - lowest, largest * kLeastExtent) * (1.0 + 2.0 * kDepthSlack);
     const glm::dvec2 middle = 0.5 * (rectangle.min + rectangle.max);
     const glm::dvec3 centre_ws =
         origin_ws + box.axes[0] * middle.x + box.axes[1] * middle.y + box.axes[2] * (0.5 * (lowest + highest));
