@@ -27,8 +27,9 @@ enum class ShadowFilter : std::uint8_t {
 /// when the camera moves, or the cell of the world in which the point lies, so that it stays there.
 enum class FilterSeed : std::uint8_t { screen, world };
 
-/// `automatic` derives the smallest offset that keeps a plane from shadowing itself; the others are there to compare with,
-/// a function each in shaders/shadow/bias_manual.glsl. bias_m and bias_texel are theirs; docs/bias.md has the formulas.
+/// `automatic` derives the smallest offset that keeps a plane from shadowing itself; the others are there to compare
+/// with, a function each in shaders/shadow/bias_manual.glsl. bias_m and bias_texel are theirs; docs/bias.md has the
+/// formulas.
 enum class BiasMode : std::uint8_t {
     automatic,
     constant,           // bias_m along the light
@@ -41,8 +42,8 @@ enum class BiasMode : std::uint8_t {
     count
 };
 
-/// How a light projects onto its map. A sun's is orthographic, a spot's and a point's perspective; a sun may be given one
-/// perspective view instead. What a kind cannot do is reported (projection_unsupported), its own is used.
+/// How a light projects onto its map. A sun's is orthographic, a spot's and a point's perspective; a sun may be given
+/// one perspective view instead. What a kind cannot do is reported (projection_unsupported), its own is used.
 enum class LightProjection : std::uint8_t { automatic, orthographic, perspective };
 
 /// How the faces of a point light's cube are drawn: a pass each, or all in one whose layer the vertex or the geometry
@@ -50,9 +51,9 @@ enum class LightProjection : std::uint8_t { automatic, orthographic, perspective
 /// does not have becomes six_passes.
 enum class CubeRoute : std::uint8_t { automatic, six_passes, layered_vertex, layered_geometry };
 
-/// How a sun's cascades follow the camera. `tight`: the smallest rectangle around what is seen, fitted anew in every frame.
-/// `stable`: a constant size around each slice of the view, snapped to its own texels; what is seen does not matter.
-/// `quantised`: around what is seen, in the light's own axes, in steps; it stays until that no longer fits.
+/// How a sun's cascades follow the camera. `tight`: the smallest rectangle around what is seen, fitted anew in every
+/// frame. `stable`: a constant size around each slice of the view, snapped to its own texels; what is seen does not
+/// matter. `quantised`: around what is seen, in the light's own axes, in steps; it stays until that no longer fits.
 enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 
 /// Where a sun's cascades end along the view. `practical` mixes logarithmic and uniform ends by split_lambda; `seen`
@@ -67,28 +68,28 @@ enum class CasterFaces : std::uint8_t { automatic, front, back, both };
 
 inline constexpr std::size_t kMaxCascades = 8;
 
-/// How a map stores depth, reversed: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and gives
-/// up precision far from a spot or a point; the automatic bias grows by what is lost (docs/settings.md).
+/// How a map stores depth, reversed: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and
+/// gives up precision far from a spot or a point; the automatic bias grows by what is lost (docs/settings.md).
 enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
     bool enabled = true;
     ShadowFilter filter = ShadowFilter::triangles;  // the row that measures best (docs/accuracy.md)
-    std::uint32_t filter_size = 3;     // of pcf_grid and pcf_bilinear, texels along an edge; odd, at most 31
-    std::uint32_t filter_taps = 16;    // of the Poisson filters; 1 to 32
-    /// Half-width of the Poisson and cube filters: in texels of the map, or, where filter_spread_m is above 0, in metres
-    /// across the light. At most 16 texels, and an eighth of the map's edge, are taken.
+    std::uint32_t filter_size = 3;   // of pcf_grid and pcf_bilinear, texels along an edge; odd, at most 31
+    std::uint32_t filter_taps = 16;  // of the Poisson filters; 1 to 32
+    /// Half-width of the Poisson and cube filters: in texels of the map, or, where filter_spread_m is above 0, in
+    /// metres across the light. At most 16 texels, and an eighth of the map's edge, are taken.
     float filter_spread_texel = 2.0f, filter_spread_m = 0.0f;
-    float filter_doubles_m = 0.0f;     // distance from the camera at which that half-width has doubled; 0: it is constant
+    float filter_doubles_m = 0.0f;  // distance from the camera at which that half-width has doubled; 0: it is constant
     FilterSeed filter_seed = FilterSeed::world;  // of poisson_rotated and poisson_stratified
-    float filter_cell_m = 0.02f;       // FilterSeed::world: edge of a cell; above 0
-    bool early_bail = false;           // filters of many taps: five first, the others only if those differ
-    std::uint32_t resolution_px = 0;   // edge of one map or cube face; 0: chosen by the system
-    float max_error_px = 1.0f;         // how far a shadow edge may be off on screen; > 0
+    float filter_cell_m = 0.02f;                 // FilterSeed::world: edge of a cell; above 0
+    bool early_bail = false;                     // filters of many taps: five first, the others only if those differ
+    std::uint32_t resolution_px = 0;             // edge of one map or cube face; 0: chosen by the system
+    float max_error_px = 1.0f;                   // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;
-    float bias_m = 0.0f;               // of a BiasMode that takes it, >= 0; what is no such number counts as the default
-    float bias_texel = 1.0f;           // the same
+    float bias_m = 0.0f;      // of a BiasMode that takes it, >= 0; what is no such number counts as the default
+    float bias_texel = 1.0f;  // the same
     LightProjection projection = LightProjection::automatic;
     /// A sun's eye stands this far from the middle of what is seen, toward the light; 0: so far that eye_angle_rad
     /// holds all that is seen. Perspective views look from it, near_m and far_m are counted from it.
@@ -106,12 +107,12 @@ struct LightShadow {
     /// CascadeSplits::manual: metres along the view, rising; 0 ends the list. One cascade more than distances.
     std::array<float, kMaxCascades - 1> split_m{};
     float cascade_blend = 0.0f;  // share of a cascade that fades into the next one, 0 to 0.5
-    /// Of a sun's tight maps: how far their texels may grow with the distance from the camera, 0 (not) to 1 (as light-space
-    /// perspective shadow maps do). Up to there it goes as far as it gains (docs/fits.md).
+    /// Of a sun's tight maps: how far their texels may grow with the distance from the camera, 0 (not) to 1 (as
+    /// light-space perspective shadow maps do). Up to there it goes as far as it gains (docs/fits.md).
     float warp = 0.0f;
     CasterFaces caster_faces = CasterFaces::automatic;  // automatic: front, which measures best (docs/accuracy.md)
     ShadowLayers layers = kAllShadowLayers;             // whose shadows fall on whom (shadow_layers.h)
-    bool economy = true;               // false: redraw every view every frame, change nothing else
+    bool economy = true;                                // false: redraw every view every frame, change nothing else
     bool operator==(const LightShadow&) const = default;
 };
 

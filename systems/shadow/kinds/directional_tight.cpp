@@ -9,8 +9,9 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of the largest extent. The anchor lies up to eight of it away (place()), where a float is worth 2^-21 of it; a lookup
-/// rounds about four times. Finer texels would tell nothing apart, and whole maps of edge-on receivers be missed.
+/// Of the largest extent. The anchor lies up to eight of it away (place()), where a float is worth 2^-21 of it; a
+/// lookup rounds about four times. Finer texels would tell nothing apart, and whole maps of edge-on receivers be
+/// missed.
 constexpr double kLeastTexel = 4.0 / (1 << 21);
 
 }  // namespace
