@@ -18,12 +18,12 @@ namespace {
 
 std::uint64_t plane_count() {
 #if defined(__SANITIZE_ADDRESS__)
-    constexpr std::uint64_t kShort = 1000;
+    constexpr std::uint64_t kShort = 1000, kLong = 5000;
 #else
-    constexpr std::uint64_t kShort = 20000;
+    constexpr std::uint64_t kShort = 20000, kLong = 1000000;
 #endif
     if (const char* count = std::getenv("GNOMON_PLANES")) return std::strtoull(count, nullptr, 10);
-    return std::getenv("GNOMON_LONG") ? 1000000 : kShort;
+    return std::getenv("GNOMON_LONG") ? kLong : kShort;
 }
 
 std::uint64_t plane_seed() {
