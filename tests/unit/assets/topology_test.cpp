@@ -10,26 +10,18 @@
 #include <random>
 
 #include "engine/assets/mesh_topology.h"
+#include "tests/unit/assets/cube_mesh.h"
 
 namespace gnomon::test {
 namespace {
 
 using assets::analyse_topology;
 using assets::fill_normals;
+using assets::kCorners;
+using assets::kCubeFaces;
 using assets::Mesh;
+using assets::mesh_of;
 using assets::Topology;
-
-Mesh mesh_of(const std::vector<glm::vec3>& positions, const std::vector<std::uint32_t>& indices) {
-    Mesh mesh;
-    for (const glm::vec3& position : positions) mesh.vertices.push_back({position, {}, {}});
-    mesh.indices = indices;
-    return mesh;
-}
-
-const std::vector<glm::vec3> kCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},
-                                         {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}};
-const std::vector<std::uint32_t> kCubeFaces = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                                               2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
 
 Mesh cube() { return mesh_of(kCorners, kCubeFaces); }
 
