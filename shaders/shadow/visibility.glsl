@@ -33,15 +33,23 @@ float filtered(ShadowPoint point, vec3 normal, float error_m) {
 
 float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
 #ifdef SHADOWED
-    float visible = filtered(shadow_point(position_ca, normal, error_m, shadow_bias_texel()), normal, error_m);
+    float reach_texel = shadow_bias_texel();
+    float visible = 1.0, share = 1.0;
+    int lookup = 0;
+    // Where the first lookup fades into a second one, two rounds. A loop, because software devices run both sides of an `if`.
+    do {
+        ShadowPoint point = shadow_point(lookup, position_ca, normal, error_m, reach_texel);
+        float found = filtered(point, normal, error_m);
 #ifdef SHADOW_FADES
-    // A second lookup that the first one fades into: shadow_fade_share() of it. A loop of one round at most, because
-    // software devices run both sides of an if, but no empty loop.
-    for (float share = shadow_fade_share(); share > 0.0; share = 0.0) {
-        ShadowPoint other = shadow_fade_point(position_ca, normal, error_m, shadow_bias_texel());
-        visible = mix(visible, filtered(other, normal, error_m), share);
-    }
+        if (lookup > 0 && !shadow_fades_into(point)) share = 0.0;
+        visible = mix(visible, found, share);
+        share = lookup == 0 ? shadow_fade_share(point, reach_texel) : 0.0;
+#else
+        visible = found;
+        share = 0.0;
 #endif
+        ++lookup;
+    } while (share > 0.0);
     return visible;
 #else
     return 1.0;

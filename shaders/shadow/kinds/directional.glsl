@@ -16,12 +16,6 @@ Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, fl
 float cascade_range_m(ViewRecord view, vec3 position_la) { return view.axis_back.w; }
 #endif
 
-#ifdef SHADOW_FADES
-// What the cascade that shadow_point chose fades into.
-float fading_share;
-ShadowPoint fading_point;
-#endif
-
 ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
@@ -68,29 +62,26 @@ float share_toward_border(ShadowPoint point, float reach_texel) {
 }
 #endif
 
-ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    bool by_distance = light.options.z != 0;
-    float distance_m = dot(position_ca, light.position.xyz);
-    int i = (by_distance ? cascade_at(distance_m) : 0) - 1;
+// The cascade of the last lookup; a second one goes on after it.
+int found_cascade;
+
+ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+    if (lookup == 0) found_cascade = (light.options.z != 0 ? cascade_at(dot(position_ca, light.position.xyz)) : 0) - 1;
     ShadowPoint point;
     do {
-        ++i;
-        point = point_in_cascade(i, position_ca, normal, error_m, reach_texel);
-    } while (!point.covered && i + 1 < light.options.x);
-#ifdef SHADOW_FADES
-    fading_share = 0.0;
-    if (!point.covered || !(light.bias.y > 0.0)) return point;
-    float share = by_distance ? share_at(i, distance_m) : share_toward_border(point, reach_texel);
-    for (int next = i + 1; next < light.options.x && share > 0.0 && fading_share == 0.0; ++next) {
-        fading_point = point_in_cascade(next, position_ca, normal, error_m, reach_texel);
-        if (fading_point.covered) fading_share = share;
-    }
-#endif
+        ++found_cascade;
+        point = point_in_cascade(found_cascade, position_ca, normal, error_m, reach_texel);
+    } while (!point.covered && found_cascade + 1 < light.options.x);
     return point;
 }
 
 #ifdef SHADOW_FADES
-float shadow_fade_share() { return fading_share; }
+float shadow_fade_share(ShadowPoint first, float reach_texel) {
+    if (!first.covered || light.bias.y <= 0.0 || found_cascade + 1 >= light.options.x) return 0.0;
+    if (light.options.z == 0) return share_toward_border(first, reach_texel);
+    return share_at(found_cascade, dot(first.position_ca, light.position.xyz));
+}
 
-ShadowPoint shadow_fade_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) { return fading_point; }
+// Where the next cascade's map does not hold the point, there is nothing to fade into.
+bool shadow_fades_into(ShadowPoint second) { return second.covered; }
 #endif

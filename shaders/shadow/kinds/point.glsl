@@ -154,7 +154,7 @@ vec2 shadow_texel(ShadowPoint point) {
 // Tangent of a texel's side: how much nearer to the light an offset along a direction brings a tap.
 float shadow_texel_tan() { return light.views[0].axis_u.w; }
 
-ShadowPoint shadow_point(vec3 position_ca, vec3 normal_ws, float error_m, float reach_texel) {
+ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float error_m, float reach_texel) {
     ViewRecord view = light.views[0];
     vec3 position_la = turned_back(position_ca + view.anchor_from_camera.xyz);
     vec3 normal = turned_back(normal_ws);

@@ -55,18 +55,18 @@ ShadowPoint point_in_view_or_none(int i, vec3 position_ca, vec3 normal, float er
 
 bool has_single_view() { return light.cone.z < 1.0 && (light.cone.z == 0.0 || (light.options.w & 32) != 0); }
 
-ShadowPoint shadow_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     int view = light.options.x - 1;
-    if (!has_single_view()) view = face_toward(light.options.x, from_light(position_ca));
+    if (lookup > 0 || !has_single_view()) view = face_toward(light.options.x - lookup, from_light(position_ca));
     return point_in_view_or_none(view, position_ca, normal, error_m, reach_texel);
 }
 
 #ifdef SHADOW_FADES
 // Where one of the two has no view, it has nothing to fade.
-float shadow_fade_share() { return has_single_view() && light.options.x > 1 ? light.cone.z : 0.0; }
-
-ShadowPoint shadow_fade_point(vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    int face = face_toward(light.options.x - 1, from_light(position_ca));
-    return point_in_view_or_none(face, position_ca, normal, error_m, reach_texel);
+float shadow_fade_share(ShadowPoint first, float reach_texel) {
+    return has_single_view() && light.options.x > 1 ? light.cone.z : 0.0;
 }
+
+// A face without a view darkens nothing, as the faces alone will not.
+bool shadow_fades_into(ShadowPoint second) { return true; }
 #endif
