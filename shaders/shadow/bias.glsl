@@ -19,9 +19,10 @@ struct Bias {
 
 #ifdef SHADOW_DEPTHS
 // How far off its plane a receiver seems to a filter that carries the plane to the texels around it, up to a texel away along
-// u and v: by as much as its normal is off. cosine: of the angle between normal and light.
-float carried_error_m(vec2 texel_m, float cosine) {
-    return kNormalError_rad * (texel_m.x + texel_m.y) * (1.0 + 1.0 / max(cosine, kNormalError_rad));
+// u and v: by as much as its normal is off. lateral: |n_u|, |n_v|; cosine: of the angle between normal and light.
+float carried_error_m(vec2 texel_m, vec2 lateral, float cosine) {
+    float least_cosine = max(cosine - kNormalError_rad, kNormalError_rad);
+    return kNormalError_rad * dot(texel_m, 1.0 + (lateral + kNormalError_rad) / least_cosine);
 }
 #endif
 

@@ -223,7 +223,7 @@ void slow_sun() {
 void grazing_sun(World& w) {
     w.ground(6.0);
     w.box({-0.6, 0.0, -0.5}, {0.5, 0.4, 0.6});
-    w.sun({1.0, -1.75e-4, 0.2}, {.resolution_px = 512});  // 0.01 degrees above the ground
+    w.sun({1.0, -1.75e-4, 0.2});  // 0.01 degrees above the ground
     w.camera();
 }
 

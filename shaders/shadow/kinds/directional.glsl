@@ -24,7 +24,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
 #ifdef SHADOW_DEPTHS
-    rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * (cascade_range_m(view, position_la) / view.axis_back.w), n_map.z);
+    rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * (cascade_range_m(view, position_la) / view.axis_back.w), abs(n_map.xy), n_map.z);
 #endif
     Bias bias = cascade_bias(view, position_la, normal, n_map, reach, rounding_m);
 #ifdef SHADOW_MANUAL_BIAS

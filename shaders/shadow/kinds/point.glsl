@@ -164,9 +164,6 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     // Near a seam some taps land on the neighbour, whose axes see the plane's other tangents: take all three.
     vec3 n_map = normal * map_axes;
     float z_m = largest(position_la);
-#ifdef SHADOW_DEPTHS
-    rounding_m += carried_error_m(vec2(view.axis_u.w * z_m), -dot(normal, normalize(position_la)));
-#endif
     float second = max(abs(dot(position_la, axis_u)), abs(dot(position_la, axis_v)));
     // Its texels are larger there, by the share that the tap lies beyond the seam.
     vec2 tangents = abs(n_map.xy);
@@ -179,6 +176,9 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
         tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
         reach = seam_texel(reach);
     }
+#ifdef SHADOW_DEPTHS
+    rounding_m += carried_error_m(vec2(view.axis_u.w * z_m), tangents, -dot(normal, normalize(position_la)));
+#endif
     Bias bias = perspective_bias(view, n_map, tangents, leaving, position_la * map_axes, reach, rounding_m);
 #ifdef SHADOW_MANUAL_BIAS
     if (light.options.y != 0) {

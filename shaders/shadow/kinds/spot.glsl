@@ -18,7 +18,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     vec3 position_map = position_la * map_axes;
     float rounding_m = error_m + view.numeric.y * length(position_la);
 #ifdef SHADOW_DEPTHS
-    rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, -dot(normal, normalize(position_la)));
+    rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
 #endif
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
