@@ -20,6 +20,11 @@ enum class ShadowFilter : std::uint8_t {
     cube_directions,
     sharp_4x4,
     triangles,
+    exponential,
+    vsm,
+    evsm2,
+    evsm4,
+    moments,
     count
 };
 
@@ -76,7 +81,7 @@ enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 struct LightShadow {
     bool enabled = true;
     ShadowFilter filter = ShadowFilter::triangles;  // the row that measures best (docs/accuracy.md)
-    std::uint32_t filter_size = 3;   // of pcf_grid and pcf_bilinear, texels along an edge; odd, at most 31
+    std::uint32_t filter_size = 3;   // of pcf and prefiltered maps, texels along an edge; odd, at most 31
     std::uint32_t filter_taps = 16;  // of the Poisson filters; 1 to 32
     /// Half-width of the Poisson and cube filters: in texels of the map, or, where filter_spread_m is above 0, in
     /// metres across the light. At most 16 texels, and an eighth of the map's edge, are taken.
@@ -84,9 +89,16 @@ struct LightShadow {
     float filter_doubles_m = 0.0f;  // distance from the camera at which that half-width has doubled; 0: it is constant
     FilterSeed filter_seed = FilterSeed::world;  // of poisson_rotated and poisson_stratified
     float filter_cell_m = 0.02f;                 // FilterSeed::world: edge of a cell; above 0
-    bool early_bail = false;                     // filters of many taps: five first, the others only if those differ
-    std::uint32_t resolution_px = 0;             // edge of one map or cube face; 0: chosen by the system
-    float max_error_px = 1.0f;                   // how far a shadow edge may be off on screen; > 0
+    /// Prefiltered maps (exponential to moments) are blurred by filter_size texels when they are drawn.
+    std::uint32_t moment_bits = 32;         // per channel: 16 or 32
+    float moment_exponent = 0.0f;           // of exponential and evsm; 0: as much as serves and the format bears
+    float moment_negative_exponent = 0.0f;  // of evsm4's second warp; the same
+    float moment_bleeding = 0.2f;           // 0 to 0.9: what is lit less counts as dark
+    std::uint32_t moment_levels = 1;        // 1 to 5 of mipmaps
+    std::uint32_t moment_anisotropy = 1;    // 1 to 16 samples along a pixel's footprint
+    bool early_bail = false;                // filters of many taps: five first, the others only if those differ
+    std::uint32_t resolution_px = 0;        // edge of one map or cube face; 0: chosen by the system
+    float max_error_px = 1.0f;              // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;
     float bias_m = 0.0f;      // of a BiasMode that takes it, >= 0; what is no such number counts as the default
     float bias_texel = 1.0f;  // the same

@@ -17,18 +17,24 @@ std::uint32_t texel_bytes(Format format) {
         case Format::r8:
             return 1;
         case Format::d16:
+        case Format::r16f:
             return 2;
         case Format::rgba8:
         case Format::srgb8_a8:
+        case Format::rg16:
+        case Format::rg16f:
         case Format::r32f:
         case Format::d24:
         case Format::d32f:
             return 4;
+        case Format::rgba16:
         case Format::rgba16_snorm:
         case Format::rgba16f:
         case Format::rg32f:
         case Format::rg32ui:
             return 8;
+        case Format::rgba32f:
+            return 16;
     }
     return 0;
 }
@@ -64,14 +70,24 @@ const char* to_text(Format format) {
             return "rgba8";
         case Format::srgb8_a8:
             return "srgb8_a8";
+        case Format::rg16:
+            return "rg16";
+        case Format::rgba16:
+            return "rgba16";
         case Format::rgba16_snorm:
             return "rgba16_snorm";
+        case Format::r16f:
+            return "r16f";
+        case Format::rg16f:
+            return "rg16f";
         case Format::rgba16f:
             return "rgba16f";
         case Format::r32f:
             return "r32f";
         case Format::rg32f:
             return "rg32f";
+        case Format::rgba32f:
+            return "rgba32f";
         case Format::rg32ui:
             return "rg32ui";
         case Format::d16:

@@ -11,7 +11,24 @@
 namespace gnomon::gl {
 
 enum class TextureKind : std::uint8_t { flat, array, cube };
-enum class Format : std::uint8_t { r8, rgba8, srgb8_a8, rgba16_snorm, rgba16f, r32f, rg32f, rg32ui, d16, d24, d32f };
+enum class Format : std::uint8_t {
+    r8,
+    rgba8,
+    srgb8_a8,
+    rg16,
+    rgba16,
+    rgba16_snorm,
+    r16f,
+    rg16f,
+    rgba16f,
+    r32f,
+    rg32f,
+    rgba32f,
+    rg32ui,
+    d16,
+    d24,
+    d32f
+};
 /// fixed: contents given at creation, never changed by lists. read_back: written by CopyBuffer alone, for read_buffer.
 enum class BufferUse : std::uint8_t { fixed, updated, read_back };
 
@@ -47,6 +64,7 @@ struct SamplerDesc {
     bool mipmaps = false;  // linear between mips
     bool compare = false;  // depth compare, passes where reference >= stored
     Wrap wrap_u = Wrap::clamp, wrap_v = Wrap::clamp;
+    float anisotropy = 1.0f;  // most samples along a footprint's longer side; what the device cannot do it leaves out
     bool operator==(const SamplerDesc&) const = default;
 };
 

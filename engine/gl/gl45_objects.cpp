@@ -119,14 +119,24 @@ GlFormat gl_format(Format format) {
             return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
         case Format::srgb8_a8:
             return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE};
+        case Format::rg16:
+            return {GL_RG16, GL_RG, GL_UNSIGNED_SHORT};
+        case Format::rgba16:
+            return {GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT};
         case Format::rgba16_snorm:
             return {GL_RGBA16_SNORM, GL_RGBA, GL_SHORT};
+        case Format::r16f:
+            return {GL_R16F, GL_RED, GL_HALF_FLOAT};
+        case Format::rg16f:
+            return {GL_RG16F, GL_RG, GL_HALF_FLOAT};
         case Format::rgba16f:
             return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
         case Format::r32f:
             return {GL_R32F, GL_RED, GL_FLOAT};
         case Format::rg32f:
             return {GL_RG32F, GL_RG, GL_FLOAT};
+        case Format::rgba32f:
+            return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
         case Format::rg32ui:
             return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
         case Format::d16:
@@ -215,6 +225,11 @@ Made<GLuint> make_sampler(const SamplerDesc& desc) {
     glSamplerParameteri(name, GL_TEXTURE_WRAP_S, gl_wrap(desc.wrap_u));
     glSamplerParameteri(name, GL_TEXTURE_WRAP_T, gl_wrap(desc.wrap_v));
     glSamplerParameteri(name, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+    if (desc.anisotropy > 1.0f && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+        GLfloat most = 1.0f;
+        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+        glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(desc.anisotropy, most));
+    }
     const std::array<GLfloat, 4> border = {0.0f, 0.0f, 0.0f, 0.0f};
     glSamplerParameterfv(name, GL_TEXTURE_BORDER_COLOR, border.data());
     glSamplerParameteri(name, GL_TEXTURE_COMPARE_MODE, desc.compare ? GL_COMPARE_REF_TO_TEXTURE : GL_NONE);

@@ -26,6 +26,11 @@ float carried_error_m(vec2 texel_m, vec2 lateral, float cosine) {
 }
 #endif
 
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+// What of the offset rounding and snapping need: as much everywhere on the plane, where the rest is a share of the depth.
+float plane_lift(ViewRecord view, vec2 slope) { return view.numeric.x + kRasterSnap_texel * (abs(slope.x) + abs(slope.y)); }
+#endif
+
 // Tests take a share of an offset, to show that less is not enough.
 #ifdef SHADOW_BIAS_SHARE
 Bias taken(Bias bias) { return Bias(SHADOW_BIAS_SHARE * bias.along_normal_m, SHADOW_BIAS_SHARE * bias.depth); }

@@ -19,5 +19,7 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 spread;               // see shadow/spread.glsl
     ivec4 seed_cell;           // see shadow/filters/seed.glsl
     vec4 seed_place;
+    vec4 moments;              // of a prefiltered map, see its filter's file: x, y: exponents; z: least variance; w: 1 if stored in 16 bits
+    vec4 moment_sampling;      // x: what is lit less counts as dark; y: most texels of a pixel's footprint
     ViewRecord views[kMaxViews];
 } light;

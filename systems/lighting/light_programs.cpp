@@ -62,15 +62,15 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput
         defines.emplace_back("SHADOWED 1");
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
         if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
+        if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
         if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
         if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
     }
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
-    const std::string label =
-        std::string(output_name(output)) + " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-        (row.manual_bias ? " manual bias" : "");
+    const std::string label = std::string(output_name(output)) + " " + std::string(row.kind_define) + " " +
+                              std::string(row.filter_file) + (row.manual_bias ? " manual bias" : "");
     if (output == RowOutput::blended)
         make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
     else

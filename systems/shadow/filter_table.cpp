@@ -23,10 +23,30 @@ std::uint32_t of_votes(const LightShadow&, bool) { return 1 + 16 * 3; }
 /// The same, and which triangles the four show.
 std::uint32_t of_triangles(const LightShadow& shadow, bool cube) { return of_votes(shadow, cube) + 4; }
 
+// e^11.09 is the largest half float, e^88.7 the largest float; EVSM stores squares, and a sum of weights needs room.
+// Half floats below 2^-14 lose bits: e^-9.7.
+constexpr MomentRow kExponential{{gl::Format::r16f, 9.7f, 9.7f, 0.0f}, {gl::Format::r32f, 84.0f, 80.0f, 0.0f}};
+// A variance is the difference of squares that are rounded to 2^-17 (16 bits) or 2^-24 of 1: two of them, and a third
+// for what blending adds.
+constexpr MomentRow kVariance{{gl::Format::rg16, 0.0f, 0.0f, 3.0e-5f}, {gl::Format::rg32f, 0.0f, 0.0f, 2.5e-7f}};
+// The same, relative: half floats have 11 bits.
+constexpr MomentRow kWarped{{gl::Format::rg16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rg32f, 42.0f, 40.0f, 2.5e-7f}};
+constexpr MomentRow kWarpedTwice{
+    {gl::Format::rgba16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rgba32f, 42.0f, 40.0f, 2.5e-7f}, 5.0f};
+constexpr MomentRow kFourMoments{{gl::Format::rgba16, 0.0f, 0.0f, 6.0e-5f}, {gl::Format::rgba32f, 0.0f, 0.0f, 3.0e-7f}};
+
 // E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
 // a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts
 // the votes of texels up to 2 away and looks at their neighbours, but only where the four around the receiver do not
 // agree: the edge is then less than a texel away, as under one nearest tap.
+/// One fetch of texels that were blurred by filter_size; the sampler blends those up to one away.
+constexpr FilterRow prefiltered(ShadowFilter id, std::string_view name, std::string_view file,
+                                const MomentRow& moments) {
+    FilterRow row{id, name, file, one, 1.0f, FilterWidth::size, MapReading::moments, FilterStorage::moments};
+    row.moments = &moments;
+    return row;
+}
+
 constexpr FilterRow kRows[] = {
     {ShadowFilter::hard, "hard", "shadow/filters/hard.glsl", one, 0.5f, FilterWidth::fixed,
      MapReading::compare_nearest},
@@ -50,6 +70,11 @@ constexpr FilterRow kRows[] = {
      MapReading::depths, FilterStorage::depth, 2.5f},
     {ShadowFilter::triangles, "triangles", "shadow/filters/triangles.glsl", of_triangles, 3.0f, FilterWidth::fixed,
      MapReading::depths, FilterStorage::depth_and_triangle, 2.5f, 0.75f},
+    prefiltered(ShadowFilter::exponential, "exponential", "shadow/filters/exponential.glsl", kExponential),
+    prefiltered(ShadowFilter::vsm, "vsm", "shadow/filters/vsm.glsl", kVariance),
+    prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/evsm2.glsl", kWarped),
+    prefiltered(ShadowFilter::evsm4, "evsm4", "shadow/filters/evsm4.glsl", kWarpedTwice),
+    prefiltered(ShadowFilter::moments, "moments", "shadow/filters/moments.glsl", kFourMoments),
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "components/light_shadow.h"
+#include "engine/gl/device.h"
 
 namespace gnomon::shadow {
 
@@ -15,11 +16,26 @@ enum class FilterWidth : std::uint8_t {
 };
 
 /// What a map holds for a filter: depth, or also which triangle each texel shows
-/// (shaders/shadow/caster_triangles.glsl).
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle };
+/// (shaders/shadow/caster_triangles.glsl), or also moments of distances, blurred (shaders/shadow/moments).
+enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments };
 
-/// What its sampler returns: results of comparing, as they are or blended by hardware, or what is stored.
-enum class MapReading : std::uint8_t { compare_nearest, compare_linear, depths };
+/// What its sampler returns: results of comparing, as they are or blended by hardware, what is stored, or blurred
+/// moments of it.
+enum class MapReading : std::uint8_t { compare_nearest, compare_linear, depths, moments };
+
+/// How a prefiltered map stores what its filter's file makes of distances: in 16 or 32 bits a channel.
+struct MomentStore {
+    gl::Format format;
+    float most_exponent;   // of warped distances e^(c s), s in [-1,1]; beyond, the largest power overflows; 0: no warp
+    float usual_exponent;  // where the light names none
+    /// How far rounding may take what is reconstructed: a variance, relative to the warped distance's square, or a
+    /// share of moments that are known to be possible (the filter's file says which).
+    float least;
+};
+struct MomentRow {
+    MomentStore bits_16, bits_32;
+    float usual_negative_exponent = 0.0f;  // of a second warp, -e^(-c s); 0: there is none
+};
 
 /// One way of looking a depth map up. To add one: a file under shaders/shadow/filters, an enumerator, a row
 /// (docs/adding_a_filter.md).
@@ -39,6 +55,7 @@ struct FilterRow {
     /// Of one cascade, spot view or cube face, per pixel of the picture's larger side, where the light says no size.
     /// What is seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
     float texels_per_pixel = 1.5f;
+    const MomentRow* moments = nullptr;  // of FilterStorage::moments
 };
 
 /// In the order of ShadowFilter.

@@ -8,6 +8,7 @@
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
+#include "systems/shadow/moment_recorder.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -27,6 +28,27 @@ gl::TextureDesc triangles_of(gl::TextureDesc desc) {
     desc.label += ", triangles";
     desc.format = gl::Format::rg32ui;
     return desc;
+}
+
+/// Of a light whose map is `desc`; what there is none of has a width of 0.
+MomentMap moments_of(const gl::TextureDesc& desc, const ShadowDemand& demand) {
+    MomentMap moments;
+    if (filter_row(demand.filter).storage != FilterStorage::moments) return moments;
+    moments.desc = desc;
+    moments.desc.label += ", moments";
+    moments.desc.format = demand.moments.format;
+    moments.desc.mips = std::min(demand.moments.levels, static_cast<std::uint32_t>(std::bit_width(desc.width)));
+    if (demand.filtering.size <= 1) return moments;
+    moments.scratch_desc = {.label = desc.label + ", scratch", .format = demand.moments.format, .width = desc.width};
+    moments.scratch_desc.height = desc.height + 2 * scratch_rows(demand, desc.kind == gl::TextureKind::cube);
+    return moments;
+}
+
+/// OpenGL's table has them side by side.
+bool are_opposite_faces(std::uint32_t a, std::uint32_t b) { return a != b && a / 2 == b / 2; }
+
+bool is_same_store(const MomentMap& a, const MomentMap& b) {
+    return a.desc == b.desc && a.scratch_desc == b.scratch_desc;
 }
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
@@ -64,7 +86,11 @@ const LightHistory* MapStore::find(ecs::Entity light) const {
 
 std::uint64_t MapStore::bytes(const LightHistory& history) {
     if (!history.texture) return 0;
-    return gl::byte_size(history.desc) + (history.triangles ? gl::byte_size(triangles_of(history.desc)) : 0);
+    std::uint64_t bytes = gl::byte_size(history.desc);
+    if (history.triangles) bytes += gl::byte_size(triangles_of(history.desc));
+    if (history.moments.texture) bytes += gl::byte_size(history.moments.desc);
+    if (history.moments.scratch) bytes += gl::byte_size(history.moments.scratch_desc);
+    return bytes;
 }
 
 std::uint64_t MapStore::bytes() const {
@@ -86,6 +112,11 @@ void MapStore::release(LightHistory& history) {
     device_.destroy(history.whole);
     device_.destroy(history.texture);
     device_.destroy(history.triangles);
+    for (const gl::TargetHandle target : history.moments.targets) device_.destroy(target);
+    device_.destroy(history.moments.scratch_target);
+    device_.destroy(history.moments.texture);
+    device_.destroy(history.moments.scratch);
+    history.moments = {};
     history.whole = {};
     history.targets.clear();
     history.content.clear();
@@ -101,7 +132,27 @@ bool MapStore::make_targets(LightHistory& map) const {
     return true;
 }
 
-Reason MapStore::try_create(const gl::TextureDesc& desc, bool triangles, LightHistory& history) {
+Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) const {
+    MomentMap& moments = map.moments = moments_of(map.desc, demand);
+    if (moments.desc.width == 0) return Reason::none;
+    moments.texture = device_.create_texture(moments.desc, {}).handle;
+    if (moments.texture && moments.scratch_desc.width > 0)
+        moments.scratch = device_.create_texture(moments.scratch_desc, {}).handle;
+    if (!moments.texture || (moments.scratch_desc.width > 0 && !moments.scratch)) return Reason::map_allocation_failed;
+    for (std::uint32_t layer = 0; layer < gl::layer_count(moments.desc); ++layer) {
+        const gl::Attachment attachment{moments.texture, static_cast<std::int32_t>(layer)};
+        const auto target = device_.create_target({moments.desc.label, {attachment}, {}});
+        if (!target) return Reason::target_incomplete;
+        moments.targets.push_back(target.handle);
+    }
+    moments.content.assign(moments.targets.size(), 0);
+    if (!moments.scratch) return Reason::none;
+    moments.scratch_target = device_.create_target({moments.scratch_desc.label, {{moments.scratch}}, {}}).handle;
+    return moments.scratch_target ? Reason::none : Reason::target_incomplete;
+}
+
+Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history) {
+    const bool triangles = filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
     LightHistory made;
     made.desc = desc;
     made.texture = device_.create_texture(desc, {}).handle;
@@ -109,6 +160,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, bool triangles, LightHi
     Reason reason = Reason::none;
     if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
     if (reason == Reason::none && !make_targets(made)) reason = Reason::target_incomplete;
+    if (reason == Reason::none) reason = make_moments(demand, made);
     if (reason != Reason::none) {
         release(made);
         return reason;
@@ -118,6 +170,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, bool triangles, LightHi
     history.desc = desc;
     history.texture = made.texture;
     history.triangles = made.triangles;
+    history.moments = std::move(made.moments);
     history.targets = std::move(made.targets);
     history.content.assign(history.targets.size(), 0);
     return Reason::none;
@@ -130,7 +183,8 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     const bool triangles = filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
     const gl::TextureDesc& held = history.desc;
     if (history.texture && !(held.kind == kind.texture && held.layers == layers && held.format == format &&
-                             static_cast<bool>(history.triangles) == triangles)) {
+                             static_cast<bool>(history.triangles) == triangles &&
+                             is_same_store(history.moments, moments_of(held, demand)))) {
         // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
         release(history);
         history.wanted_px = 0;
@@ -150,7 +204,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(demand.resolution_px >> halving, 1u);
         if (halving > 0 && fits && desc.width <= history.desc.width) break;  // what we hold is as good
-        const Reason reason = try_create(desc, triangles, history);
+        const Reason reason = try_create(desc, demand, history);
         if (reason == Reason::none) {
             if (halving > 0) history.failure = Reason::map_shrunk;
             break;
@@ -202,11 +256,42 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
         slot.target = history.targets[view.layer];
         slot.size_px = history.desc.width;
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-        slot.reuse = light.shadow.economy &&
-                     history.content[view.layer] ==
-                         content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
+        slot.content = content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
+        slot.reuse = light.shadow.economy && history.content[view.layer] == slot.content;
     }
+    assign_moments(scene, frame);
     choose_routes(scene, frame);
+}
+
+/// A view's moments follow from its own depths and, of a cube, those of the faces beside it.
+void MapStore::assign_moments(const SceneSnapshot& scene, ShadowFrame& frame) {
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        const ShadowView& view = frame.views[v];
+        const ShadowDemand& demand = frame.demands[view.demand];
+        ShadowSlot& slot = frame.slots[v];
+        if (!slot.texture || filter_row(demand.filter).storage != FilterStorage::moments) continue;
+        const LightItem& light = scene.lights[demand.light];
+        const MomentMap& moments = find(light.entity)->moments;
+        slot.moments = moments.texture;
+        slot.moment_target = moments.targets[view.layer];
+        slot.scratch = moments.scratch;
+        slot.scratch_target = moments.scratch_target;
+        Signature s;
+        s.add(static_cast<std::uint64_t>(demand.filter));
+        s.add(std::uint64_t{demand.filtering.size});
+        s.add(demand.moments.settings.x);
+        s.add(demand.moments.settings.y);
+        for (std::size_t other = 0; other < frame.views.size(); ++other) {
+            if (frame.views[other].demand != view.demand) continue;
+            const bool beside = view.projection == ViewProjection::cube_face &&
+                                !are_opposite_faces(frame.views[other].layer, view.layer);
+            if (other != v && !beside) continue;
+            s.add(std::uint64_t{frame.views[other].layer});
+            s.add(frame.slots[other].content);
+        }
+        slot.moment_content = s.value == 0 ? 1 : s.value;
+        slot.convert = !light.shadow.economy || moments.content[view.layer] != slot.moment_content;
+    }
 }
 
 void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
@@ -232,12 +317,11 @@ void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
 void MapStore::commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn) {
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
         const ShadowSlot& slot = frame.slots[v];
-        if (!slot.texture || slot.reuse) continue;
+        if (!slot.texture) continue;
         const ShadowView& view = frame.views[v];
-        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-        const LightItem& light = scene.lights[frame.demands[view.demand].light];
-        const std::uint64_t content = content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
-        entry(light.entity).content[view.layer] = drawn ? content : 0;
+        LightHistory& history = entry(scene.lights[frame.demands[view.demand].light].entity);
+        if (!slot.reuse) history.content[view.layer] = drawn ? slot.content : 0;
+        if (slot.convert) history.moments.content[view.layer] = drawn ? slot.moment_content : 0;
     }
 }
 

@@ -9,6 +9,16 @@
 
 namespace gnomon::shadow {
 
+/// A prefiltered map: moments of a depth map's distances, layer by layer, and what its blur needs between its two
+/// passes.
+struct MomentMap {
+    gl::TextureDesc desc{.width = 0}, scratch_desc{.width = 0};  // width 0: there is none
+    gl::TextureHandle texture{}, scratch{};
+    std::vector<gl::TargetHandle> targets;  // one per layer
+    gl::TargetHandle scratch_target{};
+    std::vector<std::uint64_t> content;  // per layer, as LightHistory::content
+};
+
 /// What of one light outlives a frame: its map, the targets of its layers, what each layer last held, and when an
 /// allocation may be tried again.
 struct LightHistory {
@@ -16,6 +26,7 @@ struct LightHistory {
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
     gl::TextureHandle triangles{};          // beside it for a filter of FilterStorage::depth_and_triangle; else {0}
+    MomentMap moments;                      // beside it for a filter of FilterStorage::moments
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
@@ -54,9 +65,11 @@ private:
     LightHistory& entry(ecs::Entity light);
     void release(LightHistory& history);
     bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
+    void assign_moments(const SceneSnapshot& scene, ShadowFrame& frame);
     void choose_routes(const SceneSnapshot& scene, ShadowFrame& frame);
-    Reason try_create(const gl::TextureDesc& desc, bool triangles, LightHistory& history);
+    Reason try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history);
     bool make_targets(LightHistory& map) const;
+    Reason make_moments(const ShadowDemand& demand, LightHistory& map) const;
 
     gl::Device& device_;
     std::vector<LightHistory> lights_;

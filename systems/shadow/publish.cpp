@@ -182,8 +182,9 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out.row.reach_texel = demand.filtering.reach_texel;
             out.row.depths = filter.reading == MapReading::depths;
             out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
+            out.row.moments = filter.storage == FilterStorage::moments;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
-            out.map = slot.texture;
+            out.map = out.row.moments ? slot.moments : slot.texture;
             out.triangles = slot.triangles;
             out.sampler = samplers.of(filter.reading);
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
@@ -192,6 +193,8 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             if (light.kind == LightKind::spot) out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             bias_record(light.shadow, out);
             filter_record(light.shadow, demand.filtering, consumer, out.record);
+            out.record.moments = demand.moments.settings;
+            out.record.moment_sampling.x = demand.moments.bleeding;
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }

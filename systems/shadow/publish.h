@@ -8,8 +8,9 @@ namespace gnomon::shadow {
 
 /// One per way of reading a map that the filter table names (MapReading); those that nobody asked for are {0}.
 struct MapSamplers {
-    gl::SamplerHandle nearest{}, linear{}, depths{};
+    gl::SamplerHandle nearest{}, linear{}, depths{}, moments{};
     gl::SamplerHandle of(MapReading reading) const {
+        if (reading == MapReading::moments) return moments;
         if (reading == MapReading::depths) return depths;
         return reading == MapReading::compare_linear ? linear : nearest;
     }

@@ -41,12 +41,6 @@ bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) 
     return first.mirrored != second.mirrored ? second.mirrored : a < b;
 }
 
-void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {
-    frame.sets[demand].skip = reason;
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (frame.views[v].demand == demand) frame.slots[v] = {};
-}
-
 /// For want of a layered program: the maps are the same.
 void draw_separately(ShadowFrame& frame, std::uint32_t demand) {
     for (std::size_t v = 0; v < frame.views.size(); ++v) {

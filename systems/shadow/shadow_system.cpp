@@ -11,26 +11,32 @@
 namespace gnomon::shadow {
 
 ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
-    : device_(device), maps_(device), recorder_(device), history_(held_fits) {}
+    : device_(device), maps_(device), recorder_(device), moments_(device), history_(held_fits) {}
 
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
     device_.destroy(samplers_.linear);
     device_.destroy(samplers_.depths);
+    device_.destroy(samplers_.moments);
 }
 
 bool ShadowSystem::samplers_ready() {
-    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare) {
-        if (sampler) return;
-        sampler = device_.create_sampler({label, linear, false, compare, gl::Wrap::border, gl::Wrap::border}).handle;
+    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare, gl::Wrap wrap) {
+        if (!sampler) sampler = device_.create_sampler({label, linear, false, compare, wrap, wrap}).handle;
+        return static_cast<bool>(sampler);
     };
-    ensure(samplers_.nearest, "shadow compare nearest", false, true);
-    ensure(samplers_.linear, "shadow compare linear", true, true);
-    const bool reads_depths = std::any_of(frame_.demands.begin(), frame_.demands.end(), [](const ShadowDemand& d) {
-        return d.skip == Reason::none && filter_row(d.filter).reading == MapReading::depths;
-    });
-    if (reads_depths) ensure(samplers_.depths, "shadow depths", false, false);
-    return samplers_.nearest && samplers_.linear && (samplers_.depths || !reads_depths);
+    const auto reads = [&](MapReading reading) {
+        return std::any_of(frame_.demands.begin(), frame_.demands.end(), [&](const ShadowDemand& d) {
+            return d.skip == Reason::none && filter_row(d.filter).reading == reading;
+        });
+    };
+    bool ready = ensure(samplers_.nearest, "shadow compare nearest", false, true, gl::Wrap::border);
+    ready = ensure(samplers_.linear, "shadow compare linear", true, true, gl::Wrap::border) && ready;
+    if (reads(MapReading::depths))
+        ready = ensure(samplers_.depths, "shadow depths", false, false, gl::Wrap::border) && ready;
+    if (reads(MapReading::moments))
+        ready = ensure(samplers_.moments, "shadow moments", true, false, gl::Wrap::clamp) && ready;
+    return ready;
 }
 
 /// Lights that read triangles are lit while the device has no room for them.
@@ -58,8 +64,10 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     provide_triangles(gpu);
     maps_.assign_slots(scene, frame_);
     recorder_.prepare(scene, gpu, frame_);
+    moments_.prepare(frame_);
     publish_lights(scene, samplers_, frame_);
     recorder_.record(scene, gpu, frame_, list, report);
+    moments_.record(scene, frame_, list);
     write_report(scene, report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;

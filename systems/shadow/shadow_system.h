@@ -6,6 +6,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
 #include "systems/shadow/map_store.h"
+#include "systems/shadow/moment_recorder.h"
 #include "systems/shadow/publish.h"
 #include "systems/shadow/record.h"
 #include "systems/shadow/types.h"
@@ -41,6 +42,7 @@ private:
     gl::Device& device_;
     MapStore maps_;
     DepthRecorder recorder_;
+    MomentRecorder moments_;
     MapSamplers samplers_;
     ShadowFrame frame_;
     History history_;

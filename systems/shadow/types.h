@@ -16,6 +16,7 @@
 #include "systems/shadow/filter_demand.h"
 #include "systems/shadow/history.h"
 #include "systems/shadow/kinds/splits.h"
+#include "systems/shadow/moments.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
 /// nothing is changed after its stage.
@@ -35,6 +36,7 @@ struct ShadowDemand {
     ShadowFilter filter = ShadowFilter::hard;
     DepthFormat depth_format = DepthFormat::d32f;
     FilterDemand filtering{};          // its settings
+    MomentDemand moments{};            // of FilterStorage::moments
     std::uint32_t resolution_px = 0;   // edge of the map or of a cube face
     std::uint32_t view_count = 0;      // layers of the map
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
@@ -102,12 +104,19 @@ struct ShadowView {
 /// Struct 5. Where the view lives, and whether last frame's content still holds.
 struct ShadowSlot {
     gl::TextureHandle texture{};
-    gl::TextureHandle triangles{};  // FilterStorage::depth_and_triangle: what each texel shows; else {0}
+    gl::TextureHandle triangles{};     // FilterStorage::depth_and_triangle: what each texel shows; else {0}
+    gl::TextureHandle moments{};       // FilterStorage::moments: what the depths become; else {0}
+    gl::TargetHandle moment_target{};  // this view's layer of it
+    gl::TextureHandle scratch{};       // between the two passes of its blur; {0} if there is one pass alone
+    gl::TargetHandle scratch_target{};
     gl::TargetHandle target{};
     gl::TargetHandle whole{};  // all layers of the light's map, where one pass draws all of its views; else {0}
     CubeRoute route = CubeRoute::six_passes;
     std::uint32_t size_px = 0;
+    std::uint64_t content = 0;         // signature of what the layer is to hold (content_signature)
+    std::uint64_t moment_content = 0;  // the same of its moments
     bool reuse = false;
+    bool convert = false;  // the moments have to be made anew
 };
 
 inline constexpr std::uint32_t kMaxViews = 8;  // kMaxViews in shaders/shadow/light_block.glsl
@@ -135,9 +144,10 @@ struct LightRecord {
     glm::vec4 spread{0.0f};
     glm::ivec4 seed_cell{0};
     glm::vec4 seed_place{0.0f};
+    glm::vec4 moments{0.0f}, moment_sampling{0.0f};
     ViewRecord views[kMaxViews];
 };
-static_assert(sizeof(LightRecord) == std::size_t{10} * 16 + kMaxViews * sizeof(ViewRecord));
+static_assert(sizeof(LightRecord) == std::size_t{12} * 16 + kMaxViews * sizeof(ViewRecord));
 
 /// Matches DepthViewBlock in shaders/shadow/depth/depth_view_block.glsl (std140).
 struct DepthViewRecord {
@@ -165,6 +175,7 @@ struct ProgramRow {
     bool depths = false;       // reads depths from the map, where other filters read results of comparing with it
     bool manual_bias = false;  // any BiasMode but automatic
     bool triangles = false;    // reads which triangles texels show, and those triangles
+    bool moments = false;      // reads a prefiltered map
     bool operator==(const ProgramRow&) const = default;
 };
 
@@ -222,5 +233,12 @@ struct ShadowFrame {
     FitScratch fit_scratch;
     std::vector<double> cpu_us;  // one per light: what the stages spent on it alone
 };
+
+/// Takes all slots of a light whose maps cannot be made; its set says why.
+inline void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {
+    frame.sets[demand].skip = reason;
+    for (std::size_t v = 0; v < frame.views.size(); ++v)
+        if (frame.views[v].demand == demand) frame.slots[v] = {};
+}
 
 }  // namespace gnomon::shadow

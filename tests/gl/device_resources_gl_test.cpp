@@ -38,9 +38,10 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
         const auto* first = reinterpret_cast<const std::byte*>(&value);
         bytes.insert(bytes.end(), first, first + sizeof value);
     };
-    const std::size_t channels = format == Format::rg32f || format == Format::rg32ui                      ? 2
-                                 : format == Format::r8 || format == Format::r32f || gl::is_depth(format) ? 1
-                                                                                                          : 4;
+    std::size_t channels = 4;
+    for (const Format two : {Format::rg16, Format::rg16f, Format::rg32f, Format::rg32ui})
+        if (format == two) channels = 2;
+    if (format == Format::r8 || format == Format::r16f || format == Format::r32f || gl::is_depth(format)) channels = 1;
     for (std::size_t i = 0; i < texels * channels; ++i) {
         const auto small = static_cast<std::uint16_t>(i % 251);
         switch (format) {
@@ -52,11 +53,18 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
             case Format::rgba16_snorm:
                 add(static_cast<std::int16_t>(small * 130 - 16000));
                 break;
+            case Format::rg16:
+            case Format::rgba16:
+                add(static_cast<std::uint16_t>(small * 260));
+                break;
+            case Format::r16f:
+            case Format::rg16f:
             case Format::rgba16f:
                 add(static_cast<std::uint16_t>(0x3c00 + small));
                 break;  // half floats from 1
             case Format::r32f:
             case Format::rg32f:
+            case Format::rgba32f:
                 add(static_cast<float>(i) * -1.25f);
                 break;
             case Format::rg32ui:
@@ -149,7 +157,12 @@ constexpr std::array kFormatNames = {std::pair{"r8", Format::r8},
                                      std::pair{"rgba8", Format::rgba8},
                                      std::pair{"srgb8_a8", Format::srgb8_a8},
                                      std::pair{"rgba16_snorm", Format::rgba16_snorm},
+                                     std::pair{"rg16", Format::rg16},
+                                     std::pair{"rgba16", Format::rgba16},
+                                     std::pair{"r16f", Format::r16f},
+                                     std::pair{"rg16f", Format::rg16f},
                                      std::pair{"rgba16f", Format::rgba16f},
+                                     std::pair{"rgba32f", Format::rgba32f},
                                      std::pair{"r32f", Format::r32f},
                                      std::pair{"rg32f", Format::rg32f},
                                      std::pair{"rg32ui", Format::rg32ui},

@@ -9,6 +9,7 @@
 #include "systems/lighting/light_programs.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
+#include "systems/shadow/moment_recorder.h"
 
 namespace gnomon {
 
@@ -16,6 +17,10 @@ inline bool reads_depths(const shadow::FilterRow& filter) { return filter.readin
 
 inline bool reads_triangles(const shadow::FilterRow& filter) {
     return filter.storage == shadow::FilterStorage::depth_and_triangle;
+}
+
+inline bool reads_moments(const shadow::FilterRow& filter) {
+    return filter.storage == shadow::FilterStorage::moments;
 }
 
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns in perspective
@@ -38,13 +43,16 @@ inline std::vector<shadow::ProgramRow> all_rows() {
         for (const bool fades : {false, true})
             rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
     for (shadow::ProgramRow& row : rows)
-        for (const shadow::FilterRow& filter : shadow::filter_table())
-            row.triangles = row.triangles || (filter.file == row.filter_file && reads_triangles(filter));
+        for (const shadow::FilterRow& filter : shadow::filter_table()) {
+            if (filter.file != row.filter_file) continue;
+            row.triangles = reads_triangles(filter);
+            row.moments = reads_moments(filter);
+        }
     return rows;
 }
 
-/// The sources of every program, as the lighting system itself hands them to a device; the depth programs' and
-/// the debug views'.
+/// The sources of every program, as the lighting system itself hands them to a device; the depth programs', those
+/// of prefiltered maps and the debug views'.
 inline std::vector<gl::ProgramDesc> all_programs() {
     std::vector<gl::ProgramDesc> programs;
     gl::RecordingDevice device;
@@ -62,6 +70,18 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             for (const auto output :
                  {lighting::RowOutput::picture, lighting::RowOutput::visibility, lighting::RowOutput::blended})
                 add(lighting.row(row, output));
+    }
+    {
+        using Source = shadow::MomentRecorder::Source;
+        shadow::MomentRecorder moments(device);
+        const auto add = [&](std::string_view file, Source source) {
+            const gl::ProgramDesc* desc = device.program(moments.program(file, source));
+            programs.push_back(desc ? *desc : gl::ProgramDesc{.label = "not expanded"});
+        };
+        add({}, Source::scratch);
+        for (const shadow::FilterRow& filter : shadow::filter_table())
+            for (const Source source : {Source::orthographic, Source::perspective, Source::cube})
+                if (reads_moments(filter)) add(filter.file, source);
     }
     for (const int kind : {0, 1, 2, 3}) {
         const bool masked = kind % 2 != 0, triangles = kind >= 2;

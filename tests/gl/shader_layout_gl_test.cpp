@@ -59,7 +59,9 @@ Block light_block() {
                  {"LightBlock.filtering", offsetof(LightRecord, filtering)},
                  {"LightBlock.spread", offsetof(LightRecord, spread)},
                  {"LightBlock.seed_cell", offsetof(LightRecord, seed_cell)},
-                 {"LightBlock.seed_place", offsetof(LightRecord, seed_place)}}};
+                 {"LightBlock.seed_place", offsetof(LightRecord, seed_place)},
+                 {"LightBlock.moments", offsetof(LightRecord, moments)},
+                 {"LightBlock.moment_sampling", offsetof(LightRecord, moment_sampling)}}};
     for (Member& m : view_members()) block.members.push_back(std::move(m));
     return block;
 }
@@ -85,6 +87,7 @@ std::vector<Block> expected_blocks() {
     using lighting::ExposureRecord;
     using shadow::CameraRecord;
     using shadow::DepthViewRecord;
+    using shadow::MomentRecord;
     return {
         light_block(),
         depth_tiles_block(),
@@ -106,6 +109,17 @@ std::vector<Block> expected_blocks() {
          {{"DepthViewBlock.clip_from_anchor", offsetof(DepthViewRecord, clip_from_anchor)},
           {"DepthViewBlock.anchor_high", offsetof(DepthViewRecord, anchor_high)},
           {"DepthViewBlock.anchor_low", offsetof(DepthViewRecord, anchor_low)}}},
+        {GL_UNIFORM_BLOCK,
+         "MomentBlock",
+         0,
+         sizeof(MomentRecord),
+         {{"MomentBlock.settings", offsetof(MomentRecord, settings)},
+          {"MomentBlock.range", offsetof(MomentRecord, range)},
+          {"MomentBlock.place", offsetof(MomentRecord, place)},
+          {"MomentBlock.axis_u", offsetof(MomentRecord, axis_u)},
+          {"MomentBlock.axis_v", offsetof(MomentRecord, axis_v)},
+          {"MomentBlock.axis_back", offsetof(MomentRecord, axis_back)},
+          {"MomentBlock.weights[0]", offsetof(MomentRecord, weights)}}},
         {GL_UNIFORM_BLOCK,
          "MaterialBlock",
          2,

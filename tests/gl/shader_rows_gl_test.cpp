@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "tests/gl/gl_test_context.h"
@@ -14,8 +15,11 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const std::size_t kinds = shadow::light_kind_table().size(), filters = shadow::filter_table().size();
     const std::size_t rows =
         kinds * (2 * filters + 1) + (kinds - 1) * filters + 3 * filters;  // all but cubes fade; perspective and warped suns
-    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 4, kCompute = 1;
-    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + kCompute + debug::view_table().size());
+    const auto prefiltered =
+        static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
+    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 4, kCompute = 1, kBlur = 1, kSources = 3;
+    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + kCompute + kBlur + kSources * prefiltered +
+                                   debug::view_table().size());
     std::set<std::string> sources;
     for (const gl::ProgramDesc& desc : programs) {
         ASSERT_NE(desc.fragment + desc.compute, "") << desc.label;

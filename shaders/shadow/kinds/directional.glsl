@@ -40,6 +40,11 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     return point;
 }
 
+#ifdef SHADOW_MOMENTS
+#include "shadow/moments/distance.glsl"
+float shadow_share(ShadowPoint point) { return orthographic_share(point.reference); }
+#endif
+
 int cascade_at(float distance_m) {
     int i = 0;
     while (i + 1 < light.options.x && distance_m > light.views[i].anchor_from_camera.w) ++i;

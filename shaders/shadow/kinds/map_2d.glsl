@@ -1,6 +1,7 @@
 // What the kinds with flat maps share: one compare tap, `offset_texel` texels away from the receiver; or, for filters
-// that read depths (SHADOW_DEPTHS), what is stored and how the receiver's plane lies in the map.
-#ifdef SHADOW_DEPTHS
+// that read depths (SHADOW_DEPTHS), what is stored and how the receiver's plane lies in the map; or what is stored of a
+// prefiltered map (SHADOW_MOMENTS).
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
 layout(binding = 4) uniform sampler2DArray shadow_map;
 #else
 layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
@@ -20,10 +21,10 @@ struct ShadowPoint {
 #ifdef SHADOW_TRIANGLES
     float error_m;        // how far position_ca may be off the true surface
 #endif
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     float reference;    // map.z
 #endif
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS) || defined(SHADOW_MANUAL_BIAS)
     int view;
     vec2 slope;         // of the receiver's plane: reversed depth per texel along u and v; 0 if taps are not compared on it
 #endif
@@ -33,6 +34,7 @@ struct ShadowPoint {
 vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
 // A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
+// It is the biased receiver's plane, but for plane_lift().
 vec2 shadow_slope(ShadowPoint point, vec3 normal) {
     mat4 map_from_anchor = light.views[point.view].map_from_anchor;
     vec3 along_w = row_xyz(map_from_anchor, 3);
@@ -43,7 +45,9 @@ vec2 shadow_slope(ShadowPoint point, vec3 normal) {
     float facing = dot(ray, normal);
     float least = kNormalError_rad * length(ray);
     if (abs(facing) < least) facing = facing < 0.0 ? -least : least;
-    return vec2(dot(cross(along_v, normal), along_depth), dot(cross(normal, along_u), along_depth)) * (point.texel_uv / facing);
+    vec3 over_u = cross(along_v, normal) * (point.texel_uv.x / facing), over_v = cross(normal, along_u) * (point.texel_uv.y / facing);
+    vec2 slope = vec2(dot(over_u, along_depth), dot(over_v, along_depth));
+    return slope + plane_lift(light.views[point.view], slope) * vec2(dot(over_u, along_w), dot(over_v, along_w));
 }
 #endif
 
@@ -68,6 +72,10 @@ uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
     return texelFetch(shadow_triangles, ivec3(ivec2(middle), int(point.layer)), 0).xy;
 }
 #endif
+#elif defined(SHADOW_MOMENTS)
+float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }
+
+vec4 shadow_moments(ShadowPoint point) { return textureLod(shadow_map, vec3(point.map.xy, point.layer), 0.0); }
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 
@@ -96,10 +104,10 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
     point.covered = projected.w > 0.0 && map.z >= 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
     point.layer = light.views[view].numeric.w;
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference = point.map.z;
 #endif
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS) || defined(SHADOW_MANUAL_BIAS)
     point.view = view;
     point.slope = vec2(0.0);
 #endif
@@ -110,7 +118,7 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
 ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal) {
     point.slope = shadow_slope(point, normal);
     point.map.z = clamp(point.map.z + receiver_plane_margin(point.slope), 0.0, 1.0);
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference = point.map.z;
 #endif
     return point;

@@ -6,7 +6,7 @@
 #include "shadow/bias_manual.glsl"
 #endif
 #include "shadow/spread.glsl"
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
 layout(binding = 4) uniform samplerCube shadow_map;
 #else
 layout(binding = 4) uniform samplerCubeShadow shadow_map;
@@ -26,8 +26,13 @@ struct ShadowPoint {
 #ifdef SHADOW_TRIANGLES
     float error_m;        // how far position_ca may be off the true surface
 #endif
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     float reference;      // biased depth
+#endif
+#ifdef SHADOW_MOMENTS
+    float reach_texel;    // what the bias is for
+#endif
+#ifdef SHADOW_DEPTHS
     vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
     vec2 tangent;         // of its direction along the face's axes
 #endif
@@ -41,17 +46,10 @@ float light_from_plane_m(ShadowPoint point, vec3 normal) {
     return max(-dot(normal, point.position), kNormalError_rad * length(point.position));
 }
 
-float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
+#include "shadow/cube_faces.glsl"
 
-// Faces in OpenGL's order. One that was not drawn has no caster where it would be seen; it may hold anything.
-bool is_drawn(vec3 direction) {
-    vec3 size = abs(direction);
-    bool x_major = size.x >= size.y && size.x >= size.z;
-    bool y_major = !x_major && size.y >= size.z;
-    float along = x_major ? direction.x : (y_major ? direction.y : direction.z);
-    int face = (x_major ? 0 : (y_major ? 2 : 4)) + (along < 0.0 ? 1 : 0);
-    return (light.options.w >> face & 1) != 0;
-}
+// A face that was not drawn has no caster where it would be seen; it may hold anything.
+bool is_drawn(vec3 direction) { return (light.options.w >> face_of(direction) & 1) != 0; }
 
 // From the world's axes to the cube's.
 vec3 turned_back(vec3 v) {
@@ -59,29 +57,17 @@ vec3 turned_back(vec3 v) {
     return v + 2.0 * cross(axis, cross(axis, v) - light.cone.w * v);
 }
 
-// The face of OpenGL's table that a direction falls on; axes as cube_face() has them.
-mat3 face_axes(vec3 direction) {
-    vec3 size = abs(direction);
-    if (size.x >= size.y && size.x >= size.z) {
-        float side = direction.x < 0.0 ? -1.0 : 1.0;
-        return mat3(vec3(0.0, 0.0, -side), vec3(0.0, -1.0, 0.0), vec3(-side, 0.0, 0.0));
-    }
-    if (size.y >= size.z) {
-        float side = direction.y < 0.0 ? -1.0 : 1.0;
-        return mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, side), vec3(0.0, -side, 0.0));
-    }
-    float side = direction.z < 0.0 ? -1.0 : 1.0;
-    return mat3(vec3(side, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, -side));
-}
-
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
-// 1 / z is linear in the tangents on any plane, see perspective_bias(); this one is the biased receiver's.
+// 1 / z is linear in the tangents on any plane, see perspective_bias(); this one is the biased receiver's, but for
+// plane_lift().
 vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
     vec3 normal = turned_back(normal_ws);
     ViewRecord view = light.views[0];
     vec3 n_map = normal * face_axes(point.position);
-    float biased = view.axis_back.w + point.bias_depth * largest(point.position);
-    return vec2(n_map.x, n_map.y) * (-biased * view.axis_u.w / light_from_plane_m(point, normal));
+    float z_m = largest(point.position);
+    float biased = view.axis_back.w + point.bias_depth * z_m;
+    vec2 slope = vec2(n_map.x, n_map.y) * (-biased * view.axis_u.w / light_from_plane_m(point, normal));
+    return slope * (1.0 - plane_lift(view, slope) * z_m / biased);
 }
 #endif
 
@@ -124,6 +110,38 @@ uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
     return textureLod(shadow_triangles, direction_to(point, middle), 0.0).xy;
 }
 #endif
+#elif defined(SHADOW_MOMENTS)
+#include "shadow/moments/distance.glsl"
+float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }
+float seam_texel(float reach_texel) { return reach_texel; }
+
+// The sampler blends across seams; where the neighbour was not drawn it must not.
+vec4 shadow_moments(ShadowPoint point) {
+    mat3 axes = face_axes(point.position);
+    vec3 in_face = point.position * axes;
+    vec2 tangent = vec2(in_face.x, in_face.y) / largest(point.position);
+    float inner = 1.0 - 1.0 / float(textureSize(shadow_map, 0).x);
+    for (int i = 0; i < 2; ++i) {
+        vec3 across = vec3(0.0, 0.0, -1.0);
+        across[i] = tangent[i] < 0.0 ? -1.01 : 1.01;
+        if (abs(tangent[i]) > inner && !is_drawn(axes * across)) tangent[i] = clamp(tangent[i], -inner, inner);
+    }
+    return textureLod(shadow_map, axes * vec3(tangent, -1.0), 0.0);
+}
+
+// How much longer the way from the light is than its part along the face's axis; the least of that within reach.
+float shadow_stretch(ShadowPoint point) {
+    vec3 direction = point.position / largest(point.position);
+    float stretch = length(direction);
+    float aside = abs(direction.x) + abs(direction.y) + abs(direction.z) - 1.0;
+    return max(stretch - point.reach_texel * light.views[0].axis_u.w * aside / stretch, 1.0);
+}
+
+float shadow_share(ShadowPoint point) {
+    if (!is_drawn(point.position)) return 0.0;
+    ViewRecord view = light.views[0];
+    return perspective_share(point.reference, shadow_stretch(point), share_range(view.numeric.z, view.axis_back.w, kCubeCorner));
+}
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 float seam_texel(float reach_texel) { return reach_texel; }
@@ -201,7 +219,12 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     z_m = largest(point.position);
     vec3 in_face = point.position * map_axes;
     point.tangent = vec2(in_face.x, in_face.y) / z_m;
-    point.reference = view.numeric.z + view.axis_back.w / z_m + bias.depth;
+#endif
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
+    point.reference = view.numeric.z + view.axis_back.w / largest(point.position) + bias.depth;
+#endif
+#ifdef SHADOW_MOMENTS
+    point.reach_texel = reach_texel;
 #endif
     return point;
 }
@@ -212,7 +235,7 @@ ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal_ws) {
     float margin = receiver_plane_margin(shadow_slope(point, normal_ws));
     point.plane = -normal / light_from_plane_m(point, normal);
     point.bias_depth += margin;
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference += margin;
 #endif
     return point;

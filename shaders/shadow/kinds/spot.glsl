@@ -33,6 +33,14 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     return point;
 }
 
+#ifdef SHADOW_MOMENTS
+#include "shadow/moments/distance.glsl"
+float shadow_share(ShadowPoint point) {
+    ViewRecord view = light.views[point.view];
+    return perspective_share(point.reference, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
+}
+#endif
+
 // The face that looks most nearly along the direction; -1: none. A face without a view casts nothing that is seen.
 int face_toward(int faces, vec3 position_la) {
     int best = -1;

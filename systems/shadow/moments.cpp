@@ -1,0 +1,61 @@
+#include "systems/shadow/moments.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/shadow/filter_demand.h"
+#include "systems/shadow/filter_table.h"
+
+namespace gnomon::shadow {
+namespace {
+
+static_assert(kMomentWeights == kMostFilterSize / 2 + 1);
+constexpr float kCutOff_deviations = 2.0f;
+
+/// 0 asks for the usual one.
+float exponent(float asked, float usual, float most, bool& cut) {
+    if (asked == 0.0f || most == 0.0f) return std::min(usual, most);
+    const bool good = asked > 0.0f && asked <= most;
+    cut = cut || !good;
+    if (good) return asked;
+    return asked > most ? most : std::min(usual, most);  // not a number: the usual one
+}
+
+}  // namespace
+
+MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow) {
+    MomentDemand demand;
+    if (!row.moments) return demand;
+    const bool half = shadow.moment_bits <= 16;
+    const MomentStore& store = half ? row.moments->bits_16 : row.moments->bits_32;
+    demand.cut = shadow.moment_bits != 16 && shadow.moment_bits != 32;
+    demand.format = store.format;
+    const float negative = row.moments->usual_negative_exponent;
+    demand.settings = {
+        exponent(shadow.moment_exponent, store.usual_exponent, store.most_exponent, demand.cut),
+        negative > 0.0f ? exponent(shadow.moment_negative_exponent, negative, store.most_exponent, demand.cut) : 0.0f,
+        store.least, half ? 1.0f : 0.0f};
+    const bool share = shadow.moment_bleeding >= 0.0f && shadow.moment_bleeding <= kMostMomentBleeding;
+    demand.bleeding = share ? shadow.moment_bleeding : LightShadow{}.moment_bleeding;
+    demand.levels = std::clamp(shadow.moment_levels, 1u, kMostMomentLevels);
+    demand.anisotropy = std::clamp(shadow.moment_anisotropy, 1u, kMostMomentAnisotropy);
+    demand.cut =
+        demand.cut || !share || demand.levels != shadow.moment_levels || demand.anisotropy != shadow.moment_anisotropy;
+    return demand;
+}
+
+std::array<float, kMomentWeights> blur_weights(std::uint32_t size) {
+    std::array<float, kMomentWeights> weights{};
+    const std::uint32_t radius = std::min(size / 2, kMomentWeights - 1);
+    const float deviation_texel = (static_cast<float>(radius) + 0.5f) / kCutOff_deviations;
+    float sum = 0.0f;
+    for (std::uint32_t i = 0; i <= radius; ++i) {
+        const float away = static_cast<float>(i) / deviation_texel;
+        weights[i] = std::exp(-0.5f * away * away);
+        sum += i == 0 ? weights[i] : 2.0f * weights[i];
+    }
+    for (float& weight : weights) weight /= sum;
+    return weights;
+}
+
+}  // namespace gnomon::shadow
