@@ -48,7 +48,7 @@ Result<std::string> set_shares(const StageOptions& options) {
     ecs::Registry world;
     assets::MeshLibrary library;
     const game::SpawnedScene spawned = game::spawn_scene(std::move(scene).value(), world, library);
-    game::apply_motion(spawned.moving, options.time_s, world);
+    game::set_time(spawned, options.time_s, world);
     for (const game::NamedEntity& light : spawned.lights)
         for (const std::string& setting : options.settings) {
             std::optional<Error> error;

@@ -31,7 +31,7 @@ std::optional<Error> Stage::load(const StageOptions& options) {
     spawned_ = game::spawn_scene(std::move(scene).value(), world_, library_);
     time_s_ = options.time_s;
     moving_ = everything_moving(spawned_, world_);
-    game::apply_motion(spawned_.moving, time_s_, world_);
+    game::set_time(spawned_, time_s_, world_);
     for (const std::string& setting : options.settings)
         if (auto error = apply_setting(setting)) return error;
     load_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -37,7 +37,10 @@ public:
     void run_frame() { frame_->run(world_, settings_); }
     /// Everything in the scene where it is at that time, see everything_moving(). Until then only what the file moves
     /// has left its place.
-    void move_to(double time_s) { game::apply_motion(moving_, time_s, world_); }
+    void move_to(double time_s) {
+        game::apply_motion(moving_, time_s, world_);
+        game::play(spawned_.played, time_s, world_);
+    }
     void show_shadows(bool on) { settings_.shadows = on; }
     void set_economy(bool on);
     /// "KEY=VALUE" for every LightShadow. Errors: "set.*".

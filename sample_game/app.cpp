@@ -24,6 +24,11 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
     world->warnings = data.value().warnings;
     world->scene = spawn_scene(std::move(data).value(), world->registry, world->library);
     if (level) world->game = std::make_unique<GameSession>(std::move(*level), world->scene, world->registry);
+    if (line.animation) {
+        const Result<std::size_t> animation = find_animation(world->scene.animations, *line.animation);
+        if (!animation) return animation.error();
+        world->scene.played = played_channels(world->scene.animations, world->scene.nodes, animation.value());
+    }
     if (line.camera) {
         const Result<std::size_t> camera = find_camera(world->scene, *line.camera);
         if (!camera) return camera.error();

@@ -49,7 +49,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
             world.game->play_demo_until(time_s);
             world.game->apply(world.registry);
         } else {
-            apply_motion(world.scene.moving, time_s, world.registry);
+            set_time(world.scene, time_s, world.registry);
         }
         stage->renderer.frame->run(world.registry, settings);
         if (stage->renderer.frame->report().failure == gl::Failure::context_lost) {

@@ -133,7 +133,7 @@ private:
             clock_.advance(dt_s);
             if (!last.consumers.empty()) walker_.update(input, look, dt_s, last.consumers.front(), world_.registry);
         }
-        if (frame_ == 0 || clock_.runs()) apply_motion(world_.scene.moving, clock_.time_s(frame_), world_.registry);
+        if (frame_ == 0 || clock_.runs()) set_time(world_.scene, clock_.time_s(frame_), world_.registry);
     }
 
     GameWorld& world_;

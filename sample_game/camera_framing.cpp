@@ -55,6 +55,7 @@ public:
             if (node.mesh == assets::kNone || !node.visible || determinant == 0.0 || !std::isfinite(determinant))
                 continue;
             const assets::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
+            if (mesh.deformer) continue;  // whoever lives in a room is not its walls
             const glm::dmat3 model_from_world = glm::inverse(poses_[i].basis);
             const glm::dvec3 origin = model_from_world * (origin_ws - poses_[i].translation_ws_m);
             const glm::dvec3 direction = model_from_world * direction_ws;  // not normalised: t stays in metres

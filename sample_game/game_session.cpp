@@ -33,7 +33,7 @@ double axis(const platform::Input& input, platform::Key minus, platform::Key plu
 }  // namespace
 
 GameSession::GameSession(Level level, const SpawnedScene& scene, ecs::Registry& registry)
-    : game_(std::move(level)), moving_(scene.moving),
+    : game_(std::move(level)), moving_(scene.moving), played_(scene.played),
       body_(scene.nodes[static_cast<std::size_t>(game_.level().player)]),
       sun_(scene.nodes[static_cast<std::size_t>(game_.level().sun)]), camera_(registry.create()) {
     for (const NamedEntity& other : scene.cameras)
@@ -70,7 +70,10 @@ void GameSession::play_demo_until(double time_s) {
 
 void GameSession::apply(ecs::Registry& registry) {
     const GameState& state = game_.state();
-    if (state.time_s() != applied_time_s_) apply_motion(moving_, state.time_s(), registry);
+    if (state.time_s() != applied_time_s_) {
+        apply_motion(moving_, state.time_s(), registry);
+        play(played_, state.time_s(), registry);
+    }
     applied_time_s_ = state.time_s();
     const glm::dquat heading = glm::angleAxis(state.yaw_rad, glm::dvec3(0.0, 1.0, 0.0));
     const auto put = [&](ecs::Entity entity, const glm::dvec3& at_m, const glm::dquat& rotation) {

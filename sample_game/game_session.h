@@ -30,6 +30,7 @@ private:
 
     Game game_;
     std::vector<MovingEntity> moving_;
+    std::vector<PlayedChannel> played_;
     ecs::Entity body_, sun_, camera_;
     Transform sun_at_dusk_;
     float sun_lux_ = 0.0f;

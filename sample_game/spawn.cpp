@@ -10,8 +10,10 @@
 #include "components/light.h"
 #include "components/light_shadow.h"
 #include "components/mesh_ref.h"
+#include "components/morph_weights.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
+#include "components/skin.h"
 #include "components/transform.h"
 #include "sample_game/camera_framing.h"
 #include "sample_game/light_names.h"
@@ -103,12 +105,25 @@ public:
         spawned_.camera_added = true;
     }
 
+    /// After all nodes: joints may come after what follows them.
+    void add_skins() {
+        for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
+            if (scene_.nodes[i].skin == assets::kNone) continue;
+            const assets::Skin& skin = scene_.skins[static_cast<std::size_t>(scene_.nodes[i].skin)];
+            Skin component{.inverse_bind = skin.inverse_bind};
+            for (const std::int32_t joint : skin.joints)
+                component.joints.push_back(spawned_.nodes[static_cast<std::size_t>(joint)]);
+            registry_.emplace<Skin>(spawned_.nodes[i], std::move(component));
+        }
+    }
+
 private:
     void add_mesh(ecs::Entity entity, const assets::Node& node) {
         registry_.emplace<MeshRef>(entity, {.mesh = static_cast<std::uint32_t>(node.mesh),
                                             .visible = node.visible,
                                             .receives_shadow = node.receives_shadow});
         if (node.casts_shadow) registry_.emplace<ShadowCaster>(entity);
+        if (!node.morph_weights.empty()) registry_.emplace<MorphWeights>(entity, {node.morph_weights});
     }
 
     std::string add_camera(ecs::Entity entity, const assets::Node& node) {
@@ -143,10 +158,18 @@ SpawnedScene spawn_scene(assets::SceneData scene, ecs::Registry& registry, asset
     spawned.bounds_ws = scene_bounds(scene, poses);
     Spawner spawner(scene, registry, spawned);
     for (const assets::Node& node : scene.nodes) spawner.spawn(node);
+    spawner.add_skins();
+    spawned.animations = std::move(scene.animations);
+    spawned.played = played_channels(spawned.animations, spawned.nodes);
     if (spawned.lights.empty()) spawner.add_sun();
     if (spawned.cameras.empty()) spawner.add_framed_camera(frame_scene(scene, poses, spawned.bounds_ws));
     library = {std::move(scene.meshes), std::move(scene.materials), std::move(scene.textures)};
     return spawned;
+}
+
+void set_time(const SpawnedScene& scene, double time_s, ecs::Registry& registry) {
+    apply_motion(scene.moving, time_s, registry);
+    play(scene.played, time_s, registry);
 }
 
 void activate_camera(const SpawnedScene& scene, std::size_t index, ecs::Registry& registry) {

@@ -53,12 +53,15 @@ ElementLayout element_layout(int type) {
     }
 }
 
+std::size_t column_pitch(const tinygltf::Accessor& accessor) {
+    const std::size_t column = element_layout(accessor.type).rows * component_bytes(accessor.componentType);
+    return (column + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment;
+}
+
 /// Bytes that one element covers, without any padding behind its last column.
 std::size_t element_bytes(const tinygltf::Accessor& accessor) {
     const ElementLayout layout = element_layout(accessor.type);
-    const std::size_t column = layout.rows * component_bytes(accessor.componentType);
-    const std::size_t pitch = (column + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment;
-    return (layout.columns - 1) * pitch + column;
+    return (layout.columns - 1) * column_pitch(accessor) + layout.rows * component_bytes(accessor.componentType);
 }
 
 std::size_t stride_bytes(const Document& document, const tinygltf::Accessor& accessor) {
@@ -179,12 +182,14 @@ template <class Out, class Convert>
 std::vector<Out> read_elements(const Document& document, int index, Convert&& convert) {
     const auto& accessor = document.model.accessors[static_cast<std::size_t>(index)];
     const std::string where = pointer("accessors", index);
-    const std::size_t components = element_layout(accessor.type).rows;
+    const ElementLayout layout = element_layout(accessor.type);
+    const std::size_t components = layout.rows * layout.columns;
     std::vector<Out> out(accessor.count * components, Out{});
     with_component(accessor.componentType, [&]<class T>(T) {
         const auto copy = [&](const std::byte* from, std::size_t element) {
             for (std::size_t c = 0; c < components; ++c) {
-                out[element * components + c] = convert(load<T>(from + c * sizeof(T)));
+                const std::byte* column = from + c / layout.rows * column_pitch(accessor);
+                out[element * components + c] = convert(load<T>(column + c % layout.rows * sizeof(T)));
             }
         };
         if (accessor.bufferView >= 0) {
@@ -207,7 +212,7 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
                     fail("accessor.sparse_index", where + "/sparse/indices", "must rise and stay below the count");
                 }
                 next_allowed = element + 1;
-                copy(values + i * components * sizeof(T), element);
+                copy(values + i * element_bytes(accessor), element);
             }
         });
     });

@@ -27,7 +27,10 @@ inline constexpr std::size_t kMaxItems = 262'144;
 /// 16 M triangles are what the topology analysis does in about 10 s on one slow core.
 inline constexpr std::size_t kMaxTriangles = 16'000'000;
 
-/// Vertices, indices and texels that stay in memory, and the expanded size of any one accessor.
+/// Morph targets of one mesh: faces of film characters have some hundred.
+inline constexpr std::size_t kMaxTargets = 4096;
+
+/// Vertices, indices, morph targets, keys and texels that stay in memory, and the expanded size of any one accessor.
 inline constexpr std::size_t kMaxDecodedBytes = 512 * kMiB;
 
 /// An accessor without a buffer view is zero wherever its sparse part says nothing. It stands beside other accessors of

@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "engine/assets/gltf_animations.h"
 #include "engine/assets/gltf_document.h"
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_file.h"
@@ -12,6 +13,7 @@
 #include "engine/assets/gltf_materials.h"
 #include "engine/assets/gltf_mesh.h"
 #include "engine/assets/gltf_nodes.h"
+#include "engine/assets/gltf_skins.h"
 
 namespace gnomon::assets {
 namespace {
@@ -19,14 +21,15 @@ namespace {
 SceneData load_scene(std::span<const std::byte> bytes, const std::filesystem::path& folder, const std::string& name) {
     const std::string extension = std::filesystem::path(name).extension().string();
     gltf::Document document = gltf::parse_document(bytes, folder, extension == ".glb" || extension == ".GLB");
-    if (!document.json.value("animations", nlohmann::json::array()).empty()) document.warn("animations are ignored");
     SceneData scene;
     scene.name = std::filesystem::path(name).stem().string();
     const std::vector<gltf::UvSource> uv_sources = gltf::load_materials(document, scene);
     gltf::load_meshes(document, uv_sources, scene);
     gltf::load_lights(document, scene);
     gltf::load_cameras(document, scene);
-    gltf::load_nodes(document, scene);
+    const std::vector<std::int32_t> scene_nodes = gltf::load_nodes(document, scene);
+    gltf::load_skins(document, scene_nodes, scene);
+    gltf::load_animations(document, scene_nodes, scene);
     scene.warnings = std::move(document.warnings);
     if (document.suppressed_warnings > 0) {
         scene.warnings.push_back(std::to_string(document.suppressed_warnings) + " more warnings");

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/assets/gltf_accessor.h"
+#include "engine/assets/gltf_deformer.h"
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_limits.h"
 #include "engine/assets/gltf_triangles.h"
@@ -21,6 +22,7 @@ namespace {
 struct VertexSource {
     int position = kNone, normal = kNone, uv = kNone;  // accessors
     int material = kNone;                              // where it transforms texture coordinates, else kNone
+    DeformingSource deforming;
     auto operator<=>(const VertexSource&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads <=>
 };
 
@@ -62,6 +64,8 @@ private:
         mesh.name = source.name;
         blocks_.clear();
         missing_normals_.clear();
+        DeformerBuilder deformer(document_);
+        deformer_ = &deformer;
         for (std::size_t p = 0; p < source.primitives.size(); ++p) {
             where_ = pointer("meshes", index, "primitives", p);
             const nlohmann::json& raw = document_.json["meshes"][index]["primitives"][p];
@@ -76,7 +80,8 @@ private:
             mesh.bounds_ms.max = glm::max(mesh.bounds_ms.max, position);
         }
         mesh.topology = analyse_topology(mesh);
-        mesh.shape = shape_of(mesh);
+        mesh.deformer = deformer.finish(mesh);
+        if (!mesh.deformer) mesh.shape = shape_of(mesh);
         if (mesh.shape) document_.charge(mesh.shape->bytes(), pointer("meshes", index));
         return mesh;
     }
@@ -88,7 +93,6 @@ private:
             document_.warn(where_ + ": points and lines are left out");
             return;
         }
-        if (!primitive.targets.empty()) document_.warn("morph targets are ignored");
         const VertexBlock block = vertices_of(primitive, mesh);
         const std::size_t corner_count = index_accessor >= 0
                                              ? document_.model.accessors[static_cast<std::size_t>(index_accessor)].count
@@ -138,6 +142,7 @@ private:
             primitive.material >= 0 ? uv_sources_[static_cast<std::size_t>(primitive.material)] : UvSource{};
         source.uv = attribute_of(primitive, "TEXCOORD_" + std::to_string(uv_source.set));
         if (uv_source.transform != UvSource{}.transform) source.material = primitive.material;
+        source.deforming = deforming_source(document_, primitive, where_);
         const auto known = blocks_.find(source);
         if (known != blocks_.end()) return known->second;
 
@@ -145,6 +150,7 @@ private:
         read_positions(source, mesh, block);
         read_normals(source, mesh, block);
         read_uvs(source.uv, uv_source.transform, mesh, block);
+        deformer_->append(source.deforming, block.count, where_);
         blocks_.emplace(source, block);
         return block;
     }
@@ -217,6 +223,7 @@ private:
     std::string where_;
     std::map<VertexSource, VertexBlock> blocks_;  // of the mesh at hand
     std::vector<bool> missing_normals_;
+    DeformerBuilder* deformer_ = nullptr;         // of the same mesh
 };
 
 }  // namespace

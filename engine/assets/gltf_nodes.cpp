@@ -95,9 +95,9 @@ Trs read_trs(const tinygltf::Node& source, const json& raw, const std::string& w
 class NodeLoader {
 public:
     NodeLoader(Document& document, SceneData& scene)
-        : document_(document), scene_(scene), visited_(document.model.nodes.size(), false) {}
+        : document_(document), scene_(scene), became_(document.model.nodes.size(), kNone) {}
 
-    void load(const std::vector<int>& roots) {
+    std::vector<std::int32_t> load(const std::vector<int>& roots) {
         std::vector<Pending> pending;
         for (auto root = roots.rbegin(); root != roots.rend(); ++root) pending.push_back({*root, kNone, 1});
         while (!pending.empty()) {
@@ -114,6 +114,7 @@ public:
                 pending.push_back({*child, index, next.depth + 1});
             }
         }
+        return std::move(became_);
     }
 
 private:
@@ -125,8 +126,8 @@ private:
 
     void append(int source_index, std::int32_t parent) {
         const auto at = static_cast<std::size_t>(source_index);
-        if (visited_[at]) fail("scene.node_twice", pointer("nodes", at), "the scene reaches the node twice");
-        visited_[at] = true;
+        if (became_[at] != kNone) fail("scene.node_twice", pointer("nodes", at), "the scene reaches the node twice");
+        became_[at] = static_cast<std::int32_t>(scene_.nodes.size());
         const tinygltf::Node& source = document_.model.nodes[at];
         const json& raw = document_.json["nodes"][at];
         const std::string where = pointer("nodes", at);
@@ -139,7 +140,6 @@ private:
         node.scale = trs.scale;
         node.mesh = source.mesh;
         node.camera = source.camera;
-        if (source.skin >= 0) document_.warn("skins are ignored: meshes stand in their bind pose");
         const ExtrasReader extras(document_, raw, where);
         node.casts_shadow = extras.boolean("castShadow", true);
         node.receives_shadow = extras.boolean("receiveShadow", true);
@@ -189,16 +189,16 @@ private:
 
     Document& document_;
     SceneData& scene_;
-    std::vector<bool> visited_;                     // per glTF node
+    std::vector<std::int32_t> became_;              // per glTF node
     std::vector<glm::dmat4> worlds_;                // of scene_.nodes
     std::map<std::size_t, std::int32_t> variants_;  // light -> its copy with the other casts_shadow
 };
 
 }  // namespace
 
-void load_nodes(Document& document, SceneData& scene) {
+std::vector<std::int32_t> load_nodes(Document& document, SceneData& scene) {
     const std::vector<int> parents = parents_of(document);
-    NodeLoader(document, scene).load(roots_of(document, parents));
+    return NodeLoader(document, scene).load(roots_of(document, parents));
 }
 
 }  // namespace gnomon::assets::gltf

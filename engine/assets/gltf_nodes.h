@@ -1,6 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <vector>
 
 #include "engine/assets/gltf_document.h"
 #include "engine/assets/scene_data.h"
@@ -10,7 +12,8 @@ namespace gnomon::assets::gltf {
 /// Fills scene.nodes from the default scene (else the first scene, else all roots), depth first, parents before
 /// children, and splits a light in two where its nodes disagree about its shadow. Needs meshes, cameras and lights.
 /// A cycle, a second parent or a node too deep is an error, wherever in the file it stands.
-void load_nodes(Document& document, SceneData& scene);
+/// Returns which of scene.nodes each glTF node became; kNone for those that the scene does not reach.
+std::vector<std::int32_t> load_nodes(Document& document, SceneData& scene);
 
 struct Trs {
     glm::dvec3 translation_m{0.0};

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/assets/animation.h"
+#include "engine/assets/deformer.h"
 #include "engine/math/aabb.h"
 #include "engine/math/shape_tree.h"
 
@@ -48,6 +50,7 @@ struct Mesh {
     math::Aabb bounds_ms;                // recomputed, never the file's
     Topology topology;
     std::shared_ptr<const math::ShapeTree> shape;  // by shape_of() (mesh_shape.h); may be left out
+    std::shared_ptr<const Deformer> deformer;      // null: it never bends. All else here is of the mesh at rest
 };
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
@@ -88,7 +91,14 @@ struct LightData {
     bool casts_shadow = true;             // extras.shadow of the light or its node
 };
 
-/// A node. Parents come before children.
+/// What a skinned mesh follows. Joint i takes it from rest to the joint by world(joints[i]) * inverse_bind[i].
+struct Skin {
+    std::string name;
+    std::vector<std::int32_t> joints;        // nodes; at least one
+    std::vector<glm::dmat4x3> inverse_bind;  // one per joint
+};
+
+/// A node. Parents come before children. A mesh that bends is placed by one node alone.
 struct Node {
     std::string name;
     std::int32_t parent = kNone;
@@ -96,6 +106,8 @@ struct Node {
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
     std::int32_t mesh = kNone, camera = kNone, light = kNone;
+    std::int32_t skin = kNone;           // only where the mesh follows joints; where the node stands is then of no account
+    std::vector<float> morph_weights;    // at rest; one per target of the mesh
     bool casts_shadow = true;     // extras.castShadow
     bool receives_shadow = true;  // extras.receiveShadow
     bool visible = true;          // extras.visible
@@ -117,6 +129,8 @@ struct SceneData {
     std::vector<Texture> textures;
     std::vector<CameraData> cameras;
     std::vector<LightData> lights;
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
     std::vector<std::string> warnings;    // one line each: missing texture, unsupported mode, …
 };
 

@@ -68,10 +68,21 @@ bool usable(const Camera& camera) {
     return camera.near_m > 0.0 && camera.fov_y_rad > 0.0 && camera.fov_y_rad < glm::pi<double>();
 }
 
-bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& mesh) {
+/// Where joints place the mesh, its own transform does not count.
+bool place_bent(InstanceItem& item, const PoseItem& pose) {
+    item.basis = glm::dmat3(1.0);
+    item.translation_ws_m = pose.origin_ws_m;
+    item.bounds_ws = {pose.bounds_ms.min + pose.origin_ws_m, pose.bounds_ms.max + pose.origin_ws_m};
+    item.mirrored = pose.mirroring == assets::Mirroring::all;
+    item.folded = pose.mirroring == assets::Mirroring::some;
+    return !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
+}
+
+bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& mesh, const PoseItem* pose) {
+    if (pose && pose->skinned) return place_bent(item, *pose);
     item.basis = world.basis;
     item.translation_ws_m = world.translation_ws_m;
-    item.bounds_ws = math::transformed(mesh.bounds_ms, world.basis, world.translation_ws_m);
+    item.bounds_ws = math::transformed(pose ? pose->bounds_ms : mesh.bounds_ms, world.basis, world.translation_ws_m);
     const double determinant = glm::determinant(world.basis);
     item.mirrored = determinant < 0.0;
     return determinant != 0.0 && !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
@@ -118,9 +129,9 @@ void sort_by_entity(std::vector<Item>& items) {
 /// None at all where no mesh has one: then nobody looks for any.
 void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     snapshot.shapes.clear();
-    const auto has_shape = [](const assets::Mesh& mesh) { return mesh.shape != nullptr; };
+    const auto has_shape = [](const assets::Mesh& mesh) { return mesh.shape != nullptr && !mesh.deformer; };
     if (std::none_of(library.meshes.begin(), library.meshes.end(), has_shape)) return;
-    for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(mesh.shape);
+    for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(has_shape(mesh) ? mesh.shape : nullptr);
 }
 
 /// Reports and files name lights: a repeated name gets .1, .2, …
@@ -166,7 +177,7 @@ void Extractor::list_instance(const ecs::Registry& registry, const assets::MeshL
         item.casts = caster->enabled;
         item.cast_layers = caster->layers;
     }
-    if (!place(item, *registry.get<WorldTransform>(entity), mesh)) {
+    if (!place(item, *registry.get<WorldTransform>(entity), mesh, pose_of(snapshot, ref.mesh))) {
         unusable_.push_back({entity, name_of(registry, entity), DropReason::zero_scale});
         return;
     }
@@ -201,6 +212,7 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
     snapshot.lights.clear();
     snapshot.consumers.clear();
     list_shapes(library, snapshot);
+    poses_.list(registry, library, snapshot);
     unusable_.clear();
     registry.each<MeshRef, WorldTransform>(
         [&](ecs::Entity e, const MeshRef&, const WorldTransform&) { list_instance(registry, library, e, snapshot); });
@@ -230,14 +242,18 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
     }
     assign_slots(snapshot);
     for (LightItem& light : snapshot.lights) light.version = snapshot.version;
+    bent_.clear();
     // Whoever is exactly as before keeps its version, so that its light's maps hold.
     std::size_t old = 0;
     for (std::uint32_t i = 0; i < snapshot.instances.size(); ++i) {
         InstanceItem& item = snapshot.instances[i];
         while (old < before.size() && before[old].entity.index < item.entity.index) ++old;
         const InstanceItem* was = old < before.size() && before[old].entity == item.entity ? &before[old] : nullptr;
-        const bool placed = was && was->mesh == item.mesh && was->gpu_slot == item.gpu_slot &&
-                            was->basis == item.basis && was->translation_ws_m == item.translation_ws_m;
+        const PoseItem* pose = pose_of(snapshot, item.mesh);
+        if (pose) bent_.push_back(i);
+        const bool placed = was && !(pose && pose->version == snapshot.version) && was->mesh == item.mesh &&
+                            was->gpu_slot == item.gpu_slot && was->basis == item.basis &&
+                            was->translation_ws_m == item.translation_ws_m;
         item.version = placed ? was->version : snapshot.version;
         const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers;
         // One that touch_moved() had already moved when it gave up equals itself, but is not on the device.
@@ -249,6 +265,20 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
     sort_by_entity(snapshot.dropped);
 }
 
+/// Instances that are bent otherwise than in the last frame. False if one cannot be used any more.
+bool Extractor::touch_bent(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
+    for (const std::uint32_t i : bent_) {
+        InstanceItem& item = snapshot.instances[i];
+        const PoseItem& pose = *pose_of(snapshot, item.mesh);
+        const bool moved = pose.skinned && item.translation_ws_m != pose.origin_ws_m;
+        if (!moved && pose.version != snapshot.version) continue;
+        if (!place(item, {item.basis, item.translation_ws_m}, library.meshes[item.mesh], &pose)) return false;
+        item.version = snapshot.version;
+        snapshot.changed_instances.push_back(i);
+    }
+    return true;
+}
+
 /// Entities whose WorldTransform alone changed, updated in place. False if one cannot be used any more.
 bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library,
                             SceneSnapshot& snapshot) {
@@ -257,7 +287,9 @@ bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLib
         if (!world) continue;
         if (e.index < instance_of_.size() && instance_of_[e.index] != kNone) {
             InstanceItem& item = snapshot.instances[instance_of_[e.index]];
-            if (!place(item, *world, library.meshes[item.mesh])) return false;
+            const PoseItem* pose = pose_of(snapshot, item.mesh);
+            if (pose && pose->skinned) continue;  // touch_bent() has seen to it
+            if (!place(item, *world, library.meshes[item.mesh], pose)) return false;
             if (item.version != snapshot.version) snapshot.changed_instances.push_back(instance_of_[e.index]);
             item.version = snapshot.version;
         }
@@ -288,6 +320,8 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     anew |= read_changes<LightShadow>(registry, cursors_.shadow, true);
     anew |= read_changes<Camera>(registry, cursors_.camera, true);
     anew |= read_changes<Name>(registry, cursors_.name, true);
+    anew |= read_changes<Skin>(registry, cursors_.skin, true);
+    anew |= read_changes<MorphWeights>(registry, cursors_.weights, false);
     if (viewport_px != viewport_px_) {
         viewport_px_ = viewport_px;
         for (ConsumerItem& consumer : snapshot.consumers) consumer.viewport_px = viewport_px;
@@ -297,13 +331,16 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     for (const ecs::Entity e : moved_) {
         const WorldTransform* world = registry.get<WorldTransform>(e);
         const bool listed = e.index < instance_of_.size() && instance_of_[e.index] != kNone;
-        if (world && registry.has<MeshRef>(e) && listed != (glm::determinant(world->basis) != 0.0)) anew = true;
+        const bool placed = world && registry.has<MeshRef>(e) && !registry.has<Skin>(e);
+        if (placed && listed != (glm::determinant(world->basis) != 0.0)) anew = true;
     }
     if (!anew && moved_.empty()) return;
     started_ = true;
     quarantined_ = transforms.quarantined;
     ++snapshot.version;
-    if (anew || !touch_moved(registry, library, snapshot)) {
+    const bool bends = !anew && poses_.follows(moved_);
+    if (bends) poses_.update(registry, library, snapshot);
+    if (anew || (bends && !touch_bent(library, snapshot)) || !touch_moved(registry, library, snapshot)) {
         snapshot.changed_instances.clear();
         make_lists(registry, library, transforms, snapshot);
         build_tree(snapshot);

@@ -5,6 +5,7 @@
 
 #include "engine/assets/mesh_library.h"
 #include "engine/ecs/registry.h"
+#include "systems/extract/poses.h"
 #include "systems/extract/snapshot.h"
 #include "systems/transform/transform_system.h"
 
@@ -22,7 +23,7 @@ public:
 
 private:
     struct Cursors {
-        ecs::ChangeCursor world, mesh, caster, light, shadow, camera, name;
+        ecs::ChangeCursor world, mesh, caster, light, shadow, camera, name, skin, weights;
     };
     template <class T>
     bool read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, bool structural);
@@ -31,9 +32,12 @@ private:
     void list_instance(const ecs::Registry& registry, const assets::MeshLibrary& library, ecs::Entity entity,
                        SceneSnapshot& snapshot);
     void assign_slots(SceneSnapshot& snapshot);
+    bool touch_bent(const assets::MeshLibrary& library, SceneSnapshot& snapshot);
     bool touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
     Cursors cursors_;
+    PoseExtractor poses_;
+    std::vector<std::uint32_t> bent_;             // indices into snapshot.instances: those with a pose
     std::vector<ecs::Entity> moved_;              // since the last frame, maybe repeated
     std::vector<std::uint32_t> instance_of_;      // entity index -> index into snapshot.instances, kNone
     std::vector<ecs::Entity> slot_owner_;         // gpu_slot -> entity

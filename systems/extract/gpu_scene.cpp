@@ -15,20 +15,9 @@
 namespace gnomon {
 namespace {
 
-/// Plane normals of all triangles, model space, in the order of the index buffer; zero for degenerate ones.
-/// In double: the cross product of float edges is exact enough that the normal is right to float rounding.
 std::vector<glm::vec4> plane_normals(const assets::MeshLibrary& library) {
     std::vector<glm::vec4> normals;
-    for (const assets::Mesh& mesh : library.meshes) {
-        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            const glm::dvec3 a(mesh.vertices[mesh.indices[i]].position_ms);
-            const glm::dvec3 b(mesh.vertices[mesh.indices[i + 1]].position_ms);
-            const glm::dvec3 c(mesh.vertices[mesh.indices[i + 2]].position_ms);
-            const glm::dvec3 n = glm::cross(b - a, c - a);
-            const double size = glm::length(n);
-            normals.emplace_back(size > 0.0 ? glm::vec3(n / size) : glm::vec3(0.0f), 0.0f);
-        }
-    }
+    for (const assets::Mesh& mesh : library.meshes) append_plane_normals(mesh.vertices, mesh.indices, normals);
     return normals;
 }
 
@@ -71,10 +60,18 @@ InstanceRecord instance_record(const InstanceItem& item) {
 }
 
 template <class T>
-gl::Created<gl::BufferHandle> fixed_buffer(gl::Device& device, const char* label, const std::vector<T>& values) {
+gl::Created<gl::BufferHandle> filled_buffer(gl::Device& device, const char* label, const std::vector<T>& values,
+                                            gl::BufferUse use = gl::BufferUse::fixed) {
     static const T kNothing{};  // a buffer must have a size; an empty library draws nothing from it
     const auto bytes = values.empty() ? std::as_bytes(std::span(&kNothing, 1)) : std::as_bytes(std::span(values));
-    return device.create_buffer({label, bytes.size(), gl::BufferUse::fixed}, bytes);
+    return device.create_buffer({label, bytes.size(), use}, bytes);
+}
+
+/// What holds shapes is written again only where some bend.
+gl::BufferUse shape_use(const assets::MeshLibrary& library) {
+    const bool bends = std::any_of(library.meshes.begin(), library.meshes.end(),
+                                   [](const assets::Mesh& mesh) { return mesh.deformer != nullptr; });
+    return bends ? gl::BufferUse::updated : gl::BufferUse::fixed;
 }
 
 /// Whether each triangle of the mesh is wholly there: what masks cut is not told by its corners.
@@ -87,6 +84,18 @@ std::vector<bool> opaque_triangles(const assets::MeshLibrary& library, const ass
 }
 
 }  // namespace
+
+void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
+                          std::vector<glm::vec4>& normals) {
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const glm::dvec3 a(vertices[indices[i]].position_ms);
+        const glm::dvec3 b(vertices[indices[i + 1]].position_ms);
+        const glm::dvec3 c(vertices[indices[i + 2]].position_ms);
+        const glm::dvec3 n = glm::cross(b - a, c - a);
+        const double size = glm::length(n);
+        normals.emplace_back(size > 0.0 ? glm::vec3(n / size) : glm::vec3(0.0f), 0.0f);
+    }
+}
 
 std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library) {
     std::vector<CasterTriangle> triangles;
@@ -131,6 +140,7 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
             const assets::Material& material = library.materials[s.material];
             range.solid = range.solid && material.alpha_mode == assets::AlphaMode::opaque && !material.double_sided;
         }
+        if (mesh.deformer) scene.bent_.push_back({static_cast<std::uint32_t>(scene.meshes_.size()), 0, mesh.vertices});
         scene.meshes_.push_back(range);
         vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
@@ -139,10 +149,11 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
         slot = created.handle;
         return created.failure;
     };
-    gl::Failure f = keep(scene.vertices_, fixed_buffer(device, "scene vertices", vertices));
-    if (f == gl::Failure::none) f = keep(scene.indices_, fixed_buffer(device, "scene indices", indices));
+    const gl::BufferUse use = shape_use(library);
+    gl::Failure f = keep(scene.vertices_, filled_buffer(device, "scene vertices", vertices, use));
+    if (f == gl::Failure::none) f = keep(scene.indices_, filled_buffer(device, "scene indices", indices));
     if (f == gl::Failure::none)
-        f = keep(scene.triangle_normals_, fixed_buffer(device, "triangle normals", plane_normals(library)));
+        f = keep(scene.triangle_normals_, filled_buffer(device, "triangle normals", plane_normals(library), use));
     if (f != gl::Failure::none) return failed("the scene's meshes", f);
 
     const std::uint32_t stride = aligned(sizeof(MaterialRecord), device.info().uniform_alignment);
@@ -151,7 +162,7 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
         const MaterialRecord record = material_record(library.materials[m]);
         std::memcpy(materials.data() + m * stride, &record, sizeof record);
     }
-    f = keep(scene.material_uniforms_, fixed_buffer(device, "materials", materials));
+    f = keep(scene.material_uniforms_, filled_buffer(device, "materials", materials));
     if (f != gl::Failure::none) return failed("the scene's materials", f);
 
     const std::uint8_t kWhite[4] = {255, 255, 255, 255};
@@ -198,8 +209,11 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
 
 bool GpuScene::provide_caster_triangles() {
     if (caster_triangles_ || !triangles_retry_.due(++triangles_asked_)) return static_cast<bool>(caster_triangles_);
-    caster_triangles_ = fixed_buffer(*device_, "caster triangles", caster_triangles_of(*library_)).handle;
+    triangle_records_ = caster_triangles_of(*library_);
+    for (const Bent& bent : bent_) put_corners(bent);
+    caster_triangles_ = filled_buffer(*device_, "caster triangles", triangle_records_, shape_use(*library_)).handle;
     if (!caster_triangles_) triangles_retry_.failed(triangles_asked_);
+    if (!caster_triangles_ || bent_.empty()) triangle_records_ = {};
     return static_cast<bool>(caster_triangles_);
 }
 
@@ -215,6 +229,9 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     triangle_normals_ = std::exchange(other.triangle_normals_, {});
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
     caster_triangles_ = std::exchange(other.caster_triangles_, {});
+    bent_ = std::move(other.bent_);
+    triangle_records_ = std::move(other.triangle_records_);
+    bent_meshes_ = other.bent_meshes_;
     library_ = other.library_;
     triangles_retry_ = other.triangles_retry_;
     triangles_asked_ = other.triangles_asked_;
@@ -244,6 +261,52 @@ void GpuScene::release() {
 }
 
 bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
+    update_instances(snapshot, list);
+    update_poses(snapshot, list);
+    upload_all_ = false;
+    return snapshot.gpu_slot_count <= instance_capacity_;
+}
+
+/// The mesh as `bent` has it, in the library's triangle records.
+void GpuScene::put_corners(const Bent& bent) {
+    const std::vector<std::uint32_t>& indices = library_->meshes[bent.mesh].indices;
+    CasterTriangle* first = triangle_records_.data() + meshes_[bent.mesh].first_index / 3;
+    for (std::size_t i = 0; i < indices.size() / 3 * 3; ++i)
+        first[i / 3].corners[i % 3].position_ms = bent.vertices[indices[i]].position_ms;
+}
+
+void GpuScene::upload(const Bent& bent, gl::CommandList& list) {
+    const MeshRange& range = meshes_[bent.mesh];
+    const std::uint64_t first_triangle = range.first_index / 3;
+    list.update(vertices_, static_cast<std::uint64_t>(range.base_vertex) * sizeof(assets::Vertex),
+                std::span<const assets::Vertex>(bent.vertices));
+    normal_scratch_.clear();
+    append_plane_normals(bent.vertices, library_->meshes[bent.mesh].indices, normal_scratch_);
+    list.update(triangle_normals_, first_triangle * sizeof(glm::vec4), std::span<const glm::vec4>(normal_scratch_));
+    if (!caster_triangles_) return;
+    put_corners(bent);
+    list.update(caster_triangles_, first_triangle * sizeof(CasterTriangle),
+                std::span<const CasterTriangle>(triangle_records_)
+                    .subspan(static_cast<std::size_t>(first_triangle), static_cast<std::size_t>(range.triangles)));
+}
+
+void GpuScene::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list) {
+    bent_meshes_ = 0;
+    for (Bent& bent : bent_) {
+        const PoseItem* pose = pose_of(snapshot, bent.mesh);
+        const std::uint64_t wanted = pose ? pose->version : 0;
+        if (bent.version == wanted && !upload_all_) continue;
+        if (pose)
+            assets::deform(library_->meshes[bent.mesh], pose->pose(), bent.vertices);
+        else
+            bent.vertices = library_->meshes[bent.mesh].vertices;
+        bent.version = wanted;
+        ++bent_meshes_;
+        upload(bent, list);
+    }
+}
+
+void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& list) {
     records_.resize(snapshot.gpu_slot_count);
     if (snapshot.gpu_slot_count > instance_capacity_) {
         const std::uint32_t wanted = std::bit_ceil(snapshot.gpu_slot_count);
@@ -260,7 +323,6 @@ bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
     if (upload_all_) {
         for (const InstanceItem& item : snapshot.instances) records_[item.gpu_slot] = instance_record(item);
         list.update(instances_, 0, std::span<const InstanceRecord>(records_).first(held));
-        upload_all_ = false;
     } else {
         // They come by rising slot; each run of neighbours is one copy.
         const auto& changed = snapshot.changed_instances;
@@ -278,7 +340,6 @@ bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
             first = end;
         }
     }
-    return snapshot.gpu_slot_count <= instance_capacity_;
 }
 
 }  // namespace gnomon

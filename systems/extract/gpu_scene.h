@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
@@ -40,9 +42,14 @@ struct CasterTriangle {
 };
 static_assert(sizeof(CasterTriangle) == 48);
 
-/// All triangles of a library, in the order of the common index buffer. Neighbours are of the same mesh and opaque
-/// both.
+/// All triangles of a library at rest, in the order of the common index buffer. Neighbours are of the same mesh and
+/// opaque both.
 std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library);
+
+/// What the surfaces' geometric normals come from: of each triangle of `indices`, zero where it has no area, w unused.
+/// In double: the cross product of float edges is exact enough that the normal is right to float rounding.
+void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
+                          std::vector<glm::vec4>& normals);
 
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
 class GpuScene {
@@ -54,12 +61,15 @@ public:
     GpuScene& operator=(GpuScene&&) noexcept;
     ~GpuScene();
 
-    /// Records the upload of changed instance records; grows the instance buffer when needed.
+    /// Records the upload of changed instance records, and of meshes whose pose changed: each is bent once, whoever
+    /// draws it how often; grows the instance buffer when needed.
     /// False if it could not grow: instances beyond its size must not be drawn (see capacity()).
     bool update(const SceneSnapshot& snapshot, gl::CommandList& list);
     std::uint32_t capacity() const { return instance_capacity_; }
     /// To be called when a submission failed: what it was to upload is uploaded again by the next update().
     void forget_uploads() { upload_all_ = true; }
+    /// How many meshes the last update() bent.
+    std::uint32_t bent_meshes() const { return bent_meshes_; }
 
     /// Makes caster_triangles() where there is none; to be called each frame that a light reads them. False: the device
     /// has no room; it is asked again after Retry::kFrames such frames.
@@ -101,13 +111,27 @@ public:
     gl::BufferHandle material_uniforms() const { return material_uniforms_; }
 
 private:
+    /// A mesh that bends, as the device has it.
+    struct Bent {
+        std::uint32_t mesh = 0;
+        std::uint64_t version = 0;  // of the pose; 0: at rest
+        std::vector<assets::Vertex> vertices;
+    };
     GpuScene() = default;
     void release();
+    void update_instances(const SceneSnapshot& snapshot, gl::CommandList& list);
+    void update_poses(const SceneSnapshot& snapshot, gl::CommandList& list);
+    void upload(const Bent& bent, gl::CommandList& list);
+    void put_corners(const Bent& bent);
 
     gl::Device* device_ = nullptr;
     const assets::MeshLibrary* library_ = nullptr;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
     gl::BufferHandle caster_triangles_{};
+    std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer
+    std::vector<CasterTriangle> triangle_records_;  // of the whole library, if it has such meshes and they are provided
+    std::vector<glm::vec4> normal_scratch_;
+    std::uint32_t bent_meshes_ = 0;
     Retry triangles_retry_;
     std::uint64_t triangles_asked_ = 0;
     std::uint32_t instance_capacity_ = 0;

@@ -10,6 +10,7 @@
 #include "components/camera.h"
 #include "components/light.h"
 #include "components/light_shadow.h"
+#include "engine/assets/deformer.h"
 #include "engine/ecs/entity.h"
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
@@ -49,6 +50,19 @@ struct LightItem {
     std::uint64_t version = 0;  // grows whenever any of the above changed
 };
 
+/// How a mesh that bends (assets::Mesh::deformer) is bent in this frame, by its deformer's joints and targets.
+struct PoseItem {
+    std::uint32_t mesh = 0;
+    bool skinned = false;                   // instances then stand at origin_ws_m, unturned: joints alone place them
+    glm::dvec3 origin_ws_m{0.0};
+    std::vector<glm::dmat4x3> joints = {};  // from the mesh at rest to the space of its instances
+    std::vector<float> weights = {};        // per target
+    math::Aabb bounds_ms = {};              // holds every bent vertex
+    assets::Mirroring mirroring = assets::Mirroring::none;
+    std::uint64_t version = 0;              // grows whenever joints or weights changed
+    assets::MeshPose pose() const { return {joints, weights}; }
+};
+
 /// One placed mesh.
 struct InstanceItem {
     ecs::Entity entity = {};
@@ -63,7 +77,8 @@ struct InstanceItem {
     ShadowLayers receive_layers = kAllShadowLayers;
     bool visible = true;
     bool mirrored = false;  // negative determinant
-    std::uint64_t version = 0;  // grows whenever mesh or placement changed: what maps show of it. It need not for the rest
+    bool folded = false;    // its pose mirrors some of it, not all: no side of it is known to be outside
+    std::uint64_t version = 0;  // grows whenever mesh, placement or pose changed: what maps show of it. It need not for the rest
 };
 
 /// Whether it stands in the light's way at all, and whether that light's shadows fall on it.
@@ -86,6 +101,10 @@ enum class DropReason : std::uint8_t {
 };
 const char* reason_code(DropReason reason);
 
+struct SceneSnapshot;
+/// How the mesh is bent; null: as it is at rest.
+const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh);
+
 /// An entity that could not be used this frame, and why. The others are unaffected.
 struct DroppedEntity {
     ecs::Entity entity = {};
@@ -99,6 +118,7 @@ struct SceneSnapshot {
     std::vector<ConsumerItem> consumers;
     std::vector<LightItem> lights;
     std::vector<InstanceItem> instances;
+    std::vector<PoseItem> poses;  // by rising mesh, at most one for each: all instances of a mesh are bent alike
     std::vector<DroppedEntity> dropped;
     std::vector<std::uint32_t> changed_instances;  // indices of those to upload this frame, by rising gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots

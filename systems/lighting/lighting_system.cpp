@@ -99,6 +99,7 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
                              static_cast<std::uint32_t>(draw_items_.size()),
                              step,
                              head.mirrored,
+                             gpu.material(submesh.material).double_sided || head.folded,
                              0.0};
             for (std::uint32_t k = 0; k < step; ++k)
                 draw_items_.push_back({scene.instances[visible_[first + i + k]].gpu_slot, submesh.first_index / 3});
@@ -187,7 +188,7 @@ void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list)
     bool first = true;
     for (const SurfaceDraw& draw : draws_) {
         gl::PipelineState wanted = state;
-        wanted.cull = gpu.material(draw.material).double_sided ? gl::CullMode::none : gl::CullMode::back;
+        wanted.cull = draw.two_sided ? gl::CullMode::none : gl::CullMode::back;
         wanted.front_is_clockwise = draw.mirrored;
         if (first || !(wanted == state)) list.add(gl::SetPipeline{wanted});
         if (first) bind_scene(gpu, list);
@@ -266,7 +267,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
     list.add(gl::BeginPass{targets_.blended_target, viewport(), false, 0.0f, false, {}});
     for (const SurfaceDraw& draw : blended_) {
         gl::PipelineState state{programs_.blended_base(),
-                                gpu.material(draw.material).double_sided ? gl::CullMode::none : gl::CullMode::back,
+                                draw.two_sided ? gl::CullMode::none : gl::CullMode::back,
                                 draw.mirrored,
                                 gl::DepthTest::greater,
                                 false,

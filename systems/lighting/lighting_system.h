@@ -72,7 +72,7 @@ private:
         std::uint32_t material, first_index, index_count;
         std::int32_t base_vertex;
         std::uint32_t first_item, item_count;
-        bool mirrored;
+        bool mirrored, two_sided;
         double distance_m;  // blended ones: from the camera, for their order
     };
 

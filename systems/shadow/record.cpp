@@ -152,7 +152,7 @@ gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowV
     const CasterFaces faces = light.shadow.caster_faces;
     const bool outside =
         view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
-    if (faces == CasterFaces::both || !outside || !gpu.mesh(item.mesh).solid) return state;
+    if (faces == CasterFaces::both || !outside || item.folded || !gpu.mesh(item.mesh).solid) return state;
     state.cull = faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
     state.front_is_clockwise = item.mirrored;
     return state;

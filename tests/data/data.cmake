@@ -2,7 +2,7 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME system_data LABEL system TIMEOUT 900 LIBRARIES gnomon_sample
     SOURCES data/data_files.cpp system/data_folder_test.cpp system/bad_files_test.cpp
-            unit/assets/bad_input.cpp unit/assets/gltf_builder.cpp)
+            unit/assets/bad_input.cpp unit/assets/bad_skin_input.cpp unit/assets/gltf_builder.cpp)
   gnomon_tests(NAME gl_data LABEL gl TIMEOUT 900 LIBRARIES gnomon_sample
     SOURCES data/data_files.cpp gl/data_folder_gl_test.cpp)
   find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)

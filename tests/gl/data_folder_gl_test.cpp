@@ -48,7 +48,7 @@ protected:
         auto made = Frame::create(device(), library);
         if (!made) return made.error().rule;
         const std::unique_ptr<Frame> frame = std::move(made).value();
-        game::apply_motion(spawned.moving, 0.0, world);
+        game::set_time(spawned, 0.0, world);
         frame->run(world, {.viewport_px = kSize_px, .exposure_ev = {}});
         EXPECT_STREQ(gl::to_text(frame->report().failure), "none") << name;
         std::vector<std::uint8_t> rgba;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "tests/oracle/alpha_mask.h"
+#include "tests/oracle/posed_positions.h"
 
 namespace gnomon::oracle {
 namespace {
@@ -66,8 +68,14 @@ RTCRay to_embree(const ExactRay& ray, double t_max) {
 TracedWorld::TracedWorld(const SceneSnapshot& snapshot, const assets::MeshLibrary& library,
                          const glm::dvec3& origin_ws_m)
     : library_(library), origin_ws_m_(origin_ws_m) {
-    for (std::size_t i = 0; i < snapshot.instances.size(); ++i)
-        add_instance(snapshot.instances[i], static_cast<std::uint32_t>(i));
+    std::map<std::uint32_t, std::vector<glm::dvec3>> positions;  // by mesh
+    for (std::size_t i = 0; i < snapshot.instances.size(); ++i) {
+        const InstanceItem& item = snapshot.instances[i];
+        if (item.mesh >= library_.meshes.size() || !(item.visible || item.casts)) continue;
+        const auto [of_mesh, is_new] = positions.try_emplace(item.mesh);
+        if (is_new) of_mesh->second = posed_positions(snapshot, library, item.mesh);
+        add_instance(item, static_cast<std::uint32_t>(i), of_mesh->second);
+    }
 
     double radius_m = 0.0;
     for (const WorldTriangle& t : triangles_) radius_m = std::max({radius_m, largest(t.a), largest(t.b), largest(t.c)});
@@ -95,13 +103,11 @@ TracedWorld::~TracedWorld() {
     rtcReleaseDevice(device_);
 }
 
-void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index) {
-    if (item.mesh >= library_.meshes.size() || !(item.visible || item.casts)) return;
+void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index,
+                               const std::vector<glm::dvec3>& positions) {
     const assets::Mesh& mesh = library_.meshes[item.mesh];
     const glm::dvec3 translation = item.translation_ws_m - origin_ws_m_;
-    const auto place = [&](std::uint32_t i) {
-        return item.basis * glm::dvec3(mesh.vertices[mesh.indices[i]].position_ms) + translation;
-    };
+    const auto place = [&](std::uint32_t i) { return item.basis * positions[mesh.indices[i]] + translation; };
     for (const assets::Submesh& submesh : mesh.submeshes) {
         const assets::Material& material = library_.materials[submesh.material];
         if (material.alpha_mode == assets::AlphaMode::blend) continue;
@@ -118,7 +124,7 @@ void TracedWorld::add_instance(const InstanceItem& item, std::uint32_t index) {
             t.cast_layers = item.casts ? item.cast_layers : ShadowLayers{0};
             t.receive_layers = item.receives ? item.receive_layers : ShadowLayers{0};
             t.mirrored = item.mirrored;
-            t.double_sided = material.double_sided;
+            t.double_sided = material.double_sided || item.folded;
             t.masked = material.alpha_mode == assets::AlphaMode::mask;
             const glm::dvec3 n = front_normal(t);
             if (is_finite(t.a) && is_finite(n) && glm::dot(n, n) > 0.0) triangles_.push_back(t);

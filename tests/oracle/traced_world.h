@@ -58,7 +58,7 @@ public:
     bool shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t) const;
 
 private:
-    void add_instance(const InstanceItem& item, std::uint32_t index);
+    void add_instance(const InstanceItem& item, std::uint32_t index, const std::vector<glm::dvec3>& positions);
     bool is_there(const WorldTriangle& triangle, const ExactHit& hit) const;
     static void bounds_callback(const RTCBoundsFunctionArguments* args);
     static void intersect_callback(const RTCIntersectFunctionNArguments* args);

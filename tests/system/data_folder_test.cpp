@@ -35,7 +35,7 @@ std::size_t run_frames(assets::SceneData scene, const std::string& name) {
         }
         const std::unique_ptr<Frame> frame = std::move(made).value();
         for (const double time_s : {0.0, kLater_s}) {
-            game::apply_motion(spawned.moving, time_s, world);
+            game::set_time(spawned, time_s, world);
             frame->run(world, {.viewport_px = {96, 54}, .exposure_ev = {}});
             EXPECT_STREQ(gl::to_text(frame->report().failure), "none") << name;
             EXPECT_TRUE(frame->picture_target()) << name << " has no picture";

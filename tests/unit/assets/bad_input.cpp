@@ -310,8 +310,8 @@ std::vector<BadInput> light_and_camera_inputs() {
 
 std::vector<BadInput> all_bad_inputs() {
     std::vector<BadInput> all;
-    for (const auto& inputs :
-         {framing_inputs(), shape_inputs(), buffer_inputs(), mesh_inputs(), node_inputs(), light_and_camera_inputs()}) {
+    for (const auto& inputs : {framing_inputs(), shape_inputs(), buffer_inputs(), mesh_inputs(), node_inputs(),
+                               light_and_camera_inputs(), skin_and_animation_inputs()}) {
         all.insert(all.end(), inputs.begin(), inputs.end());
     }
     return all;

@@ -18,6 +18,7 @@ struct BadInput {
 
 /// At least one for every rule that bytes alone can break; those about files on disk are in bad_uri_test.cpp.
 std::vector<BadInput> all_bad_inputs();
+std::vector<BadInput> skin_and_animation_inputs();  // of those, in bad_skin_input.cpp
 
 inline void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
 

@@ -77,6 +77,17 @@ GltfBuilder triangle() {
     return builder;
 }
 
+GltfBuilder skinned_triangle() {
+    GltfBuilder builder = triangle();
+    json& attributes = builder.doc["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = builder.add_accessor<std::uint8_t>(std::vector<std::uint8_t>(12, 0), "VEC4");
+    attributes["WEIGHTS_0"] = builder.add_accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    builder.doc["nodes"][0]["skin"] = 0;
+    builder.push("nodes", {{"name", "joint"}});
+    builder.push("skins", {{"joints", json::array({1})}});
+    return builder;
+}
+
 Bytes bytes_of(std::string_view text) {
     Bytes bytes(text.size());
     if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());

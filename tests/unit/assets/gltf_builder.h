@@ -61,6 +61,9 @@ struct GltfBuilder {
 /// One triangle (0 0 0), (1 0 0), (0 1 0) with 16-bit indices, in mesh 0 on node 0.
 GltfBuilder triangle();
 
+/// The triangle on a skin of one joint, node 1, without bind matrices; accessors 2 and 3 are joints and weights.
+GltfBuilder skinned_triangle();
+
 Bytes bytes_of(std::string_view text);
 /// GLB from chunks as they are; lengths are the chunks' own.
 Bytes glb_of(std::string_view json_text, std::span<const std::byte> binary);

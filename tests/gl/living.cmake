@@ -1,0 +1,6 @@
+# Casters that move and bend, as files have them, against rays on the bent mesh.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_living LABEL gl SOURCES
+    living_casters_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_oracle)
+endif()
