@@ -3,6 +3,7 @@
 #include <span>
 
 #include "bench/exact_samplers.h"
+#include "systems/extract/gpu_scene.h"
 #include "systems/shadow/types.h"
 
 /// What a light was published with, for a row of exact_shaders.inc.
@@ -52,6 +53,49 @@ void set_light(const shadow::LightingLight& published, std::span<const shadow::S
         set_view(record.views[i], *views[i], camera_ws_m, row.light.views[i], scales[views[i]->layer]);
     if (!views.empty() && views.front()->projection == shadow::ViewProjection::cube_face)
         scales[0] = scales[views.front()->layer];
+}
+
+/// Rows that ask the casters' own corners.
+template <class Row>
+concept ReadsTriangles = requires(Row row) {
+    row.caster_triangles;
+};
+
+/// Where the casters are in double, not where the records' floats have them: points are as exact.
+template <ReadsTriangles Row>
+void set_casters(std::span<const InstanceItem> instances, std::span<const CasterTriangle> triangles,
+                 const glm::dvec3& camera_ws_m, Row& row) {
+    using Instance = typename decltype(row.instances)::Element;
+    using Triangle = typename decltype(row.caster_triangles)::Element;
+    auto records = std::make_shared<std::vector<Instance>>();
+    for (const InstanceItem& item : instances) {
+        if (item.gpu_slot >= records->size()) records->resize(item.gpu_slot + std::size_t{1});
+        const glm::dvec3& t = item.translation_ws_m;
+        (*records)[item.gpu_slot] = {vec4(to_vec3(item.basis[0]), t.x), vec4(to_vec3(item.basis[1]), t.y),
+                                     vec4(to_vec3(item.basis[2]), t.z), vec4()};
+    }
+    auto corners = std::make_shared<std::vector<Triangle>>();
+    corners->reserve(triangles.size());
+    for (const CasterTriangle& t : triangles) {
+        const auto& [a, b, c] = t.corners;
+        corners->push_back(
+            {to_vec3(a.position_ms), a.across, to_vec3(b.position_ms), b.across, to_vec3(c.position_ms), c.across});
+    }
+    row.instances.elements = std::move(records);
+    row.caster_triangles.elements = std::move(corners);
+    row.camera.anchor_high = vec4(to_vec3(camera_ws_m), 0.0);
+    row.camera.anchor_low = vec4();
+}
+
+/// The map that the row's samplers read, and where they count what they met.
+template <class Row>
+void set_map(const MapTexels& map, Trace& trace, Row& row) {
+    row.shadow_map.map = &map;
+    row.shadow_map.trace = &trace;
+    if constexpr (ReadsTriangles<Row>) {
+        row.shadow_triangles.map = &map;
+        row.shadow_triangles.trace = &trace;
+    }
 }
 
 }  // namespace gnomon::bench::glsl

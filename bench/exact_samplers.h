@@ -10,14 +10,17 @@
 /// What exact_shaders.inc samples: maps of any origin, a texel at a time, as OpenGL's samplers look them up.
 namespace gnomon::bench::glsl {
 
-/// The depths of a map, or of all faces of a cube.
-struct DepthTexels {
+inline constexpr uvec2 kShowsNone{0, 0xffffffffu};
+
+/// The depths of a map, or of all faces of a cube, and what they show. column and row < size_px.
+struct MapTexels {
     std::uint32_t size_px = 0;
-    /// column and row < size_px.
     virtual double texel(int layer, std::uint32_t column, std::uint32_t row) const = 0;
+    /// Instance and triangle, for rows that read them.
+    virtual uvec2 triangle(int, std::uint32_t, std::uint32_t) const { return kShowsNone; }
 
 protected:
-    ~DepthTexels() = default;
+    ~MapTexels() = default;
 };
 
 /// What the taps of one lookup met.
@@ -38,7 +41,7 @@ struct DepthScale {
 };
 
 struct ShadowSampler {
-    const DepthTexels* map = nullptr;
+    const MapTexels* map = nullptr;
     bool linear = false;
     DepthScale scales[shadow::kMaxViews];
     Trace* trace = nullptr;
@@ -64,6 +67,13 @@ struct sampler2DArrayShadow : ShadowSampler {};
 struct samplerCubeShadow : ShadowSampler {};
 struct sampler2DArrayDepths : ShadowSampler {};
 struct samplerCubeDepths : ShadowSampler {};
+
+struct TriangleSampler {
+    const MapTexels* map = nullptr;
+    Trace* trace = nullptr;
+};
+struct usampler2DArray : TriangleSampler {};
+struct usamplerCube : TriangleSampler {};
 
 template <class Sampler>
 concept CubeSampler = std::same_as<Sampler, samplerCubeShadow> || std::same_as<Sampler, samplerCubeDepths>;
@@ -171,6 +181,22 @@ inline vec4 textureGather(const samplerCubeDepths& s, const vec3& at) {
         return s.stored(static_cast<int>(face.face), corner.x + x, corner.y + y);
     };
     return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
+}
+
+/// Inside the map only.
+inline uvec4 texelFetch(const usampler2DArray& s, const ivec3& at, int) {
+    ++s.trace->taps;
+    const uvec2 shown = s.map->triangle(at.z, static_cast<uint>(at.x), static_cast<uint>(at.y));
+    return {shown.x, shown.y, 0, 0};
+}
+
+inline uvec4 textureLod(const usamplerCube& s, const vec3& at, double) {
+    ++s.trace->taps;
+    const OnFace face = on_face(at, s.map->size_px);
+    const vec2 texel = clamp(floor(face.texel), 0.0, s.map->size_px - 1.0);
+    const uvec2 shown =
+        s.map->triangle(static_cast<int>(face.face), static_cast<uint>(texel.x), static_cast<uint>(texel.y));
+    return {shown.x, shown.y, 0, 0};
 }
 
 }  // namespace gnomon::bench::glsl

@@ -19,11 +19,18 @@ std::vector<const shadow::ShadowView*> published_views(const shadow::ShadowFrame
     return views;
 }
 
-struct CopiedTexels final : DepthTexels {
+struct CopiedTexels final : MapTexels {
     explicit CopiedTexels(const MapCopy& copy) : copied(copy) { size_px = copy.size_px; }
     double texel(int layer, std::uint32_t column, std::uint32_t row) const override {
+        return static_cast<double>(copied.texels[index(layer, column, row)]);
+    }
+    uvec2 triangle(int layer, std::uint32_t column, std::uint32_t row) const override {
+        const glm::uvec2 shown = copied.triangles[index(layer, column, row)];
+        return {shown.x, shown.y};
+    }
+    std::size_t index(int layer, std::uint32_t column, std::uint32_t row) const {
         const std::size_t n = size_px;
-        return static_cast<double>(copied.texels[(static_cast<std::size_t>(layer) * n + row) * n + column]);
+        return (static_cast<std::size_t>(layer) * n + row) * n + column;
     }
     const MapCopy& copied;
 };
@@ -31,8 +38,10 @@ struct CopiedTexels final : DepthTexels {
 template <class Row>
 class RowLight final : public ExactLight {
 public:
-    RowLight(const shadow::ShadowFrame& frame, const ConsumerItem& consumer, std::uint32_t light, const MapCopy& map)
-        : camera_ws_m_(consumer.position_ws_m), texels_(map) {
+    RowLight(const shadow::ShadowFrame& frame, const SceneSnapshot& scene, std::uint32_t light, const MapCopy& map,
+             std::span<const CasterTriangle> casters)
+        : camera_ws_m_(scene.consumers.front().position_ws_m), texels_(map) {
+        if constexpr (ReadsTriangles<Row>) set_casters(scene.instances, casters, camera_ws_m_, row_);
         const auto views = published_views(frame, light);
         set_light(frame.inputs.front().lights[light], views, camera_ws_m_, row_);
         const ShadowFilter filter = frame.demands[views.empty() ? 0 : views.front()->demand].filter;
@@ -42,8 +51,7 @@ public:
     void evaluate(std::span<const SurfacePoint> points, std::span<ExactVisibility> values) const override {
         Row row = row_;
         Trace trace;
-        row.shadow_map.map = &texels_;
-        row.shadow_map.trace = &trace;
+        set_map(texels_, trace, row);
         for (std::size_t i = 0; i < points.size(); ++i) {
             trace = {};
             const glm::dvec3 position_ca = points[i].position_ws_m - camera_ws_m_;
@@ -72,14 +80,14 @@ public:
 };
 
 template <class Row>
-std::unique_ptr<ExactLight> make_row(const shadow::ShadowFrame& frame, const ConsumerItem& consumer,
-                                     std::uint32_t light, const MapCopy& map) {
-    return std::make_unique<glsl::RowLight<Row>>(frame, consumer, light, map);
+std::unique_ptr<ExactLight> make_row(const shadow::ShadowFrame& frame, const SceneSnapshot& scene, std::uint32_t light,
+                                     const MapCopy& map, std::span<const CasterTriangle> casters) {
+    return std::make_unique<glsl::RowLight<Row>>(frame, scene, light, map, casters);
 }
 
 struct CompiledRow {
     std::string_view kind_file, filter_file;
-    std::unique_ptr<ExactLight> (*make)(const shadow::ShadowFrame&, const ConsumerItem&, std::uint32_t, const MapCopy&);
+    decltype(&make_row<glsl::compare::directional::row_hard>) make;
 };
 #define ROWS_OF_FILTER(name, reading)                                                                           \
     {"shadow/kinds/directional.glsl", "shadow/filters/" #name ".glsl",                                          \
@@ -94,12 +102,13 @@ constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};
 }  // namespace
 
 std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
-                                             std::uint32_t light, const MapCopy& map) {
+                                             std::uint32_t light, const MapCopy& map,
+                                             std::span<const CasterTriangle> casters) {
     const shadow::ProgramRow& row = frame.inputs.front().lights[light].row;
     if (row.filter_file.empty()) return std::make_unique<LitLight>();
     for (const CompiledRow& compiled : kRows)
         if (compiled.kind_file == row.kind_file && compiled.filter_file == row.filter_file)
-            return compiled.make(frame, scene.consumers.front(), light, map);
+            return compiled.make(frame, scene, light, map, casters);
     return nullptr;
 }
 

@@ -1,30 +1,35 @@
 #pragma once
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::bench {
 
-/// A map as it was read back: rows bottom first, one float per texel, layer after layer (cube: six faces).
+/// A map as it was read back: rows bottom first, layer after layer (cube: six faces).
 struct MapCopy {
     bool is_cube = false;
     std::uint32_t size_px = 0;
     std::vector<float> texels;
+    std::vector<glm::uvec2> triangles;  // instance and triangle of each, if the filter reads them; else empty
 };
 
 struct SurfacePoint {
     glm::dvec3 position_ws_m{0.0}, normal_ws{0.0, 1.0, 0.0};  // unit, on the lit side
 };
 
-/// Whether the filter's lookups are compiled in: all but those that read triangles, which lie in buffers that the lighting
-/// pass alone binds; these are judged by pictures, against ray-traced truth.
-inline bool knows_filter(const shadow::FilterRow& row) { return row.storage == shadow::FilterStorage::depth; }
+/// Whether the filter's lookups are compiled in: all but those that read moments, which passes of their own make of the
+/// map.
+inline bool knows_filter(const shadow::FilterRow& row) {
+    return row.storage == shadow::FilterStorage::depth || row.storage == shadow::FilterStorage::depth_and_triangle;
+}
 
 /// What the shader makes of one point.
 struct ExactVisibility {
@@ -48,9 +53,11 @@ public:
 };
 
 /// The light of that index of the snapshot as the frame published it to its first consumer; a skipped light is lit.
-/// `map`: its map after the frame; must outlive the result. Null if the row's files are not among those compiled in.
+/// `map`: its map after the frame; must outlive the result. `casters`: caster_triangles_of() the scene's library, for
+/// filters that read them. Null if the row's files are not among those compiled in.
 std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
-                                             std::uint32_t light, const MapCopy& map);
+                                             std::uint32_t light, const MapCopy& map,
+                                             std::span<const CasterTriangle> casters);
 
 /// The shaders' own: receivers of a larger tangent toward the light are moved along their normal.
 double steep_tangent();

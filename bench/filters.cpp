@@ -141,7 +141,7 @@ std::optional<Error> evaluate(Stage& stage, std::uint32_t count, std::vector<std
         surface_points(scene, stage.library(), std::span(&scene.consumers.front(), 1), count);
     for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
         if (!scene.lights[l].has_shadow) continue;
-        const auto light = make_exact_light(frames.value()->frame(), scene, l, frames.value()->map(l));
+        const auto light = frames.value()->exact_light(l);
         if (!light) return Error{"a filter that is not compiled in", stage.scene_name(), "", "bench.row"};
         std::vector<SurfacePoint> lit;
         std::copy_if(points.begin(), points.end(), std::back_inserter(lit),

@@ -2,20 +2,51 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 /// As much of GLSL as shaders/shadow is written in, with every float a double: exact_visibility.cpp compiles the
 /// shaders' own text with it, so that there is no second copy of the lookup. Names are GLSL's.
 namespace gnomon::bench::glsl {
 
+using uint = std::uint32_t;
+
+struct vec2;
+
 struct ivec2 {
     int x = 0, y = 0;
+    ivec2() = default;
+    ivec2(int x_, int y_) : x(x_), y(y_) {}
+    explicit ivec2(const vec2& v);
 };
 struct ivec3 {
     int x = 0, y = 0, z = 0;
+    ivec3() = default;
+    ivec3(int x_, int y_, int z_) : x(x_), y(y_), z(z_) {}
+    ivec3(const ivec2& v, int z_) : x(v.x), y(v.y), z(z_) {}
     ivec2 xy_() const { return {x, y}; }
 };
 struct ivec4 {
     int x = 0, y = 0, z = 0, w = 0;
+};
+
+struct uvec2 {
+    uint x = 0, y = 0;
+    bool operator==(const uvec2&) const = default;
+};
+struct uvec3 {
+    uint x = 0, y = 0, z = 0;
+    uvec3(uint x_, uint y_, uint z_) : x(x_), y(y_), z(z_) {}
+};
+struct uvec4 {
+    uint x = 0, y = 0, z = 0, w = 0;
+    uvec2 xy_() const { return {x, y}; }
+};
+
+struct bvec4 {
+    bool of[4] = {};
+    bool& operator[](int i) { return of[i]; }
+    bool operator[](int i) const { return of[i]; }
 };
 
 struct vec2 {
@@ -30,6 +61,7 @@ struct vec2 {
     vec2 xy_() const { return *this; }
     vec2 yx_() const { return {y, x}; }
 };
+inline ivec2::ivec2(const vec2& v) : x(static_cast<int>(v.x)), y(static_cast<int>(v.y)) {}
 
 struct vec3 {
     static constexpr int kSize = 3;
@@ -143,9 +175,8 @@ V& operator*=(V& a, double s) {
     return a = a * s;
 }
 
-using uint = std::uint32_t;
-
-using std::abs, std::cos, std::sin, std::sqrt, std::floor, std::ceil, std::exp, std::exp2, std::log, std::log2, std::pow, std::fma;
+using std::abs, std::cos, std::sin, std::sqrt, std::floor, std::ceil, std::exp, std::exp2, std::log, std::log2,
+    std::pow, std::fma;
 inline double min(double a, double b) { return b < a ? b : a; }
 inline double max(double a, double b) { return a < b ? b : a; }
 inline int min(int a, int b) { return std::min(a, b); }
@@ -254,6 +285,7 @@ template <Vector V>
 bool any(const V& a) {
     return dot(a, a) > 0.0;
 }
+inline bool any(const bvec4& a) { return a[0] || a[1] || a[2] || a[3]; }
 
 struct mat3 {
     vec3 columns[3];
@@ -270,5 +302,17 @@ struct mat4 {
     const vec4& operator[](int i) const { return columns[i]; }
 };
 inline vec4 operator*(const mat4& m, const vec4& v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z + m[3] * v.w; }
+
+/// What a `readonly buffer` holds. Copies share it.
+template <class T>
+struct StorageBuffer {
+    using Element = T;
+    std::shared_ptr<const std::vector<T>> elements;
+    const T& operator[](uint i) const { return (*elements)[i]; }
+};
+/// Base of the blocks that declare them: C++ wants something before an open array.
+struct UnmadeBlock {
+    uint begins = 0;
+};
 
 }  // namespace gnomon::bench::glsl

@@ -142,7 +142,7 @@ private:
         const SceneSnapshot& scene = frames_.snapshot();
         const ConsumerItem& camera = scene.consumers.front();
         for (std::uint32_t l = 0; l < states_.size(); ++l) {
-            const auto light = make_exact_light(frames_.frame(), scene, l, frames_.map(l));
+            const auto light = frames_.exact_light(l);
             if (!light)
                 return Error{
                     "the lookup of light '" + scene.lights[l].name + "' is not among those that this bench knows",

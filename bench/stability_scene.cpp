@@ -30,7 +30,10 @@ Result<std::unique_ptr<ShadowFrames>> ShadowFrames::create(Stage& stage) {
 }
 
 ShadowFrames::ShadowFrames(Stage& stage, GpuScene scene)
-    : stage_(stage), gpu_scene_(std::move(scene)), shadows_(stage.device()) {}
+    : stage_(stage),
+      gpu_scene_(std::move(scene)),
+      shadows_(stage.device()),
+      caster_triangles_(caster_triangles_of(stage.library())) {}
 
 std::optional<Error> ShadowFrames::run(const ConsumerItem& consumer) {
     ecs::Registry& world = stage_.world();
@@ -54,6 +57,21 @@ std::optional<Error> ShadowFrames::run() {
     return read_maps();
 }
 
+bool ShadowFrames::read_layer(const shadow::ShadowView& view, const shadow::ShadowSlot& slot, ReadMap& map) {
+    const std::size_t layer_texels = std::size_t{slot.size_px} * slot.size_px;
+    const std::size_t start = view.layer * layer_texels, end = start + layer_texels;
+    if (map.texture != slot.texture || map.copy.size_px != slot.size_px)
+        map = {slot.texture, {view.projection == shadow::ViewProjection::cube_face, slot.size_px, {}, {}}};
+    const auto read = [&](gl::TextureHandle texture, auto& texels) {
+        const bool missing = texels.size() < end;
+        if (slot.reuse && !missing) return true;
+        if (missing) texels.resize(end);
+        const auto layer = std::span(texels).subspan(start, layer_texels);
+        return stage_.device().read_texture(texture, view.layer, std::as_writable_bytes(layer));
+    };
+    return read(slot.texture, map.copy.texels) && (!slot.triangles || read(slot.triangles, map.copy.triangles));
+}
+
 std::optional<Error> ShadowFrames::read_maps() {
     maps_.resize(snapshot_.lights.size());
     const shadow::ShadowFrame& frame = shadows_.frame();
@@ -61,20 +79,14 @@ std::optional<Error> ShadowFrames::read_maps() {
         const shadow::ShadowSlot& slot = frame.slots[v];
         if (!slot.texture) continue;
         const shadow::ShadowView& view = frame.views[v];
-        ReadMap& map = maps_[frame.demands[view.demand].light];
-        const std::size_t layer_texels = std::size_t{slot.size_px} * slot.size_px;
-        const std::size_t end = (std::size_t{view.layer} + 1) * layer_texels;
-        const bool other = map.texture != slot.texture || map.copy.size_px != slot.size_px;
-        if (other) map = {slot.texture, {view.projection == shadow::ViewProjection::cube_face, slot.size_px, {}}};
-        const bool missing = map.copy.texels.size() < end;
-        if (slot.reuse && !missing) continue;
-        if (missing) map.copy.texels.resize(end, 0.0f);
-        const auto layer = std::span(map.copy.texels).subspan(end - layer_texels, layer_texels);
-        if (!stage_.device().read_texture(slot.texture, view.layer, std::as_writable_bytes(layer)))
+        if (!read_layer(view, slot, maps_[frame.demands[view.demand].light]))
             return Error{"a depth map cannot be read", stage_.scene_name(), "", "bench.map"};
     }
-    for (ReadMap& map : maps_)  // faces that are no view were never read
-        if (map.copy.is_cube) map.copy.texels.resize(std::size_t{6} * map.copy.size_px * map.copy.size_px, 0.0f);
+    for (ReadMap& map : maps_) {  // faces that are no view were never read
+        if (!map.copy.is_cube) continue;
+        map.copy.texels.resize(std::size_t{6} * map.copy.size_px * map.copy.size_px, 0.0f);
+        if (!map.copy.triangles.empty()) map.copy.triangles.resize(map.copy.texels.size());
+    }
     return std::nullopt;
 }
 

@@ -29,16 +29,20 @@ public:
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const shadow::ShadowFrame& frame() const { return shadows_.frame(); }
     const FrameReport& report() const { return report_; }
-    const MapCopy& map(std::uint32_t light) const { return maps_[light].copy; }
+    /// The light's lookup in double, valid until the next run; null if its row is not known.
+    std::unique_ptr<ExactLight> exact_light(std::uint32_t light) const {
+        return make_exact_light(frame(), snapshot_, light, maps_[light].copy, caster_triangles_);
+    }
 
 private:
     ShadowFrames(Stage& stage, GpuScene scene);
-    std::optional<Error> read_maps();
-
     struct ReadMap {
         gl::TextureHandle texture{};
         MapCopy copy;
     };
+    std::optional<Error> read_maps();
+    bool read_layer(const shadow::ShadowView& view, const shadow::ShadowSlot& slot, ReadMap& map);
+
     Stage& stage_;
     GpuScene gpu_scene_;
     TransformSystem transforms_;
@@ -48,6 +52,7 @@ private:
     FrameReport report_;
     gl::CommandList commands_;
     std::vector<ReadMap> maps_;  // one per light
+    std::vector<CasterTriangle> caster_triangles_;
 };
 
 /// Points spread over the surfaces that a camera sees at `stations` places of its path, on receivers of shadow.

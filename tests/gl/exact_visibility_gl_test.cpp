@@ -52,7 +52,7 @@ TEST_F(ExactVisibility, IsWhatTheShadersShowButForRounding) {
         for (int i = 0; i < 2; ++i) ASSERT_FALSE(frames.value()->run());
         for (std::uint32_t l = 0; l < scene.lights.size(); ++l) {
             SCOPED_TRACE(filter + ", " + bias + ", " + scene.lights[l].name);
-            const auto light = bench::make_exact_light(frames.value()->frame(), scene, l, frames.value()->map(l));
+            const auto light = frames.value()->exact_light(l);
             ASSERT_TRUE(light) << "a row that the bench does not know";
             const oracle::LightTruth& truth = truths[l];
             std::size_t scored = 0, different = 0, dark = 0, moved = 0;

@@ -27,11 +27,19 @@ public:
     virtual ~Lookup() = default;
     virtual void set(const shadow::LightingLight& light, std::span<const shadow::ShadowView* const> views,
                      const glm::dvec3& camera_ws_m) = 0;
+    /// Placed relative to the camera, made of kQuad.
+    virtual void set_caster(const InstanceItem& caster) = 0;
     struct Question {
         glm::dvec3 position_ca_m, normal;
         double error_m, bias_share;
     };
-    virtual double visibility(const DepthTexels& map, const Question& question, Trace& trace) = 0;
+    virtual double visibility(const MapTexels& map, const Question& question, Trace& trace) = 0;
+};
+
+/// From -1 to 1 along x and y.
+constexpr CasterTriangle kQuad[] = {
+    {{{{-1.0f, -1.0f, 0.0f}}, {{1.0f, -1.0f, 0.0f}}, {{1.0f, 1.0f, 0.0f}, 1}}},
+    {{{{-1.0f, -1.0f, 0.0f}, 0}, {{1.0f, 1.0f, 0.0f}}, {{-1.0f, 1.0f, 0.0f}}}},
 };
 
 template <class Row>
@@ -42,9 +50,11 @@ public:
              const glm::dvec3& camera_ws_m) override {
         set_light(light, views, camera_ws_m, row_);
     }
-    double visibility(const DepthTexels& map, const Question& q, Trace& trace) override {
-        row_.shadow_map.map = &map;
-        row_.shadow_map.trace = &trace;
+    void set_caster(const InstanceItem& caster) override {
+        if constexpr (ReadsTriangles<Row>) set_casters({&caster, 1}, kQuad, glm::dvec3(0.0), row_);
+    }
+    double visibility(const MapTexels& map, const Question& q, Trace& trace) override {
+        set_map(map, trace, row_);
         row_.bias_share = q.bias_share;
         return row_.shadow_visibility(to_vec3(q.position_ca_m), to_vec3(q.normal), q.error_m);
     }
@@ -97,7 +107,7 @@ DrawnPlane drawn_plane(const ShadowView& view, double size_px, const glm::dvec3&
 }
 
 /// What the rasteriser makes of it.
-class PlaneTexels final : public bench::glsl::DepthTexels {
+class PlaneTexels final : public bench::glsl::MapTexels {
 public:
     std::array<DrawnPlane, 6> faces;
     LonePlane plane;
@@ -111,6 +121,10 @@ public:
         const double share = plane.worst ? 1.0 : 2.0 * noise(static_cast<std::uint64_t>(layer) + 1, column, row) - 1.0;
         return stored(exact + share * (absolute + relative * std::abs(exact)),
                       noise(static_cast<std::uint64_t>(layer) + 7, column, row));
+    }
+    bench::glsl::uvec2 triangle(int layer, std::uint32_t column, std::uint32_t row) const override {
+        if (plane.half_u_m == glm::dvec3(0.0)) return bench::glsl::kShowsNone;
+        return {0, noise(static_cast<std::uint64_t>(layer) + 13, column, row) < 0.5 ? 0u : 1u};
     }
 
 private:
@@ -236,6 +250,10 @@ LonePlaneLookup::Answer LonePlaneLookup::look_up(const LonePlane& plane, double 
         parts_->texels.faces[view.layer] =
             drawn_plane(view, parts_->texels.size_px, plane.normal, glm::dot(plane.normal, plane.at_m));
     const glm::dvec3 anchor_from_camera_m = parts_->views[0].anchor_ws_m - parts_->camera_ws_m;
+    InstanceItem caster;
+    caster.basis = {plane.half_u_m, plane.half_v_m, plane.normal};
+    caster.translation_ws_m = plane.quad_at_m + anchor_from_camera_m;
+    parts_->lookup->set_caster(caster);
     bench::glsl::Trace trace;
     const double visibility = parts_->lookup->visibility(
         parts_->texels, {plane.receiver_m + anchor_from_camera_m, plane.receiver_normal, plane.error_m, bias_share},

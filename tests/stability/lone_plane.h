@@ -28,6 +28,9 @@ struct LonePlane {
     glm::dvec2 aside_texel{0.0};  // by how much it is snapped; the sign is the slope's
     bool worst = false;           // every texel rounds up as far as it may; otherwise, either way, by `salt`
     std::uint64_t salt = 0;
+    // What its texels show, for filters that ask: two triangles, quad_at_m ± half_u_m ± half_v_m. None, as where a mask
+    // cuts the caster, if these are 0.
+    glm::dvec3 quad_at_m{0.0}, half_u_m{0.0}, half_v_m{0.0};
     // What the light pass asks about.
     glm::dvec3 receiver_m{0.0}, receiver_normal{0.0};
     double error_m = 0.0;  // how far the receiver may be off the plane

@@ -136,6 +136,21 @@ glm::dvec3 sloped_normal(Random& random, const glm::dvec3& to_light, double& tan
     return glm::normalize(to_light + aside * tangent);
 }
 
+/// A quad of the plane around the receiver, off it as the plane is: how a position is rounded on its way to the map is
+/// no matter between it and the casters' corners.
+void show_quad(LonePlane& plane, const glm::dvec3& place_m, const glm::dvec3& to_light, double texel_m) {
+    std::mt19937_64 random(plane.salt);  // what else is random of a plane does not depend on it
+    std::uniform_real_distribution<double> share(-0.5, 0.5);
+    const glm::dvec3 off_m = plane.at_m - place_m;
+    const double cosine = glm::dot(plane.normal, to_light);
+    const double half_m = (texel_m + glm::length(off_m)) / cosine * std::exp2(2.0 + 4.0 * share(random));
+    const glm::dvec3 along = glm::normalize(to_light - plane.normal * cosine), aside = glm::cross(plane.normal, along);
+    const double turn = 6.28 * share(random);
+    plane.half_u_m = half_m * (std::cos(turn) * along + std::sin(turn) * aside);
+    plane.half_v_m = half_m * (std::cos(turn) * aside - std::sin(turn) * along);
+    plane.quad_at_m = plane.receiver_m + off_m + share(random) * plane.half_u_m + share(random) * plane.half_v_m;
+}
+
 /// Of any slope, drawn and seen as docs/bias.md says ("What is tested").
 LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& place, const glm::dvec3& normal) {
     const PlaneBounds bounds = plane_bounds();
@@ -159,6 +174,10 @@ LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& plac
     plane.at_m = place.position_m + normal * (orthographic ? off_m : std::min(off_m, 0.5 * light_m));
     const glm::dvec3 off = random.direction() * bounds.normal_error_rad;
     plane.receiver_normal = glm::normalize(normal + off - normal * glm::dot(normal, off));
+    const double texel = std::max(view.texel_u, view.texel_v);
+    if (plane.salt % 2 == 0)
+        show_quad(plane, place.position_m, place.to_light,
+                  orthographic ? texel : texel * glm::length(place.position_m));
     return plane;
 }
 
