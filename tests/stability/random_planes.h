@@ -21,11 +21,11 @@ struct PlaneTally {
 ///                as the other half is the lookup's own; u = 2^-24
 ///   format       float: the nearest; fixed point: either neighbour
 ///   receiver     error_m below its plane, half of kPositionRounding aside, its normal kNormalError_rad off
-/// Half of the planes show, to filters that ask, triangles of a quad around the receiver, one to sixteen times as wide
-/// as a texel's footprint on the plane; the others none. Receivers lie at the borders and corners between texels or
-/// anywhere in them; of a cube, a third beside seams. The camera is up to a thousand times as far as the map is large,
-/// and error_m up to half of the light's distance. Slopes are spread evenly over the logarithm of their tangent, 0.001
-/// to 1000.
+///   triangles    half of the planes show, to filters that ask, those of a quad around the receiver, which reaches one to
+///                sixteen times as far as a texel's footprint on the plane; the others show none
+/// Receivers lie at the borders and corners between texels or anywhere in them; of a cube, a third beside seams.
+/// The camera is up to a thousand times as far as the map is large, and error_m up to half of the light's distance.
+/// Slopes are spread evenly over the logarithm of their tangent, 0.001 to 1000.
 PlaneTally judge_planes(PlaneKind kind, ShadowFilter filter, DepthFormat format, std::uint64_t count,
                         std::uint64_t seed);
 
