@@ -21,7 +21,7 @@ struct PlaneTally {
 ///                as the other half is the lookup's own; u = 2^-24
 ///   format       float: the nearest; fixed point: either neighbour
 ///   receiver     error_m below its plane, half of kPositionRounding aside, its normal kNormalError_rad off
-///   triangles    half of the planes show, to filters that ask, those of a quad around the receiver, which reaches one to
+///   triangles    half of the planes show, to filters that ask, those of a quad around the receiver that reaches one to
 ///                sixteen times as far as a texel's footprint on the plane; the others show none
 /// Receivers lie at the borders and corners between texels or anywhere in them; of a cube, a third beside seams.
 /// The camera is up to a thousand times as far as the map is large, and error_m up to half of the light's distance.
