@@ -48,8 +48,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
                    lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                      {settings.exposure_ev, sample_depths}, commands_, report_);
     if (has_picture_)
-        debug_->record(settings.debug, snapshot_, shadows, lighting_->picture_target(), settings.viewport_px,
-                       commands_);
+        debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_}, commands_);
     if (has_picture_ && settings.present) {
         const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
                            static_cast<std::int32_t>(settings.viewport_px.y)};

@@ -5,6 +5,7 @@
 #include "shadow/visibility.glsl"
 #include "shadow/layers.glsl"
 #include "lighting/light_at.glsl"
+#include "lighting/visible_surface.glsl"
 #include "lighting/brdf.glsl"
 #ifdef WRITE_VISIBILITY
 layout(location = 0) out float visibility_out;
@@ -16,13 +17,7 @@ void main() {
     Surface surface = read_surface(ivec2(gl_FragCoord.xy));
     if (!surface.exists) discard;
     LightSample incoming = light_at(surface.position_ca);
-    float facing = dot(surface.geometric_normal, incoming.to_light);
-    float visible = 0.0;
-    if (incoming.reaches && facing > 0.0) {
-        visible = 1.0;
-        if (takes_shadow(surface.shadow_layers))
-            visible = shadow_visibility(surface.position_ca, surface.geometric_normal, surface.error_m);
-    }
+    float visible = visible_share(surface, incoming);
 #ifdef WRITE_VISIBILITY
     visibility_out = visible;
 #else

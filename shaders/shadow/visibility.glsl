@@ -55,6 +55,11 @@ float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
         float found = filtered(point, normal, error_m);
 #ifdef SHADOW_FADES
         if (lookup > 0 && !shadow_fades_into(point)) share = 0.0;
+#endif
+#ifdef SHADOW_SHOWN
+        show_lookup(point, share);
+#endif
+#ifdef SHADOW_FADES
         visible = mix(visible, found, share);
         share = lookup == 0 ? shadow_fade_share(point, reach_texel) : 0.0;
 #else

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "shaders/embedded.h"
+#include "systems/lighting/lighting_system.h"
 
 namespace gnomon::debug {
 namespace {
@@ -35,30 +36,48 @@ gl::ProgramHandle DebugPainter::program(std::string_view fragment) {
     return found->handle;
 }
 
-void DebugPainter::record(const Request& request, const SceneSnapshot& scene, const shadow::ShadowFrame& frame,
-                          gl::TargetHandle target, glm::uvec2 size_px, gl::CommandList& list) {
+bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
+                               gl::TargetHandle target, gl::CommandList& list) {
+    if (!raw_) raw_ = device_.create_sampler({.label = "debug raw"}).handle;
+    const gl::ProgramHandle used = program(row.fragment);
+    if (!raw_ || !used) return false;
+    list.add(gl::BeginPass{.target = target, .viewport = area});
+    list.add(gl::SetPipeline{{.program = used}});
+    list.add(gl::BindUniforms{0, block_.handle(), 0, static_cast<std::uint32_t>(drawing.block.size())});
+    for (std::uint32_t unit = 0; unit < drawing.maps.size(); ++unit)
+        if (drawing.maps[unit]) list.add(gl::BindTexture{unit, drawing.maps[unit], raw_});
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    return true;
+}
+
+void DebugPainter::record(const Request& request, const Subject& subject, gl::CommandList& list) {
     labels_.clear();
     if (!request.view) return;
     ++records_;
-    const gl::Rect area = within(request.area, size_px);
+    const ViewRow& row = *request.view;
+    const gl::Rect area = within(request.area, subject.picture.size_px());
     if (area.width <= 0 || area.height <= 0) return;
-    std::optional<Drawing> drawing = request.view->draw({scene, frame, request, area});
-    if (!drawing) return;
-    if (!raw_) raw_ = device_.create_sampler({.label = "debug raw"}).handle;
-    const gl::ProgramHandle used = program(request.view->fragment);
-    if (!raw_ || !used || !block_.reserve(drawing->block.size())) return;
+    std::optional<Drawing> drawing = row.draw({subject.scene, subject.frame, request, area});
+    if (!drawing || !block_.reserve(drawing->block.size())) return;
 
-    list.add(gl::BeginGroup{"debug " + std::string(request.view->name)});
+    // Whoever draws says at the end whether the device had all it takes; the list is cut back if not.
+    const std::size_t commands = list.commands.size(), bytes = list.bytes.size();
+    list.add(gl::BeginGroup{"debug " + std::string(row.name)});
     list.update(block_.handle(), 0, std::span<const std::byte>(drawing->block));
-    list.add(gl::BeginPass{.target = target, .viewport = area});
-    list.add(gl::SetPipeline{{.program = used}});
-    list.add(gl::BindUniforms{0, block_.handle(), 0, static_cast<std::uint32_t>(drawing->block.size())});
-    for (std::uint32_t unit = 0; unit < drawing->maps.size(); ++unit)
-        if (drawing->maps[unit]) list.add(gl::BindTexture{unit, drawing->maps[unit], raw_});
-    list.add(gl::DrawTriangle{});
-    list.add(gl::EndPass{});
+    const auto block_size = static_cast<std::uint32_t>(drawing->block.size());
+    const bool drawn = row.medium == ViewMedium::flat
+                           ? record_flat(*drawing, row, area, subject.picture.picture_target(), list)
+                           : subject.picture.record_lookups({subject.frame.inputs.front(), drawing->light, row.fragment,
+                                                             area, block_.handle(), block_size},
+                                                            subject.gpu, list);
     list.add(gl::EndGroup{});
-    labels_ = std::move(drawing->labels);
+    if (drawn) {
+        labels_ = std::move(drawing->labels);
+    } else {
+        list.commands.resize(commands);
+        list.bytes.resize(bytes);
+    }
 }
 
 }  // namespace gnomon::debug

@@ -4,8 +4,13 @@
 
 #include "engine/gl/device.h"
 #include "systems/debug/debug_view.h"
+#include "systems/extract/gpu_scene.h"
 #include "systems/growing_buffer.h"
 #include "systems/retry.h"
+
+namespace gnomon::lighting {
+class LightingSystem;
+}
 
 namespace gnomon::debug {
 
@@ -17,10 +22,17 @@ public:
     DebugPainter(const DebugPainter&) = delete;
     DebugPainter& operator=(const DebugPainter&) = delete;
 
-    /// Records the requested view over `target`, a picture of `size_px`, and keeps its labels. Records nothing, and has
-    /// no labels, without a view or if the device cannot make what it takes.
-    void record(const Request& request, const SceneSnapshot& scene, const shadow::ShadowFrame& frame,
-                gl::TargetHandle target, glm::uvec2 size_px, gl::CommandList& list);
+    /// What there is to look at, and the picture to draw over.
+    struct Subject {
+        const SceneSnapshot& scene;
+        const shadow::ShadowFrame& frame;
+        const GpuScene& gpu;
+        lighting::LightingSystem& picture;
+    };
+
+    /// Records the requested view over the picture, and keeps its labels. Records nothing, and has no labels, without a
+    /// view or if the device cannot make what it takes.
+    void record(const Request& request, const Subject& subject, gl::CommandList& list);
 
     /// Of the last record().
     const std::vector<Label>& labels() const { return labels_; }
@@ -32,6 +44,8 @@ private:
         Retry retry = {};
     };
     gl::ProgramHandle program(std::string_view fragment);
+    bool record_flat(const Drawing& drawing, const ViewRow& row, const gl::Rect& area, gl::TargetHandle target,
+                     gl::CommandList& list);
 
     gl::Device& device_;
     GrowingBuffer block_;

@@ -7,8 +7,11 @@ namespace gnomon::debug {
 namespace {
 
 constexpr ViewRow kRows[] = {
-    {"depth", true, "a light's depth maps: black is near, white far, by distance in metres; blue holds nothing",
-     "debug/depth.frag", draw_depth},
+    {"cascades", true, ViewMedium::lookups, "which map of a light serves which pixel, in colours",
+     "debug/cascades.frag", draw_cascades},
+    {"depth", true, ViewMedium::flat,
+     "a light's depth maps: black is near, white far, by distance in metres; blue holds nothing", "debug/depth.frag",
+     draw_depth},
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +29,7 @@ struct Request {
 struct Label {
     glm::ivec2 at_px{0};  // upper left corner of the text, from the picture's lower left
     std::string text;
+    std::optional<glm::vec3> swatch = {};  // sRGB; a square of this colour before the text
 };
 
 /// What a view may look at.
@@ -38,10 +40,17 @@ struct ViewInput {
     gl::Rect area;  // where to draw, within the picture, not empty
 };
 
-/// One triangle over the area, by shared/fullscreen.vert and the row's shader.
+/// How a view is drawn.
+enum class ViewMedium : std::uint8_t {
+    flat,     // one triangle over the area, by shared/fullscreen.vert and the row's shader
+    lookups,  // over every surface, by the row's shader, which is told of a light's own lookups
+              // (shaders/debug/lookup.glsl)
+};
+
 struct Drawing {
-    std::vector<std::byte> block;             // the shader's uniform block, binding 0; not empty
-    std::array<gl::TextureHandle, 2> maps{};  // units 0 and 1, read raw: no comparison, no filter; {0}: not bound
+    std::vector<std::byte> block;  // the shader's uniform block, not empty; flat: binding 0, lookups: binding 5
+    std::array<gl::TextureHandle, 2> maps{};  // flat: units 0 and 1, read raw, no comparison, no filter; {0}: not bound
+    std::uint32_t light = 0;                  // lookups: index into SceneSnapshot::lights
     std::vector<Label> labels;
 };
 
@@ -49,8 +58,9 @@ struct Drawing {
 using ViewFunction = std::optional<Drawing> (*)(const ViewInput& input);
 
 struct ViewRow {
-    std::string_view name;      // --debug NAME, or NAME:LIGHT
-    bool of_light;              // needs Request::light
+    std::string_view name;  // --debug NAME, or NAME:LIGHT
+    bool of_light;          // needs Request::light
+    ViewMedium medium;
     std::string_view meaning;   // one line
     std::string_view fragment;  // under shaders/
     ViewFunction draw;
@@ -61,6 +71,7 @@ std::span<const ViewRow> view_table();
 /// Null: no such view.
 const ViewRow* find_view(std::string_view name);
 
+std::optional<Drawing> draw_cascades(const ViewInput& input);
 std::optional<Drawing> draw_depth(const ViewInput& input);
 
 }  // namespace gnomon::debug

@@ -21,6 +21,8 @@ const char* output_name(RowOutput output) {
             return "visibility";
         case RowOutput::blended:
             return "blended light";
+        case RowOutput::lookups:
+            return "lookups";
     }
     return "light";
 }
@@ -32,7 +34,7 @@ LightPrograms::~LightPrograms() {
     for (const Entry& e : {surface_, blended_base_, luminance_, tonemap_}) device_.destroy(e.program);
 }
 
-void LightPrograms::make(Entry& entry, const std::string& label, const char* vertex, const char* fragment,
+void LightPrograms::make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
                          std::span<const std::string> defines, const shadow::ProgramRow* row) {
     const std::string row_text = row_source(row);
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
@@ -48,12 +50,14 @@ void LightPrograms::make(Entry& entry, const std::string& label, const char* ver
     if (!entry.program) entry.retry.failed(frame_);
 }
 
-gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput output) {
+gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, RowOutput output,
+                                              std::string_view fragment) {
     shadow::ProgramRow row = wanted;
     if (row.filter_file.empty()) row = {row.kind_define, {}, {}};  // unshadowed is one program per kind
-    auto found =
-        std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) { return e.output == output && e.row == row; });
-    if (found == rows_.end()) found = rows_.insert(rows_.end(), {row, output, {}});
+    auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
+        return e.output == output && e.fragment == fragment && e.row == row;
+    });
+    if (found == rows_.end()) found = rows_.insert(rows_.end(), {row, output, fragment, {}});
     Entry& entry = found->entry;
     if (!is_due(entry)) return entry.program;
 
@@ -69,12 +73,15 @@ gl::ProgramHandle LightPrograms::row(const shadow::ProgramRow& wanted, RowOutput
     }
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
-    const std::string label = std::string(output_name(output)) + " " + std::string(row.kind_define) + " " +
-                              std::string(row.filter_file) + (row.manual_bias ? " manual bias" : "");
+    if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
+    const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
+                              " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
+                              (row.manual_bias ? " manual bias" : "");
     if (output == RowOutput::blended)
         make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
     else
-        make(entry, label, "shared/fullscreen.vert", "lighting/light.frag", defines, &row);
+        make(entry, label, "shared/fullscreen.vert", fragment.empty() ? "lighting/light.frag" : fragment, defines,
+             &row);
     return entry.program;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/gl/device.h"
@@ -9,10 +10,10 @@
 
 namespace gnomon::lighting {
 
-/// What a program of a row writes.
-enum class RowOutput : std::uint8_t { picture, visibility, blended };
+/// What a program of a row writes; lookups: what a debug view shows of them.
+enum class RowOutput : std::uint8_t { picture, visibility, blended, lookups };
 
-/// Programs of the lighting system, made when first called for; one per (row, output). Owns them.
+/// Programs of the lighting system, made when first called for; one per (row, output, debug view). Owns them.
 /// One that could not be made is tried again after Retry::kFrames; one that no picture can do without, whenever it is
 /// called for: there is no frame to be spared. Finding one that exists allocates nothing.
 class LightPrograms {
@@ -26,7 +27,11 @@ public:
     void next_frame() { ++frame_; }
 
     /// {0} if it cannot be made.
-    gl::ProgramHandle row(const shadow::ProgramRow& row, RowOutput output);
+    gl::ProgramHandle row(const shadow::ProgramRow& row, RowOutput output) { return find_or_make(row, output, {}); }
+    /// The row's lookups as `fragment`, a debug view's shader, shows them. {0} if it cannot be made.
+    gl::ProgramHandle lookups(const shadow::ProgramRow& row, std::string_view fragment) {
+        return find_or_make(row, RowOutput::lookups, fragment);
+    }
     gl::ProgramHandle surface();
     gl::ProgramHandle blended_base();
     gl::ProgramHandle luminance();
@@ -41,10 +46,12 @@ private:
     struct RowEntry {
         shadow::ProgramRow row;
         RowOutput output;
+        std::string_view fragment;  // of lookups
         Entry entry;
     };
+    gl::ProgramHandle find_or_make(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
-    void make(Entry& entry, const std::string& label, const char* vertex, const char* fragment,
+    void make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
               std::span<const std::string> defines, const shadow::ProgramRow* row);
     gl::ProgramHandle needed(Entry& entry, const char* label, const char* vertex, const char* fragment);
 

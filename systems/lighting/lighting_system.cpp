@@ -366,4 +366,20 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
     return true;
 }
 
+bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list) {
+    const shadow::LightingLight& item = lookups.inputs.lights[lookups.light];
+    if (item.row.filter_file.empty()) return true;
+    const gl::ProgramHandle program = programs_.lookups(item.row, lookups.fragment);
+    if (!program) return false;
+    list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});
+    list.add(gl::SetScissor{lookups.area});
+    list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::alpha}});
+    bind_surface_textures(list);
+    bind_light(item, lookups.light, gpu, list);
+    list.add(gl::BindUniforms{5, lookups.block, 0, lookups.block_size});
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    return true;
+}
+
 }  // namespace gnomon::lighting

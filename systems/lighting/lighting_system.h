@@ -56,6 +56,18 @@ public:
     bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
                            gl::CommandList& list);
 
+    /// A picture of how one light's maps are looked up, over the surfaces of the last record() of `inputs`.
+    struct Lookups {
+        const shadow::LightingInputs& inputs;
+        std::uint32_t light;        // index into inputs.lights
+        std::string_view fragment;  // a shader that includes debug/lookup.glsl; lives as long as this system
+        gl::Rect area;              // of the picture
+        gl::BufferHandle block;     // the shader's own, binding 5
+        std::uint32_t block_size;
+    };
+    /// Records it, blended over the picture; nothing if the light has no map. False if it cannot be done.
+    bool record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list);
+
     /// Where the pixels of an earlier picture lie, the newest that is known: see DepthSampler::collect().
     void collect_depths(SampledDepths& depths) { depths_.collect(depths); }
 

@@ -38,6 +38,17 @@ class Debug(GameTest):
         self.assertGreater(alone.shades(), 30)
         self.assertGreater(sun.mean_difference(one), 10.0)
 
+    def test_a_suns_cascades_and_a_lanterns_faces_tint_what_they_serve(self):
+        plain = self.path("plain.png")
+        self.run_game("--size", "%dx%d" % (WIDTH, HEIGHT), "--frames", 2, "--time", 3, "--screenshot", plain)
+        plain = Picture(plain)
+        below_words = lambda picture: Region(picture, 0, 7 * TITLE, WIDTH, HEIGHT - 7 * TITLE)
+        sun, lantern = self.view("cascades:sun"), self.view("cascades:lantern")
+        for picture in (sun, lantern):
+            changed = sum(a != b for a, b in zip(below_words(picture).pixels, below_words(plain).pixels))
+            self.assertGreater(changed, 0.3 * len(below_words(plain).pixels))
+        self.assertGreater(sun.mean_difference(lantern), 10.0)
+
     def test_a_light_without_a_map_says_so_and_the_run_goes_on(self):
         off = self.view("depth:sun", "--set", "enabled=off")
         self.assertGreater(Region(off, 0, TITLE, WIDTH, HEIGHT - TITLE).share(background), 0.99)

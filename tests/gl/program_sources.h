@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,21 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     return rows;
 }
 
+/// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options.
+inline std::vector<shadow::ProgramRow> lookup_rows() {
+    std::vector<shadow::ProgramRow> kept, known;
+    for (const shadow::ProgramRow& row : all_rows()) {
+        if (row.filter_file.empty()) continue;
+        shadow::ProgramRow rest = row;
+        rest.filter_file = {};
+        rest.reach_texel = 0.0f;
+        if (std::find(known.begin(), known.end(), rest) != known.end()) continue;
+        known.push_back(rest);
+        kept.push_back(row);
+    }
+    return kept;
+}
+
 /// The sources of every program, as the lighting system itself hands them to a device; the depth programs', those
 /// of prefiltered maps and the debug views'.
 inline std::vector<gl::ProgramDesc> all_programs() {
@@ -70,6 +86,9 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             for (const auto output :
                  {lighting::RowOutput::picture, lighting::RowOutput::visibility, lighting::RowOutput::blended})
                 add(lighting.row(row, output));
+        for (const debug::ViewRow& view : debug::view_table())
+            if (view.medium == debug::ViewMedium::lookups)
+                for (const shadow::ProgramRow& row : lookup_rows()) add(lighting.lookups(row, view.fragment));
     }
     {
         using Source = shadow::MomentRecorder::Source;
@@ -97,6 +116,7 @@ inline std::vector<gl::ProgramDesc> all_programs() {
     if (const auto compute = gl::expand_shader(shader_files(), "shadow/depth_bins.comp", {}))
         programs.push_back({.label = "view distances", .compute = compute.value()});
     for (const debug::ViewRow& view : debug::view_table()) {
+        if (view.medium == debug::ViewMedium::lookups) continue;
         const auto vertex = gl::expand_shader(shader_files(), "shared/fullscreen.vert", {});
         const auto fragment = gl::expand_shader(shader_files(), view.fragment, {});
         if (vertex && fragment) programs.push_back({std::string(view.fragment), vertex.value(), fragment.value()});

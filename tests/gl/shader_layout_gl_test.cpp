@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "systems/debug/depth_tiles.h"
+#include "systems/debug/shown_scale.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/lighting/lighting_system.h"
 #include "tests/gl/gl_test_context.h"
@@ -136,6 +137,11 @@ std::vector<Block> expected_blocks() {
          sizeof(AmbientRecord),
          {{"AmbientBlock.sky", offsetof(AmbientRecord, sky_lux)},
           {"AmbientBlock.ground", offsetof(AmbientRecord, ground_lux)}}},
+        {GL_UNIFORM_BLOCK,
+         "ShownScale",
+         5,
+         sizeof(debug::ShownScale),
+         {{"ShownScale.colours", offsetof(debug::ShownScale, colours)}}},
         {GL_UNIFORM_BLOCK, "ExposureBlock", 4, sizeof(ExposureRecord), {{"exposure", offsetof(ExposureRecord, scale)}}},
         {GL_SHADER_STORAGE_BLOCK,
          "InstanceBuffer",

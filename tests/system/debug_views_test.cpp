@@ -89,6 +89,45 @@ TEST_F(DebugViews, AReusedMapIsShownWithoutBeingDrawnAgain) {
     EXPECT_EQ(frame->debug_labels().size(), 2u);
 }
 
+TEST_F(DebugViews, AViewOfLookupsBindsWhatTheLightsOwnPassDoesAndBlendsOverThePicture) {
+    step();
+    step();
+    const gl::CommandList plain = frame->commands();
+    for (const debug::ViewRow& row : debug::view_table()) {
+        if (row.medium != debug::ViewMedium::lookups) continue;
+        SCOPED_TRACE(row.name);
+        settings.debug = {.view = &row, .light = "bulb", .area = {10, 20, 100, 50}};
+        step();
+        const std::vector<gl::Command> added = added_to(plain);
+        std::vector<gl::Command> bound_here;
+        for (const gl::Command& c : added) {
+            if (std::holds_alternative<gl::BindTexture>(c)) bound_here.push_back(c);
+            if (const auto* pass = std::get_if<gl::BeginPass>(&c)) {
+                EXPECT_EQ(pass->target, frame->picture_target());
+                EXPECT_FALSE(pass->clear_colour || pass->clear_depth);
+            }
+            if (const auto* scissor = std::get_if<gl::SetScissor>(&c)) {
+                EXPECT_EQ(scissor->rect, settings.debug.area);
+            }
+            if (const auto* state = std::get_if<gl::SetPipeline>(&c)) {
+                EXPECT_EQ(state->state.blend, gl::Blend::alpha);
+            }
+        }
+        EXPECT_THAT(bound_here, ::testing::IsSubsetOf(plain.commands)) << "the light's own pass binds other textures";
+        EXPECT_GE(bound_here.size(), 5u);
+        EXPECT_FALSE(frame->debug_labels().empty());
+    }
+}
+
+TEST_F(DebugViews, ALightWithoutAMapIsNotLookedUpAndSaysWhy) {
+    settings.shadows = false;
+    settings.debug = {.view = debug::find_view("cascades"), .light = "lamp"};
+    step();
+    EXPECT_EQ(made("lookups"), 0u);
+    ASSERT_EQ(frame->debug_labels().size(), 1u);
+    EXPECT_THAT(frame->debug_labels().front().text, ::testing::HasSubstr(reason_code(Reason::shadows_off)));
+}
+
 TEST_F(DebugViews, ACubeIsBoundToTheCubesUnit) {
     step();
     step();

@@ -88,6 +88,11 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
 }
 #endif
 
+#ifdef SHADOW_SHOWN
+// Which of the light's maps serves the point; -1: none.
+int shadow_layer(ShadowPoint point) { return point.covered ? int(point.layer) : -1; }
+#endif
+
 // Where the point lies in the map, in texels from its corner.
 vec2 shadow_texel(ShadowPoint point) { return point.map.xy / point.texel_uv; }
 

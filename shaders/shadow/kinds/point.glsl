@@ -161,6 +161,15 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
 }
 #endif
 
+#ifdef SHADOW_SHOWN
+// The face that serves the point, in OpenGL's order; -1: none.
+int shadow_layer(ShadowPoint point) {
+    vec3 back = face_axes(point.position)[2];
+    int face = int(dot(abs(back), vec3(0.0, 2.0, 4.0))) + (back.x + back.y + back.z > 0.0 ? 1 : 0);
+    return point.covered && is_drawn(point.position) ? face : -1;
+}
+#endif
+
 // Where the point lies in its face, in texels from a corner.
 vec2 shadow_texel(ShadowPoint point) {
     float scale = 1.0 / largest(point.position);   // lest squares overflow

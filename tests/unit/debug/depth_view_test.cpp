@@ -74,7 +74,7 @@ TEST_F(DepthView, ACubeShowsSixNamedFacesWithTheirRange) {
     ASSERT_EQ(drawing->labels.size(), 7u);
     for (std::size_t face = 0; face < 6; ++face) {
         const char* names[] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
-        EXPECT_EQ(drawing->labels[face + 1].text, std::string(names[face]) + ": 0.25 ... 12.5 m");
+        EXPECT_EQ(drawing->labels[face + 1].text, std::string("face ") + names[face] + ": 0.25 ... 12.5 m");
         const glm::vec4 place = tiles_of(*drawing).tiles[face].place;
         EXPECT_EQ(drawing->labels[face + 1].at_px, glm::ivec2(place.x, place.y + place.z)) << "not on its own tile";
     }
