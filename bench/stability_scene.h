@@ -29,7 +29,8 @@ public:
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const shadow::ShadowFrame& frame() const { return shadows_.frame(); }
     const FrameReport& report() const { return report_; }
-    /// The light's lookup in double, valid until the next run; null if its row is not known.
+    /// The light's lookup in double, valid until the next run; null if its row is not known. To filters that read
+    /// triangles, meshes that bend are at rest.
     std::unique_ptr<ExactLight> exact_light(std::uint32_t light) const {
         return make_exact_light(frame(), snapshot_, light, maps_[light].copy, caster_triangles_);
     }
