@@ -8,6 +8,8 @@ set(GNOMON_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon)
 
 # The engine's own parts (loader, executor) stay inside: their headers would drag tinygltf and OpenGL's along.
 set(GNOMON_ENGINE_HEADERS
+  engine/assets/animation.h
+  engine/assets/deformer.h
   engine/assets/gltf_loader.h
   engine/assets/mesh_library.h
   engine/assets/mesh_shape.h

@@ -263,8 +263,12 @@ void GpuScene::release() {
 bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
     update_instances(snapshot, list);
     update_poses(snapshot, list);
-    upload_all_ = false;
     return snapshot.gpu_slot_count <= instance_capacity_;
+}
+
+void GpuScene::forget_uploads() {
+    upload_all_ = true;
+    for (Bent& bent : bent_) bent.version = kUnknown;
 }
 
 /// The mesh as `bent` has it, in the library's triangle records.
@@ -295,7 +299,7 @@ void GpuScene::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list
     for (Bent& bent : bent_) {
         const PoseItem* pose = pose_of(snapshot, bent.mesh);
         const std::uint64_t wanted = pose ? pose->version : 0;
-        if (bent.version == wanted && !upload_all_) continue;
+        if (bent.version == wanted) continue;
         if (pose)
             assets::deform(library_->meshes[bent.mesh], pose->pose(), bent.vertices);
         else
@@ -323,6 +327,7 @@ void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& 
     if (upload_all_) {
         for (const InstanceItem& item : snapshot.instances) records_[item.gpu_slot] = instance_record(item);
         list.update(instances_, 0, std::span<const InstanceRecord>(records_).first(held));
+        upload_all_ = false;
     } else {
         // They come by rising slot; each run of neighbours is one copy.
         const auto& changed = snapshot.changed_instances;

@@ -67,7 +67,7 @@ public:
     bool update(const SceneSnapshot& snapshot, gl::CommandList& list);
     std::uint32_t capacity() const { return instance_capacity_; }
     /// To be called when a submission failed: what it was to upload is uploaded again by the next update().
-    void forget_uploads() { upload_all_ = true; }
+    void forget_uploads();
     /// How many meshes the last update() bent.
     std::uint32_t bent_meshes() const { return bent_meshes_; }
 
@@ -114,9 +114,10 @@ private:
     /// A mesh that bends, as the device has it.
     struct Bent {
         std::uint32_t mesh = 0;
-        std::uint64_t version = 0;  // of the pose; 0: at rest
+        std::uint64_t version = 0;  // of the pose; 0: at rest; kUnknown: what the device has is not known
         std::vector<assets::Vertex> vertices;
     };
+    static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
     GpuScene() = default;
     void release();
     void update_instances(const SceneSnapshot& snapshot, gl::CommandList& list);
