@@ -137,7 +137,7 @@ void DeformerBuilder::append_target(std::size_t index, const std::array<int, 2>&
                     {TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_SHORT}, false, where + "/" + name);
         document_.charge(count * sizeof(glm::vec3), where);
         const std::vector<float> numbers = numbers_of(document_, accessor, count, where + "/" + name);
-        part.resize(vertices_, glm::vec3(0.0f));
+        fill_up(part, where);
         for (std::size_t v = 0; v < count; ++v)
             part.emplace_back(numbers[3 * v], numbers[3 * v + 1], numbers[3 * v + 2]);
     };
@@ -145,14 +145,21 @@ void DeformerBuilder::append_target(std::size_t index, const std::array<int, 2>&
     append_part(source[1], "NORMAL", target.normals);
 }
 
-std::shared_ptr<const Deformer> DeformerBuilder::finish(const Mesh& mesh) {
+/// Vertices that came before and have nothing in this part do not move by it.
+void DeformerBuilder::fill_up(std::vector<glm::vec3>& part, const std::string& where) {
+    document_.charge((vertices_ - part.size()) * sizeof(glm::vec3), where);
+    part.resize(vertices_, glm::vec3(0.0f));
+}
+
+std::shared_ptr<const Deformer> DeformerBuilder::finish(const Mesh& mesh, const std::string& where) {
     if (!skinned_ && deformer_.targets.empty()) return nullptr;
     if (skinned_) deformer_.first_influence.push_back(static_cast<std::uint32_t>(deformer_.influences.size()));
     for (Deformer::Target& target : deformer_.targets) {
-        if (!target.positions.empty()) target.positions.resize(vertices_, glm::vec3(0.0f));
-        if (!target.normals.empty()) target.normals.resize(vertices_, glm::vec3(0.0f));
+        if (!target.positions.empty()) fill_up(target.positions, where);
+        if (!target.normals.empty()) fill_up(target.normals, where);
     }
     measure(deformer_, mesh);
+    document_.charge(deformer_.joint_bounds_ms.size() * sizeof(math::Aabb), where);
     return std::make_shared<const Deformer>(std::move(deformer_));
 }
 

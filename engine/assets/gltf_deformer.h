@@ -29,10 +29,11 @@ public:
     void append(const DeformingSource& source, std::size_t count, const std::string& where);
 
     /// Null if nothing bends the mesh, which has all its vertices now.
-    std::shared_ptr<const Deformer> finish(const Mesh& mesh);
+    std::shared_ptr<const Deformer> finish(const Mesh& mesh, const std::string& where);
 
 private:
     using Numbers = std::vector<std::vector<float>>;  // per set, four per vertex
+    void fill_up(std::vector<glm::vec3>& part, const std::string& where);
     void append_plain(std::size_t count);
     void append_vertex(const Numbers& joints, const Numbers& weights, std::size_t vertex, const std::string& where);
     void append_joints(const DeformingSource& source, std::size_t count, const std::string& where);

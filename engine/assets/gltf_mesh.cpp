@@ -80,7 +80,7 @@ private:
             mesh.bounds_ms.max = glm::max(mesh.bounds_ms.max, position);
         }
         mesh.topology = analyse_topology(mesh);
-        mesh.deformer = deformer.finish(mesh);
+        mesh.deformer = deformer.finish(mesh, pointer("meshes", index));
         if (!mesh.deformer) mesh.shape = shape_of(mesh);
         if (mesh.shape) document_.charge(mesh.shape->bytes(), pointer("meshes", index));
         return mesh;

@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <iterator>
 #include <limits>
+#include <set>
 
 #include "tests/unit/assets/gltf_builder.h"
 
@@ -28,6 +29,32 @@ private:
     std::span<const std::uint8_t> bytes_;
     std::size_t at_ = 0;
 };
+
+/// Joints, bind matrices, morph targets, and an animation of every kind of channel and interpolation.
+void add_living(GltfBuilder& builder) {
+    json& primitive = builder.doc["meshes"][0]["primitives"][0];
+    primitive["attributes"]["JOINTS_0"] = builder.add_accessor(std::vector<std::uint8_t>(12, 0), "VEC4");
+    primitive["attributes"]["WEIGHTS_0"] =
+        builder.add_accessor<std::uint8_t>({255, 0, 0, 0, 128, 127, 0, 0, 255, 0, 0, 0}, "VEC4", true);
+    primitive["targets"] = json::array({{{"POSITION", 0}}});
+    builder.doc["meshes"][0]["weights"] = json::array({0.5});
+    const std::vector<float> unit = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    builder.push("skins", {{"joints", json::array({1})}, {"inverseBindMatrices", builder.add_accessor(unit, "MAT4")}});
+    builder.doc["nodes"][0]["skin"] = 0;
+    const int times = builder.add_accessor<float>({0, 1}, "SCALAR");
+    const int points = builder.add_accessor<float>({0, 0, 0, 1, 2, 3}, "VEC3");
+    const int turns = builder.add_accessor<std::int16_t>({0, 0, 0, 32767, 0, 32767, 0, 0}, "VEC4", true);
+    const int shares = builder.add_accessor<float>({0, 0, 0, 0, 1, 0}, "SCALAR");
+    const auto channel = [](int sampler, int node, const char* path) {
+        return json{{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}};
+    };
+    builder.push("animations",
+                 {{"samplers", json::array({{{"input", times}, {"output", points}},
+                                            {{"input", times}, {"output", turns}, {"interpolation", "STEP"}},
+                                            {{"input", times}, {"output", shares}, {"interpolation", "CUBICSPLINE"}}})},
+                  {"channels", json::array({channel(0, 1, "translation"), channel(1, 1, "rotation"),
+                                            channel(0, 0, "scale"), channel(2, 0, "weights")})}});
+}
 
 /// A document that uses every feature of the loader.
 GltfBuilder rich_seed() {
@@ -77,6 +104,7 @@ GltfBuilder rich_seed() {
                            {"extras", {{"motion", {{"kind", "spin"}, {"axis", {0, 1, 0}}, {"period_s", 2}}}}}});
     builder.doc["scenes"] = json::array({{{"nodes", {2, 3}}}});
     builder.doc["scene"] = 0;
+    add_living(builder);
     return builder;
 }
 
@@ -215,6 +243,51 @@ void check_mesh(const assets::Mesh& mesh, std::size_t materials) {
     }
 }
 
+void check_deformer(const assets::Mesh& mesh) {
+    const assets::Deformer& deformer = *mesh.deformer;
+    const std::size_t vertices = mesh.vertices.size();
+    for (const auto& target : deformer.targets)
+        for (const auto* part : {&target.positions, &target.normals})
+            if (!part->empty() && part->size() != vertices) broken("a target has every vertex or none");
+    if (!deformer.has_skin()) return;
+    if (deformer.first_influence.size() != vertices + 1 ||
+        deformer.first_influence.back() != deformer.influences.size())
+        broken("influences of every vertex");
+    for (std::size_t v = 0; v < vertices; ++v) {
+        double sum = 0.0;
+        for (std::uint32_t i = deformer.first_influence[v]; i < deformer.first_influence[v + 1]; ++i)
+            sum += static_cast<double>(deformer.influences[i].weight);
+        if (!(std::abs(sum - 1.0) < 1e-5)) broken("weights sum to 1");
+    }
+}
+
+/// Every mesh that bends is placed once and can be bent, at rest and at any time of any animation.
+void check_living(const assets::SceneData& scene) {
+    std::set<std::int32_t> placed;
+    std::vector<assets::Vertex> bent;
+    for (const auto& node : scene.nodes) {
+        if (!is_index(node.skin, scene.skins.size())) broken("node references in range");
+        if (node.mesh == assets::kNone) continue;
+        const assets::Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];
+        if (!mesh.deformer) continue;
+        check_deformer(mesh);
+        if (!placed.insert(node.mesh).second) broken("a mesh that bends is placed by one node");
+        if (mesh.deformer->has_skin() != (node.skin != assets::kNone)) broken("a skin where joints are followed");
+        if (node.morph_weights.size() != mesh.deformer->targets.size()) broken("a weight per target");
+        std::vector<glm::dmat4x3> joints;
+        if (node.skin != assets::kNone) joints = scene.skins[static_cast<std::size_t>(node.skin)].inverse_bind;
+        if (mesh.deformer->joint_bounds_ms.size() > joints.size()) broken("joints in range");
+        assets::deform(mesh, {joints, node.morph_weights}, bent);
+        (void)assets::posed_bounds(mesh, {joints, node.morph_weights});
+    }
+    for (const auto& animation : scene.animations)
+        for (const auto& channel : animation.channels) {
+            if (channel.node < 0 || !is_index(channel.node, scene.nodes.size())) broken("channels move nodes");
+            std::vector<double> out(channel.width);
+            for (const double time_s : {-1.0, 0.0, 0.3, 1.0, 9.0}) assets::sample(channel, time_s, out);
+        }
+}
+
 }  // namespace
 
 std::vector<std::byte> mutated_gltf(std::span<const std::uint8_t> bytes) {
@@ -256,6 +329,7 @@ void load_and_check(std::span<const std::byte> file) {
         if (!(std::abs(glm::length(node.rotation) - 1.0) < 1e-9)) broken("unit rotation");
         if (!(std::abs(node.translation_m.x) <= std::numeric_limits<double>::max())) broken("finite nodes");
     }
+    check_living(scene);
     for (const auto& light : scene.lights) {
         if (!std::isfinite(light.intensity) || !finite(light.colour) ||
             !(light.inner_cone_rad < light.outer_cone_rad)) {
