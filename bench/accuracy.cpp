@@ -75,6 +75,14 @@ void judge_planes(const oracle::PrimaryHits& hits, const std::vector<std::uint8_
                            creases, allowed_px);
 }
 
+void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const LightItem& light,
+                  LightAccuracy& accuracy) {
+    SoftAccuracy& soft = accuracy.soft.emplace();
+    soft.source = oracle::source_size(light);
+    soft.truth = tracer.trace_source(hits, light, {});
+    soft.metrics = oracle::compare_soft(hits, soft.truth, accuracy.measured);
+}
+
 void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector<std::uint32_t>& indices,
                  Accuracy& accuracy) {
     const auto start = std::chrono::steady_clock::now();
@@ -82,8 +90,11 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     const ConsumerItem& camera = snapshot.consumers.front();
     const oracle::ReferenceTracer tracer(snapshot, stage.library(), camera.position_ws_m);
     const oracle::PrimaryHits hits = tracer.trace_primary(camera);
-    for (std::size_t k = 0; k < indices.size(); ++k)
-        accuracy.lights[k].truth = tracer.trace_light(hits, snapshot.lights[indices[k]], options.with_ambiguous);
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        const LightItem& light = snapshot.lights[indices[k]];
+        accuracy.lights[k].truth = tracer.trace_light(hits, light, options.with_ambiguous);
+        if (oracle::source_size(light) > 0.0) judge_source(tracer, hits, light, accuracy.lights[k]);
+    }
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;
     const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().held_fits());

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,16 @@
 #include "tests/oracle/far_errors.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"
+#include "tests/oracle/soft_metrics.h"
 
 namespace gnomon::bench {
+
+/// Against the truth about a source with a size.
+struct SoftAccuracy {
+    double source = 0.0;  // metres; of a sun the tangent of its angular radius
+    oracle::SoftTruth truth;
+    oracle::SoftMetrics metrics;
+};
 
 struct LightAccuracy {
     LightReport report;  // of the frame that was measured
@@ -23,6 +32,7 @@ struct LightAccuracy {
     oracle::EdgeExceptions exceptions;  // edges farther off than predicted there, by name
     oracle::FarErrors far;              // wrong pixels that neither an edge nor the map's texels there explain
     std::size_t beyond_stated = 0;      // scored pixels with a larger bound than their view states for their slope: 0
+    std::optional<SoftAccuracy> soft;   // of lights whose source has a size
     Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
     std::size_t redrawn_differs = 0;    // pixels that changed when every view was drawn anew; must be 0
 };

@@ -13,6 +13,23 @@ Json to_json(const Spread& spread) {
     return {{"median", spread.median}, {"min", spread.min}, {"max", spread.max}, {"count", spread.count}};
 }
 
+Json to_json(const SoftAccuracy& soft) {
+    const oracle::SoftMetrics& m = soft.metrics;
+    return {
+        {"source", soft.source},
+        {"scored_px", m.scored},
+        {"mean_error", m.mean_error},
+        {"umbra_px", m.umbra},
+        {"umbra_leak", m.umbra_leak},
+        {"lit_px", m.lit},
+        {"lit_loss", m.lit_loss},
+        {"penumbra_px", m.penumbra},
+        {"penumbra_error", m.penumbra_error},
+        {"width_places", m.widths.places},
+        {"width_lost", m.widths.lost},
+        {"width_ratio", {{"p10", m.widths.p10_ratio}, {"median", m.widths.median_ratio}, {"p90", m.widths.p90_ratio}}}};
+}
+
 Json to_json(const LightAccuracy& light) {
     const oracle::Metrics& m = light.metrics;
     Json json;
@@ -49,6 +66,7 @@ Json to_json(const LightAccuracy& light) {
     json["texels"] = light.report.texels;
     json["bytes"] = light.report.bytes;
     json["redrawn_differs_px"] = light.redrawn_differs;
+    json["soft"] = light.soft ? to_json(*light.soft) : Json(nullptr);
     json["gpu_us"] = to_json(light.gpu_us);
     json["cpu_us"] = to_json(light.cpu_us);
     return json;

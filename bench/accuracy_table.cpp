@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -42,6 +43,28 @@ void append_light(const LightAccuracy& light, std::string& text) {
            light.report.reason == Reason::none ? "" : reason_code(light.report.reason));
 }
 
+void append_soft(const Accuracy& accuracy, std::string& text) {
+    const auto is_soft = [](const LightAccuracy& light) { return light.soft.has_value(); };
+    if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), is_soft)) return;
+    append(text, "\n%-18s %8s %8s %8s %8s %8s %8s %8s %7s %6s %20s\n", "soft light", "source", "error%", "umbra",
+           "leak%", "lit", "loss%", "penumbra", "error%", "widths", "ratio (10-90 %)");
+    for (const LightAccuracy& light : accuracy.lights) {
+        if (!light.soft) continue;
+        const oracle::SoftMetrics& m = light.soft->metrics;
+        append(text, "%-18.18s %8.4f %8.4f %8zu %8.4f %8zu %8.4f %8zu %7.3f %6zu %6.3f (%5.3f-%5.3f)\n",
+               light.report.name.c_str(), light.soft->source, kPercent * m.mean_error, m.umbra, kPercent * m.umbra_leak,
+               m.lit, kPercent * m.lit_loss, m.penumbra, kPercent * m.penumbra_error, m.widths.places,
+               m.widths.median_ratio, m.widths.p10_ratio, m.widths.p90_ratio);
+    }
+    text +=
+        "\nsource: radius in metres, or the tangent of a sun's. error: mean difference from the fraction of the source "
+        "that\n"
+        "256 rays say is seen. leak: mean light where none of it is; loss: mean light missing where all is. widths: "
+        "places\n"
+        "where a penumbra is measured; ratio: from a tenth to nine tenths of the light, as drawn, of what is true "
+        "there.\n";
+}
+
 }  // namespace
 
 std::string accuracy_table(const Accuracy& accuracy) {
@@ -63,6 +86,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
         "no edge within 8 px. ambig: left out, the truth hangs on the last digits. uncov: no surface measured, "
         "counted\n"
         "as wrong. cover: the same over the whole picture. ms: depth and lighting pass, every view drawn anew.\n";
+    append_soft(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
             append(text,

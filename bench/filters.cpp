@@ -21,13 +21,28 @@ struct Variant {
     LightShadow shadow;
 };
 
+/// The disk that rows are judged by which soften shadows by the source: two degrees of sky, and four centimetres of
+/// lamp.
+const std::vector<std::string> kDisk = {"source_radius_m=0.02", "sun_radius_deg=1"};
+const std::vector<std::string> kPoint = {"source_radius_m=0", "sun_radius_deg=0"};
+
+/// Rows that take the light as a point, judged as if it were the disk: by how far a fixed width is off.
+Variant judged_by_disk(const Variant& variant) {
+    Variant other = variant;
+    other.name += "_disk";
+    other.settings.insert(other.settings.end(), kDisk.begin(), kDisk.end());
+    return other;
+}
+
 std::vector<Variant> variants() {
-    std::vector<Variant> found;
+    std::vector<Variant> found, by_disk;
     for (const shadow::FilterRow& row : shadow::filter_table()) {
         const std::string name(row.name);
         const auto add = [&](const std::string& suffix, const std::string& setting, const LightShadow& shadow) {
             found.push_back({name + suffix, {"filter=" + name}, &row, shadow});
             if (!setting.empty()) found.back().settings.push_back(setting);
+            const auto& source = row.width == shadow::FilterWidth::source ? kDisk : kPoint;
+            found.back().settings.insert(found.back().settings.end(), source.begin(), source.end());
         };
         LightShadow shadow{.filter = row.id};
         LightShadow fewer = shadow;
@@ -37,15 +52,19 @@ std::vector<Variant> variants() {
                 shadow.filter_size = size;
                 add("_" + std::to_string(size), "filter_size=" + std::to_string(size), shadow);
             }
-        } else if (row.taps(shadow, false) != row.taps(fewer, false)) {
+            if (row.id == ShadowFilter::pcf_grid) by_disk.push_back(judged_by_disk(found.back()));
+        } else if (row.width == shadow::FilterWidth::source || row.taps(shadow, false) != row.taps(fewer, false)) {
             for (const std::uint32_t taps : {4u, 8u, 16u, 32u}) {
                 shadow.filter_taps = taps;
                 add("_" + std::to_string(taps), "filter_taps=" + std::to_string(taps), shadow);
             }
         } else {
             add("", "", shadow);
+            if (row.id == ShadowFilter::hard || row.id == ShadowFilter::triangles)
+                by_disk.push_back(judged_by_disk(found.back()));
         }
     }
+    found.insert(found.end(), by_disk.begin(), by_disk.end());
     return found;
 }
 
@@ -92,8 +111,9 @@ std::optional<Error> write_window(const std::vector<float>& values, glm::uvec2 s
     return game::write_png(file, shown.x, shown.y, rgba);
 }
 
-/// Mean difference from the truth: what a filter blurs counts by how much.
+/// Mean difference from the truth, of a source with a size where it has one: what a filter blurs counts by how much.
 double mean_error(const LightAccuracy& light) {
+    if (light.soft) return light.soft->metrics.mean_error;
     double sum = 0.0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < light.measured.size(); ++i) {
@@ -187,6 +207,7 @@ Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::p
         "| filter | light | taps | E | ms | wrong % | mean error % | bailing saves % | changes % | makes wrong % |\n"
         "|---|---|---|---|---|---|---|---|---|---|\n";
     std::optional<glm::uvec2> window;
+    bool soft_truth = false;
     for (const Variant& variant : variants()) {
         if (variant.name.find(options.only) == std::string::npos) continue;
         if (auto error = apply(stage, variant.settings)) return *error;
@@ -211,6 +232,11 @@ Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::p
             window = busiest_window(lights.front(), size_px);
             if (auto error = write_window(lights.front().truth.visibility, size_px, *window, folder / "truth.png"))
                 return *error;
+        }
+        if (lights.front().soft && !soft_truth) {
+            soft_truth = true;
+            const std::vector<float>& truth = lights.front().soft->truth.visibility;
+            if (auto error = write_window(truth, size_px, *window, folder / "truth_disk.png")) return *error;
         }
         if (auto error = write_window(lights.front().measured, size_px, *window, folder / (variant.name + ".png")))
             return *error;

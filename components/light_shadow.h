@@ -25,6 +25,7 @@ enum class ShadowFilter : std::uint8_t {
     evsm2,
     evsm4,
     moments,
+    pcss,
     count
 };
 
@@ -73,6 +74,9 @@ enum class CasterFaces : std::uint8_t { automatic, front, back, both };
 
 inline constexpr std::size_t kMaxCascades = 8;
 
+/// What LightShadow takes: a disk of sky of 30 degrees to either side, and a source of the size of a town.
+inline constexpr float kMostSunRadius_rad = 0.523598776f, kMostSourceRadius_m = 1.0e4f;
+
 /// How a map stores depth, reversed: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and
 /// gives up precision far from a spot or a point; the automatic bias grows by what is lost (docs/settings.md).
 enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
@@ -96,9 +100,12 @@ struct LightShadow {
     float moment_bleeding = 0.2f;           // 0 to 0.9: what is lit less counts as dark
     std::uint32_t moment_levels = 1;        // 1 to 5 of mipmaps
     std::uint32_t moment_anisotropy = 1;    // 1 to 16 samples along a pixel's footprint
-    bool early_bail = false;                // filters of many taps: five first, the others only if those differ
-    std::uint32_t resolution_px = 0;        // edge of one map or cube face; 0: chosen by the system
-    float max_error_px = 1.0f;              // how far a shadow edge may be off on screen; > 0
+    /// Size of the light's source, for filters that soften shadows by it (pcss): of a spot or a point its radius in
+    /// metres, of a sun that of its disk as an angle (the real one's: 0.00465). 0: a point, whose shadows are hard.
+    float source_radius_m = 0.0f, sun_radius_rad = 0.0f;
+    bool early_bail = false;          // filters of many taps: five first, the others only if those differ
+    std::uint32_t resolution_px = 0;  // edge of one map or cube face; 0: chosen by the system
+    float max_error_px = 1.0f;        // how far a shadow edge may be off on screen; > 0
     BiasMode bias = BiasMode::automatic;
     float bias_m = 0.0f;      // of a BiasMode that takes it, >= 0; what is no such number counts as the default
     float bias_texel = 1.0f;  // the same

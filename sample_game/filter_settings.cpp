@@ -13,7 +13,9 @@ inline constexpr std::array<std::string_view, 2> kWords<FilterSeed>{"screen", "w
 
 namespace {
 
-constexpr double kSliderSpread_m = 0.5, kSliderDoubles_m = 100.0, kSliderCell_m = 0.25;
+constexpr double kSliderSpread_m = 0.5, kSliderDoubles_m = 100.0, kSliderCell_m = 0.25, kSliderSource_m = 0.5,
+                 kSliderSun_deg = 3.0;
+constexpr double kMostSun_deg = 30.0;  // kMostSunRadius_rad
 constexpr double kTexels = static_cast<double>(shadow::kMostSpread_texel);
 
 bool set_filter(LightShadow& shadow, std::string_view text) {
@@ -46,6 +48,17 @@ bool set_cell(LightShadow& shadow, std::string_view text) {
     const auto value = read_number(text);
     return value && static_cast<float>(*value) > 0.0f && set_distance<&LightShadow::filter_cell_m>(shadow, text);
 }
+bool set_source_radius(LightShadow& shadow, std::string_view text) {
+    const auto value = read_number(text);
+    return value && *value <= static_cast<double>(kMostSourceRadius_m) &&
+           set_distance<&LightShadow::source_radius_m>(shadow, text);
+}
+bool set_sun_radius(LightShadow& shadow, std::string_view text) {
+    const auto value_deg = read_number(text);
+    if (!value_deg || !(*value_deg >= 0.0 && *value_deg <= kMostSun_deg)) return false;
+    shadow.sun_radius_rad = std::min(static_cast<float>(*value_deg * kDegree_rad), kMostSunRadius_rad);
+    return true;
+}
 using S = LightShadow;
 constexpr std::array kSettings{
     LightSetting{.key = "filter",
@@ -65,7 +78,7 @@ constexpr std::array kSettings{
                  .whole = true},
     LightSetting{.key = "filter_taps",
                  .values = "1 ... 32",
-                 .meaning = "of a poisson filter",
+                 .meaning = "of a poisson filter; at most, of pcss",
                  .set = set_count<&S::filter_taps, shadow::kMostFilterTaps, 1>,
                  .get = get_count<&S::filter_taps>,
                  .editor = SettingEditor::number,
@@ -94,7 +107,7 @@ constexpr std::array kSettings{
                  .slider_most = kSliderDoubles_m},
     LightSetting{.key = "filter_seed",
                  .values = "screen | world",
-                 .meaning = "what poisson_rotated and _stratified differ by",
+                 .meaning = "what poisson_rotated, _stratified and pcss differ by",
                  .set = set_word<&S::filter_seed, FilterSeed>,
                  .get = get_word<&S::filter_seed, FilterSeed>,
                  .editor = SettingEditor::choice,
@@ -106,6 +119,20 @@ constexpr std::array kSettings{
                  .get = get_float<&S::filter_cell_m>,
                  .editor = SettingEditor::number,
                  .slider_most = kSliderCell_m},
+    LightSetting{.key = "source_radius_m",
+                 .values = "0 ... 1e4 (m)",
+                 .meaning = "radius of a spot's or a point's source, for pcss; 0: a point",
+                 .set = set_source_radius,
+                 .get = get_float<&S::source_radius_m>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kSliderSource_m},
+    LightSetting{.key = "sun_radius_deg",
+                 .values = "0 ... 30 (degrees)",
+                 .meaning = "angular radius of a sun's disk, for pcss; the real one's: 0.2665; 0: a point",
+                 .set = set_sun_radius,
+                 .get = get_degrees<&S::sun_radius_rad>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kSliderSun_deg},
     LightSetting{.key = "early_bail",
                  .values = "on | off",
                  .meaning = "five taps first, the others only if those differ",

@@ -141,11 +141,12 @@ inline bool set_eye_angle(LightShadow& shadow, std::string_view text) {
     shadow.eye_angle_rad = angle_rad;
     return true;
 }
-inline std::string get_eye_angle(const LightShadow& shadow) {
+template <float LightShadow::*field_rad>
+std::string get_degrees(const LightShadow& shadow) {
     // The shorter text where it reads back to the same angle.
-    const double angle_deg = static_cast<double>(shadow.eye_angle_rad) / kDegree_rad;
+    const double angle_deg = static_cast<double>(shadow.*field_rad) / kDegree_rad;
     const auto shorter_deg = static_cast<float>(angle_deg);
-    const bool same = static_cast<float>(static_cast<double>(shorter_deg) * kDegree_rad) == shadow.eye_angle_rad;
+    const bool same = static_cast<float>(static_cast<double>(shorter_deg) * kDegree_rad) == shadow.*field_rad;
     return same ? number_text(shorter_deg) : number_text(angle_deg);
 }
 

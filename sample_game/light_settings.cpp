@@ -78,7 +78,7 @@ constexpr std::array kSettings{
                  .values = "above 0 ... 160 (degrees)",
                  .meaning = "full opening angle of a sun's perspective view",
                  .set = set_eye_angle,
-                 .get = get_eye_angle,
+                 .get = get_degrees<&S::eye_angle_rad>,
                  .editor = kNumber,
                  .slider_most = kMaxEyeAngle_deg},
     LightSetting{.key = "near_m",

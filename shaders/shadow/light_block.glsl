@@ -11,7 +11,7 @@ struct ViewRecord {
 layout(std140, binding = 1) uniform LightBlock {
     vec4 position;             // xyz: from the camera's anchor (spot, point), or along the camera's view (directional); w: range in metres, 0: unlimited
     vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its shadow layers, 0 to 255
-    vec4 radiance;             // rgb: lux (directional) or candela
+    vec4 radiance;             // rgb: lux (directional) or candela; w: size of the source, see shadow/source.glsl
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces; or a point's: the quaternion cube_turn()
     ivec4 options;             // x: views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view distance; w: bit per layer that a view was drawn to
     vec4 bias;                 // x: metres, z: texels of a manual bias; y: share of a cascade that fades

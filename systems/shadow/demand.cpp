@@ -63,11 +63,18 @@ void decide_projection(const LightItem& light, bool depths_failed, ShadowDemand&
 void decide_warp(const LightShadow& shadow, bool one_consumer, ShadowDemand& demand) {
     if (shadow.warp == 0.0f) return;
     const bool possible = shadow.fit == ShadowFit::tight && one_consumer && !demand.perspective_sun &&
-                          demand.near_m == 0.0 && demand.far_m == 0.0;
+                          !needs_distances(demand.filtering) && demand.near_m == 0.0 && demand.far_m == 0.0;
     if (possible && shadow.warp > 0.0f && shadow.warp <= 1.0f)
         demand.warp = shadow.warp;
     else
         demand.note = Reason::warp_unsupported;
+}
+
+/// A sun has no radius in metres, and what is no sun none as an angle.
+LightShadow with_own_source(const LightItem& light) {
+    LightShadow shadow = light.shadow;
+    (light.kind == LightKind::directional ? shadow.source_radius_m : shadow.sun_radius_rad) = 0.0f;
+    return shadow;
 }
 
 void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {
@@ -112,7 +119,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
                 std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
-        demand.filtering = filter_demand(light.shadow, demand.resolution_px);
+        demand.filtering = filter_demand(with_own_source(light), demand.resolution_px);
         demand.moments = moment_demand(filter_row(demand.filter), light.shadow);
         if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
         decide_projection(light, scene.sampled_depths.failed, demand);

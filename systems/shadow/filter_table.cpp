@@ -1,6 +1,9 @@
 #include "systems/shadow/filter_table.h"
 
+#include <algorithm>
 #include <iterator>
+
+#include "systems/shadow/filter_demand.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -34,6 +37,12 @@ constexpr MomentRow kWarped{{gl::Format::rg16f, 5.54f, 5.54f, 1.5e-3f}, {gl::For
 constexpr MomentRow kWarpedTwice{
     {gl::Format::rgba16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rgba32f, 42.0f, 40.0f, 2.5e-7f}, 5.0f};
 constexpr MomentRow kFourMoments{{gl::Format::rgba16, 0.0f, 0.0f, 6.0e-5f}, {gl::Format::rgba32f, 0.0f, 0.0f, 3.0e-7f}};
+/// The search of pcss.glsl, then two disks or votes.
+std::uint32_t of_search(const LightShadow& shadow, bool cube) {
+    constexpr std::uint32_t kTapsPerOctave = 4, kOctaves = 8;  // from half a texel to kMostPenumbra_texel
+    static_assert(kMostPenumbra_texel == 0.5f * (1u << kOctaves));
+    return kTapsPerOctave * kOctaves + std::max(2 * shadow.filter_taps, of_votes(shadow, cube));
+}
 
 // E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
 // a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts
@@ -75,6 +84,8 @@ constexpr FilterRow kRows[] = {
     prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/evsm2.glsl", kWarped),
     prefiltered(ShadowFilter::evsm4, "evsm4", "shadow/filters/evsm4.glsl", kWarpedTwice),
     prefiltered(ShadowFilter::moments, "moments", "shadow/filters/moments.glsl", kFourMoments),
+    {ShadowFilter::pcss, "pcss", "shadow/filters/pcss.glsl", of_search, 3.0f, FilterWidth::source, MapReading::depths,
+     FilterStorage::depth, 2.5f, 0.75f},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

@@ -11,8 +11,9 @@ namespace gnomon::shadow {
 /// What of LightShadow the footprint of a filter follows.
 enum class FilterWidth : std::uint8_t {
     fixed,
-    size,   // filter_size
-    spread  // filter_spread_texel, filter_spread_m, filter_doubles_m
+    size,    // filter_size
+    spread,  // filter_spread_texel, filter_spread_m, filter_doubles_m
+    source   // source_radius_m, sun_radius_rad; needs true distances of casters
 };
 
 /// What a map holds for a filter: depth, or also which triangle each texel shows

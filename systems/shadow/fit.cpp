@@ -53,7 +53,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
                              points,
                              std::span(frame.beams).subspan(sets.beams.first, sets.beams.count),
                              frame.receiver_points_ws,
-                             demand.filtering.widest_texel,
+                             demand.filtering.border_texel,
                              frame.fit_scratch,
                              last ? *last : none,
                              next};

@@ -21,7 +21,7 @@ struct FitInput {
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
     std::span<const Beam> beams;                     // of a local light: one for each of light_openings()
     std::span<const glm::dvec3> frame_points_ws;     // what Beam::receiver_points is a range of
-    float reach_texel = 0.5f;                        // the filter's E
+    float reach_texel = 0.5f;                        // the filter's E, for borders: FilterDemand::border_texel
     FitScratch& scratch;                             // so that a fit allocates nothing in steady state
     const HeldLight& held;                           // what this light's last fit left
     HeldLight& next;                                 // output, starts as a copy of `held`: see history.h

@@ -83,6 +83,14 @@ void filter_record(const LightShadow& shadow, const FilterDemand& filter, const 
     record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
 
+/// What of the source shaders read: metres, or a sun's tangent. A sun that is seen from an eye gets a disk there, as
+/// wide as the sky's from the middle of the view's depth.
+float source_size(LightKind kind, const FilterDemand& filter, const ShadowView& view) {
+    if (kind != LightKind::directional) return filter.source_radius_m;
+    if (view.projection == ViewProjection::orthographic) return filter.sun_radius_tan;
+    return filter.sun_radius_tan * static_cast<float>(0.5 * (view.near_m + view.far_m));
+}
+
 void bias_record(const LightShadow& shadow, LightingLight& out) {
     const LightShadow usual;
     const auto valid = [&](float LightShadow::*field) {
@@ -195,6 +203,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             filter_record(light.shadow, demand.filtering, consumer, out.record);
             out.record.moments = demand.moments.settings;
             out.record.moment_sampling.x = demand.moments.bleeding;
+            out.record.radiance.w = source_size(light.kind, demand.filtering, view);
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }

@@ -11,6 +11,7 @@
 #include "systems/extract/volumes.h"
 #include "systems/shadow/beams.h"
 #include "systems/shadow/kinds/openings.h"
+#include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/marks.h"
 #include "systems/shadow/nearest_receiver.h"
@@ -154,15 +155,44 @@ private:
     Reach reach_;
 };
 
+/// How far beyond a lamp's beam, in tangents, casters hide part of a source with a size: as far as filters read texels.
+double lamp_reach(const FilterDemand& filter, double size_px, const LightOpening& opening) {
+    const glm::dvec2 sides = opening.high - opening.low;
+    const double seen_px = size_px - 2.0 * border_px(size_px, static_cast<double>(filter.border_texel));
+    return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
+}
+
+/// Beyond a sun's, in metres: as far as the highest of them stands above the lowest receiver, times the tangent.
+double sun_reach_m(const SceneSnapshot& scene, const FilterDemand& filter, const Beam& beam) {
+    double height_m = 0.0;
+    for (const InstanceItem& item : scene.instances) {
+        const glm::dvec3 middle_m = (math::centre(item.bounds_ws) - beam.origin_ws_m) * beam.axes;
+        const double half_m = glm::dot(math::half_extent(item.bounds_ws), glm::abs(beam.axes[2]));
+        if (item.casts) height_m = std::max(height_m, middle_m.z + half_m + beam.far_m);
+    }
+    return height_m * static_cast<double>(filter.sun_radius_tan);
+}
+
 /// Casters that touch any of the light's beams.
-void select_casters(const SceneSnapshot& scene, const LightItem& light, PotentialSets& sets, ShadowFrame& frame) {
+void select_casters(const SceneSnapshot& scene, const ShadowDemand& demand, PotentialSets& sets, ShadowFrame& frame) {
+    const LightItem& light = scene.lights[demand.light];
     std::vector<std::uint64_t>& marks = frame.set_scratch.marks;
+    std::vector<glm::dvec2>& polygon = frame.set_scratch.polygon;
     clear_marks(marks, scene.instances.size());
-    for (std::uint32_t b = sets.beams.first; b < sets.beams.first + sets.beams.count; ++b) {
-        const Beam& beam = frame.beams[b];
+    const bool has_size = needs_distances(demand.filtering);
+    const LightOpenings openings = has_size ? light_openings(light, demand) : LightOpenings{};
+    for (std::uint32_t b = 0; b < sets.beams.count; ++b) {
+        const Beam& beam = frame.beams[sets.beams.first + b];
         if (beam.outline.count == 0) continue;
         const auto outline = std::span(frame.outlines).subspan(beam.outline.first, beam.outline.count);
-        const SweptVolume volume = swept_volume(beam, outline, seen_by_the_only_consumer(frame), 0.0);
+        polygon.assign(outline.begin(), outline.end());
+        double reach = 0.0;
+        if (has_size)
+            reach = beam.parallel ? sun_reach_m(scene, demand.filtering, beam)
+                                  : lamp_reach(demand.filtering, demand.resolution_px, openings.items[b]);
+        if (has_size) widen(polygon, glm::dvec2(reach), frame.set_scratch);
+        const double reach_m = 2.0 * reach * (beam.parallel ? 1.0 : beam.far_m);
+        const SweptVolume volume = swept_volume(beam, polygon, seen_by_the_only_consumer(frame), reach_m);
         visit_instances(
             scene, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
@@ -220,7 +250,7 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
         sets.skip = demand.skip;
         if (demand.skip == Reason::none) {
             sets = Search(scene, demand, frame).run();
-            select_casters(scene, scene.lights[demand.light], sets, frame);
+            select_casters(scene, demand, sets, frame);
             if (sets.casters.count == 0) sets.skip = Reason::no_caster;
             if (sets.receivers.count == 0) sets.skip = Reason::no_visible_receiver;
         }

@@ -1,10 +1,12 @@
 # The real pipeline against the ray tracer, through the bench's own measurement.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_truth LABEL gl SOURCES
+    soft_shadows_gl_test.cpp
     truth_accuracy_gl_test.cpp
     truth_controls_gl_test.cpp
     truth_edges_gl_test.cpp
     truth_planes_gl_test.cpp
+    truth_source_gl_test.cpp
     truth_warp_gl_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()

@@ -33,8 +33,8 @@ bool reaches(const LightItem& light, const Vector& p, Real inset);
 /// between, and not only at the point itself.
 bool darkens(const LightItem& light, const math::Aabb& box, const Vector& p, Real least);
 
-/// Map coordinates and depth (0 to 1 each) of a point, by the view's float matrix, and how much of each float may owe to
-/// rounding (2^-22 of its terms: of the matrix and of the shader's own sums, not of this oracle's).
+/// Map coordinates and depth (0 to 1 each) of a point, by the view's float matrix, and how much of each float may owe
+/// to rounding (2^-22 of its terms: of the matrix and of the shader's own sums, not of this oracle's).
 struct InMap {
     Vector at, rounding;
     Real w = 0;  // > 0: before the view
@@ -42,8 +42,8 @@ struct InMap {
 InMap in_map(const shadow::ShadowView& view, const Vector& p);
 
 /// Which views of a light decide about a point, as the shaders choose: a sun's first cascade that holds it with
-/// `reach_texel` to spare, from the one of its distance on where cascades have ends; the face it lies in of the cube around
-/// a point light or a wide spot, if that is a view; a spot's single view.
+/// `reach_texel` to spare, from the one of its distance on where cascades have ends; the face it lies in of the cube
+/// around a point light or a wide spot, if that is a view; a spot's single view.
 struct Deciding {
     const shadow::ShadowView* view = nullptr;  // cascade or face
     const shadow::ShadowView* single = nullptr;
@@ -52,8 +52,8 @@ struct Deciding {
 Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand,
                         const ConsumerItem& consumer, const Vector& p, Real reach_texel);
 
-/// Whether the point lies in the view's map and depth range, `reach_texel` from its border, rounding in its favour. What is
-/// nearer than a perspective view's near plane is held: it is compared as if it lay on that plane.
+/// Whether the point lies in the view's map and depth range, `reach_texel` from its border, rounding in its favour.
+/// What is nearer than a perspective view's near plane is held: it is compared as if it lay on that plane.
 bool holds(const shadow::ShadowView& view, const Vector& p, Real size_px, Real reach_texel);
 
 }  // namespace gnomon::oracle

@@ -1,45 +1,16 @@
 #include "tests/oracle/reference_tracer.h"
 
-#include <array>
 #include <cmath>
 
+#include "tests/oracle/light_reach.h"
 #include "tests/oracle/parallel_rows.h"
 #include "tests/oracle/pixel_ray.h"
-#include "tests/oracle/traced_world.h"
+#include "tests/oracle/reference_world.h"
 
 namespace gnomon::oracle {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-// Direction to the light and how far along it the light is; false outside its range or cone.
-bool reach(const LightItem& light, const glm::dvec3& light_rel_m, const glm::dvec3& point_rel_m, glm::dvec3& to_light,
-           double& t_max) {
-    if (light.kind == LightKind::directional) {
-        to_light = light.rotation_ws[2];
-        t_max = kInfinity;
-        return true;
-    }
-    to_light = light_rel_m - point_rel_m;
-    t_max = 1.0;
-    const double distance_m = glm::length(to_light);
-    if (!(distance_m > 0.0)) return false;
-    if (light.range_m > 0.0 && distance_m > light.range_m) return false;
-    if (light.kind == LightKind::point) return true;
-    const double cosine = glm::dot(to_light, light.rotation_ws[2]) / (distance_m * glm::length(light.rotation_ws[2]));
-    return cosine >= std::cos(light.outer_cone_rad);
-}
-
-double cosine_between(const glm::dvec3& unit_normal, const glm::dvec3& to_light) {
-    return glm::dot(unit_normal, to_light) / glm::length(to_light);
-}
-
-// Two axes in the plane of a unit normal.
-std::array<glm::dvec3, 2> tangents(const glm::dvec3& n) {
-    const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 first = glm::normalize(glm::cross(n, helper));
-    return {first, glm::cross(n, first)};
-}
 
 // One light over one picture.
 struct LightTracer {
@@ -86,11 +57,6 @@ struct LightTracer {
 };
 
 }  // namespace
-
-struct ReferenceTracer::World {
-    TracedWorld traced;
-    unsigned threads;
-};
 
 ReferenceTracer::ReferenceTracer(const SceneSnapshot& snapshot, const assets::MeshLibrary& library,
                                  const glm::dvec3& origin_ws_m, unsigned threads)

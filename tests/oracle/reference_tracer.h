@@ -31,6 +31,9 @@ struct LightTruth {
     std::vector<std::uint8_t> ambiguous;  // scored, and the answer changes when P moves by kJitter of its distance
 };
 
+struct SoftTruth;  // soft_truth.h
+struct SourceSampling;
+
 inline constexpr double kMinCosine = 1.0e-4;  // below it shading is nothing, so visibility decides nothing
 inline constexpr double kJitter = 1.0e-6;     // about 6 times the error of a position rebuilt from float depth
 
@@ -64,6 +67,10 @@ public:
     std::vector<float> visibility(const PrimaryHits& hits, const LightItem& light) const;
     /// trace_light's ambiguous flags alone.
     std::vector<std::uint8_t> ambiguous(const PrimaryHits& hits, const LightItem& light) const;
+
+    /// What each surface sees of the light's source, a disk around its middle that faces the surface: the fraction of
+    /// rays to it that pass, of those that leave the surface. Casters and receivers as in trace_light.
+    SoftTruth trace_source(const PrimaryHits& hits, const LightItem& light, const SourceSampling& sampling) const;
 
     /// Whether a caster lies between the light and a point on the plane of `triangle`, inside of it or beyond its
     /// borders, at least `least_m` from the point. Range and cone aside.

@@ -20,6 +20,7 @@ float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
     return point.reference + allowed >= stored + dot(rise, abs(aside)) ? 1.0 : 0.0;
 }
 
+// By how much more votes than not say lit, -1 to 1; at the edge 0, rising by 1 over kVotes_texel * sqrt(pi / 2) texels.
 // `rows`: 4, or 0 for none; a loop, because software devices run both sides of an if, but no empty loop.
 float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
     float lit = 0.0, all_votes = 0.0;
@@ -31,7 +32,7 @@ float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
             lit += votes * lit_at(point, place, middle, shadow_depth(point, middle));
             all_votes += votes;
         }
-    return 2.0 * lit >= all_votes ? 1.0 : 0.0;
+    return all_votes > 0.0 ? (2.0 * lit - all_votes) / all_votes : 0.0;
 }
 
 // The four texels around the receiver, in textureGather's order: (-,+) (+,+) (+,-) (-,-).

@@ -6,6 +6,7 @@
 #include "shadow/bias_manual.glsl"
 #endif
 #include "shadow/spread.glsl"
+#include "shadow/source.glsl"
 #include "shadow/kinds/map_2d.glsl"
 #ifdef SHADOW_WARPED
 #include "shadow/bias_warped.glsl"
@@ -32,7 +33,12 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
 #endif
     vec3 moved = position_la + normal * bias.along_normal_m;
     vec4 projected = view.map_from_anchor * vec4(moved, 1.0);
-    ShadowPoint point = point_2d(i, projected, bias.depth, read_texel(reach));
+    vec2 source_texel = sun_source_texel(view);
+    float reads_texel = read_texel(reach) + source_reach_texel(source_texel, vec2(0.0), projected.z / projected.w);
+    ShadowPoint point = point_2d(i, projected, bias.depth, reads_texel);
+#ifdef SHADOW_DEPTHS
+    point.source_texel = source_texel;
+#endif
     point.spread_texel = spread;
     point.position_ca = position_ca;
     // A cascade draws only what can darken its own depth range: before it, the next one knows better.
@@ -59,10 +65,10 @@ float share_at(int i, float distance_m) {
 }
 
 // The same toward the border of its map.
-float share_toward_border(ShadowPoint point, float reach_texel) {
+float share_toward_border(ShadowPoint point) {
     vec3 inside = min(point.map, 1.0 - point.map);
-    float reach = read_texel(reach_texel + max(point.spread_texel.x, point.spread_texel.y));
-    float nearest = min(min(inside.x - reach * point.texel_uv.x, inside.y - reach * point.texel_uv.y), inside.z);
+    vec2 reads = point.reads_texel * point.texel_uv;
+    float nearest = min(min(inside.x - reads.x, inside.y - reads.y), inside.z);
     return clamp(1.0 - nearest / light.bias.y, 0.0, 1.0);
 }
 #endif
@@ -83,7 +89,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_
 #ifdef SHADOW_FADES
 float shadow_fade_share(ShadowPoint first, float reach_texel) {
     if (!first.covered || light.bias.y <= 0.0 || found_cascade + 1 >= light.options.x) return 0.0;
-    if (light.options.z == 0) return share_toward_border(first, reach_texel);
+    if (light.options.z == 0) return share_toward_border(first);
     return share_at(found_cascade, dot(first.position_ca, light.position.xyz));
 }
 

@@ -18,11 +18,14 @@ struct ShadowPoint {
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec3 position_ca;   // what was asked for
+    float reads_texel;  // how far from it texels are read
 #ifdef SHADOW_TRIANGLES
     float error_m;        // how far position_ca may be off the true surface
 #endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     float reference;    // map.z
+    vec2 source_texel;  // see shadow/source.glsl
+    vec2 tangent;       // of its direction in a perspective view; 0: of a sun
 #endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS) || defined(SHADOW_MANUAL_BIAS)
     int view;
@@ -109,8 +112,10 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
     point.covered = projected.w > 0.0 && map.z >= 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));
     point.map = vec3(map.xy, clamp(map.z + bias_depth, 0.0, 1.0));
     point.layer = light.views[view].numeric.w;
+    point.reads_texel = margin_texel;
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference = point.map.z;
+    point.source_texel = point.tangent = vec2(0.0);
 #endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS) || defined(SHADOW_MANUAL_BIAS)
     point.view = view;

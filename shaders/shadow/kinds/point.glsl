@@ -6,6 +6,7 @@
 #include "shadow/bias_manual.glsl"
 #endif
 #include "shadow/spread.glsl"
+#include "shadow/source.glsl"
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
 layout(binding = 4) uniform samplerCube shadow_map;
 #else
@@ -33,6 +34,7 @@ struct ShadowPoint {
     float reach_texel;    // what the bias is for
 #endif
 #ifdef SHADOW_DEPTHS
+    vec2 source_texel;    // see shadow/source.glsl
     vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
     vec2 tangent;         // of its direction along the face's axes
 #endif
@@ -197,7 +199,10 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     float leaving = max(-n_map.z, 0.0);
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * z_m, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
-    float beyond = (read_texel(reach) + 1.0) * view.axis_u.w;
+    vec2 source_texel = lamp_source_texel(view);
+    vec2 tangent = vec2(dot(position_la, axis_u), dot(position_la, axis_v)) / z_m;
+    float reads_texel = read_texel(reach) + source_reach_texel(source_texel, tangent, view.numeric.z + view.axis_back.w / z_m);
+    float beyond = (reads_texel + 1.0) * view.axis_u.w;
     if (second > z_m * (1.0 - 2.0 * beyond)) {
         leaving = max(leaving, max(tangents.x, tangents.y));
         tangents = (tangents + abs(n_map.z)) * (1.0 + beyond);
@@ -228,6 +233,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     z_m = largest(point.position);
     vec3 in_face = point.position * map_axes;
     point.tangent = vec2(in_face.x, in_face.y) / z_m;
+    point.source_texel = source_texel;
 #endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference = view.numeric.z + view.axis_back.w / largest(point.position) + bias.depth;

@@ -6,6 +6,7 @@
 #include "shadow/bias_manual.glsl"
 #endif
 #include "shadow/spread.glsl"
+#include "shadow/source.glsl"
 #include "shadow/kinds/map_2d.glsl"
 
 vec3 from_light(vec3 position_ca) { return position_ca + light.views[0].anchor_from_camera.xyz; }
@@ -28,6 +29,10 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
 #endif
     vec3 moved = position_la + normal * bias.along_normal_m;
     ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
+#ifdef SHADOW_DEPTHS
+    point.source_texel = lamp_source_texel(view);
+    point.tangent = vec2(position_map.x, position_map.y) / -position_map.z;
+#endif
     point.spread_texel = spread;
     point.position_ca = position_ca;
     return point;

@@ -7,6 +7,7 @@
 #include "systems/extract/volumes.h"
 #include "systems/shadow/kinds/cascade_fit.h"
 #include "systems/shadow/kinds/cascade_slices.h"
+#include "systems/shadow/kinds/caster_depth.h"
 #include "systems/shadow/kinds/directional_warped.h"
 #include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/kinds/sun_eye.h"
@@ -107,7 +108,7 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input);
         OrthographicBox box;
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
-        if (points_ws.empty() || !cascade_fit(input.light.shadow.fit)(cascade, box)) continue;
+        if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
         if (counts_from_eye) override_from_eye(input.demand, eye, box);
         // No receiver lies in the slices that were left out, their part of the fading included.
         if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());

@@ -52,7 +52,7 @@ LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand)
     if (light.kind == LightKind::spot) add_spot(light, demand.faces_eighths, openings);
     if (light.kind == LightKind::point) {
         // A receiver in one face may be filtered with texels of the next.
-        const auto reach_texel = static_cast<double>(demand.filtering.widest_texel);
+        const auto reach_texel = static_cast<double>(demand.filtering.border_texel);
         const TangentRectangle wide = with_border({}, demand.resolution_px, reach_texel);
         const glm::dmat3 turn = glm::mat3_cast(cube_turn());
         for (std::uint32_t face = 0; face < 6; ++face)

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 
+#include "systems/shadow/kinds/caster_depth.h"
 #include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/held_fit.h"
 #include "systems/shadow/kinds/local_content.h"
@@ -13,6 +15,15 @@
 namespace gnomon::shadow {
 namespace {
 
+/// What the view's border is made from.
+float reach_texel(const FitInput& input, const TangentRectangle& crop, const PerspectiveRange& range) {
+    const FilterDemand& filter = input.demand.filtering;
+    if (!needs_distances(filter)) return input.reach_texel;
+    const glm::dvec2 sides = crop.high - crop.low;
+    const double widest = static_cast<double>(filter.source_radius_m) * (1.0 / range.near_m - 1.0 / range.far_m);
+    return penumbra_border_texel(input, std::min(sides.x, sides.y), widest);
+}
+
 /// One view, if there are both a receiver and a caster. False if its depth range is no range.
 bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam& beam, std::vector<ShadowView>& views) {
     const TangentRectangle whole{opening.low, opening.high};
@@ -21,7 +32,9 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     const HeldView& held = input.held.views[opening.held_as];
     HeldView next = held;
     const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
-    include_casters(input, beam, crop, content);
+    const bool has_size = needs_distances(input.demand.filtering);
+    const auto reach = static_cast<double>(input.reach_texel);
+    include_casters(input, beam, has_size ? with_border(crop, input.demand.resolution_px, reach) : crop, content);
     if (!content.casters) return true;
     const PerspectiveRange range =
         overridden(input.demand, held_range(content.nearest_m, content.farthest_m, held, next));
@@ -29,7 +42,7 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     next.used = true;
     input.next.views[opening.held_as] = next;
     ShadowView view = perspective_view(input.light.position_ws_m, opening.axes, crop, range, input.demand.resolution_px,
-                                       static_cast<double>(input.reach_texel));
+                                       static_cast<double>(reach_texel(input, crop, range)));
     view.layer = opening.layer;
     view.held = true;
     views.push_back(view);

@@ -20,6 +20,8 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .filter_doubles_m = 12.5f,
                     .filter_seed = FilterSeed::screen,
                     .filter_cell_m = 0.3f,
+                    .source_radius_m = 0.13f,
+                    .sun_radius_rad = 0.00465f,
                     .early_bail = true,
                     .resolution_px = 768,
                     .max_error_px = 0.3f,
@@ -86,6 +88,8 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"filter_taps=0", "set.value"},    {"filter_taps=33", "set.value"},
                 {"filter_spread_texel=17", "set.value"}, {"filter_spread_m=-1", "set.value"},
                 {"filter_doubles_m=nan", "set.value"}, {"filter_seed=time", "set.value"},
+                {"source_radius_m=-1", "set.value"}, {"source_radius_m=1e5", "set.value"},
+                {"sun_radius_deg=31", "set.value"}, {"sun_radius_deg=-1", "set.value"},
                 {"filter_cell_m=0", "set.value"},  {"early_bail=yes", "set.value"},
                 {"split_m=-1", "set.value"},       {"split_m=1,", "set.value"}};
     for (const auto& row : rows) {

@@ -71,6 +71,42 @@ TEST(FilterDemand, ASpreadInTexelsIsKeptAndOneInMetresOrThatGrowsIsBoundedByTheM
     EXPECT_EQ(filter_demand(shadow, 64).widest_texel, 8.5f) << "an eighth of the map";
 }
 
+TEST(FilterDemand, ASourceWithASizeReachesAsFarAsTheMapBearsAndMovesNoEdge) {
+    LightShadow shadow{.filter = ShadowFilter::pcss};
+    const FilterDemand point = filter_demand(shadow, kMap_px);
+    EXPECT_FALSE(needs_distances(point));
+    EXPECT_EQ(point.widest_texel, filter_row(ShadowFilter::pcss).reach_texel);
+    EXPECT_EQ(point.border_texel, point.widest_texel);
+    for (const auto field : {&LightShadow::source_radius_m, &LightShadow::sun_radius_rad}) {
+        shadow = {.filter = ShadowFilter::pcss};
+        shadow.*field = 0.01f;
+        const FilterDemand wide = filter_demand(shadow, kMap_px);
+        EXPECT_TRUE(needs_distances(wide));
+        EXPECT_FALSE(wide.cut);
+        EXPECT_EQ(wide.widest_texel, point.widest_texel + kMostPenumbra_texel);
+        EXPECT_EQ(2.0f * wide.border_texel, 2.0f * point.border_texel + kMostPenumbra_texel) << "the bias moves nothing";
+        EXPECT_EQ(edge_texel_at(wide, 0.01), edge_texel_at(point, 0.01)) << "a penumbra lies to both sides";
+        EXPECT_EQ(filter_demand(shadow, 64).widest_texel, point.widest_texel + 8.0f) << "an eighth of the map";
+        EXPECT_EQ(filter_demand(shadow, 1u << 14).widest_texel, wide.widest_texel);
+        shadow.filter = ShadowFilter::sharp_4x4;
+        EXPECT_FALSE(needs_distances(filter_demand(shadow, kMap_px))) << "no other row asks for it";
+    }
+    shadow = {.filter = ShadowFilter::pcss, .sun_radius_rad = 0.00465f};
+    EXPECT_NEAR(filter_demand(shadow, kMap_px).sun_radius_tan, 0.00465f, 1e-7f);
+}
+
+TEST(FilterDemand, ASourceThatIsAbsurdIsCutAndReported) {
+    for (const float absurd : {kNan, kInfinity, -1.0f, 1.0e30f})
+        for (const auto field : {&LightShadow::source_radius_m, &LightShadow::sun_radius_rad}) {
+            LightShadow shadow{.filter = ShadowFilter::pcss};
+            shadow.*field = absurd;
+            const FilterDemand filter = filter_demand(shadow, kMap_px);
+            EXPECT_TRUE(filter.cut) << absurd;
+            EXPECT_TRUE(filter.source_radius_m >= 0.0f && filter.source_radius_m <= kMostSourceRadius_m);
+            EXPECT_TRUE(filter.sun_radius_tan >= 0.0f && filter.sun_radius_tan < 1.0f);
+        }
+}
+
 TEST(FilterDemand, NumbersThatAreNoneGiveWayToTheDefaultsAndAreReported) {
     for (const float absurd : {kNan, kInfinity, -1.0f})
         for (const auto field : {&LightShadow::filter_spread_texel, &LightShadow::filter_spread_m, &LightShadow::filter_doubles_m,

@@ -1,0 +1,120 @@
+#include <algorithm>
+
+#include "tests/gl/traced_frame_fixture.h"
+#include "tests/oracle/soft_metrics.h"
+
+// Penumbrae of a source with a size, against rays to all of it.
+namespace gnomon {
+namespace {
+
+constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+
+class SoftShadows : public TracedFrameTest {
+protected:
+    /// A ground, and at that height a sheet over the half of it where x is negative.
+    void build(LightKind kind, double height_m, const LightShadow& shadow, bool sheet = true) {
+        start_anew();
+        place(add_mesh(game::make_box({-4.0, -0.1, -4.0}, {4.0, 0.0, 4.0})));
+        if (sheet)
+            place(add_mesh(game::make_box({-4.0, height_m, -3.0}, {0.0, height_m + 0.01, 3.0})));
+        light_ = add_light_of(kind, {0.4, kLamp_m, 0.3}, shadow);
+        add_camera({.fov_y_rad = 0.35}, {0.4, 1.2, 3.0}, glm::dvec3(-0.35, -1.2, -3.0));
+    }
+    LightShadow soft(LightKind) const {
+        return {.filter = ShadowFilter::pcss,
+                .filter_taps = 32,
+                .source_radius_m = 0.3f,
+                .sun_radius_rad = 0.1f,
+                .resolution_px = 1024};
+    }
+    struct Soft {
+        oracle::SoftMetrics metrics;
+        std::vector<float> measured;
+        oracle::SoftTruth truth;
+    };
+    Soft judge_soft() {
+        const SceneSnapshot& scene = frame().snapshot();
+        const ConsumerItem& camera = scene.consumers.at(0);
+        const oracle::ReferenceTracer tracer(scene, library, camera.position_ws_m);
+        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+        Soft soft;
+        soft.truth = tracer.trace_source(hits, scene.lights.at(0), {});
+        soft.measured = visibility();
+        soft.metrics = oracle::compare_soft(hits, soft.truth, soft.measured);
+        return soft;
+    }
+
+    static constexpr double kLamp_m = 4.0;
+    ecs::Entity light_;
+};
+
+TEST_F(SoftShadows, OfOneEdgeAreAsWideAsTheSourceMakesThemFromEveryHeight) {
+    constexpr double kMostOff = 0.15, kMostLost = 0.02, kMostError = 0.02;
+    for (const LightKind kind : kKinds)
+        for (const double height_m : {0.2, 0.4, 0.8, 1.2, 1.6}) {
+            SCOPED_TRACE(std::string(kind_name(kind)) + " " + std::to_string(height_m));
+            build(kind, height_m, soft(kind));
+            draw();
+            const oracle::SoftMetrics m = judge_soft().metrics;
+            EXPECT_GT(m.widths.places, 100u);
+            EXPECT_LE(static_cast<double>(m.widths.lost), kMostLost * static_cast<double>(m.widths.places));
+            EXPECT_NEAR(m.widths.median_ratio, 1.0, kMostOff);
+            EXPECT_LT(m.mean_error, kMostError);
+        }
+}
+
+TEST_F(SoftShadows, WithoutASizeAreThoseOfTheSharpFilterToTheBit) {
+    for (const LightKind kind : kKinds) {
+        SCOPED_TRACE(kind_name(kind));
+        std::vector<float> shown[2];
+        for (const ShadowFilter filter : {ShadowFilter::pcss, ShadowFilter::sharp_4x4}) {
+            build(kind, 0.8, {.filter = filter, .resolution_px = 1024});
+            draw();
+            shown[filter == ShadowFilter::pcss] = visibility();
+        }
+        EXPECT_EQ(shown[0], shown[1]);
+        EXPECT_EQ(std::count_if(shown[0].begin(), shown[0].end(), [](float v) { return v > 0.0f && v < 1.0f; }), 0);
+        EXPECT_GT(std::count(shown[0].begin(), shown[0].end(), 0.0f), 1000);
+    }
+}
+
+TEST_F(SoftShadows, AreNoWiderBesideAHighCasterThatHidesNothingOfTheSource) {
+    // Straight below the sun, which shows it beside the edge on the map, a little beyond the widest cone; or over it.
+    for (const bool aside : {true, false}) {
+        std::vector<float> shown[2];
+        for (const bool high : {false, true}) {
+            build(LightKind::directional, 0.3, soft(LightKind::directional));
+            const double x = aside ? 0.5 : -0.1;
+            if (high) place(add_mesh(game::make_box({x, 3.0, -3.0}, {x + 1.0, 3.1, 3.0})));
+            world.patch<Transform>(light_, [](Transform& t) { t.rotation = looking_along({0.0, -1.0, 0.0}); });
+            draw();
+            shown[high] = visibility();
+        }
+        double apart = 0.0;
+        std::size_t between = 0;
+        for (std::size_t i = 0; i < shown[0].size(); ++i) {
+            if (!(shown[0][i] > 0.0f && shown[0][i] < 1.0f)) continue;
+            ++between;
+            apart += static_cast<double>(std::abs(shown[0][i] - shown[1][i]));
+        }
+        ASSERT_GT(between, 500u);
+        apart /= static_cast<double>(between);
+        if (aside)
+            EXPECT_LT(apart, 0.05) << "another search, other seeds";
+        else
+            EXPECT_GT(apart, 0.2) << "the control: it hides the source";
+    }
+}
+
+TEST_F(SoftShadows, WithoutTheCasterAreGone) {
+    for (const LightKind kind : kKinds) {
+        SCOPED_TRACE(kind_name(kind));
+        build(kind, 0.8, soft(kind), false);
+        draw();
+        const std::vector<float> shown = visibility();
+        EXPECT_EQ(std::count_if(shown.begin(), shown.end(), [](float v) { return v >= 0.0f && v < 1.0f; }), 0);
+    }
+}
+
+}  // namespace
+}  // namespace gnomon
