@@ -98,7 +98,7 @@ struct LightShadow {
     float moment_exponent = 0.0f;           // of exponential and evsm; 0: as much as serves and the format bears
     float moment_negative_exponent = 0.0f;  // of evsm4's second warp; the same
     float moment_bleeding = 0.2f;           // 0 to 0.9: what is lit less counts as dark
-    std::uint32_t moment_levels = 1;        // 1 to 5 of mipmaps
+    std::uint32_t moment_levels = 1;        // 1 to 4 of mipmaps
     std::uint32_t moment_anisotropy = 1;    // 1 to 16 samples along a pixel's footprint
     /// Size of the light's source, for filters that soften shadows by it (pcss): of a spot or a point its radius in
     /// metres, of a sun that of its disk as an angle (the real one's: 0.00465). 0: a point, whose shadows are hard.

@@ -5,6 +5,7 @@
 #include "sample_game/light_setting_values.h"
 #include "systems/shadow/filter_demand.h"
 #include "systems/shadow/filter_table.h"
+#include "systems/shadow/moments.h"
 
 namespace gnomon::game {
 
@@ -48,6 +49,18 @@ bool set_cell(LightShadow& shadow, std::string_view text) {
     const auto value = read_number(text);
     return value && static_cast<float>(*value) > 0.0f && set_distance<&LightShadow::filter_cell_m>(shadow, text);
 }
+bool set_moment_bits(LightShadow& shadow, std::string_view text) {
+    if (text != "16" && text != "32") return false;
+    shadow.moment_bits = text == "16" ? 16 : 32;
+    return true;
+}
+std::string_view moment_bits_word(std::size_t index) {
+    constexpr std::array<std::string_view, 2> kBits{"16", "32"};
+    return index < kBits.size() ? kBits[index] : std::string_view{};
+}
+constexpr int kMostExponent = 84;  // of the table, in 32 bits
+constexpr int kMostBleedingTenths = static_cast<int>(shadow::kMostMomentBleeding * 10.0f + 0.5f);
+
 bool set_source_radius(LightShadow& shadow, std::string_view text) {
     const auto value = read_number(text);
     return value && *value <= static_cast<double>(kMostSourceRadius_m) &&
@@ -70,7 +83,7 @@ constexpr std::array kSettings{
                  .choice = filter_name},
     LightSetting{.key = "filter_size",
                  .values = "1 ... 31, odd",
-                 .meaning = "texels along an edge of a pcf filter",
+                 .meaning = "texels along an edge of a pcf filter, or that a prefiltered map is blurred by",
                  .set = set_count<&S::filter_size, shadow::kMostFilterSize, 2>,
                  .get = get_count<&S::filter_size>,
                  .editor = SettingEditor::number,
@@ -119,6 +132,50 @@ constexpr std::array kSettings{
                  .get = get_float<&S::filter_cell_m>,
                  .editor = SettingEditor::number,
                  .slider_most = kSliderCell_m},
+    LightSetting{.key = "moment_bits",
+                 .values = "16 | 32",
+                 .meaning = "of a channel of a prefiltered map",
+                 .set = set_moment_bits,
+                 .get = get_count<&S::moment_bits>,
+                 .editor = SettingEditor::choice,
+                 .choice = moment_bits_word},
+    LightSetting{.key = "moment_exponent",
+                 .values = "0 ... 84",
+                 .meaning = "of exponential and evsm; 0: as much as the format bears",
+                 .set = set_up_to<&S::moment_exponent, kMostExponent>,
+                 .get = get_float<&S::moment_exponent>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kMostExponent},
+    LightSetting{.key = "moment_negative_exponent",
+                 .values = "0 ... 84",
+                 .meaning = "of evsm4's second warp; 0: 5",
+                 .set = set_up_to<&S::moment_negative_exponent, kMostExponent>,
+                 .get = get_float<&S::moment_negative_exponent>,
+                 .editor = SettingEditor::number,
+                 .slider_most = kMostExponent},
+    LightSetting{.key = "moment_bleeding",
+                 .values = "0 ... 0.9",
+                 .meaning = "what a prefiltered map lights less counts as dark",
+                 .set = set_up_to<&S::moment_bleeding, kMostBleedingTenths, 10>,
+                 .get = get_float<&S::moment_bleeding>,
+                 .editor = SettingEditor::number,
+                 .slider_most = static_cast<double>(kMostBleedingTenths) / 10.0},
+    LightSetting{.key = "moment_levels",
+                 .values = "1 ... 4",
+                 .meaning = "of mipmaps of a prefiltered map",
+                 .set = set_count<&S::moment_levels, shadow::kMostMomentLevels, 1>,
+                 .get = get_count<&S::moment_levels>,
+                 .editor = SettingEditor::number,
+                 .slider_most = shadow::kMostMomentLevels,
+                 .whole = true},
+    LightSetting{.key = "moment_anisotropy",
+                 .values = "1 ... 16",
+                 .meaning = "samples along a pixel's footprint in it",
+                 .set = set_count<&S::moment_anisotropy, shadow::kMostMomentAnisotropy, 1>,
+                 .get = get_count<&S::moment_anisotropy>,
+                 .editor = SettingEditor::number,
+                 .slider_most = shadow::kMostMomentAnisotropy,
+                 .whole = true},
     LightSetting{.key = "source_radius_m",
                  .values = "0 ... 1e4 (m)",
                  .meaning = "radius of a spot's or a point's source, for pcss; 0: a point",
@@ -149,8 +206,9 @@ std::string taps_text(const shadow::FilterRow& row, const LightShadow& shadow) {
 }
 
 const char* sampler_text(shadow::MapReading reading) {
-    if (reading == shadow::MapReading::depths) return "read as it is";
-    return reading == shadow::MapReading::compare_linear ? "linear sampler" : "nearest sampler";
+    if (reading == shadow::MapReading::depths) return "depth, read as it is";
+    if (reading == shadow::MapReading::moments) return "moments, linear sampler";
+    return reading == shadow::MapReading::compare_linear ? "depth, linear sampler" : "depth, nearest sampler";
 }
 
 }  // namespace
@@ -173,7 +231,7 @@ std::string list_filters() {
         std::string name(row.name);
         name.resize(std::max(kNameWidth, name.size()), ' ');
         text += "  " + name + taps_text(row, shadow) + ", E " +
-                number_text(shadow::filter_demand(shadow, kUsualMap_px).widest_texel) + " texels, depth, " +
+                number_text(shadow::filter_demand(shadow, kUsualMap_px).widest_texel) + " texels, " +
                 sampler_text(row.reading) + "\n";
     }
     return text;

@@ -1,14 +1,13 @@
 // visibility(position, normal, error): the fraction of `light` that reaches a point, for any renderer.
 // Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint, and
 // SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one,
-// SHADOW_MOMENTS if it reads a prefiltered map, SHADOW_TRIANGLES if it reads which triangles texels show (then row.glsl brings CameraBlock and InstanceBuffer).
+// SHADOW_MOMENTS if it reads a prefiltered map, SHADOW_FOOTPRINT if that has mipmaps or anisotropy (then row.glsl brings
+// CameraBlock), SHADOW_TRIANGLES if it reads which triangles texels show (then CameraBlock and InstanceBuffer).
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface
 #ifdef SHADOWED
 #ifdef SHADOW_MOMENTS
-float shadow_bias_texel() { return kMomentReach * SHADOW_REACH_TEXEL; }
-
 // What is lit only a little may be dark: two casters, one behind the other, are taken for one between. It counts as dark.
 float shadow_filter(ShadowPoint point) {
     float lit = moments_lit(shadow_moments(point), shadow_share(point), light.moments);
@@ -32,12 +31,13 @@ float filtered(ShadowPoint point, vec3 normal, float error_m) {
     return shadow_filter(point);
 }
 #else
-#ifndef SHADOW_MOMENTS
 float shadow_bias_texel() { return SHADOW_REACH_TEXEL; }
-#endif
 float filtered(ShadowPoint point, vec3 normal, float error_m) {
 #ifdef SHADOW_MANUAL_BIAS
     if (point.covered && compares_on_plane()) point = on_receiver_plane(point, normal);
+#endif
+#ifdef SHADOW_FOOTPRINT
+    point.normal = normal;
 #endif
     return point.covered ? shadow_filter(point) : 1.0;
 }

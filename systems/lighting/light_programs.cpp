@@ -67,6 +67,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
         if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
         if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
+        if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
         if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
         if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");

@@ -120,7 +120,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
             if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
         }
         demand.filtering = filter_demand(with_own_source(light), demand.resolution_px);
-        demand.moments = moment_demand(filter_row(demand.filter), light.shadow);
+        demand.moments = moment_demand(filter_row(demand.filter), light.shadow, demand.resolution_px);
         if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
         decide_projection(light, scene.sampled_depths.failed, demand);
         if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "systems/shadow/filter_table.h"
+#include "systems/shadow/moments.h"
 
 namespace gnomon::shadow {
 namespace {
-
-/// Of a map's edge: a wider footprint would leave too little between its borders.
-constexpr std::uint32_t kEdgesPerSpread = 8;
 
 bool is_length(float value) { return std::isfinite(value) && value >= 0.0f; }
 
@@ -78,6 +76,7 @@ FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std:
         filter.cut = filter.size != shadow.filter_size;
         filter.reach_texel += 0.5f * static_cast<float>(filter.size - 1);
     }
+    filter.reach_texel += moment_demand(row, shadow, resolution_px).reach_texel;
     filter.widest_texel = filter.reach_texel;
     filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(shadow, filter);

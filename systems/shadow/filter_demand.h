@@ -13,6 +13,9 @@ inline constexpr float kMostSpread_texel = 16.0f;
 /// Half-width of the widest penumbra of FilterWidth::source: wider ones cost its search more taps; take fewer texels.
 inline constexpr float kMostPenumbra_texel = 128.0f;
 
+/// Of a map's edge: a wider footprint would leave too little between its borders.
+inline constexpr std::uint32_t kEdgesPerSpread = 8;
+
 /// What of a light's filter settings holds: what is absurd is left out, what its map cannot bear is cut.
 struct FilterDemand {
     std::uint32_t size = 3, taps = 16;

@@ -134,7 +134,9 @@ void MomentRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& 
     } else {
         draw_whole(slot.moment_target, slot.size_px, slot.size_px, first, slot.texture, list);
     }
-    const bool last = v + 1 == frame.views.size() || frame.views[v + 1].demand != view.demand;
+    bool last = true;
+    for (std::size_t next = v + 1; next < frame.views.size(); ++next)
+        last = last && !(frame.views[next].demand == view.demand && is_converted(frame, next));
     if (last && demand.moments.levels > 1) list.add(gl::GenerateMips{slot.moments});
     list.add(gl::EndTimer{shadow_timer(demand.light)});
     list.add(gl::EndGroup{});

@@ -32,7 +32,7 @@ std::uint32_t scratch_rows(const ShadowDemand& demand, bool cube);
 /// are made when first called for.
 class MomentRecorder {
 public:
-    explicit MomentRecorder(gl::Device& device) : device_(device), records_(device, "shadow moments") {}
+    explicit MomentRecorder(gl::Device& device) : device_(device), records_(device, "shadow moment records") {}
     ~MomentRecorder();
     MomentRecorder(const MomentRecorder&) = delete;
     MomentRecorder& operator=(const MomentRecorder&) = delete;

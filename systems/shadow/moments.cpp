@@ -21,9 +21,21 @@ float exponent(float asked, float usual, float most, bool& cut) {
     return asked > most ? most : std::min(usual, most);  // not a number: the usual one
 }
 
+/// Footprints of more texels would ask for more border and bias than they are worth.
+constexpr float kMostFootprint_texel = 16.0f;
+
+/// A sampler's blend at the coarsest level reads texels up to one and a half of its own away, of which E has one of the
+/// finest already; anisotropy moves it along the footprint, by half of it, or, across a cube's seam, by as much as all.
+void set_footprint(MomentDemand& demand) {
+    const auto coarsest_texel = static_cast<float>(1u << (demand.levels - 1));
+    demand.footprint_texel = std::min(coarsest_texel * static_cast<float>(demand.anisotropy), kMostFootprint_texel);
+    demand.reach_texel = demand.levels > 1 ? 1.5f * coarsest_texel - 1.0f : 0.0f;
+    if (demand.anisotropy > 1) demand.reach_texel += demand.footprint_texel;
+}
+
 }  // namespace
 
-MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow) {
+MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
     MomentDemand demand;
     if (!row.moments) return demand;
     const bool half = shadow.moment_bits <= 16;
@@ -39,6 +51,12 @@ MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow) {
     demand.bleeding = share ? shadow.moment_bleeding : LightShadow{}.moment_bleeding;
     demand.levels = std::clamp(shadow.moment_levels, 1u, kMostMomentLevels);
     demand.anisotropy = std::clamp(shadow.moment_anisotropy, 1u, kMostMomentAnisotropy);
+    set_footprint(demand);
+    const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
+    while (demand.reach_texel > most_texel && demand.levels + demand.anisotropy > 2) {
+        (demand.levels > 1 ? demand.levels : demand.anisotropy) -= 1;
+        set_footprint(demand);
+    }
     demand.cut =
         demand.cut || !share || demand.levels != shadow.moment_levels || demand.anisotropy != shadow.moment_anisotropy;
     return demand;

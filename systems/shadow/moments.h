@@ -10,7 +10,7 @@ namespace gnomon::shadow {
 
 struct FilterRow;
 
-inline constexpr std::uint32_t kMostMomentLevels = 5, kMostMomentAnisotropy = 16;
+inline constexpr std::uint32_t kMostMomentLevels = 4, kMostMomentAnisotropy = 16;
 /// Beyond, next to nothing is left of a penumbra.
 inline constexpr float kMostMomentBleeding = 0.9f;
 
@@ -22,12 +22,16 @@ struct MomentDemand {
     glm::vec4 settings{0.0f};
     float bleeding = 0.0f;
     std::uint32_t levels = 1, anisotropy = 1;
+    /// Most texels that a pixel is taken to cover along a side; 1: the map is read as finely as it is.
+    float footprint_texel = 1.0f;
+    /// What that adds to E.
+    float reach_texel = 0.0f;
     bool cut = false;  // not all is as asked for
     bool operator==(const MomentDemand&) const = default;
 };
 
-/// Of a row of FilterStorage::moments; of any other the default.
-MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow);
+/// Of a row of FilterStorage::moments; of any other the default. A map that is too small for so many levels gets fewer.
+MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
 
 /// Weights of a Gaussian blur over `size` texels (odd), from the middle outward; the two sides of it sum up to 1. It is
 /// cut off at two standard deviations, half a texel beyond the last.

@@ -191,10 +191,11 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out.row.depths = filter.reading == MapReading::depths;
             out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
             out.row.moments = filter.storage == FilterStorage::moments;
+            out.row.footprint = out.row.moments && demand.moments.footprint_texel > 1.0f;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
             out.map = out.row.moments ? slot.moments : slot.texture;
             out.triangles = slot.triangles;
-            out.sampler = samplers.of(filter.reading);
+            out.sampler = out.row.moments ? samplers.of(demand.moments) : samplers.of(filter.reading);
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.w |= 1 << view.layer;
@@ -202,7 +203,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             bias_record(light.shadow, out);
             filter_record(light.shadow, demand.filtering, consumer, out.record);
             out.record.moments = demand.moments.settings;
-            out.record.moment_sampling.x = demand.moments.bleeding;
+            out.record.moment_sampling = {demand.moments.bleeding, demand.moments.footprint_texel, 0.0f, 0.0f};
             out.record.radiance.w = source_size(light.kind, demand.filtering, view);
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;

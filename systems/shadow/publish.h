@@ -8,11 +8,22 @@ namespace gnomon::shadow {
 
 /// One per way of reading a map that the filter table names (MapReading); those that nobody asked for are {0}.
 struct MapSamplers {
-    gl::SamplerHandle nearest{}, linear{}, depths{}, moments{};
+    gl::SamplerHandle nearest{}, linear{}, depths{};
+    struct OfMoments {
+        bool mipmaps;
+        std::uint32_t anisotropy;
+        gl::SamplerHandle sampler;
+    };
+    std::vector<OfMoments> moments;
+
     gl::SamplerHandle of(MapReading reading) const {
-        if (reading == MapReading::moments) return moments;
         if (reading == MapReading::depths) return depths;
         return reading == MapReading::compare_linear ? linear : nearest;
+    }
+    gl::SamplerHandle of(const MomentDemand& demand) const {
+        for (const OfMoments& m : moments)
+            if (m.mipmaps == (demand.levels > 1) && m.anisotropy == demand.anisotropy) return m.sampler;
+        return {};
     }
 };
 

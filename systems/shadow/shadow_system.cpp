@@ -17,26 +17,36 @@ ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
     device_.destroy(samplers_.linear);
     device_.destroy(samplers_.depths);
-    device_.destroy(samplers_.moments);
+    for (const MapSamplers::OfMoments& moments : samplers_.moments) device_.destroy(moments.sampler);
 }
 
 bool ShadowSystem::samplers_ready() {
-    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare, gl::Wrap wrap) {
-        if (!sampler) sampler = device_.create_sampler({label, linear, false, compare, wrap, wrap}).handle;
+    // A description holds text: none is made in a steady frame.
+    const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare) {
+        if (sampler) return true;
+        sampler = device_.create_sampler({label, linear, false, compare, gl::Wrap::border, gl::Wrap::border}).handle;
         return static_cast<bool>(sampler);
     };
-    const auto reads = [&](MapReading reading) {
-        return std::any_of(frame_.demands.begin(), frame_.demands.end(), [&](const ShadowDemand& d) {
-            return d.skip == Reason::none && filter_row(d.filter).reading == reading;
-        });
-    };
-    bool ready = ensure(samplers_.nearest, "shadow compare nearest", false, true, gl::Wrap::border);
-    ready = ensure(samplers_.linear, "shadow compare linear", true, true, gl::Wrap::border) && ready;
-    if (reads(MapReading::depths))
-        ready = ensure(samplers_.depths, "shadow depths", false, false, gl::Wrap::border) && ready;
-    if (reads(MapReading::moments))
-        ready = ensure(samplers_.moments, "shadow moments", true, false, gl::Wrap::clamp) && ready;
+    bool ready = ensure(samplers_.nearest, "shadow compare nearest", false, true);
+    ready = ensure(samplers_.linear, "shadow compare linear", true, true) && ready;
+    for (const ShadowDemand& demand : frame_.demands) {
+        if (demand.skip != Reason::none) continue;
+        const MapReading reading = filter_row(demand.filter).reading;
+        if (reading == MapReading::depths) ready = ensure(samplers_.depths, "shadow depths", false, false) && ready;
+        if (reading == MapReading::moments) ready = moment_sampler_ready(demand.moments) && ready;
+    }
     return ready;
+}
+
+bool ShadowSystem::moment_sampler_ready(const MomentDemand& demand) {
+    if (samplers_.of(demand)) return true;
+    const gl::SamplerDesc desc{.label = "shadow moments",
+                               .linear = true,
+                               .mipmaps = demand.levels > 1,
+                               .anisotropy = static_cast<float>(demand.anisotropy)};
+    const gl::SamplerHandle sampler = device_.create_sampler(desc).handle;
+    if (sampler) samplers_.moments.push_back({desc.mipmaps, demand.anisotropy, sampler});
+    return static_cast<bool>(sampler);
 }
 
 /// Lights that read triangles are lit while the device has no room for them.

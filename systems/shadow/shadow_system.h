@@ -36,6 +36,7 @@ public:
 
 private:
     bool samplers_ready();
+    bool moment_sampler_ready(const MomentDemand& demand);
     void provide_triangles(GpuScene& gpu);
     void write_report(const SceneSnapshot& scene, FrameReport& report) const;
 

@@ -176,6 +176,7 @@ struct ProgramRow {
     bool manual_bias = false;  // any BiasMode but automatic
     bool triangles = false;    // reads which triangles texels show, and those triangles
     bool moments = false;      // reads a prefiltered map
+    bool footprint = false;    // of which it takes what a pixel covers, by mipmaps or anisotropy
     bool operator==(const ProgramRow&) const = default;
 };
 

@@ -6,6 +6,7 @@ if(GNOMON_SAMPLE)
     sampled_depths_gl_test.cpp
     cascades_gl_test.cpp
     planes_gl_test.cpp
+    prefiltered_gl_test.cpp
     projection_gl_test.cpp
     shadow_blending_gl_test.cpp
     shadow_cube_gl_test.cpp

@@ -126,10 +126,11 @@ struct Verdict {
     std::string first_wrong;
 };
 
+constexpr float kExact = 1.0e-5f;  // nine equal weights do not add up to one
+
 /// `measured` as of --visibility, rows bottom to top.
 inline Verdict judge(const Scene& scene, const ConsumerItem& camera, const LightItem& light,
-                     std::span<const float> measured) {
-    constexpr float kExact = 1.0e-5f;  // nine equal weights do not add up to one
+                     std::span<const float> measured, float tolerance = kExact) {
     Verdict verdict;
     for (std::uint32_t y = 0; y < camera.viewport_px.y; ++y)
         for (std::uint32_t x = 0; x < camera.viewport_px.x; ++x) {
@@ -137,7 +138,7 @@ inline Verdict judge(const Scene& scene, const ConsumerItem& camera, const Light
             if (claim == Claim::none) continue;
             const float want = claim == Claim::lit ? 1.0f : 0.0f, got = measured[std::size_t{y} * camera.viewport_px.x + x];
             ++(claim == Claim::lit ? verdict.lit : verdict.dark);
-            if (std::abs(got - want) <= kExact) continue;
+            if (std::abs(got - want) <= tolerance) continue;
             if (verdict.wrong++ == 0)
                 verdict.first_wrong = "pixel " + std::to_string(x) + ", " + std::to_string(y) + " is " +
                                       std::to_string(got) + ", not " + std::to_string(want);

@@ -49,6 +49,12 @@ inline std::vector<shadow::ProgramRow> all_rows() {
             row.triangles = reads_triangles(filter);
             row.moments = reads_moments(filter);
         }
+    const std::size_t plain = rows.size();
+    for (std::size_t i = 0; i < plain; ++i)
+        if (rows[i].moments) {
+            rows.push_back(rows[i]);
+            rows.back().footprint = true;
+        }
     return rows;
 }
 

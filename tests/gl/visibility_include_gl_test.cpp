@@ -9,9 +9,8 @@
 #include "shaders/embedded.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
-#include "systems/shadow/moment_recorder.h"
 #include "systems/shadow/types.h"
-#include "tests/gl/gl_test_context.h"
+#include "tests/gl/moment_maps.h"
 
 namespace gnomon::shadow {
 void PrintTo(const FilterRow& row, std::ostream* out) { *out << row.name; }
@@ -42,7 +41,7 @@ constexpr shadow::FilterRow kDiamond{
 // [row]
 
 /// Points are relative to the camera, which is at the light; the light shines along -z.
-class VisibilityInclude : public GlTest, public ::testing::WithParamInterface<shadow::FilterRow> {
+class VisibilityInclude : public MomentMapTest, public ::testing::WithParamInterface<shadow::FilterRow> {
 protected:
     /// A record for a light at the origin that looks along -z.
     static shadow::LightRecord record(LightKind kind) {
@@ -77,54 +76,6 @@ protected:
     bool reads_depths() const { return row_.reading == shadow::MapReading::depths; }
     bool reads_triangles() const { return row_.storage == shadow::FilterStorage::depth_and_triangle; }
     bool reads_moments() const { return row_.storage == shadow::FilterStorage::moments; }
-    /// A prefiltered map of a depth map drawn by hand.
-    gl::TextureHandle moments_of(LightKind kind, gl::TextureHandle depths) {
-        const auto& kind_row = shadow::light_kind_row(kind);
-        SceneSnapshot scene;
-        scene.lights.emplace_back();
-        shadow::ShadowFrame frame;
-        shadow::ShadowDemand demand;
-        demand.filter = row_.id;
-        demand.filtering = filtering();
-        demand.moments = shadow::moment_demand(row_, shadow_);
-        frame.demands = {demand};
-        frame.sets.resize(1);
-        frame.cpu_us.resize(1);
-        const gl::TextureDesc map{.label = "moments", .kind = kind_row.texture, .format = demand.moments.format, .width = kMap_px, .height = kMap_px};
-        const auto moments = keep(device().create_texture(map, {}));
-        const std::uint32_t rows = kMap_px + 2 * shadow::scratch_rows(demand, kind == LightKind::point);
-        const auto scratch = keep(device().create_texture({.label = "scratch", .format = demand.moments.format, .width = kMap_px, .height = rows}, {}));
-        const auto scratch_target = keep(device().create_target({"scratch", {{scratch}}, {}}));
-        for (std::uint32_t layer = 0; layer < gl::layer_count(map); ++layer) {
-            shadow::ShadowView view;
-            view.layer = layer;
-            view.projection = kind == LightKind::directional ? shadow::ViewProjection::orthographic
-                              : kind == LightKind::spot      ? shadow::ViewProjection::perspective
-                                                             : shadow::ViewProjection::cube_face;
-            view.near_m = kNear_m;
-            view.far_m = kFar_m;
-            view.depth_alpha = -kNear_m / (kFar_m - kNear_m);
-            view.depth_beta = kNear_m * kFar_m / (kFar_m - kNear_m);
-            frame.views.push_back(view);
-            shadow::ShadowSlot slot;
-            slot.texture = depths;
-            slot.moments = moments;
-            slot.moment_target = keep(device().create_target({"moments", {{moments, static_cast<std::int32_t>(layer)}}, {}}));
-            if (demand.filtering.size > 1) {
-                slot.scratch = scratch;
-                slot.scratch_target = scratch_target;
-            }
-            slot.size_px = kMap_px;
-            slot.convert = true;
-            frame.slots.push_back(slot);
-        }
-        shadow::MomentRecorder recorder(device());
-        recorder.prepare(frame);
-        gl::CommandList list;
-        recorder.record(scene, frame, list);
-        run(list);
-        return moments;
-    }
     /// A map drawn by hand shows casters that are no triangles.
     gl::TextureHandle no_triangles(gl::TextureKind kind) {
         const std::vector<std::uint32_t> none(std::size_t{kMap_px} * kMap_px * 2 * (kind == gl::TextureKind::cube ? 6 : 1), 0xffffffffu);
@@ -191,7 +142,7 @@ protected:
         light.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), early_bail ? 1 : 0, 1};
         light.spread = {filter.spread_texel, 0.0f, 0.0f, filter.most_spread_texel};
         light.seed_place.w = 1.0f / filter.cell_m;
-        const shadow::MomentDemand moments = shadow::moment_demand(row_, shadow_);
+        const shadow::MomentDemand moments = shadow::moment_demand(row_, shadow_, kMap_px);
         light.moments = moments.settings;
         light.moment_sampling.x = moments.bleeding;
         light.radiance.w = kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
@@ -208,7 +159,7 @@ protected:
         list.add(gl::SetPipeline{{.program = program_of(kind)}});
         list.add(gl::BindUniforms{1, uniforms, 0, sizeof light});
         list.add(gl::BindStorage{kProbeBinding, buffer});
-        list.add(gl::BindTexture{4, reads_moments() ? moments_of(kind, map) : map, sampler});
+        list.add(gl::BindTexture{4, reads_moments() ? moments_of(row_, shadow_, kind, map, kMap_px, {kNear_m, kFar_m}) : map, sampler});
         if (reads_triangles()) list.add(gl::BindTexture{5, no_triangles(kind_row.texture), {}});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});

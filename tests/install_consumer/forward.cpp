@@ -72,6 +72,7 @@ Result<std::string> fragment_for(const shadow::ProgramRow& row) {
         defines.emplace_back("SHADOWED 1");
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
         if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
+        if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
         if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
     }

@@ -12,5 +12,3 @@ float moments_lit(vec4 moments, float share, vec4 settings) {
     float w = warped(share, settings.x);
     return share_not_before(moments.x, moments.y, w, settings.z * w * w);
 }
-
-const float kMomentReach = 0.0;

@@ -13,5 +13,3 @@ float moments_lit(vec4 moments, float share, vec4 settings) {
     return min(share_not_before(moments.x, moments.y, w, settings.z * w * w),
                share_not_before(moments.z, moments.w, v, settings.z * v * v));
 }
-
-const float kMomentReach = 0.0;

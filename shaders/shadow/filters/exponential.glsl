@@ -5,5 +5,3 @@
 vec4 moments_of(float share, vec4 settings) { return vec4(warped(share, settings.x), 0.0, 0.0, 0.0); }
 
 float moments_lit(vec4 moments, float share, vec4 settings) { return min(moments.x / warped(share, settings.x), 1.0); }
-
-const float kMomentReach = 0.0;

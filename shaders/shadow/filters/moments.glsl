@@ -40,7 +40,7 @@ const float kFar = 1e4;
 vec2 roots(vec3 c) {
     float q = -0.5 * (c.y + (c.y < 0.0 ? -1.0 : 1.0) * sqrt(max(c.y * c.y - 4.0 * c.x * c.z, 0.0)));
     float least = abs(q) / kFar;
-    float one = abs(c.z) > least ? q / c.z : (c.z < 0.0 == q < 0.0 ? kFar : -kFar);
+    float one = abs(c.z) > least ? q / c.z : ((c.z < 0.0) == (q < 0.0) ? kFar : -kFar);
     float other = abs(q) > 0.0 ? c.x / q : 0.0;
     return vec2(min(one, other), max(one, other));
 }
@@ -56,6 +56,3 @@ float moments_lit(vec4 moments, float share, vec4 settings) {
     float nearer = ((1.0 - own) * other.y - (b.x - own * place)) / (other.y - other.x);
     return clamp(1.0 - nearer, 0.0, 1.0);
 }
-
-// A plane darkens itself where any of it within the blur is nearer: the bias is for all of it.
-const float kMomentReach = 1.0;

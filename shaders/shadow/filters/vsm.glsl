@@ -6,5 +6,3 @@ vec4 moments_of(float share, vec4 settings) { return vec4(share, share * share, 
 float moments_lit(vec4 moments, float share, vec4 settings) {
     return share_not_before(moments.x, moments.y, share, settings.z);
 }
-
-const float kMomentReach = 0.0;

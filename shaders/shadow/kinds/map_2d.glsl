@@ -18,6 +18,9 @@ struct ShadowPoint {
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec3 position_ca;   // what was asked for
+#ifdef SHADOW_FOOTPRINT
+    vec3 normal;        // of the receiver
+#endif
     float reads_texel;  // how far from it texels are read
 #ifdef SHADOW_TRIANGLES
     float error_m;        // how far position_ca may be off the true surface
@@ -33,9 +36,9 @@ struct ShadowPoint {
 #endif
 };
 
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
 vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
 // A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
 // It is the biased receiver's plane, but for plane_lift().
 vec2 shadow_slope(ShadowPoint point, vec3 normal) {
@@ -78,7 +81,24 @@ uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
 #elif defined(SHADOW_MOMENTS)
 float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }
 
+#ifdef SHADOW_FOOTPRINT
+#include "shadow/moments/footprint.glsl"
+vec2 in_texels(ShadowPoint point, vec3 step_m) {
+    ViewRecord view = light.views[point.view];
+    vec3 along_w = row_xyz(view.map_from_anchor, 3);
+    vec3 along_u = row_xyz(view.map_from_anchor, 0) - point.map.x * along_w;
+    vec3 along_v = row_xyz(view.map_from_anchor, 1) - point.map.y * along_w;
+    float w = dot(along_w, point.position_ca + view.anchor_from_camera.xyz) + view.map_from_anchor[3][3];
+    return shortened(vec2(dot(along_u, step_m), dot(along_v, step_m)) / (w * point.texel_uv));
+}
+
+vec4 shadow_moments(ShadowPoint point) {
+    return textureGrad(shadow_map, vec3(point.map.xy, point.layer), in_texels(point, step_right(point.position_ca, point.normal)) * point.texel_uv,
+                       in_texels(point, step_up(point.position_ca, point.normal)) * point.texel_uv);
+}
+#else
 vec4 shadow_moments(ShadowPoint point) { return textureLod(shadow_map, vec3(point.map.xy, point.layer), 0.0); }
+#endif
 #else
 float read_texel(float reach_texel) { return reach_texel; }
 

@@ -24,6 +24,9 @@ struct ShadowPoint {
     float bias_depth;
     vec2 spread_texel;    // half-width of a disk of taps
     vec3 position_ca;     // what was asked for
+#ifdef SHADOW_FOOTPRINT
+    vec3 normal;          // of the receiver
+#endif
 #ifdef SHADOW_TRIANGLES
     float error_m;        // how far position_ca may be off the true surface
 #endif
@@ -117,6 +120,17 @@ uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
 float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }
 float seam_texel(float reach_texel) { return reach_texel; }
 
+#ifdef SHADOW_FOOTPRINT
+#include "shadow/moments/footprint.glsl"
+// From a step in the world to one of the direction of length 1 along the face's axis.
+vec3 step_in_face(ShadowPoint point, mat3 axes, vec2 tangent, vec3 step_ws) {
+    vec3 step_m = turned_back(step_ws) * axes;
+    vec2 step_tan = (vec2(step_m.x, step_m.y) + tangent * step_m.z) / largest(point.position);
+    float texel_tan = light.views[0].axis_u.w;
+    return axes * vec3(shortened(step_tan / texel_tan) * texel_tan, 0.0);
+}
+#endif
+
 // The sampler blends across seams; where the neighbour was not drawn it must not.
 vec4 shadow_moments(ShadowPoint point) {
     mat3 axes = face_axes(point.position);
@@ -128,7 +142,13 @@ vec4 shadow_moments(ShadowPoint point) {
         across[i] = tangent[i] < 0.0 ? -1.01 : 1.01;
         if (abs(tangent[i]) > inner && !is_drawn(axes * across)) tangent[i] = clamp(tangent[i], -inner, inner);
     }
+#ifdef SHADOW_FOOTPRINT
+    vec3 right = step_in_face(point, axes, tangent, step_right(point.position_ca, point.normal));
+    vec3 up = step_in_face(point, axes, tangent, step_up(point.position_ca, point.normal));
+    return textureGrad(shadow_map, axes * vec3(tangent, -1.0), right, up);
+#else
     return textureLod(shadow_map, axes * vec3(tangent, -1.0), 0.0);
+#endif
 }
 
 // How much longer the way from the light is than its part along the face's axis; the least of that within reach.
@@ -140,7 +160,6 @@ float shadow_stretch(ShadowPoint point) {
 }
 
 float shadow_share(ShadowPoint point) {
-    if (!is_drawn(point.position)) return 0.0;
     ViewRecord view = light.views[0];
     return perspective_share(point.reference, shadow_stretch(point), share_range(view.numeric.z, view.axis_back.w, kCubeCorner));
 }
@@ -239,6 +258,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     point.reference = view.numeric.z + view.axis_back.w / largest(point.position) + bias.depth;
 #endif
 #ifdef SHADOW_MOMENTS
+    point.covered = point.covered && is_drawn(point.position);
     point.reach_texel = reach_texel;
 #endif
     return point;

@@ -20,6 +20,12 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .filter_doubles_m = 12.5f,
                     .filter_seed = FilterSeed::screen,
                     .filter_cell_m = 0.3f,
+                    .moment_bits = 16,
+                    .moment_exponent = 3.5f,
+                    .moment_negative_exponent = 2.5f,
+                    .moment_bleeding = 0.35f,
+                    .moment_levels = 3,
+                    .moment_anisotropy = 8,
                     .source_radius_m = 0.13f,
                     .sun_radius_rad = 0.00465f,
                     .early_bail = true,
@@ -91,6 +97,11 @@ TEST(LightSettings, AWrongValueChangesNothingAndNamesItsRule) {
                 {"source_radius_m=-1", "set.value"}, {"source_radius_m=1e5", "set.value"},
                 {"sun_radius_deg=31", "set.value"}, {"sun_radius_deg=-1", "set.value"},
                 {"filter_cell_m=0", "set.value"},  {"early_bail=yes", "set.value"},
+                {"moment_bits=24", "set.value"},   {"moment_exponent=85", "set.value"},
+                {"moment_exponent=nan", "set.value"}, {"moment_negative_exponent=-1", "set.value"},
+                {"moment_bleeding=0.91", "set.value"}, {"moment_bleeding=-0.1", "set.value"},
+                {"moment_levels=0", "set.value"},  {"moment_levels=5", "set.value"},
+                {"moment_anisotropy=17", "set.value"},
                 {"split_m=-1", "set.value"},       {"split_m=1,", "set.value"}};
     for (const auto& row : rows) {
         LightShadow shadow;
