@@ -45,6 +45,7 @@ std::vector<Variant> variants() {
             found.back().settings.insert(found.back().settings.end(), source.begin(), source.end());
         };
         LightShadow shadow{.filter = row.id};
+        if (row.width == shadow::FilterWidth::source) shadow.source_radius_m = shadow.sun_radius_rad = 0.02f;
         LightShadow fewer = shadow;
         fewer.filter_taps = 1;
         if (row.width == shadow::FilterWidth::size) {

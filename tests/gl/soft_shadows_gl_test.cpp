@@ -24,7 +24,7 @@ protected:
         return {.filter = ShadowFilter::pcss,
                 .filter_taps = 32,
                 .source_radius_m = 0.3f,
-                .sun_radius_rad = 0.1f,
+                .sun_radius_rad = 0.08f,
                 .resolution_px = 1024};
     }
     struct Soft {
@@ -114,6 +114,26 @@ TEST_F(SoftShadows, WithoutTheCasterAreGone) {
         const std::vector<float> shown = visibility();
         EXPECT_EQ(std::count_if(shown.begin(), shown.end(), [](float v) { return v >= 0.0f && v < 1.0f; }), 0);
     }
+}
+
+TEST_F(SoftShadows, OfAPlaneAloneAreNoneHoweverLowTheSourceStandsAndHoweverLargeItIs) {
+    for (const LightKind kind : kKinds)
+        for (const double height_m : {0.02, 0.1, 0.5, 2.0}) {
+            SCOPED_TRACE(std::string(kind_name(kind)) + " " + std::to_string(height_m));
+            LightShadow shadow = soft(kind);
+            shadow.sun_radius_rad = shadow.source_radius_m = 0.3f;
+            build(kind, 0.0, shadow, false);
+            const glm::dvec3 at_m(-1.7, height_m, 1.1);
+            world.patch<Transform>(light_, [&](Transform& t) {
+                t.translation_m = at_m;
+                t.rotation = looking_along(-at_m);
+            });
+            draw();
+            EXPECT_EQ(frame().report().lights[0].state, LightState::rendered) << "the plane casts";
+            const std::vector<float> shown = visibility();
+            EXPECT_EQ(std::count_if(shown.begin(), shown.end(), [](float v) { return v > 0.0f && v < 1.0f; }), 0);
+            EXPECT_GT(std::count(shown.begin(), shown.end(), 1.0f), 10000);
+        }
 }
 
 }  // namespace
