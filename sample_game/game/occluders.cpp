@@ -42,6 +42,7 @@ Occluders::Occluders(const assets::SceneData& scene, std::span<const std::int32_
         const bool out = std::find(left_out.begin(), left_out.end(), static_cast<std::int32_t>(i)) != left_out.end();
         if (out || node.mesh == assets::kNone || !node.casts_shadow) continue;
         const auto shape = static_cast<std::size_t>(node.mesh);
+        if (scene.meshes[shape].deformer) continue;
         if (!shapes_[shape].triangles.empty()) casters_.push_back({.node = i, .shape = shape});
     }
 }

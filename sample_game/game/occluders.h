@@ -14,7 +14,8 @@
 namespace gnomon::game {
 
 /// The shadow casters of a scene. Copies what it needs: the scene may go afterwards.
-/// Alpha masks are looked up at the nearest texel; blended surfaces let light through.
+/// Alpha masks are looked up at the nearest texel; blended surfaces let light through, and so does who walks about:
+/// nobody hides behind a mesh that bends.
 class Occluders {
 public:
     /// `left_out`: nodes that never block, e.g. the player's own body.

@@ -73,6 +73,7 @@ Courtyard make_courtyard(const CourtyardOptions& options) {
     add_lamps(kit);
     add_architecture(kit);
     add_furniture(kit);
+    add_guard(kit);
     if (options.game) add_game(kit);
     Courtyard courtyard;
     courtyard.triangles = glb.triangle_count();

@@ -51,6 +51,7 @@ Materials add_materials(GlbBuilder& glb);
 void add_architecture(const Kit& kit);  // ground, walls, arcade, stairs, fence
 void add_furniture(const Kit& kit);     // tree, cloth, things that stand or move
 void add_lamps(const Kit& kit);         // sun, lantern, guard lamp
+void add_guard(const Kit& kit);         // who walks up and down
 void add_game(const Kit& kit);          // what CourtyardOptions::game adds
 void add_cameras(const Kit& kit);
 

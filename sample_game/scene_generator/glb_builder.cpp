@@ -38,10 +38,8 @@ nlohmann::ordered_json to_array(const V& vector) {
 
 }  // namespace
 
-template <class T>
-std::uint32_t GlbBuilder::add_view(std::span<const T> data, std::optional<int> target) {
+std::uint32_t GlbBuilder::add_view(std::span<const std::byte> bytes, std::optional<int> target) {
     pad(binary_, std::byte{0});
-    const auto bytes = std::as_bytes(data);
     Json view = {{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
     if (target) view["target"] = *target;
     binary_.insert(binary_.end(), bytes.begin(), bytes.end());
@@ -55,7 +53,7 @@ std::uint32_t GlbBuilder::add_accessor(Json accessor) {
 }
 
 std::uint32_t GlbBuilder::add_texture(const std::string& name, std::span<const std::uint8_t> png) {
-    const std::uint32_t view = add_view(png, std::nullopt);
+    const std::uint32_t view = add_view(std::as_bytes(png), std::nullopt);
     images_.push_back({{"name", name}, {"bufferView", view}, {"mimeType", "image/png"}});
     textures_.push_back({{"name", name}, {"sampler", 0}, {"source", images_.size() - 1}});
     return static_cast<std::uint32_t>(textures_.size()) - 1u;
@@ -88,17 +86,17 @@ GlbBuilder::Json GlbBuilder::primitive(const PartSpec& part) {
     const auto vertex_accessor = [&](std::uint32_t view, const char* type) {
         return Json{{"bufferView", view}, {"componentType", kFloat}, {"count", count}, {"type", type}};
     };
-    Json positions = vertex_accessor(add_view(std::span(shape.positions), kArrayBuffer), "VEC3");
+    Json positions = vertex_accessor(add_view(std::as_bytes(std::span(shape.positions)), kArrayBuffer), "VEC3");
     positions["min"] = to_array(min);
     positions["max"] = to_array(max);
-    Json normals = vertex_accessor(add_view(std::span(shape.normals), kArrayBuffer), "VEC3");
-    Json uvs = vertex_accessor(add_view(std::span(shape.uvs), kArrayBuffer), "VEC2");
+    Json normals = vertex_accessor(add_view(std::as_bytes(std::span(shape.normals)), kArrayBuffer), "VEC3");
+    Json uvs = vertex_accessor(add_view(std::as_bytes(std::span(shape.uvs)), kArrayBuffer), "VEC2");
 
     const bool is_short = count < std::numeric_limits<std::uint16_t>::max();
     const std::vector<std::uint16_t> narrow(shape.indices.begin(),
                                             is_short ? shape.indices.end() : shape.indices.begin());
-    const std::uint32_t view = is_short ? add_view(std::span(narrow), kElementArrayBuffer)
-                                        : add_view(std::span(shape.indices), kElementArrayBuffer);
+    const std::uint32_t view = is_short ? add_view(std::as_bytes(std::span(narrow)), kElementArrayBuffer)
+                                        : add_view(std::as_bytes(std::span(shape.indices)), kElementArrayBuffer);
     Json indices = {{"bufferView", view},
                     {"componentType", is_short ? kUnsignedShort : kUnsignedInt},
                     {"count", shape.indices.size()},
@@ -106,6 +104,7 @@ GlbBuilder::Json GlbBuilder::primitive(const PartSpec& part) {
     Json attributes = {{"POSITION", add_accessor(std::move(positions))},
                        {"NORMAL", add_accessor(std::move(normals))},
                        {"TEXCOORD_0", add_accessor(std::move(uvs))}};
+    if (!part.joints.empty()) add_joints(part.joints, attributes);
     return {{"attributes", std::move(attributes)},
             {"indices", add_accessor(std::move(indices))},
             {"material", part.material}};
@@ -181,6 +180,8 @@ std::vector<std::byte> GlbBuilder::finish(const RootSpec& root) {
                      {"buffers", {{{"byteLength", binary_.size()}}}},
                      {"extensionsUsed", {"KHR_lights_punctual"}},
                      {"extensions", {{"KHR_lights_punctual", {{"lights", lights_}}}}}};
+    if (!skins_.empty()) document["skins"] = skins_;
+    if (!animations_.empty()) document["animations"] = animations_;
     const std::string text = document.dump();
     std::vector<std::byte> json(text.size());
     std::memcpy(json.data(), text.data(), text.size());

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -11,6 +12,9 @@
 #include "sample_game/scene_generator/polygon.h"
 #include "sample_game/scene_poses.h"
 #include "sample_game/scene_source.h"
+#include "sample_game/spawn.h"
+#include "systems/extract/poses.h"
+#include "systems/transform/transform_system.h"
 
 namespace gnomon::game {
 namespace {
@@ -110,6 +114,44 @@ TEST(Courtyard, TheBuiltInSceneIsTheDefault) {
     const auto scene = load_scene(std::nullopt);
     ASSERT_TRUE(scene) << to_line(scene.error());
     EXPECT_EQ(scene.value().meshes.size(), load().meshes.size());
+}
+
+/// The guard's vertices in the world at a time.
+math::Aabb guard_at(double time_s) {
+    ecs::Registry registry;
+    assets::MeshLibrary library;
+    const SpawnedScene spawned = spawn_scene(load(), registry, library);
+    set_time(spawned, time_s, registry);
+    TransformSystem().update(registry);
+    SceneSnapshot snapshot;
+    snapshot.version = 1;
+    PoseExtractor().list(registry, library, snapshot);
+    EXPECT_EQ(snapshot.poses.size(), 1u);
+    const PoseItem& pose = snapshot.poses.front();
+    std::vector<assets::Vertex> vertices;
+    assets::deform(library.meshes[pose.mesh], pose.pose(), vertices);
+    math::Aabb box;
+    for (const assets::Vertex& v : vertices) box = math::extended(box, pose.origin_ws_m + glm::dvec3(v.position_ms));
+    return box;
+}
+
+TEST(Courtyard, TheGuardWalksUpAndDownWithHisFeetOnTheGround) {
+    const math::Aabb start = guard_at(0.0);
+    EXPECT_NEAR(start.min.y, 0.0, 1e-6);
+    constexpr double kRound_s = 24.0, kLeast_m = 7.0;
+    double farthest = 0.0;
+    for (double time_s = 0.0; time_s < kRound_s; time_s += 0.37) {
+        SCOPED_TRACE(time_s);
+        const math::Aabb now = guard_at(time_s);
+        EXPECT_GT(now.min.y, -0.04);  // a swinging boot dips a little
+        EXPECT_LT(now.min.y, 0.1);
+        EXPECT_GT(now.max.y, 2.2);
+        EXPECT_LT(now.max.x - now.min.x, 1.7);
+        farthest = std::max(farthest, glm::distance(math::centre(now), math::centre(start)));
+    }
+    EXPECT_GT(farthest, kLeast_m);
+    const math::Aabb again = guard_at(kRound_s);
+    EXPECT_LT(glm::length(again.min - start.min), 1e-9) << "his round begins anew";
 }
 
 TEST(Polygon, TrianglesOfAConcavePolygonCoverItsArea) {
