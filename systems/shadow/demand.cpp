@@ -121,6 +121,8 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         }
         demand.filtering = filter_demand(with_own_source(light), demand.resolution_px);
         demand.moments = moment_demand(filter_row(demand.filter), light.shadow, demand.resolution_px);
+        // A cube's sampler leaves its face along a footprint, but not the way the map goes on there.
+        if (kind.texture == gl::TextureKind::cube) demand.moments.anisotropy = 1;
         if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
         decide_projection(light, scene.sampled_depths.failed, demand);
         if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "systems/extract/volumes.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cascade_fit.h"
 #include "systems/shadow/kinds/cascade_slices.h"
 #include "systems/shadow/kinds/caster_depth.h"
@@ -52,6 +53,10 @@ void place(const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth
 }
 
 namespace {
+
+/// Filters that weigh distances lose a caster that is flattened onto the receiver nearest to the light: before it they
+/// get as much room, in depth ranges, as tells the two apart in 16 bits (docs/filters.md, "Prefiltered maps").
+constexpr double kRoomForCasters = 0.5;
 
 /// The depth range that the demand asks for, counted from the sun's eye.
 void override_from_eye(const ShadowDemand& demand, const SunEye& eye, OrthographicBox& box) {
@@ -109,6 +114,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         OrthographicBox box;
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
+        if (filter_row(input.demand.filter).storage == FilterStorage::moments)
+            box.near_m -= kRoomForCasters * (box.far_m - box.near_m);
         if (counts_from_eye) override_from_eye(input.demand, eye, box);
         // No receiver lies in the slices that were left out, their part of the fading included.
         if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());
