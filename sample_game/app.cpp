@@ -32,7 +32,13 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
     if (line.camera) {
         const Result<std::size_t> camera = find_camera(world->scene, *line.camera);
         if (!camera) return camera.error();
-        activate_camera(world->scene, camera.value(), world->registry);
+        world->camera = camera.value();
+        activate_camera(world->scene, world->camera, world->registry);
+    }
+    if (line.fit_camera) {
+        const Result<std::size_t> camera = find_camera(world->scene, *line.fit_camera, "--fit-camera");
+        if (!camera) return camera.error();
+        world->fit_camera = camera.value();
     }
     for (const NamedEntity& light : world->scene.lights) {
         if (!world->registry.has<LightShadow>(light.entity)) continue;
@@ -52,6 +58,14 @@ std::optional<Error> check_outputs(const CommandLine& line) {
         if (file)
             if (auto error = check_writable(*file)) return error;
     return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
+}
+
+void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings) {
+    if (!world.fit_camera) return;
+    settings.freeze_fits = true;
+    activate_camera(world.scene, *world.fit_camera, world.registry);
+    frame.run(world.registry, settings);
+    activate_camera(world.scene, world.camera, world.registry);
 }
 
 void set_timing(gl::Device& device, bool on) {

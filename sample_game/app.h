@@ -22,11 +22,13 @@ struct GameWorld {
     ecs::Registry registry;
     assets::MeshLibrary library;
     SpawnedScene scene;
-    std::unique_ptr<GameSession> game;  // null: the scene is only looked at
-    std::vector<std::string> warnings;  // of the loader, one line each
+    std::size_t camera = 0;                 // index into scene.cameras: the active one
+    std::optional<std::size_t> fit_camera;  // the one that shadows are fitted to
+    std::unique_ptr<GameSession> game;      // null: the scene is only looked at
+    std::vector<std::string> warnings;      // of the loader, one line each
 };
 
-/// Loads, spawns, applies --set, chooses the camera, finds the light of --debug.
+/// Loads, spawns, applies --set, chooses the cameras, finds the light of --debug.
 Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
 
 /// Whether every output named on the command line can be written; makes the folder of --visibility.
@@ -38,6 +40,10 @@ struct Renderer {
     std::unique_ptr<Frame> frame;
 };
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {});
+
+/// With --fit-camera: runs a frame for that camera and freezes its fits, so that what follows shows them from the
+/// other.
+void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings);
 
 /// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
 void set_timing(gl::Device& device, bool on);

@@ -51,6 +51,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         } else {
             set_time(world.scene, time_s, world.registry);
         }
+        if (i == 0) freeze_at_fit_camera(world, *stage->renderer.frame, settings);
         stage->renderer.frame->run(world.registry, settings);
         if (stage->renderer.frame->report().failure == gl::Failure::context_lost) {
             log.warn("the graphics context was lost, and is made anew");
@@ -59,6 +60,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
             auto again = make_stage(line, world, held_fits);
             if (!again) return again.error();
             stage = std::move(again).value();
+            freeze_at_fit_camera(world, *stage->renderer.frame, settings);
             stage->renderer.frame->run(world.registry, settings);
         }
         Frame& frame = *stage->renderer.frame;

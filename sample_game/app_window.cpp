@@ -178,7 +178,9 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
             gui.panel.shown = !gui.panel.shown;
             set_timing(*renderer.device, gui.panel.shown || line.stats);  // the panel shows times per light
         }
-        if (pressed(input, platform::Key::f2)) next_depth_view(world, gui.panel.debug);
+        if (pressed(input, platform::Key::f2)) next_debug_light(world, gui.panel.debug);
+        if (pressed(input, platform::Key::f3)) next_debug_view(world, gui.panel.debug);
+        if (pressed(input, platform::Key::f4)) gui.panel.freeze_fits = !gui.panel.freeze_fits;
         const bool was_captured = captured;  // how the mouse came to where it clicked does not turn the head
         update_capture(input, window, gui.panel.shown, captured);
         play.advance(input, was_captured && captured, std::exchange(gui.panel.toggle_motion, false), dt_s,
@@ -186,6 +188,11 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
         settings.shadows = gui.panel.shadows;
         settings.debug = gui.panel.debug;
+        settings.freeze_fits = gui.panel.freeze_fits;
+        if (play.frame() == 1) {
+            freeze_at_fit_camera(world, *renderer.frame, settings);
+            gui.panel.freeze_fits = settings.freeze_fits;
+        }
         gui.panel.moving = play.moving();
         renderer.frame->run(world.registry, settings);
         if (renderer.frame->report().failure == gl::Failure::context_lost)

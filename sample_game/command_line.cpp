@@ -18,7 +18,8 @@ constexpr double kFramesPerSecond = 60.0;
 
 /// What was typed, before it is understood.
 struct Typed {
-    std::string scene, camera, animation, size, frames, time, exposure, stats, screenshot, visibility, debug;
+    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, stats, screenshot, visibility,
+        debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -29,6 +30,8 @@ void declare(CLI::App& app, Typed& typed) {
     app.set_help_flag("-h,--help", "print this and exit");
     app.add_option("--scene", typed.scene, "FILE: glTF or GLB (default: the built-in scene)");
     app.add_option("--camera", typed.camera, "NAME|INDEX (default: the first, else framed on the scene)");
+    app.add_option("--fit-camera", typed.fit_camera,
+                   "NAME|INDEX: fit shadows to this camera, as it stands in the first frame");
     app.add_option("--animation", typed.animation, "NAME|INDEX: this animation alone (default: all at once)");
     app.add_option("--size", typed.size, "WxH: picture size, each 1 to 16384 (default: 1280x720)");
     app.add_flag("--headless", typed.headless, "EGL, no window");
@@ -48,10 +51,11 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_flag("--list", typed.list, "print what --set and --debug know, and exit");
     app.footer(
         "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses,\n"
-        "F1 shows the lights and their settings, F2 their depth maps one light after the other, Esc quits.\n"
-        "The game, in a window without --scene, --camera, --animation, --frames and --time: cross the courtyard to the "
-        "gate "
-        "unseen;\n"
+        "F1 shows the lights and their settings, F3 the debug views one after the other, F2 the same of the next "
+        "light,\n"
+        "F4 keeps the shadows' fits while the camera goes on, Esc quits.\n"
+        "The game, in a window without --scene, --camera, --fit-camera, --animation, --frames and --time: cross the\n"
+        "courtyard to the gate unseen;\n"
         "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
 }
 
@@ -99,6 +103,7 @@ std::optional<Error> read_names(const Typed& typed, const CLI::App& app, Command
         return !text.empty();
     };
     const bool all = read("--scene", typed.scene, line.scene) && read("--camera", typed.camera, line.camera) &&
+                     read("--fit-camera", typed.fit_camera, line.fit_camera) &&
                      read("--animation", typed.animation, line.animation) && read("--stats", typed.stats, line.stats) &&
                      read("--screenshot", typed.screenshot, line.screenshot) &&
                      read("--visibility", typed.visibility, line.visibility);
@@ -115,9 +120,10 @@ Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
         if (auto error = read_size(typed.size, line.size_px)) return *error;
     if (auto error = read_numbers(typed, app, line)) return *error;
     if (auto error = read_names(typed, app, line)) return *error;
-    if (line.demo && (line.scene || line.camera || line.animation))
+    if (line.demo && (line.scene || line.camera || line.fit_camera || line.animation))
         return wrong(
-            "--demo plays the built-in scene with its own camera: no --scene, --camera or --animation goes with it");
+            "--demo plays the built-in scene with its own camera: no --scene, --camera, --fit-camera or --animation "
+            "goes with it");
     if (app.count("--debug") > 0) {
         Result<debug::Request> debug = read_debug_request(typed.debug);
         if (!debug) return debug.error();
@@ -148,7 +154,8 @@ Result<CommandLine> parse_command_line(int argc, const char* const* argv) {
 }
 
 bool plays_game(const CommandLine& line) {
-    return line.demo || !(line.headless || line.scene || line.camera || line.animation || line.frames || line.time_s);
+    return line.demo || !(line.headless || line.scene || line.camera || line.fit_camera || line.animation ||
+                          line.frames || line.time_s);
 }
 
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames) {

@@ -15,6 +15,7 @@ namespace gnomon::game {
 struct CommandLine {
     std::optional<std::filesystem::path> scene;  // empty: the built-in scene
     std::optional<std::string> camera;           // name or index
+    std::optional<std::string> fit_camera;       // name or index; empty: shadows are fitted to what is drawn
     std::optional<std::string> animation;        // name or index; empty: all at once
     glm::uvec2 size_px{1280, 720};
     bool headless = false;
@@ -31,7 +32,8 @@ struct CommandLine {
 /// Errors: rules "command_line" and those of apply_setting() and read_debug_request(); the message is one line.
 Result<CommandLine> parse_command_line(int argc, const char* const* argv);
 
-/// Whether the game is played: --demo, or a window without --scene, --camera, --animation, --frames and --time.
+/// Whether the game is played: --demo, or a window without --scene, --camera, --fit-camera, --animation, --frames and
+/// --time.
 bool plays_game(const CommandLine& line);
 
 /// Scene time of frame `index` of `frames`: the last one is at `line.time_s`, or, without it, the first one at 0.

@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::uint64_t kMostMaps = shadow::kMaxViews;
 
-std::string spelling(const debug::ViewRow& row) { return std::string(row.name) + (row.of_light ? ":LIGHT[:MAP]" : ""); }
+std::string spelling(const debug::ViewRow& row) {
+    return std::string(row.name) + (row.scope == debug::ViewScope::one_light ? ":LIGHT[:MAP]" : "[:LIGHT[:MAP]]");
+}
 
 Error wrong(const std::string& message, const char* rule) {
     return {.message = "--debug: " + on_one_line(message), .rule = rule};
@@ -32,8 +34,8 @@ Result<debug::Request> read_debug_request(std::string_view text) {
     request.view = debug::find_view(take_word(text));
     if (!request.view) return wrong("unknown view in '" + whole + "'; --list shows them", "debug.view");
     request.light = std::string(take_word(text));
-    const std::ptrdiff_t most = request.view->of_light ? 2 : 0;
-    if (colons > most || request.light.empty() == request.view->of_light)
+    const bool all = colons == 0 && request.view->scope == debug::ViewScope::one_or_all;
+    if (colons > 2 || (request.light.empty() && !all))
         return wrong("'" + whole + "' is not " + spelling(*request.view), "debug.syntax");
     if (colons < 2) return request;
     const auto layer = read_count(text);

@@ -17,7 +17,7 @@ Result<assets::SceneData> load_game_scene() {
     return assets::load_gltf_memory(make_courtyard({.game = true}).glb, {}, "built-in courtyard");
 }
 
-Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& name_or_index) {
+Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& name_or_index, const char* flag) {
     const auto named = std::find_if(scene.cameras.begin(), scene.cameras.end(),
                                     [&](const NamedEntity& camera) { return camera.name == name_or_index; });
     if (named != scene.cameras.end()) return static_cast<std::size_t>(named - scene.cameras.begin());
@@ -29,8 +29,9 @@ Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& na
     for (std::size_t i = 0; i < std::min(scene.cameras.size(), kShown); ++i)
         known += (i == 0 ? "" : ", ") + scene.cameras[i].name;
     if (scene.cameras.size() > kShown) known += ", ...";
-    return Error{.message = on_one_line("--camera: no camera '" + name_or_index + "'; the scene has " + known),
-                 .rule = "camera.unknown"};
+    return Error{
+        .message = on_one_line(std::string(flag) + ": no camera '" + name_or_index + "'; the scene has " + known),
+        .rule = "camera.unknown"};
 }
 
 }  // namespace gnomon::game

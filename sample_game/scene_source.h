@@ -17,6 +17,7 @@ Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>&
 Result<assets::SceneData> load_game_scene();
 
 /// The camera called `name_or_index`: by name, else by index. Error: rule "camera.unknown".
-Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& name_or_index);
+Result<std::size_t> find_camera(const SpawnedScene& scene, const std::string& name_or_index,
+                                const char* flag = "--camera");
 
 }  // namespace gnomon::game

@@ -39,16 +39,19 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_);
     world.discard_changes();
     report_.dropped = snapshot_.dropped;
-    lighting_->collect_depths(snapshot_.sampled_depths);
+    const bool held = frozen_.has_value() && settings.freeze_fits;
+    if (!held) lighting_->collect_depths(snapshot_.sampled_depths);
     gpu_scene_.update(snapshot_, commands_);
-    const shadow::ShadowFrame& shadows = shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
-    const bool sample_depths = shadow::wants_sampled_depths(snapshot_, shadows);
-    if (!sample_depths) snapshot_.sampled_depths = {};  // of no use later
-    has_picture_ = !shadows.inputs.empty() &&
-                   lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
-                                     {settings.exposure_ev, sample_depths}, commands_, report_);
-    if (has_picture_)
-        debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_}, commands_);
+    const shadow::ShadowFrame& shadows = update_shadows(settings);
+    const bool sample_depths = !held && shadow::wants_sampled_depths(snapshot_, shadows);
+    if (!sample_depths && !held) snapshot_.sampled_depths = {};  // of no use later
+    has_picture_ =
+        !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
+                                                     {settings.exposure_ev, sample_depths}, commands_, report_);
+    if (has_picture_) {
+        const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
+        debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);
+    }
     if (has_picture_ && settings.present) {
         const gl::Rect all{0, 0, static_cast<std::int32_t>(settings.viewport_px.x),
                            static_cast<std::int32_t>(settings.viewport_px.y)};
@@ -62,6 +65,22 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
     if (result.failure != gl::Failure::none) report_.failure = result.failure;
     collect_timings();
+}
+
+/// While fits are frozen, the stages find the frozen cameras as the scene's consumers.
+const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) {
+    const auto update = [&]() -> const shadow::ShadowFrame& {
+        return shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
+    };
+    if (!settings.freeze_fits) frozen_.reset();
+    if (!settings.freeze_fits || snapshot_.consumers.empty()) return update();
+    if (!frozen_) frozen_ = snapshot_.consumers;
+    snapshot_.pictures = snapshot_.consumers;
+    std::swap(snapshot_.consumers, *frozen_);
+    const shadow::ShadowFrame& shadows = update();
+    std::swap(snapshot_.consumers, *frozen_);
+    snapshot_.pictures.clear();
+    return shadows;
 }
 
 /// Sums what timers have come in. A device that answers late reports an earlier frame's times.

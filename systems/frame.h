@@ -22,7 +22,8 @@ namespace gnomon {
 
 namespace shadow {
 class ShadowSystem;
-}
+struct ShadowFrame;
+}  // namespace shadow
 namespace debug {
 class DebugPainter;
 }
@@ -38,7 +39,10 @@ struct FrameSettings {
     /// Wait at the end of a frame for what the GPU measures in it (CascadeSplits::sampled), so that every run draws the
     /// same pictures; else nothing is waited for, and measures arrive some frames later.
     bool repeatable = false;
-    debug::Request debug = {};         // drawn over the picture; none by default
+    debug::Request debug = {};  // drawn over the picture; none by default
+    /// Shadows stay fitted to the cameras as they were in the first frame that asked for it, while the picture follows
+    /// its own. Lights and casters go on: shadows follow them, as those cameras need it.
+    bool freeze_fits = false;
 };
 
 /// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.
@@ -75,6 +79,7 @@ public:
 
 private:
     Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& held_fits, GpuScene scene);
+    const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
     void collect_timings();
 
     gl::Device& device_;
@@ -86,6 +91,7 @@ private:
     std::unique_ptr<shadow::ShadowSystem> shadows_;
     std::unique_ptr<lighting::LightingSystem> lighting_;
     std::unique_ptr<debug::DebugPainter> debug_;
+    std::optional<std::vector<ConsumerItem>> frozen_;  // the cameras that shadows are fitted to
     FrameReport report_;
     gl::CommandList commands_;
     bool has_picture_ = false;

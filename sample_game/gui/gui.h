@@ -20,6 +20,7 @@ struct PanelState {
     bool moving = true;          // to be set before draw()
     bool toggle_motion = false;  // asked for; whoever acts on it clears it
     debug::Request debug = {};   // for FrameSettings
+    bool freeze_fits = false;    // for FrameSettings
 };
 
 /// What is drawn over the picture: the game's meters and words, those of debug views, and the panel of lights (F1).
@@ -56,11 +57,17 @@ void draw_game_overlay(const GameState& state, glm::vec2 size_px, bool words);
 /// The words of a debug view, over the picture and under the panel.
 void draw_debug_labels(std::span<const debug::Label> labels, glm::vec2 size_px);
 
-/// Shows the depth maps of the light after the one shown, then none.
-void next_depth_view(const GameWorld& world, debug::Request& debug);
+/// Shows the same view of the next light, then none; where none is shown, the first light's depth maps.
+void next_debug_light(const GameWorld& world, debug::Request& debug);
 
-/// The panel: switches, the report, and for each light that has a LightShadow every row of light_settings() and its
-/// depth maps, which are shown beside the panel if there is room.
+/// Shows the next view of the same light, then none.
+void next_debug_view(const GameWorld& world, debug::Request& debug);
+
+/// Which debug view of which light and map is shown.
+void draw_debug_choice(const GameWorld& world, const FrameReport& report, PanelState& state);
+
+/// The panel: switches, the debug view, the report, and for each light that has a LightShadow every row of
+/// light_settings(). Debug views are shown beside the panel if there is room.
 void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, PanelState& state);
 
 }  // namespace gnomon::game

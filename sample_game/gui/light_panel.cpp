@@ -50,37 +50,11 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
     return setting.whole ? std::to_string(std::lround(value)) : std::to_string(value);
 }
 
-/// The depth maps of `light`, or nothing if it is empty, where `now` is shown.
-debug::Request depth_of(const std::string& light, const debug::Request& now) {
-    return {.view = light.empty() ? nullptr : debug::find_view("depth"), .light = light, .area = now.area};
-}
-
-/// Which of the light's depth maps are shown. `views`: how many it has now.
-void draw_depth_choice(const std::string& light, std::uint32_t views, debug::Request& debug) {
-    bool shown = debug.view && debug.light == light;
-    if (ImGui::Checkbox("show depth maps", &shown)) debug = depth_of(shown ? light : std::string{}, debug);
-    if (!shown || views < 2) return;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(6.0f * ImGui::GetFontSize());
-    if (!ImGui::BeginCombo("map", debug.layer ? std::to_string(*debug.layer).c_str() : "all")) return;
-    if (ImGui::Selectable("all", !debug.layer)) debug.layer.reset();
-    for (std::uint32_t i = 0; i < views; ++i)
-        if (ImGui::Selectable(std::to_string(i).c_str(), debug.layer == i)) debug.layer = i;
-    ImGui::EndCombo();
-}
-
-std::uint32_t view_count(const FrameReport& report, ecs::Entity light) {
-    for (const LightReport& row : report.lights)
-        if (row.entity == light) return row.views;
-    return 0;
-}
-
-void draw_settings(GameWorld& world, const FrameReport& report, debug::Request& debug) {
+void draw_settings(GameWorld& world) {
     for (const NamedEntity& light : world.scene.lights) {
         const LightShadow* shadow = world.registry.get<LightShadow>(light.entity);
         if (!shadow || !ImGui::CollapsingHeader(light.name.c_str())) continue;
         ImGui::PushID(light.name.c_str());
-        draw_depth_choice(light.name, view_count(report, light.entity), debug);
         LightShadow changed = *shadow;
         for (const LightSetting& setting : light_settings()) {
             const std::string text = edited(setting, changed);
@@ -142,29 +116,23 @@ gl::Rect beside_panel(glm::uvec2 size_px) {
 
 }  // namespace
 
-void next_depth_view(const GameWorld& world, debug::Request& debug) {
-    const auto& lights = world.scene.lights;
-    const auto shown = std::find_if(lights.begin(), lights.end(),
-                                    [&](const NamedEntity& light) { return debug.view && light.name == debug.light; });
-    const auto next =
-        std::find_if(shown == lights.end() ? lights.begin() : shown + 1, lights.end(),
-                     [&](const NamedEntity& light) { return world.registry.has<LightShadow>(light.entity); });
-    debug = depth_of(next == lights.end() ? std::string{} : next->name, debug);
-}
-
 void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, PanelState& state) {
     const ImVec2 at{12.0f, 12.0f};
     ImGui::SetNextWindowPos(at, ImGuiCond_Once);
     if (ImGui::Begin("Lights and shadows (F1)", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::Checkbox("shadows", &state.shadows);
         ImGui::SameLine();
+        ImGui::Checkbox("keep fits (F4)", &state.freeze_fits);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("shadows stay fitted to the camera as it is now");
+        ImGui::SameLine();
         bool moving = state.moving;
         if (ImGui::Checkbox("movement (P)", &moving)) state.toggle_motion = true;
         ImGui::SameLine();
         ImGui::Text("frame %.2f ms, of it shadows %.2f ms on the CPU", report.cpu_us * 1e-3,
                     report.shadow_cpu_us * 1e-3);
+        draw_debug_choice(world, report, state);
         draw_report(report);
-        draw_settings(world, report, state.debug);
+        draw_settings(world);
         state.debug.area = beside_panel(size_px);
     }
     ImGui::End();

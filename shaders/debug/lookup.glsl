@@ -3,16 +3,33 @@
 #include "lighting/surface_targets.glsl"
 #include "row.glsl"
 #include "shadow/light_block.glsl"
-void show_lookup(ShadowPoint point, float share);
+void show_lookup(ShadowPoint point, vec3 normal, float share);
 #include "shadow/visibility.glsl"
 #include "shadow/layers.glsl"
 #include "lighting/light_at.glsl"
 #include "lighting/visible_surface.glsl"
 // C++ twin: ShownScale in systems/debug/shown_scale.h.
 layout(std140, binding = 5) uniform ShownScale {
-    vec4 colours[8];   // rgb: linear; w: the value it stands for
+    vec4 colours[8];   // rgb: linear; w: the length it stands for, metres
+    ivec4 options;     // x: the only map to be shown, below 0: all; y: colours that stand for lengths
 } scale;
 layout(location = 0) out vec4 colour_out;
+
+bool is_shown(int layer) { return layer >= 0 && (scale.options.x < 0 || scale.options.x == layer); }
+
+// The colour of a length, between two of the scale by its logarithm; opaque.
+vec4 on_scale(float length_m) {
+    vec3 colour = scale.colours[0].rgb;
+    for (int i = 1; i < scale.options.y; ++i) {
+        float least = scale.colours[i - 1].w;
+        float share = log(max(length_m, least) / least) / log(scale.colours[i].w / least);
+        colour = mix(colour, scale.colours[i].rgb, clamp(share, 0.0, 1.0));
+    }
+    return vec4(colour, 1.0);
+}
+
+// Over the picture; `seen`: colour times coverage, and coverage. The rest of `strength` is the picture.
+vec4 over_picture(vec4 seen, float strength) { return vec4(seen.rgb / max(seen.a, 1e-6), strength * seen.a); }
 
 // Looks up as the light's own pass does, but for the colour.
 void look_up(ivec2 pixel) {

@@ -9,7 +9,7 @@ struct ViewRecord {
     vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where the next cascade serves
 };
 layout(std140, binding = 1) uniform LightBlock {
-    vec4 position;             // xyz: from the camera's anchor (spot, point), or along the camera's view (directional); w: range in metres, 0: unlimited
+    vec4 position;             // xyz: from the camera's anchor (spot, point), or along the view that a sun's maps are fitted to (directional); w: range in metres, 0: unlimited; or how far along it the camera stands
     vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its shadow layers, 0 to 255
     vec4 radiance;             // rgb: lux (directional) or candela; w: size of the source, see shadow/source.glsl
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces; or a point's: the quaternion cube_turn()

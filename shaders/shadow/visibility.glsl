@@ -16,14 +16,20 @@ float shadow_filter(ShadowPoint point) {
 }
 #endif
 
+// As its taps are compared.
+ShadowPoint compared_point(ShadowPoint point, vec3 normal) {
+#ifdef SHADOW_MANUAL_BIAS
+    if (point.covered && compares_on_plane()) point = on_receiver_plane(point, normal);
+#endif
+    return point;
+}
+
 #ifdef SHADOW_DEPTHS
 // Compares on the receiver's own plane: of the offset, only what snapping and rounding need is left.
 float shadow_bias_texel() { return 0.0; }
 float filtered(ShadowPoint point, vec3 normal, float error_m) {
     if (!point.covered) return 1.0;
-#ifdef SHADOW_MANUAL_BIAS
-    if (compares_on_plane()) point = on_receiver_plane(point, normal);
-#endif
+    point = compared_point(point, normal);
     point.slope = shadow_slope(point, normal);
 #ifdef SHADOW_TRIANGLES
     point.error_m = error_m;
@@ -33,13 +39,10 @@ float filtered(ShadowPoint point, vec3 normal, float error_m) {
 #else
 float shadow_bias_texel() { return SHADOW_REACH_TEXEL; }
 float filtered(ShadowPoint point, vec3 normal, float error_m) {
-#ifdef SHADOW_MANUAL_BIAS
-    if (point.covered && compares_on_plane()) point = on_receiver_plane(point, normal);
-#endif
 #ifdef SHADOW_FOOTPRINT
     point.normal = normal;
 #endif
-    return point.covered ? shadow_filter(point) : 1.0;
+    return point.covered ? shadow_filter(compared_point(point, normal)) : 1.0;
 }
 #endif
 #endif
@@ -57,7 +60,7 @@ float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
         if (lookup > 0 && !shadow_fades_into(point)) share = 0.0;
 #endif
 #ifdef SHADOW_SHOWN
-        show_lookup(point, share);
+        show_lookup(point, normal, share);
 #endif
 #ifdef SHADOW_FADES
         visible = mix(visible, found, share);

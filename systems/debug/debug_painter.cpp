@@ -24,12 +24,12 @@ DebugPainter::~DebugPainter() {
     device_.destroy(raw_);
 }
 
-gl::ProgramHandle DebugPainter::program(std::string_view fragment) {
+gl::ProgramHandle DebugPainter::program(std::string_view vertex, std::string_view fragment) {
     auto found =
         std::find_if(programs_.begin(), programs_.end(), [&](const Program& p) { return p.fragment == fragment; });
     if (found == programs_.end()) found = programs_.insert(programs_.end(), {fragment});
     if (found->handle || !found->retry.due(records_)) return found->handle;
-    const auto v = gl::expand_shader(shader_files(), "shared/fullscreen.vert", {});
+    const auto v = gl::expand_shader(shader_files(), vertex, {});
     const auto f = gl::expand_shader(shader_files(), fragment, {});
     if (v && f) found->handle = device_.create_program({std::string(fragment), v.value(), f.value()}).handle;
     if (!found->handle) found->retry.failed(records_);
@@ -39,8 +39,9 @@ gl::ProgramHandle DebugPainter::program(std::string_view fragment) {
 bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
                                gl::TargetHandle target, gl::CommandList& list) {
     if (!raw_) raw_ = device_.create_sampler({.label = "debug raw"}).handle;
-    const gl::ProgramHandle used = program(row.fragment);
-    if (!raw_ || !used) return false;
+    const gl::ProgramHandle used = program("shared/fullscreen.vert", row.fragment);
+    if (!raw_ || !used || !block_.reserve(drawing.block.size())) return false;
+    list.update(block_.handle(), 0, std::span<const std::byte>(drawing.block));
     list.add(gl::BeginPass{.target = target, .viewport = area});
     list.add(gl::SetPipeline{{.program = used}});
     list.add(gl::BindUniforms{0, block_.handle(), 0, static_cast<std::uint32_t>(drawing.block.size())});
@@ -51,6 +52,40 @@ bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const
     return true;
 }
 
+bool DebugPainter::record_lines(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
+                                const lighting::LightingSystem& picture, gl::CommandList& list) {
+    if (drawing.lines.empty()) return true;
+    const gl::ProgramHandle used = program("debug/lines.vert", row.fragment);
+    if (!used || !lines_.reserve(drawing.lines.size() * sizeof(LineVertex))) return false;
+    const gl::Rect whole = within({}, picture.size_px());
+    list.update(lines_.handle(), 0, std::span<const LineVertex>(drawing.lines));
+    list.add(gl::BeginPass{.target = picture.picture_target(), .viewport = whole});
+    list.add(gl::SetScissor{area});
+    list.add(gl::SetPipeline{{.program = used, .blend = gl::Blend::alpha}});
+    picture.bind_surface_textures(list);
+    list.add(gl::BindStorage{0, lines_.handle()});
+    list.add(gl::DrawLines{static_cast<std::uint32_t>(drawing.lines.size())});
+    list.add(gl::EndPass{});
+    return true;
+}
+
+bool DebugPainter::record_medium(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
+                                 const Subject& subject, gl::CommandList& list) {
+    switch (row.medium) {
+        case ViewMedium::flat:
+            return record_flat(drawing, row, area, subject.picture.picture_target(), list);
+        case ViewMedium::lines:
+            return record_lines(drawing, row, area, subject.picture, list);
+        case ViewMedium::lookups:
+            break;
+    }
+    if (!block_.reserve(drawing.block.size())) return false;
+    list.update(block_.handle(), 0, std::span<const std::byte>(drawing.block));
+    return subject.picture.record_lookups({subject.frame.inputs.front(), drawing.light, row.fragment, area,
+                                           block_.handle(), static_cast<std::uint32_t>(drawing.block.size())},
+                                          subject.gpu, list);
+}
+
 void DebugPainter::record(const Request& request, const Subject& subject, gl::CommandList& list) {
     labels_.clear();
     if (!request.view) return;
@@ -58,19 +93,12 @@ void DebugPainter::record(const Request& request, const Subject& subject, gl::Co
     const ViewRow& row = *request.view;
     const gl::Rect area = within(request.area, subject.picture.size_px());
     if (area.width <= 0 || area.height <= 0) return;
-    std::optional<Drawing> drawing = row.draw({subject.scene, subject.frame, request, area});
-    if (!drawing || !block_.reserve(drawing->block.size())) return;
-
-    // Whoever draws says at the end whether the device had all it takes; the list is cut back if not.
+    std::optional<Drawing> drawing = row.draw({subject.scene, subject.frame, request, area, subject.fitted});
+    if (!drawing) return;
+    // The list is cut back if the device has not all it takes.
     const std::size_t commands = list.commands.size(), bytes = list.bytes.size();
     list.add(gl::BeginGroup{"debug " + std::string(row.name)});
-    list.update(block_.handle(), 0, std::span<const std::byte>(drawing->block));
-    const auto block_size = static_cast<std::uint32_t>(drawing->block.size());
-    const bool drawn = row.medium == ViewMedium::flat
-                           ? record_flat(*drawing, row, area, subject.picture.picture_target(), list)
-                           : subject.picture.record_lookups({subject.frame.inputs.front(), drawing->light, row.fragment,
-                                                             area, block_.handle(), block_size},
-                                                            subject.gpu, list);
+    const bool drawn = record_medium(*drawing, row, area, subject, list);
     list.add(gl::EndGroup{});
     if (drawn) {
         labels_ = std::move(drawing->labels);

@@ -17,7 +17,8 @@ namespace gnomon::debug {
 /// Draws debug views. Makes its device objects when the first is asked for, and owns them.
 class DebugPainter {
 public:
-    explicit DebugPainter(gl::Device& device) : device_(device), block_(device, "debug view") {}
+    explicit DebugPainter(gl::Device& device)
+        : device_(device), block_(device, "debug view"), lines_(device, "debug lines") {}
     ~DebugPainter();
     DebugPainter(const DebugPainter&) = delete;
     DebugPainter& operator=(const DebugPainter&) = delete;
@@ -28,6 +29,7 @@ public:
         const shadow::ShadowFrame& frame;
         const GpuScene& gpu;
         lighting::LightingSystem& picture;
+        const ConsumerItem* fitted = nullptr;  // the camera that shadows are fitted to, where it is not the picture's
     };
 
     /// Records the requested view over the picture, and keeps its labels. Records nothing, and has no labels, without a
@@ -43,12 +45,16 @@ private:
         gl::ProgramHandle handle{};
         Retry retry = {};
     };
-    gl::ProgramHandle program(std::string_view fragment);
+    gl::ProgramHandle program(std::string_view vertex, std::string_view fragment);
     bool record_flat(const Drawing& drawing, const ViewRow& row, const gl::Rect& area, gl::TargetHandle target,
                      gl::CommandList& list);
+    bool record_lines(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
+                      const lighting::LightingSystem& picture, gl::CommandList& list);
+    bool record_medium(const Drawing& drawing, const ViewRow& row, const gl::Rect& area, const Subject& subject,
+                       gl::CommandList& list);
 
     gl::Device& device_;
-    GrowingBuffer block_;
+    GrowingBuffer block_, lines_;
     gl::SamplerHandle raw_{};
     std::vector<Program> programs_;
     std::vector<Label> labels_;

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstring>
 
 #include "systems/debug/debug_view.h"
@@ -13,15 +11,6 @@ namespace {
 
 constexpr std::size_t kFlatUnit = 0, kCubeUnit = 1;  // bindings in shaders/debug/depth.frag
 
-/// "face +X: 0.35 ... 21.2 m". An orthographic map has no eye: its distances count from its near plane.
-std::string range_text(const shadow::ShadowView& view) {
-    const bool flat = view.projection == shadow::ViewProjection::orthographic;
-    const double near_m = flat ? 0.0 : view.near_m, far_m = flat ? view.far_m - view.near_m : view.far_m;
-    std::array<char, 64> range{};
-    std::snprintf(range.data(), range.size(), ": %.3g ... %.3g m", near_m, far_m);
-    return map_name(view) + range.data();
-}
-
 }  // namespace
 
 std::optional<Drawing> draw_depth(const ViewInput& input) {
@@ -29,9 +18,8 @@ std::optional<Drawing> draw_depth(const ViewInput& input) {
     if (!light) return std::nullopt;
     std::vector<shadow::ShadowView> views;
     Drawing drawing;
-    for (const std::size_t v : views_with_map(input.frame, *light)) {
+    for (const std::size_t v : requested_views(input, *light)) {
         const shadow::ShadowView& view = input.frame.views[v];
-        if (input.request.layer && *input.request.layer != view.layer) continue;
         const std::size_t unit = view.projection == shadow::ViewProjection::cube_face ? kCubeUnit : kFlatUnit;
         views.push_back(view);
         drawing.maps[unit] = input.frame.slots[v].texture;

@@ -10,9 +10,10 @@ inline constexpr std::uint32_t kScaleColours = 8;
 
 /// Matches ShownScale in shaders/debug/lookup.glsl (std140).
 struct ShownScale {
-    glm::vec4 colours[kScaleColours]{};  // rgb: linear; w: the value it stands for
+    glm::vec4 colours[kScaleColours]{};  // rgb: linear; w: the length it stands for, metres
+    glm::ivec4 options{-1, 0, 0, 0};     // x: the only map to be shown, below 0: all; y: colours that stand for lengths
 };
-static_assert(sizeof(ShownScale) == std::size_t{16} * kScaleColours);
+static_assert(sizeof(ShownScale) == 16 * (kScaleColours + 1));
 static_assert(kScaleColours >= shadow::kMaxViews);
 
 /// The colour `srgb` as shaders want it.

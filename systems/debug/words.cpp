@@ -57,10 +57,22 @@ std::string no_map(const shadow::ShadowFrame& frame, std::uint32_t light) {
     return std::string("no map: ") + (reason == Reason::none ? "not this one" : reason_code(reason));
 }
 
-std::vector<std::size_t> views_with_map(const shadow::ShadowFrame& frame, std::uint32_t light) {
+std::string range_text(const shadow::ShadowView& view) {
+    const bool flat = view.projection == shadow::ViewProjection::orthographic;
+    const double near_m = flat ? 0.0 : view.near_m, far_m = flat ? view.far_m - view.near_m : view.far_m;
+    std::array<char, 64> range{};
+    std::snprintf(range.data(), range.size(), ": %.3g ... %.3g m", near_m, far_m);
+    return map_name(view) + range.data();
+}
+
+std::vector<std::size_t> requested_views(const ViewInput& input, std::uint32_t light) {
+    const shadow::ShadowFrame& frame = input.frame;
     std::vector<std::size_t> found;
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (frame.demands[frame.views[v].demand].light == light && frame.slots[v].texture) found.push_back(v);
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        const bool asked_for = !input.request.layer || *input.request.layer == frame.views[v].layer;
+        if (asked_for && frame.demands[frame.views[v].demand].light == light && frame.slots[v].texture)
+            found.push_back(v);
+    }
     return found;
 }
 

@@ -22,11 +22,19 @@ std::string length_text(double length_m);
 /// Index of the light that was asked for; empty: there is none of that name.
 std::optional<std::uint32_t> requested_light(const ViewInput& input);
 
+/// The camera of the picture that is drawn over.
+inline const ConsumerItem& camera_of(const ViewInput& input) {
+    return input.scene.consumers[input.frame.inputs.front().consumer];
+}
+
 /// "no map: not_seen": why the light has none.
 std::string no_map(const shadow::ShadowFrame& frame, std::uint32_t light);
 
-/// Indices of the views of `light` that have a map, in the frame's order.
-std::vector<std::size_t> views_with_map(const shadow::ShadowFrame& frame, std::uint32_t light);
+/// "map 2: 0.25 ... 15.5 m": what depths it holds. An orthographic map has no eye: they count from its near plane.
+std::string range_text(const shadow::ShadowView& view);
+
+/// Indices of the views of `light` that have a map and were asked for, in the frame's order.
+std::vector<std::size_t> requested_views(const ViewInput& input, std::uint32_t light);
 
 /// Lines of text from the upper left corner of `area` down.
 class Legend {

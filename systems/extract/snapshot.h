@@ -53,13 +53,13 @@ struct LightItem {
 /// How a mesh that bends (assets::Mesh::deformer) is bent in this frame, by its deformer's joints and targets.
 struct PoseItem {
     std::uint32_t mesh = 0;
-    bool skinned = false;                   // instances then stand at origin_ws_m, unturned: joints alone place them
+    bool skinned = false;  // instances then stand at origin_ws_m, unturned: joints alone place them
     glm::dvec3 origin_ws_m{0.0};
     std::vector<glm::dmat4x3> joints = {};  // from the mesh at rest to the space of its instances
     std::vector<float> weights = {};        // per target
     math::Aabb bounds_ms = {};              // holds every bent vertex
     assets::Mirroring mirroring = assets::Mirroring::none;
-    std::uint64_t version = 0;              // grows whenever joints or weights changed
+    std::uint64_t version = 0;  // grows whenever joints or weights changed
     assets::MeshPose pose() const { return {joints, weights}; }
 };
 
@@ -78,7 +78,8 @@ struct InstanceItem {
     bool visible = true;
     bool mirrored = false;  // negative determinant
     bool folded = false;    // its pose mirrors some of it, not all: no side of it is known to be outside
-    std::uint64_t version = 0;  // grows whenever mesh, placement or pose changed: what maps show of it. It need not for the rest
+    std::uint64_t version =
+        0;  // grows whenever mesh, placement or pose changed: what maps show of it. It need not for the rest
 };
 
 /// Whether it stands in the light's way at all, and whether that light's shadows fall on it.
@@ -116,6 +117,8 @@ struct DroppedEntity {
 /// Orders are those of entity indices, so that the same world gives the same snapshot.
 struct SceneSnapshot {
     std::vector<ConsumerItem> consumers;
+    std::vector<ConsumerItem> pictures;  // cameras that draw, where they are not those that shadows are fitted to;
+                                         // empty: the consumers
     std::vector<LightItem> lights;
     std::vector<InstanceItem> instances;
     std::vector<PoseItem> poses;  // by rising mesh, at most one for each: all instances of a mesh are bent alike
@@ -123,11 +126,11 @@ struct SceneSnapshot {
     std::vector<std::uint32_t> changed_instances;  // indices of those to upload this frame, by rising gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
     std::uint64_t version = 0;                     // grows whenever anything changed
-    math::BoundsTree tree;           // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
-    /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all: the
-    /// instances' bounds stand for it, as they must where a mesh changes.
+    math::BoundsTree tree;  // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
+    /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all:
+    /// the instances' bounds stand for it, as they must where a mesh changes.
     std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
-    SampledDepths sampled_depths;  // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
+    SampledDepths sampled_depths;    // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
     std::uint64_t tree_version = 0;  // the version it is of; of another one it is not used
 };
 

@@ -71,6 +71,10 @@ public:
     /// Where the pixels of an earlier picture lie, the newest that is known: see DepthSampler::collect().
     void collect_depths(SampledDepths& depths) { depths_.collect(depths); }
 
+    /// Binds the camera (uniforms 0) and the surfaces (textures 0 to 3) of the last record(), as
+    /// shaders/lighting/surface_targets.glsl names them.
+    void bind_surface_textures(gl::CommandList& list) const;
+
     gl::TextureHandle picture_texture() const { return targets_.picture; }  // srgb8_a8
     gl::TargetHandle picture_target() const { return targets_.picture_target; }
     gl::TextureHandle visibility_texture() const { return targets_.visibility; }  // r32f
@@ -105,7 +109,6 @@ private:
     void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
                         FrameReport& report);
     void record_finish(gl::CommandList& list);
-    void bind_surface_textures(gl::CommandList& list) const;
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
     void bind_light(const shadow::LightingLight& light, std::uint32_t index, const GpuScene& gpu,

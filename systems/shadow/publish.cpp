@@ -52,11 +52,18 @@ std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind)
     return demand.warp > 0.0f ? kWarpedSunFile : kind.file;
 }
 
+/// A sun's cascades are chosen by distance along the view that they are fitted to, the consumer's unless that is
+/// frozen.
+glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer) {
+    const glm::dvec3 ahead = -fitted.rotation_ws[2];
+    return with_w(ahead, glm::dot(ahead, consumer.position_ws_m - fitted.position_ws_m));
+}
+
 /// What every light has, map or not.
-LightRecord light_record(const LightItem& light, const ConsumerItem& consumer) {
+LightRecord light_record(const LightItem& light, const ConsumerItem& fitted, const ConsumerItem& consumer) {
     LightRecord record;
     record.position = with_w(light.position_ws_m - consumer.position_ws_m, light.range_m);
-    if (light.kind == LightKind::directional) record.position = with_w(-consumer.rotation_ws[2], 0.0);
+    if (light.kind == LightKind::directional) record.position = view_distance(fitted, consumer);
     record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
     record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
@@ -157,9 +164,11 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
 }
 
 void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, ShadowFrame& frame) {
-    frame.inputs.resize(scene.consumers.size());
-    for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
-        const ConsumerItem& consumer = scene.consumers[c];
+    const std::vector<ConsumerItem>& pictures = scene.pictures.empty() ? scene.consumers : scene.pictures;
+    frame.inputs.resize(pictures.size());
+    for (std::uint32_t c = 0; c < pictures.size(); ++c) {
+        const ConsumerItem& consumer = pictures[c];
+        const ConsumerItem& fitted = c < scene.consumers.size() ? scene.consumers[c] : consumer;
         LightingInputs& inputs = frame.inputs[c];
         inputs.consumer = c;
         inputs.camera = camera_record(consumer);
@@ -173,7 +182,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out.light = i;
             out.row.kind_define = kind.define;
             out.screen = screen_rectangle(light, consumer);
-            out.record = light_record(light, consumer);
+            out.record = light_record(light, fitted, consumer);
         }
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const ShadowSlot& slot = frame.slots[v];

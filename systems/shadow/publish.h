@@ -34,8 +34,8 @@ CameraRecord camera_record(const ConsumerItem& consumer);
 /// the bounding rectangle of the range sphere otherwise; empty if the sphere is behind the camera. Conservative.
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
 
-/// Stage 6: for each consumer, each light with its program row, record and textures. A light without a map is published
-/// unshadowed. Fills frame.inputs.
+/// Stage 6: for each camera that draws, each light with its program row, record and textures. A light without a map is
+/// published unshadowed. Fills frame.inputs.
 void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, ShadowFrame& frame);
 
 }  // namespace gnomon::shadow

@@ -49,6 +49,28 @@ class Debug(GameTest):
             self.assertGreater(changed, 0.3 * len(below_words(plain).pixels))
         self.assertGreater(sun.mean_difference(lantern), 10.0)
 
+    def test_every_view_changes_the_picture_and_no_two_are_alike(self):
+        plain = self.path("plain.png")
+        self.run_game("--size", "%dx%d" % (WIDTH, HEIGHT), "--frames", 2, "--time", 3, "--screenshot", plain)
+        pictures = [Picture(plain)]
+        for view in ("texels:guard_lamp", "bias:sun", "penumbra:sun", "frusta", "frusta:sun", "sets:lantern"):
+            pictures.append(self.view(view))
+            for other in pictures[:-1]:
+                self.assertGreater(pictures[-1].mean_difference(other), 0.3, view)
+
+    def test_shadows_fitted_to_another_camera_are_shown_from_this_one(self):
+        # The camera above sees more of the ground than the maps for the one below serve.
+        own = self.view("cascades:sun", "--camera", "top")
+        other = self.view("cascades:sun", "--camera", "top", "--fit-camera", "main")
+        same = self.view("cascades:sun", "--camera", "top", "--fit-camera", "top")
+        self.assertGreater(own.mean_difference(other), 3.0)
+        self.assertEqual(own.rgba, same.rgba)
+        self.assertGreater(self.view("frusta:sun", "--camera", "top", "--fit-camera", "main").mean_difference(
+            self.view("frusta:sun", "--camera", "top")), 0.3)
+
+    def test_an_unknown_fit_camera_is_one_clear_line(self):
+        self.assert_refused("--fit-camera", "nobody", mentions="--fit-camera: no camera 'nobody'")
+
     def test_a_light_without_a_map_says_so_and_the_run_goes_on(self):
         off = self.view("depth:sun", "--set", "enabled=off")
         self.assertGreater(Region(off, 0, TITLE, WIDTH, HEIGHT - TITLE).share(background), 0.99)

@@ -119,7 +119,7 @@ class Flags(GameTest):
         done = self.call("--help")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
         for flag in ("--scene", "--camera", "--size", "--headless", "--frames", "--time", "--exposure", "--stats",
-                     "--screenshot", "--visibility", "--set", "--debug", "--list"):
+                     "--screenshot", "--visibility", "--set", "--debug", "--fit-camera", "--list"):
             self.assertIn(flag, done.stdout.decode())
 
 

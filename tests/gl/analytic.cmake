@@ -2,7 +2,6 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_analytic LABEL gl SOURCES
     cube_routes_gl_test.cpp
-    debug_depth_gl_test.cpp
     sampled_depths_gl_test.cpp
     cascades_gl_test.cpp
     planes_gl_test.cpp

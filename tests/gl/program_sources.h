@@ -58,14 +58,16 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     return rows;
 }
 
-/// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options.
-inline std::vector<shadow::ProgramRow> lookup_rows() {
+/// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options. All of
+/// them for "bias", which asks most of a lookup; for other views one per kind.
+inline std::vector<shadow::ProgramRow> lookup_rows(std::string_view view) {
     std::vector<shadow::ProgramRow> kept, known;
     for (const shadow::ProgramRow& row : all_rows()) {
         if (row.filter_file.empty()) continue;
         shadow::ProgramRow rest = row;
         rest.filter_file = {};
         rest.reach_texel = 0.0f;
+        if (view != "bias") rest = {.kind_define = {}, .kind_file = row.kind_file, .filter_file = {}};
         if (std::find(known.begin(), known.end(), rest) != known.end()) continue;
         known.push_back(rest);
         kept.push_back(row);
@@ -94,7 +96,7 @@ inline std::vector<gl::ProgramDesc> all_programs() {
                 add(lighting.row(row, output));
         for (const debug::ViewRow& view : debug::view_table())
             if (view.medium == debug::ViewMedium::lookups)
-                for (const shadow::ProgramRow& row : lookup_rows()) add(lighting.lookups(row, view.fragment));
+                for (const shadow::ProgramRow& row : lookup_rows(view.name)) add(lighting.lookups(row, view.fragment));
     }
     {
         using Source = shadow::MomentRecorder::Source;
@@ -121,12 +123,14 @@ inline std::vector<gl::ProgramDesc> all_programs() {
     }
     if (const auto compute = gl::expand_shader(shader_files(), "shadow/depth_bins.comp", {}))
         programs.push_back({.label = "view distances", .compute = compute.value()});
-    for (const debug::ViewRow& view : debug::view_table()) {
-        if (view.medium == debug::ViewMedium::lookups) continue;
-        const auto vertex = gl::expand_shader(shader_files(), "shared/fullscreen.vert", {});
-        const auto fragment = gl::expand_shader(shader_files(), view.fragment, {});
-        if (vertex && fragment) programs.push_back({std::string(view.fragment), vertex.value(), fragment.value()});
-    }
+    const auto add_view = [&](std::string_view vertex_file, std::string_view fragment_file) {
+        const auto vertex = gl::expand_shader(shader_files(), vertex_file, {});
+        const auto fragment = gl::expand_shader(shader_files(), fragment_file, {});
+        if (vertex && fragment) programs.push_back({std::string(fragment_file), vertex.value(), fragment.value()});
+    };
+    add_view("debug/lines.vert", "debug/lines.frag");
+    for (const debug::ViewRow& view : debug::view_table())
+        if (view.medium == debug::ViewMedium::flat) add_view("shared/fullscreen.vert", view.fragment);
     return programs;
 }
 

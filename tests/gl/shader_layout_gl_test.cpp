@@ -141,7 +141,8 @@ std::vector<Block> expected_blocks() {
          "ShownScale",
          5,
          sizeof(debug::ShownScale),
-         {{"ShownScale.colours", offsetof(debug::ShownScale, colours)}}},
+         {{"ShownScale.colours", offsetof(debug::ShownScale, colours)},
+          {"ShownScale.options", offsetof(debug::ShownScale, options)}}},
         {GL_UNIFORM_BLOCK, "ExposureBlock", 4, sizeof(ExposureRecord), {{"exposure", offsetof(ExposureRecord, scale)}}},
         {GL_SHADER_STORAGE_BLOCK,
          "InstanceBuffer",
@@ -162,6 +163,12 @@ std::vector<Block> expected_blocks() {
           {"caster_triangles[0].across_bc", offsetof(CasterTriangle, corners[1].across)},
           {"caster_triangles[0].c", offsetof(CasterTriangle, corners[2].position_ms)},
           {"caster_triangles[0].across_ca", offsetof(CasterTriangle, corners[2].across)}}},
+        {GL_SHADER_STORAGE_BLOCK,
+         "LineBuffer",
+         0,
+         sizeof(debug::LineVertex),
+         {{"line_vertices[0].position_ca", offsetof(debug::LineVertex, position_ca_m)},
+          {"line_vertices[0].colour", offsetof(debug::LineVertex, colour)}}},
         {GL_SHADER_STORAGE_BLOCK, "DepthBinBuffer", 0, sizeof(SampledDepths::pixels[0]), {{"depth_bins[0]", 0}}},
     };
 }

@@ -119,6 +119,60 @@ TEST_F(DebugViews, AViewOfLookupsBindsWhatTheLightsOwnPassDoesAndBlendsOverThePi
     }
 }
 
+TEST_F(DebugViews, LinesAreOneDrawOverThePictureThatReadsItsDepths) {
+    step();
+    step();
+    const gl::CommandList plain = frame->commands();
+    settings.debug = {.view = debug::find_view("frusta"), .area = {10, 20, 100, 50}};
+    step();
+    const std::vector<gl::Command> added = added_to(plain);
+    std::size_t draws = 0;
+    for (const gl::Command& c : added) {
+        if (const auto* lines = std::get_if<gl::DrawLines>(&c)) {
+            ++draws;
+            EXPECT_GE(lines->vertex_count, 24u);
+            EXPECT_EQ(lines->vertex_count % 2, 0u);
+        }
+        if (const auto* storage = std::get_if<gl::BindStorage>(&c)) {
+            EXPECT_EQ(storage->buffer.id, id_of("debug lines"));
+        }
+        if (const auto* scissor = std::get_if<gl::SetScissor>(&c)) {
+            EXPECT_EQ(scissor->rect, settings.debug.area);
+        }
+        if (const auto* pass = std::get_if<gl::BeginPass>(&c)) {
+            EXPECT_EQ(pass->target, frame->picture_target());
+            EXPECT_FALSE(pass->clear_colour || pass->clear_depth);
+        }
+    }
+    EXPECT_EQ(draws, 1u);
+    EXPECT_EQ(made("debug/lines.frag"), 1u);
+    settings.debug.view = debug::find_view("sets");
+    settings.debug.light = "lamp";
+    step();
+    EXPECT_EQ(made("debug/lines.frag"), 1u) << "both views of lines share one program";
+}
+
+TEST_F(DebugViews, WithoutTheirProgramOrBufferLinesAndLookupsAreLeftOut) {
+    for (const char* view : {"frusta", "texels"})
+        for (std::uint64_t call = 0; call < 2; ++call) {
+            SCOPED_TRACE(std::string(view) + " " + std::to_string(call));
+            frame.reset();
+            start();
+            settings.debug = {};
+            step();
+            step();
+            const gl::CommandList plain = frame->commands();
+            device.fail_call(device.calls() + call, gl::Failure::out_of_memory);
+            settings.debug = {.view = debug::find_view(view), .light = "lamp"};
+            step();
+            EXPECT_EQ(frame->commands(), plain);
+            EXPECT_TRUE(frame->debug_labels().empty());
+            device.stop_failing();
+            for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
+            EXPECT_FALSE(frame->debug_labels().empty()) << "it does not come back";
+        }
+}
+
 TEST_F(DebugViews, ALightWithoutAMapIsNotLookedUpAndSaysWhy) {
     settings.shadows = false;
     settings.debug = {.view = debug::find_view("cascades"), .light = "lamp"};

@@ -5,6 +5,9 @@
 #ifdef SHADOW_MANUAL_BIAS
 #include "shadow/bias_manual.glsl"
 #endif
+#ifdef SHADOW_SHOWN
+#include "shadow/lookup_facts.glsl"
+#endif
 #include "shadow/spread.glsl"
 #include "shadow/source.glsl"
 #include "shadow/kinds/map_2d.glsl"
@@ -41,6 +44,9 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
 #endif
     point.spread_texel = spread;
     point.position_ca = position_ca;
+#ifdef SHADOW_SHOWN
+    point.facts = facts_orthographic(view, bias, cascade_range_m(view, position_la));
+#endif
     // A cascade draws only what can darken its own depth range: before it, the next one knows better.
     point.covered = point.covered && projected.z <= projected.w;
     return point;
@@ -50,6 +56,9 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
 #include "shadow/moments/distance.glsl"
 float shadow_share(ShadowPoint point) { return orthographic_share(point.reference); }
 #endif
+
+// Along the view that the cascades are fitted to.
+float fitted_distance_m(vec3 position_ca) { return dot(position_ca, light.position.xyz) + light.position.w; }
 
 int cascade_at(float distance_m) {
     int i = 0;
@@ -77,7 +86,7 @@ float share_toward_border(ShadowPoint point) {
 int found_cascade;
 
 ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    if (lookup == 0) found_cascade = (light.options.z != 0 ? cascade_at(dot(position_ca, light.position.xyz)) : 0) - 1;
+    if (lookup == 0) found_cascade = (light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0) - 1;
     ShadowPoint point;
     do {
         ++found_cascade;
@@ -90,7 +99,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_
 float shadow_fade_share(ShadowPoint first, float reach_texel) {
     if (!first.covered || light.bias.y <= 0.0 || found_cascade + 1 >= light.options.x) return 0.0;
     if (light.options.z == 0) return share_toward_border(first);
-    return share_at(found_cascade, dot(first.position_ca, light.position.xyz));
+    return share_at(found_cascade, fitted_distance_m(first.position_ca));
 }
 
 // Where the next cascade's map does not hold the point, there is nothing to fade into.

@@ -22,6 +22,9 @@ struct ShadowPoint {
     vec3 normal;        // of the receiver
 #endif
     float reads_texel;  // how far from it texels are read
+#ifdef SHADOW_SHOWN
+    LookupFacts facts;
+#endif
 #ifdef SHADOW_TRIANGLES
     float error_m;        // how far position_ca may be off the true surface
 #endif
@@ -147,7 +150,11 @@ ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_te
 #ifdef SHADOW_MANUAL_BIAS
 ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal) {
     point.slope = shadow_slope(point, normal);
-    point.map.z = clamp(point.map.z + receiver_plane_margin(point.slope), 0.0, 1.0);
+    float margin = receiver_plane_margin(point.slope);
+    point.map.z = clamp(point.map.z + margin, 0.0, 1.0);
+#ifdef SHADOW_SHOWN
+    point.facts.toward_m += margin * point.facts.depth_m;
+#endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference = point.map.z;
 #endif

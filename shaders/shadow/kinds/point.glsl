@@ -5,6 +5,9 @@
 #ifdef SHADOW_MANUAL_BIAS
 #include "shadow/bias_manual.glsl"
 #endif
+#ifdef SHADOW_SHOWN
+#include "shadow/lookup_facts.glsl"
+#endif
 #include "shadow/spread.glsl"
 #include "shadow/source.glsl"
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
@@ -43,6 +46,9 @@ struct ShadowPoint {
 #endif
 #ifdef SHADOW_MANUAL_BIAS
     vec3 plane;           // the receiver's, where dot(plane, position) is 1, if taps are compared on it
+#endif
+#ifdef SHADOW_SHOWN
+    LookupFacts facts;
 #endif
 };
 
@@ -247,6 +253,9 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     point.bias_depth = bias.depth;
     point.spread_texel = spread;
     point.position_ca = position_ca;
+#ifdef SHADOW_SHOWN
+    point.facts = facts_perspective(view, bias, length(position_la), z_m);
+#endif
 #ifdef SHADOW_DEPTHS
     map_axes = face_axes(point.position);
     z_m = largest(point.position);
@@ -270,6 +279,9 @@ ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal_ws) {
     float margin = receiver_plane_margin(shadow_slope(point, normal_ws));
     point.plane = -normal / light_from_plane_m(point, normal);
     point.bias_depth += margin;
+#ifdef SHADOW_SHOWN
+    point.facts.toward_m += margin * point.facts.depth_m;
+#endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     point.reference += margin;
 #endif

@@ -5,6 +5,9 @@
 #ifdef SHADOW_MANUAL_BIAS
 #include "shadow/bias_manual.glsl"
 #endif
+#ifdef SHADOW_SHOWN
+#include "shadow/lookup_facts.glsl"
+#endif
 #include "shadow/spread.glsl"
 #include "shadow/source.glsl"
 #include "shadow/kinds/map_2d.glsl"
@@ -35,6 +38,9 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
 #endif
     point.spread_texel = spread;
     point.position_ca = position_ca;
+#ifdef SHADOW_SHOWN
+    point.facts = facts_perspective(view, bias, length(position_la), -position_map.z);
+#endif
     return point;
 }
 

@@ -19,6 +19,16 @@ TEST(DebugRequest, ViewsOfALightNameItAndMayNameOneMap) {
     EXPECT_EQ(one.value().layer, 3u);
 }
 
+TEST(DebugRequest, AViewThatCanShowAllLightsNeedsNone) {
+    const auto all = read_debug_request("frusta");
+    ASSERT_TRUE(all) << to_line(all.error());
+    EXPECT_EQ(all.value().light, "");
+    EXPECT_FALSE(check_debug_light(all.value(), {"sun"}));
+    EXPECT_EQ(read_debug_request("frusta:sun:2").value().layer, 2u);
+    EXPECT_THAT(list_debug_views(), HasSubstr("frusta[:LIGHT[:MAP]]"));
+    EXPECT_THAT(list_debug_views(), HasSubstr("sets:LIGHT[:MAP]"));
+}
+
 TEST(DebugRequest, AnythingElseIsRefusedOnOneLine) {
     const std::pair<const char*, const char*> rows[] = {{"", "debug.view"},
                                                         {"deep:sun", "debug.view"},
@@ -32,6 +42,9 @@ TEST(DebugRequest, AnythingElseIsRefusedOnOneLine) {
                                                         {"depth:sun:8", "debug.syntax"},
                                                         {"depth:sun:1:2", "debug.syntax"},
                                                         {"depth::1", "debug.syntax"},
+                                                        {"frusta:", "debug.syntax"},
+                                                        {"frusta::1", "debug.syntax"},
+                                                        {"sets", "debug.syntax"},
                                                         {"x\ny", "debug.view"}};
     for (const auto& [text, rule] : rows) {
         const auto request = read_debug_request(text);

@@ -1,0 +1,58 @@
+#pragma once
+#include <gmock/gmock.h>
+
+#include "systems/debug/debug_view.h"
+
+namespace gnomon::debug {
+
+/// A sun with four cascades, a lamp with one map and a third light that has none; one camera.
+struct ViewTest : ::testing::Test {
+    ViewTest() {
+        for (const char* name : {"sun", "lamp", "dark"}) {
+            LightItem& light = scene.lights.emplace_back();
+            light.name = name;
+            light.has_shadow = true;
+        }
+        scene.consumers.emplace_back();
+        frame.inputs.emplace_back();
+        frame.demands = {{.light = 0}, {.light = 1}, {.light = 2}};
+        frame.sets.resize(3);
+        frame.sets[2].skip = Reason::no_caster;
+        for (std::uint32_t i = 0; i < 4; ++i) add_view(0, i, shadow::ViewProjection::orthographic);
+        add_view(1, 0, shadow::ViewProjection::perspective);
+    }
+    void add_view(std::uint32_t demand, std::uint32_t layer, shadow::ViewProjection projection) {
+        shadow::ShadowView& view = frame.views.emplace_back();
+        view.demand = demand;
+        view.layer = layer;
+        view.projection = projection;
+        view.near_m = 0.5;
+        view.far_m = 12.5;
+        view.texel_m = 0.0125;
+        frame.slots.emplace_back().texture = {demand + 1};
+    }
+    /// `items` are instances of the scene.
+    shadow::IndexRange add(std::vector<std::uint32_t>& all, std::initializer_list<std::uint32_t> items) {
+        const auto first = static_cast<std::uint32_t>(all.size());
+        all.insert(all.end(), items);
+        return {first, static_cast<std::uint32_t>(items.size())};
+    }
+    std::optional<Drawing> draw(const char* view, const std::string& light, std::optional<std::uint32_t> layer = {}) {
+        request.view = find_view(view);
+        request.light = light;
+        request.layer = layer;
+        return request.view->draw({scene, frame, request, {10, 20, 400, 300}, fitted});
+    }
+    static std::vector<std::string> texts(const Drawing& drawing) {
+        std::vector<std::string> all;
+        for (const Label& label : drawing.labels) all.push_back(label.text);
+        return all;
+    }
+
+    SceneSnapshot scene;
+    shadow::ShadowFrame frame;
+    Request request;
+    const ConsumerItem* fitted = nullptr;
+};
+
+}  // namespace gnomon::debug
