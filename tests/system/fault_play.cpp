@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "tests/system/passes.h"
 
@@ -93,9 +94,13 @@ std::vector<FaultPlay::LightOutcome> FaultPlay::run_frame(Host& host, int index)
                     {.viewport_px = {320, 180}, .exposure_ev = {}, .present = true, .repeatable = true});
     const std::vector<Pass> passes = passes_of(host.frame->commands(), *host.device);
     std::vector<LightOutcome> lights;
-    for (const LightReport& light : host.frame->report().lights)
+    const std::vector<LightReport>& reports = host.frame->report().lights;
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        const LightReport& light = reports[i];
+        const ShadowFilter filter = host.frame->snapshot().lights[i].shadow.filter;
         lights.push_back({light.name, light.kind, light.state, light.reason, light.bytes,
-                          samples_map(passes, light.name, *host.device)});
+                          samples_map(passes, light.name, *host.device), shadow::filter_row(filter).file});
+    }
     return lights;
 }
 
@@ -121,18 +126,20 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
     std::vector<std::string> lost, expected;
     for (const LightOutcome& light : lights)
         if (is_loss(light.reason)) lost.push_back(light.name);
-    const bool is_sampler = starts_with(call.label, "shadow compare") || call.label == "shadow depths";
+    const bool is_sampler = starts_with(call.label, "shadow compare") || call.label == "shadow depths" ||
+                            call.label == "shadow moments";
     const bool of_all =
         is_sampler || call.label == "caster triangles" || (call.frame == 0 && call.label == "instances");
     const bool of_some = starts_with(call.label, "depth ") || starts_with(call.label, "shadow draw items") ||
-                         starts_with(call.label, "shadow views") || (call.frame > 0 && call.label == "instances");
-    const bool of_kind = call.label.find("filters") != std::string::npos;
+                         starts_with(call.label, "shadow views") || starts_with(call.label, "moments ") ||
+                         call.label == "shadow moment records" || (call.frame > 0 && call.label == "instances");
+    const bool of_kind = call.label.find("filters") != std::string::npos && !of_some;
     for (const LightOutcome& light : lights) {
         const std::string map = "shadow map " + light.name;
-        const bool own = call.label == map || call.label == map + ", triangles";
+        const bool own = call.label == map || starts_with(call.label, map + ", ");  // triangles, moments, scratch
         const std::string define = " " + std::string(shadow::light_kind_row(light.kind).define) + " ";
         const bool sun_unread = call.is_reading && light.kind == LightKind::directional;
-        if (own || of_all || sun_unread || (of_kind && call.label.find(define) != std::string::npos))
+        if (own || of_all || sun_unread || (of_kind && call.label.find(define + std::string(light.filter_file)) != std::string::npos))
             expected.push_back(light.name);
     }
     if (of_some) {

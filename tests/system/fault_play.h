@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/gl/device_recording.h"
@@ -47,6 +48,7 @@ private:
         Reason reason;
         std::uint64_t bytes;
         bool samples_map;  // in its own pass
+        std::string_view filter_file;
     };
     /// A device and what lives on it.
     struct Host {

@@ -36,6 +36,12 @@ FaultScene box_scene() {
     world->add_light(LightKind::directional, kLightPlace_m, "sun");
     world->add_light(LightKind::spot, kLightPlace_m, "spot");
     world->add_light(LightKind::point, {0, 4, 0}, "point");
+    const auto prefiltered = [&](LightKind kind, const char* name, ShadowFilter filter) {
+        const ecs::Entity light = world->add_light(kind, kLightPlace_m, name);
+        world->registry.patch<LightShadow>(light, [filter](LightShadow& shadow) { shadow.filter = filter; });
+    };
+    prefiltered(LightKind::spot, "variance", ShadowFilter::vsm);
+    prefiltered(LightKind::point, "moments", ShadowFilter::moments);
     const auto newcomer = std::make_shared<ecs::Entity>();
     const auto play = [world, newcomer, box = stage.box](int frame) {
         if (frame == 0 && world->registry.alive(*newcomer)) world->registry.destroy(*newcomer);
