@@ -1,5 +1,6 @@
 #include "bench/edge_bounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -17,14 +18,30 @@ using shadow::ShadowView;
 /// A cascade's lookup may lie this far from the point, beside the filter's reach: it is moved along the normal.
 constexpr double kMovedTexel = 1.0;
 
+/// A hard shadow's edge is where it is half lit.
+constexpr double kHalf = 0.5;
+
 bool orthographic(const ShadowView& view) { return view.projection == shadow::ViewProjection::orthographic; }
 
-bool holds(const ShadowView& view, const glm::dvec3& p_ws, double margin) {
+/// Where the point lies in the map of a cascade: u, v, depth, each 0 to 1 if inside.
+glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.anchor_ws_m, 1.0);
-    if (!(q.w > 0.0)) return false;
-    const glm::dvec3 at = glm::dvec3(q) / q.w;
+    return q.w > 0.0 ? glm::dvec3(q) / q.w : glm::dvec3(-1.0);
+}
+
+bool holds(const glm::dvec3& at, double margin) {
     return at.x >= margin && at.y >= margin && at.x <= 1.0 - margin && at.y <= 1.0 - margin && at.z >= 0.0 &&
-           (at.z <= 1.0 || !orthographic(view));
+           at.z <= 1.0;
+}
+
+/// How far a point has faded out of a cascade that holds it, 0 to 1: shaders/shadow/kinds/directional.glsl.
+double faded(const ShadowView& view, const glm::dvec3& at, double distance_m, double margin, double blend) {
+    if (!(blend > 0.0)) return 0.0;
+    const double band_m = view.fades_to_m - view.fades_from_m;
+    const double share = band_m > 0.0 ? std::clamp((distance_m - view.fades_from_m) / band_m, 0.0, 1.0) : 1.0;
+    if (view.seen_to_m > 0.0) return share;
+    const glm::dvec3 inside = glm::min(at, 1.0 - at);
+    return std::min(share, 1.0 - std::min({inside.x - margin, inside.y - margin, inside.z}) / blend);
 }
 
 double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
@@ -49,22 +66,30 @@ double EdgeBounds::reach_texel(const ShadowView& view) const {
     return static_cast<double>(frame_.demands[view.demand].filtering.widest_texel);
 }
 
-/// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken.
+/// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken, as
+/// where most of the light has faded into it.
 const ShadowView* EdgeBounds::view_of(std::uint32_t light, const glm::dvec3& point_ws_m) const {
     const ConsumerItem& consumer = scene_.consumers.front();
     const double distance_m = -glm::dot(point_ws_m - consumer.position_ws_m, consumer.rotation_ws[2]);
     const ShadowView* best = nullptr;
+    const ShadowView* nearer = nullptr;
     for (const ShadowView& view : frame_.views) {
         const shadow::ShadowDemand& demand = frame_.demands[view.demand];
         if (demand.light != light) continue;
         if (orthographic(view)) {
             const bool passed = view.seen_to_m > 0.0 && distance_m > view.seen_to_m;
             const double margin = (reach_texel(view) + kMovedTexel) / demand.resolution_px;
-            if (passed || !holds(view, point_ws_m, margin)) continue;
-            return &view;
+            const glm::dvec3 at = in_map(view, point_ws_m);
+            if (passed || !holds(at, margin)) continue;
+            const bool decides =
+                nearer || faded(view, at, distance_m, margin, static_cast<double>(demand.cascade_blend)) < kHalf;
+            if (decides) return &view;
+            nearer = &view;
+            continue;
         }
         if (!best || depth_from(view, point_ws_m) > depth_from(*best, point_ws_m)) best = &view;
     }
+    if (nearer) return nearer;  // with nothing to fade into
     return best && depth_from(*best, point_ws_m) > 0.0 ? best : nullptr;
 }
 

@@ -119,13 +119,13 @@ struct LightShadow {
     float near_m = 0.0f, far_m = 0.0f;
     CubeRoute cube_route = CubeRoute::automatic;
     DepthFormat depth_format = DepthFormat::d32f;
-    ShadowFit fit = ShadowFit::tight;  // of a sun's cascades; the sharpest (docs/accuracy.md compares them)
+    ShadowFit fit = ShadowFit::quantised;  // of a sun's cascades; docs/fits.md compares them
     std::uint32_t cascades = 0;        // of a sun; 0: four; at most kMaxCascades
     CascadeSplits splits = CascadeSplits::practical;
     float split_lambda = 0.7f;  // 0: uniform, 1: logarithmic
     /// CascadeSplits::manual: metres along the view, rising; 0 ends the list. One cascade more than distances.
     std::array<float, kMaxCascades - 1> split_m{};
-    float cascade_blend = 0.0f;  // share of a cascade that fades into the next one, 0 to 0.5
+    float cascade_blend = 0.1f;  // share of a cascade that fades into the next one, 0 to 0.5
     /// Of a sun's tight maps: how far their texels may grow with the distance from the camera, 0 (not) to 1 (as
     /// light-space perspective shadow maps do). Up to there it goes as far as it gains (docs/fits.md).
     float warp = 0.0f;

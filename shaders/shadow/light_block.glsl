@@ -6,7 +6,7 @@ struct ViewRecord {
     vec4 axis_v;
     vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta (see bias.glsl)
     vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl), or view distance from which a cascade fades; w: layer of the map
-    vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where the next cascade serves
+    vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where it has faded, and the next cascade serves
 };
 layout(std140, binding = 1) uniform LightBlock {
     vec4 position;             // xyz: from the camera's anchor (spot, point), or along the view that a sun's maps are fitted to (directional); w: range in metres, 0: unlimited; or how far along it the camera stands

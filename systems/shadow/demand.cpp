@@ -1,7 +1,6 @@
 #include "systems/shadow/demand.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "systems/shadow/filter_table.h"
@@ -14,6 +13,8 @@
 namespace gnomon::shadow {
 namespace {
 
+/// Also what sizes are multiples of: as many texels as a quantised grid needs, few enough that a window that grows by
+/// some pixels seldom makes new maps.
 constexpr std::uint32_t kLeastMap_px = 256;
 /// 256 MiB for one D32F layer: who wants more asks for it by resolution_px.
 constexpr std::uint32_t kLargestAutomatic_px = 8192;
@@ -34,7 +35,8 @@ void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand
     if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
     if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
     demand.view_count = cascade_count(shadow, demand.view_count);
-    demand.cascade_blend = are_splits(shadow) ? shadow.cascade_blend : 0.0f;
+    const LightShadow& usable = are_splits(shadow) ? shadow : LightShadow{};
+    demand.cascade_blend = demand.view_count > 1 ? usable.cascade_blend : 0.0f;
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
@@ -92,7 +94,7 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
         std::ceil(std::max(viewport_px.x, viewport_px.y) * static_cast<double>(texels_per_pixel) / wished_error_px);
     const auto bounded_px =
         static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
-    return std::min(std::bit_ceil(bounded_px), most_px);
+    return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
 }
 
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,

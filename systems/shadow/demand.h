@@ -7,7 +7,7 @@
 
 namespace gnomon::shadow {
 
-/// Map edge when LightShadow::resolution_px is 0: the power of two at or above texels_per_pixel (FilterRow) /
+/// Map edge when LightShadow::resolution_px is 0: the multiple of 256 at or above texels_per_pixel (FilterRow) /
 /// max_error_px times the picture's larger side, within [256, min(limit_px, 8192)]. max_error_px not above 0, or NaN,
 /// counts as 1.
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,

@@ -78,7 +78,7 @@ constexpr FilterRow kRows[] = {
     {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
      MapReading::depths, FilterStorage::depth, 2.5f},
     {ShadowFilter::triangles, "triangles", "shadow/filters/triangles.glsl", of_triangles, 3.0f, FilterWidth::fixed,
-     MapReading::depths, FilterStorage::depth_and_triangle, 2.5f, 0.75f},
+     MapReading::depths, FilterStorage::depth_and_triangle, 2.5f, 1.0f},
     prefiltered(ShadowFilter::exponential, "exponential", "shadow/filters/exponential.glsl", kExponential),
     prefiltered(ShadowFilter::vsm, "vsm", "shadow/filters/vsm.glsl", kVariance),
     prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/evsm2.glsl", kWarped),

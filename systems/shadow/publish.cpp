@@ -43,7 +43,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
                       static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
                       static_cast<float>(view.layer)};
-    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.seen_to_m);
+    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.fades_to_m);
     return record;
 }
 

@@ -91,10 +91,11 @@ struct ShadowView {
     glm::dvec2 tan_low{0.0}, tan_high{0.0};  // perspective, cube face: sides of the map at distance 1
     double seen_from_m = 0.0;                // cascades: nearest view distance this one serves
     double seen_to_m = 0.0;                  // view distance from which the next cascade serves; 0: where its map ends
-    double fades_from_m = 0.0;               // view distance from which it fades into the next, up to seen_to_m
-    double texel_m = 0.0;                    // largest diagonal of a texel across the light, at a receiver
-    double texel_extent_px = 0.0;            // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
-    double predicted_error_px = 0.0;         // how far a shadow edge may be off on screen
+    double fades_from_m = 0.0;  // view distance from which it may fade into the next, and where only its map's border
+    double fades_to_m = 0.0;    // keeps it from having done so; both 0: at any distance
+    double texel_m = 0.0;       // largest diagonal of a texel across the light, at a receiver
+    double texel_extent_px = 0.0;     // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
+    double predicted_error_px = 0.0;  // how far a shadow edge may be off on screen
     std::uint32_t consumer_mask = 0;
     bool held = false;   // meant to stay while cameras move: its casters are all that its map can show, so that the map
                          // holds; else only those that can darken what is seen now

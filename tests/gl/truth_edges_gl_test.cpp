@@ -31,7 +31,8 @@ protected:
         options.size_px = {640, 360};
         if (scene.file) options.scene = std::filesystem::path(GNOMON_DATA_DIR) / scene.file;
         if (scene.camera) options.camera = scene.camera;
-        options.settings = {std::string("resolution=") + resolution, "filter=hard"};
+        // Where two maps are mixed, a shadow of one pixel's width is grey and has no edge.
+        options.settings = {std::string("resolution=") + resolution, "filter=hard", "cascade_blend=0"};
         return options;
     }
 

@@ -8,7 +8,7 @@ class TruthWarp : public TruthTest {
 protected:
     bench::LightAccuracy sun(const char* cascades, const char* warp) {
         bench::StageOptions options;
-        options.settings = {"resolution=1024", "filter=hard", cascades, warp};
+        options.settings = {"resolution=1024", "filter=hard", "fit=tight", cascades, warp};
         const bench::Accuracy accuracy = measure(options);
         const bench::LightAccuracy* light = find_light(accuracy, "sun");
         EXPECT_NE(light, nullptr);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "tests/oracle/pixel_ray.h"
+
 namespace gnomon::oracle {
 namespace {
 
@@ -61,6 +63,18 @@ private:
     std::size_t width_, height_;
 };
 
+/// Whether the truth is another than at the pixel's centre somewhere within reach of it; rings outward.
+bool changes_within(std::size_t pixel, double reach_px, bool lit_there, const LitBetween& lit) {
+    const int rings = static_cast<int>(reach_px * kBetween);
+    for (int ring = 1; ring <= rings; ++ring)
+        for (int y = -ring; y <= ring; ++y)
+            for (int x = -ring; x <= ring; x += std::abs(y) == ring ? 1 : 2 * ring) {
+                const glm::dvec2 offset_px = glm::dvec2(x, y) / static_cast<double>(kBetween);
+                if (glm::length(offset_px) <= reach_px && lit(pixel, offset_px) != lit_there) return true;
+            }
+    return false;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> creases(const PrimaryHits& hits) {
@@ -73,8 +87,20 @@ std::vector<std::uint8_t> creases(const PrimaryHits& hits) {
     return flags;
 }
 
+LitBetween lit_between(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
+                       const LightItem& light) {
+    return [&](std::size_t pixel, const glm::dvec2& offset_px) {
+        const glm::dvec2 centre_px(pixel % hits.size_px.x, pixel / hits.size_px.x);
+        const ExactRay ray = pixel_ray(consumer, hits.camera_rel_m, centre_px + offset_px).ray;
+        const glm::dvec3 &p = hits.position_rel_m[pixel], &n = hits.normal_ws[pixel];
+        const glm::dvec3 there =
+            ray.origin + ray.direction * (glm::dot(n, p - ray.origin) / glm::dot(n, ray.direction));
+        return !tracer.blocked(there, hits.triangle[pixel], light, 0.0);
+    };
+}
+
 FarErrors far_errors(const ComparedPictures& pictures, std::span<const std::uint8_t> creases,
-                     std::span<const float> allowed_px) {
+                     std::span<const float> allowed_px, const LitBetween& lit) {
     assert(creases.size() == pictures.truth.size() && allowed_px.size() == pictures.truth.size());
     const Search search(pictures, creases);
     FarErrors errors;
@@ -86,7 +112,8 @@ FarErrors far_errors(const ComparedPictures& pictures, std::span<const std::uint
         if (search.near_edge(i, reach_px)) continue;
         if (search.near_border(i, reach_px) || search.near_crease(i, reach_px)) {
             ++(shown_lit ? errors.crease_light : errors.crease_shadow);
-        } else {
+        } else if (errors.each.size() >= kMostUnexplained ||
+                   !changes_within(i, reach_px, Search::lit(pictures.truth[i]), lit)) {
             ++(shown_lit ? errors.false_light : errors.false_shadow);
             errors.each.push_back(i);
         }

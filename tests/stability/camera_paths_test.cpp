@@ -202,7 +202,7 @@ TEST_F(CameraPaths, AQuantisedSunStepsFourTimesAtMostWhileWalkingAndMovesByWhole
     for (const char* path : {"pan", "roll", "zoom"}) {
         SCOPED_TRACE(path);
         const Walk turn = go(path, {"fit=quantised"});
-        EXPECT_LE(turn.stepped_frames, kFrames / 30);
+        EXPECT_LE(turn.stepped_frames, kFrames / 25) << "of four cascades, three each";
         EXPECT_EQ(turn.parted, 0);
         EXPECT_EQ(turn.outside, 0);
     }

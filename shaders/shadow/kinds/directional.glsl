@@ -67,10 +67,10 @@ int cascade_at(float distance_m) {
 }
 
 #ifdef SHADOW_FADES
-// 0 up to the last part of a cascade, then rising to 1 where it ends.
+// 0 up to the last part of a cascade's slice, then rising to 1 where that ends.
 float share_at(int i, float distance_m) {
     float start_m = light.views[i].numeric.z, end_m = light.views[i].anchor_from_camera.w;
-    return end_m > start_m ? clamp((distance_m - start_m) / (end_m - start_m), 0.0, 1.0) : 0.0;
+    return end_m > start_m ? clamp((distance_m - start_m) / (end_m - start_m), 0.0, 1.0) : 1.0;
 }
 
 // The same toward the border of its map.
@@ -98,8 +98,9 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_
 #ifdef SHADOW_FADES
 float shadow_fade_share(ShadowPoint first, float reach_texel) {
     if (!first.covered || light.bias.y <= 0.0 || found_cascade + 1 >= light.options.x) return 0.0;
-    if (light.options.z == 0) return share_toward_border(first);
-    return share_at(found_cascade, fitted_distance_m(first.position_ca));
+    float share = share_at(found_cascade, fitted_distance_m(first.position_ca));
+    // What a map holds beyond its slice it serves up to its border.
+    return light.options.z != 0 ? share : min(share, share_toward_border(first));
 }
 
 // Where the next cascade's map does not hold the point, there is nothing to fade into.

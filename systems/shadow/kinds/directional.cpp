@@ -90,7 +90,7 @@ std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerI
 
 /// The view serves up to there, and fades into none.
 void end_before(double distance_m, ShadowView& view) {
-    if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = distance_m;
+    if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = view.fades_to_m = distance_m;
 }
 
 }  // namespace
@@ -128,7 +128,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         view.held = input.light.shadow.fit != ShadowFit::tight;
         view.seen_from_m = alone ? slice.holds_from_m : 0.0;
         view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
-        view.fades_from_m = alone && view.held ? slice.fades_from_m : 0.0;
+        view.fades_from_m = alone ? slice.fades_from_m : 0.0;
+        view.fades_to_m = alone ? slice.serves_to_m : 0.0;
         if (view.warp != glm::dvec2(0.0))
             state_error(consumer, points_ws,
                         static_cast<double>(input.reach_texel - input.demand.filtering.still_texel), view);

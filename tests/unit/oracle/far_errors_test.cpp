@@ -16,8 +16,15 @@ struct Picture {
     std::vector<std::uint8_t> ambiguous = std::vector<std::uint8_t>(kSide * kSide, 0), creases = ambiguous;
     std::vector<float> allowed_px = std::vector<float>(kSide * kSide, 0.0f);
     static std::size_t at(std::size_t x, std::size_t y) { return y * kSide + x; }
+    /// True shadow between pixel centres: a stripe right of column stripe_from, as wide as that.
+    double stripe_from = kSide, stripe_width = 0.0;
     FarErrors errors() const {
-        return far_errors({{kSide, kSide}, measured, truth, scored, ambiguous}, creases, allowed_px);
+        const LitBetween lit = [this](std::size_t pixel, const glm::dvec2& offset_px) {
+            const double x = static_cast<double>(pixel % kSide) + offset_px.x;
+            const bool in_stripe = x > stripe_from && x < stripe_from + stripe_width;
+            return offset_px == glm::dvec2(0.0) || !in_stripe ? truth[pixel] >= 0.5f : false;
+        };
+        return far_errors({{kSide, kSide}, measured, truth, scored, ambiguous}, creases, allowed_px, lit);
     }
 };
 
@@ -49,6 +56,20 @@ TEST(FarErrors, EndWhereTheDistanceThatIsAllowedReachesATrueEdge) {
     EXPECT_EQ(p.errors().false_light, 1u);
     p.scored.assign(p.scored.size(), 0);
     EXPECT_EQ(p.errors().false_light, 0u) << "nothing of it counts";
+}
+
+TEST(FarErrors, BesideAShadowBetweenPixelCentresAreItsEdgeDisplaced) {
+    Picture p;
+    p.measured[Picture::at(20, 20)] = 0.0f;
+    p.stripe_width = 0.2;
+    p.stripe_from = 21.4;
+    EXPECT_EQ(p.errors().false_shadow, 0u);
+    p.stripe_from = 22.1;  // 2 px are allowed
+    EXPECT_EQ(p.errors().false_shadow, 1u);
+    p.allowed_px[Picture::at(20, 20)] = 2.3f;
+    EXPECT_EQ(p.errors().false_shadow, 0u);
+    p.stripe_width = 0.0;
+    EXPECT_EQ(p.errors().false_shadow, 1u);
 }
 
 TEST(FarErrors, BesideACreaseAreCountedApart) {
