@@ -29,19 +29,19 @@ using namespace glsl_in_float;
 #endif
 #define float Real
 struct Exponential {
-#include "shadow/filters/exponential.glsl"
+#include "shaders/shadow/filters/exponential.glsl"
 };
 struct Vsm {
-#include "shadow/filters/vsm.glsl"
+#include "shaders/shadow/filters/vsm.glsl"
 };
 struct Evsm2 {
-#include "shadow/filters/evsm2.glsl"
+#include "shaders/shadow/filters/evsm2.glsl"
 };
 struct Evsm4 {
-#include "shadow/filters/evsm4.glsl"
+#include "shaders/shadow/filters/evsm4.glsl"
 };
 struct Moments {
-#include "shadow/filters/moments.glsl"
+#include "shaders/shadow/filters/moments.glsl"
 };
 #undef float
 #pragma GCC diagnostic pop
