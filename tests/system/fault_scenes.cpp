@@ -12,14 +12,17 @@ namespace {
 
 constexpr double kFrame_s = 1.0 / 60.0;
 
-FaultScene courtyard(CascadeSplits splits) {
+FaultScene courtyard(CascadeSplits splits, ShadowFit fit) {
     auto data = game::load_game_scene();
     if (!data) throw std::runtime_error(to_line(data.error()));
     const auto library = std::make_shared<assets::MeshLibrary>();
     const auto registry = std::make_shared<ecs::Registry>();
     const game::SpawnedScene scene = game::spawn_scene(std::move(data).value(), *registry, *library);
     for (const game::NamedEntity& light : scene.lights)
-        registry->patch<LightShadow>(light.entity, [splits](LightShadow& shadow) { shadow.splits = splits; });
+        registry->patch<LightShadow>(light.entity, [=](LightShadow& shadow) {
+            shadow.splits = splits;
+            shadow.fit = fit;
+        });
     const auto play = [registry, moving = scene.moving](int frame) {
         game::apply_motion(moving, frame * kFrame_s, *registry);
     };
@@ -51,7 +54,8 @@ FaultScene box_scene() {
     return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
 }
 
-FaultScene courtyard_scene() { return courtyard(LightShadow{}.splits); }
-FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled); }
+FaultScene courtyard_scene() { return courtyard(LightShadow{}.splits, LightShadow{}.fit); }
+// A held fit would go on from what it held while depths were missing, not from what it holds without a fault.
+FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled, ShadowFit::tight); }
 
 }  // namespace gnomon
