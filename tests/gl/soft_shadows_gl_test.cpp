@@ -68,7 +68,7 @@ TEST_F(SoftShadows, WithoutASizeAreThoseOfTheSharpFilterToTheBit) {
         SCOPED_TRACE(kind_name(kind));
         std::vector<float> shown[2];
         for (const ShadowFilter filter : {ShadowFilter::pcss, ShadowFilter::sharp_4x4}) {
-            build(kind, 0.8, {.filter = filter, .resolution_px = 1024});
+            build(kind, 0.8, {.filter = filter, .resolution_px = 1024, .cascade_blend = 0.0f});
             draw();
             shown[filter == ShadowFilter::pcss] = visibility();
         }

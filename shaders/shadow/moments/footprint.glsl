@@ -1,6 +1,6 @@
 // What a pixel covers of the receiver's plane, and so of a prefiltered map (SHADOW_FOOTPRINT): derivatives that a neighbouring
-// pixel's surface, cascade or loop cannot spoil.
-#include "shared/camera_block.glsl"
+// pixel's surface, cascade or loop cannot spoil. CameraBlock comes with row.glsl: an include that one row's condition hides
+// would be missing in another, as each file is taken once.
 #include "shared/numerics.glsl"
 
 // How far the plane's point moves as the pixel moves by one. across: camera.right or camera.up; pixels: of the picture along it.

@@ -20,7 +20,11 @@ float reach_texel(const FitInput& input, const TangentRectangle& crop, const Per
     const FilterDemand& filter = input.demand.filtering;
     if (!needs_distances(filter)) return input.reach_texel;
     const glm::dvec2 sides = crop.high - crop.low;
-    const double widest = static_cast<double>(filter.source_radius_m) * (1.0 / range.near_m - 1.0 / range.far_m);
+    // The source stands across the ray: away from the axis its picture is longer, as 1 / cos (source.glsl).
+    const glm::dvec2 corner = glm::max(glm::abs(crop.low), glm::abs(crop.high));
+    const double longer = std::sqrt(1.0 + glm::dot(corner, corner));
+    const double widest =
+        longer * static_cast<double>(filter.source_radius_m) * (1.0 / range.near_m - 1.0 / range.far_m);
     return penumbra_border_texel(input, std::min(sides.x, sides.y), widest);
 }
 
