@@ -34,7 +34,8 @@ CascadeFit cascade_fit(ShadowFit mode);
 
 /// A flat set of receivers gets at least this share of the largest extent, so that nothing divides by zero.
 inline constexpr double kLeastExtent = 1.0 / (1 << 20);
-/// Receivers at the ends of the depth range stay clear of the clamp by this share of the range.
+/// Receivers at the ends of the depth range stay clear of the clamp by this share of the largest extent, so that
+/// rounding takes none out of the range even where all lie at one depth: a lookup rounds by 2^-14 of it at most.
 inline constexpr double kDepthSlack = 1.0 / (1 << 10);
 
 /// A lattice point near `centre_ws`, the same for all fits of about this size: fixed to the world while cameras move.
@@ -43,7 +44,10 @@ glm::dvec3 lattice_anchor(const glm::dvec3& centre_ws, double extent_m);
 /// Extent of a map that holds `extent_m` and the border that a filter needs.
 double with_border(double extent_m, const FitInput& input);
 
-/// Where the map lies that has this centre (world, in metres) and these extents; fills all of `box` but its axes.
-void place(const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth_m, OrthographicBox& box);
+/// Where the map lies that has this centre (world, in metres) and these extents; fills all of `box` but its axes. Depth
+/// gets slack at both ends, and before the receivers as much room as the bias may lift them: one that reached the near
+/// plane would be lit below a caster that is flattened onto it.
+void place(const CascadeInput& input, const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth_m,
+           OrthographicBox& box);
 
 }  // namespace gnomon::shadow

@@ -43,13 +43,30 @@ double with_border(double extent_m, const FitInput& input) {
     return extent_m * size_px / (size_px - 2.0 * border_px(size_px, static_cast<double>(input.reach_texel)));
 }
 
-void place(const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth_m, OrthographicBox& box) {
-    box.anchor_ws_m = lattice_anchor(centre_ws, std::max({extent_m.x, extent_m.y, depth_m}));
+namespace {
+
+/// Texels of height by which the bias may lift a receiver, per texel of the filter's reach: kSteepTangent of bias.glsl
+/// along both sides of a texel, 4 sqrt(2), and rounding. Beyond it moves along the normal, by less.
+constexpr double kMostRise = 6.0;
+
+double bias_room(const ShadowDemand& demand, const glm::dvec2& extent_m) {
+    const FilterDemand& filter = demand.filtering;
+    const auto reach_texel = static_cast<double>(needs_distances(filter) ? filter.reach_texel : filter.widest_texel);
+    return kMostRise * reach_texel * std::max(extent_m.x, extent_m.y) / demand.resolution_px;
+}
+
+}  // namespace
+
+void place(const CascadeInput& input, const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth_m,
+           OrthographicBox& box) {
+    const double largest_m = std::max({extent_m.x, extent_m.y, depth_m});
+    const double slack_m = kDepthSlack * largest_m;
+    box.anchor_ws_m = lattice_anchor(centre_ws, largest_m);
     const glm::dvec3 c = (centre_ws - box.anchor_ws_m) * box.axes;
     box.centre_m = glm::dvec2(c);
     box.half_extent_m = 0.5 * extent_m;
-    box.near_m = -c.z - 0.5 * depth_m;
-    box.far_m = -c.z + 0.5 * depth_m;
+    box.near_m = -c.z - 0.5 * depth_m - slack_m - bias_room(input.light.demand, extent_m);
+    box.far_m = -c.z + 0.5 * depth_m + slack_m;
 }
 
 namespace {

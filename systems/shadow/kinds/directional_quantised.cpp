@@ -71,7 +71,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     next.used = true;
 
     box.axes = input.basis;
-    place(input.basis * (low + 0.5 * size), glm::dvec2(size), size.z, box);
+    place(input, input.basis * (low + 0.5 * size), glm::dvec2(size), size.z, box);
     return true;
 }
 

@@ -25,7 +25,7 @@ bool fit_stable(const CascadeInput& input, OrthographicBox& box) {
     const glm::dvec3 centre_ws = consumer.position_ws_m - consumer.rotation_ws[2] * sphere.centre_m;
     box.axes = input.basis;
     const glm::dvec3 snapped = glm::round((centre_ws * input.basis) / place_m) * place_m;
-    place(input.basis * snapped, glm::dvec2(side_m), side_m, box);
+    place(input, input.basis * snapped, glm::dvec2(side_m), side_m, box);
     return true;
 }
 

@@ -37,12 +37,12 @@ bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
     box.axes[1] = input.basis[1] * rectangle.axis_u.x - input.basis[0] * rectangle.axis_u.y;
     box.axes[2] = input.basis[2];
     const glm::dvec2 least(largest * std::max(kLeastExtent, kLeastTexel * input.light.demand.resolution_px));
-    const double depth_m = std::max(highest - lowest, largest * kLeastExtent) * (1.0 + 2.0 * kDepthSlack);
     const glm::dvec2 middle = 0.5 * (rectangle.min + rectangle.max);
     const glm::dvec3 centre_ws =
         origin_ws + box.axes[0] * middle.x + box.axes[1] * middle.y + box.axes[2] * (0.5 * (lowest + highest));
     const glm::dvec2 held = glm::max(extent, least);
-    place(centre_ws, {with_border(held.x, input.light), with_border(held.y, input.light)}, depth_m, box);
+    place(input, centre_ws, {with_border(held.x, input.light), with_border(held.y, input.light)}, highest - lowest,
+          box);
     return true;
 }
 
