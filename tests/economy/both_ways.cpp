@@ -1,0 +1,45 @@
+#include "tests/economy/both_ways.h"
+
+#include <gtest/gtest.h>
+
+namespace gnomon {
+
+BothWays::BothWays(gl::Device& device, const assets::MeshLibrary& library)
+    : device_(device),
+      library_(library),
+      lighting_(device),
+      sides_{std::make_unique<Side>(device), std::make_unique<Side>(device)} {
+    auto gpu = GpuScene::create(device, library);
+    EXPECT_TRUE(gpu);
+    if (gpu) gpu_ = std::make_unique<GpuScene>(std::move(gpu).value());
+}
+
+void BothWays::run(ecs::Registry& world, glm::uvec2 viewport_px, const std::function<void(const Picture&)>& look) {
+    const TransformReport& transforms = transforms_.update(world);
+    extractor_.update(world, library_, transforms, viewport_px, snapshot_);
+    world.discard_changes();
+    for (const Way way : {kThrifty, kLavish}) sides_[way]->scene = snapshot_;
+    for (LightItem& light : sides_[kLavish]->scene.lights) light.shadow.economy = false;
+    if (mislead) mislead(sides_[kThrifty]->scene);
+    for (const Way way : {kThrifty, kLavish}) run_side(way, look);
+}
+
+void BothWays::run_side(Way way, const std::function<void(const Picture&)>& look) {
+    Side& side = *sides_[way];
+    side.commands.clear();
+    side.report.clear();
+    if (way == kThrifty) gpu_->update(snapshot_, side.commands);
+    const shadow::ShadowFrame& frame = side.shadows.update(side.scene, *gpu_, true, side.commands, side.report);
+    if (frame.inputs.empty()) {
+        EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
+    }
+    for (const shadow::LightingInputs& inputs : frame.inputs) {
+        EXPECT_TRUE(lighting_.record(inputs, side.scene, *gpu_, {}, side.commands, side.report));
+        EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
+        look({way, inputs, side.commands});
+        side.commands.clear();
+    }
+    side.shadows.commit(side.scene, true);
+}
+
+}  // namespace gnomon

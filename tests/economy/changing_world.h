@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "tests/system/test_world.h"
+
+namespace gnomon {
+
+/// A world in which anything may change from one frame to the next, the same way for the same seed: lights, casters and
+/// up to three cameras appear, move, take other settings, turn away, and vanish. Half of the frames change nothing, so
+/// that there is something to save.
+class ChangingWorld {
+public:
+    /// `filters`: what lights choose from; each one costs programs.
+    ChangingWorld(std::uint64_t seed, std::vector<ShadowFilter> filters);
+
+    ecs::Registry& registry() { return world_.registry; }
+    /// To be called before each frame.
+    void change();
+
+    static constexpr std::size_t kMostLights = 5, kMostCasters = 12, kMostCameras = 3;
+
+private:
+    double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+    bool chance(double share) { return number(0.0, 1.0) < share; }
+    std::uint32_t below(std::size_t count);
+    template <class T>
+    const T& any_of(const std::vector<T>& from) {
+        return from[below(from.size())];
+    }
+    glm::dvec3 place(double low_m, double high_m);
+    LightShadow any_shadow();
+    void add_light();
+    void add_caster();
+    void add_camera();
+    void turn_camera(ecs::Entity camera);
+    void change_light(ecs::Entity light);
+    void change_caster(ecs::Entity caster);
+    void remove_one(std::vector<ecs::Entity>& from);
+
+    std::mt19937_64 random_;
+    std::vector<ShadowFilter> filters_;
+    TestWorld world_;
+    std::vector<ecs::Entity> lights_, casters_, cameras_;
+};
+
+/// Of the scripted runs: fixed, so that a failure is everybody's; GNOMON_TEST_SEED sets another, a long run takes a
+/// random one. Printed.
+std::uint64_t script_seed();
+
+}  // namespace gnomon

@@ -1,0 +1,123 @@
+#include <array>
+#include <bit>
+#include <cstdlib>
+#include <iostream>
+
+#include "systems/shadow/filter_table.h"
+#include "tests/economy/both_ways.h"
+#include "tests/economy/changing_world.h"
+#include "tests/gl/gl_test_context.h"
+#include "tests/oracle/reference_tracer.h"
+
+/// The scripted runs in pictures: the visibility of every light, for every camera, is bit for bit that of economy=off,
+/// where every view is drawn in every frame. What gets no shadow at all is held against rays.
+namespace gnomon {
+namespace {
+
+constexpr glm::uvec2 kPicture_px{96, 64};
+
+/// One of each way to store a map and to read it; all of them in a long run, since each costs programs.
+std::vector<ShadowFilter> filters_of_run() {
+    if (!std::getenv("GNOMON_LONG"))
+        return {ShadowFilter::hardware_2x2, ShadowFilter::triangles, ShadowFilter::evsm2, ShadowFilter::pcss};
+    std::vector<ShadowFilter> filters;
+    for (const shadow::FilterRow& row : shadow::filter_table()) filters.push_back(row.id);
+    return filters;
+}
+
+class EconomyIdentityGl : public GlTest {
+protected:
+    using Way = BothWays::Way;
+    using Floats = std::vector<float>;
+
+    void TearDown() override {
+        both.reset();
+        GlTest::TearDown();
+    }
+    Floats visibility_of(const shadow::LightingInputs& inputs, std::uint32_t light) {
+        gl::CommandList list;
+        EXPECT_TRUE(both->lighting().record_visibility(inputs, light, both->gpu(), list));
+        run(list);
+        return read<float>(both->lighting().visibility_texture(), std::size_t{kPicture_px.x} * kPicture_px.y);
+    }
+    /// Pixels of lights that differ; a run that is misled ends with the first.
+    std::size_t play(int frames) {
+        both = std::make_unique<BothWays>(device(), library);
+        both->mislead = mislead;
+        std::size_t differing = 0;
+        for (int frame = 0; frame < frames && !(mislead && differing > 0); ++frame) {
+            world.change();
+            for (std::vector<Floats>& seen : visibilities) seen.clear();
+            both->run(world.registry(), kPicture_px, [&](const BothWays::Picture& p) {
+                for (std::uint32_t i = 0; i < p.inputs.lights.size(); ++i)
+                    visibilities[p.way].push_back(visibility_of(p.inputs, i));
+            });
+            differing += difference();
+            if (!mislead && frame % kTruthEvery == 0) compare_unshadowed_with_rays();
+            for (const LightReport& light : both->report(Way::kThrifty).lights) thrifty_views += light.views_drawn;
+            for (const LightReport& light : both->report(Way::kLavish).lights) lavish_views += light.views_drawn;
+        }
+        return differing;
+    }
+    std::size_t difference() {
+        const std::vector<Floats>&a = visibilities[Way::kThrifty], &b = visibilities[Way::kLavish];
+        EXPECT_EQ(a.size(), b.size());
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+            for (std::size_t p = 0; p < a[i].size(); ++p) {
+                differing += std::bit_cast<std::uint32_t>(a[i][p]) != std::bit_cast<std::uint32_t>(b[i][p]) ? 1 : 0;
+                shadowed += a[i][p] >= 0.0f && a[i][p] < 1.0f ? 1 : 0;
+            }
+        return differing;
+    }
+    /// Lights without a map because nothing that is seen could be dark: no ray may say otherwise.
+    void compare_unshadowed_with_rays() {
+        const SceneSnapshot& scene = both->scene();
+        for (std::size_t c = 0; c < scene.consumers.size(); ++c) {
+            const oracle::ReferenceTracer tracer(scene, library, scene.consumers[c].position_ws_m);
+            oracle::PrimaryHits hits;
+            for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+                const Reason reason = both->report(Way::kThrifty).lights[i].reason;
+                if (reason != Reason::no_caster && reason != Reason::no_visible_receiver) continue;
+                if (hits.count() == 0) hits = tracer.trace_primary(scene.consumers[c]);
+                const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights[i], true);
+                const Floats& seen = visibilities[Way::kThrifty][c * scene.lights.size() + i];
+                for (std::size_t p = 0; p < seen.size(); ++p) {
+                    if (!truth.scored[p] || truth.ambiguous[p]) continue;
+                    ++judged;
+                    lost += truth.visibility[p] < 1.0f && seen[p] > 0.0f ? 1 : 0;
+                }
+            }
+        }
+    }
+
+    static constexpr int kTruthEvery = 5;
+    const assets::MeshLibrary library = test_library();
+    ChangingWorld world{script_seed(), filters_of_run()};
+    std::unique_ptr<BothWays> both;
+    std::function<void(SceneSnapshot&)> mislead;
+    std::array<std::vector<Floats>, BothWays::kWays> visibilities;  // by consumer, then by light
+    std::uint64_t thrifty_views = 0, lavish_views = 0, shadowed = 0, judged = 0, lost = 0;
+};
+
+TEST_F(EconomyIdentityGl, EveryLightsVisibilityIsThatOfEconomyOffToTheBit) {
+    const int frames = std::getenv("GNOMON_LONG") ? 3000 : 300;
+    EXPECT_EQ(play(frames), 0u);
+    EXPECT_EQ(lost, 0u) << "pixels that rays find dark, of lights that were skipped";
+    // The run did what it is for.
+    EXPECT_LT(thrifty_views * 2, lavish_views);
+    EXPECT_GT(shadowed, 100000u);
+    EXPECT_GT(judged, 1000u);
+    std::cout << frames << " frames: " << thrifty_views << " views drawn, " << lavish_views << " with economy off; "
+              << shadowed << " dark pixels alike; " << judged << " pixels of skipped lights traced\n";
+}
+
+TEST_F(EconomyIdentityGl, AMoveThatASignatureMissesWouldBeSeen) {
+    mislead = [](SceneSnapshot& scene) {
+        for (InstanceItem& item : scene.instances) item.version = 1;
+    };
+    EXPECT_GT(play(300), 0u);
+}
+
+}  // namespace
+}  // namespace gnomon
