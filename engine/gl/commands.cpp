@@ -125,6 +125,10 @@ struct Writer {
     std::string operator()(const CopyBuffer& c) const {
         return "CopyBuffer" + field("source", c.source) + field("destination", c.destination);
     }
+    std::string operator()(const CopyTexture& c) const {
+        return "CopyTexture" + field("source", c.source) + field("destination", c.destination) +
+               field("layer", c.layer);
+    }
     std::string operator()(const GenerateMips& c) const { return "GenerateMips" + field("texture", c.texture); }
     std::string operator()(const Blit& c) const {
         return "Blit" + field("source", c.source) + field("destination", c.destination) + field("from", c.from) +

@@ -127,6 +127,14 @@ struct CopyBuffer {
     bool operator==(const CopyBuffer&) const = default;
 };
 
+/// Copies one layer (of a cube: a face), its first mip, to the same layer of another texture of the same format and
+/// size, outside passes. Stored values are copied as they are, depth as well.
+struct CopyTexture {
+    TextureHandle source{}, destination{};
+    std::uint32_t layer = 0;
+    bool operator==(const CopyTexture&) const = default;
+};
+
 struct GenerateMips {
     TextureHandle texture{};
     bool operator==(const GenerateMips&) const = default;
@@ -151,7 +159,7 @@ struct EndTimer {
 
 using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
                              BindUniforms, BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
-                             Dispatch, CopyBuffer, GenerateMips, Blit, BeginTimer, EndTimer>;
+                             Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;

@@ -154,4 +154,9 @@ Failure check_attachment(const Attachment& attachment, const TextureDesc* textur
     return whole || all || one ? Failure::none : Failure::incomplete_target;
 }
 
+bool can_copy(const TextureDesc& source, const TextureDesc& destination, std::uint32_t layer) {
+    return source.format == destination.format && source.width == destination.width &&
+           source.height == destination.height && layer < std::min(layer_count(source), layer_count(destination));
+}
+
 }  // namespace gnomon::gl

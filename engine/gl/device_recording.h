@@ -27,7 +27,7 @@ enum class Misuse : std::uint8_t {
     dispatch_inside_pass,
     dispatch_of_nothing,  // no work groups
     copy_inside_pass,
-    copy_mismatch,         // sizes differ, onto itself, or into a fixed buffer
+    copy_mismatch,         // sizes or formats differ, onto itself, no such layer, or into a fixed buffer
     read_of_other_buffer,  // not BufferUse::read_back, or of another size than asked for
     update_inside_pass,
     update_out_of_range,

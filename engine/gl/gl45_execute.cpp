@@ -250,6 +250,19 @@ public:
         if (destination->desc.use == BufferUse::read_back) readbacks_.expect(c.destination.id);
     }
 
+    void operator()(const CopyTexture& c) {
+        const GlTexture* source = find_object(objects_.textures, c.source.id);
+        const GlTexture* destination = find_object(objects_.textures, c.destination.id);
+        if (in_pass_ || source == nullptr || destination == nullptr || source == destination ||
+            !can_copy(source->desc, destination->desc, c.layer)) {
+            return note(Failure::invalid_value);
+        }
+        const auto layer = static_cast<GLint>(c.layer);
+        glCopyImageSubData(source->name, gl_kind(source->desc.kind), 0, 0, 0, layer, destination->name,
+                           gl_kind(destination->desc.kind), 0, 0, 0, layer, static_cast<GLsizei>(source->desc.width),
+                           static_cast<GLsizei>(source->desc.height), 1);
+    }
+
     void operator()(const GenerateMips& c) {
         const GlTexture* texture = find_object(objects_.textures, c.texture.id);
         if (texture == nullptr) return note(Failure::invalid_value);

@@ -17,18 +17,6 @@ Made<Object> failed(Failure failure, const std::string& label) {
     return {{}, failure, '"' + label + "\": " + to_text(failure)};
 }
 
-GLenum gl_kind(TextureKind kind) {
-    switch (kind) {
-        case TextureKind::flat:
-            return GL_TEXTURE_2D;
-        case TextureKind::array:
-            return GL_TEXTURE_2D_ARRAY;
-        case TextureKind::cube:
-            return GL_TEXTURE_CUBE_MAP;
-    }
-    return GL_NONE;
-}
-
 GLint gl_wrap(Wrap wrap) {
     switch (wrap) {
         case Wrap::repeat:
@@ -110,6 +98,18 @@ void attach(GLuint framebuffer, GLenum point, const Attachment& attachment, cons
 }
 
 }  // namespace
+
+GLenum gl_kind(TextureKind kind) {
+    switch (kind) {
+        case TextureKind::flat:
+            return GL_TEXTURE_2D;
+        case TextureKind::array:
+            return GL_TEXTURE_2D_ARRAY;
+        case TextureKind::cube:
+            return GL_TEXTURE_CUBE_MAP;
+    }
+    return GL_NONE;
+}
 
 GlFormat gl_format(Format format) {
     switch (format) {

@@ -48,6 +48,8 @@ struct GlFormat {
     GLenum internal = GL_NONE, layout = GL_NONE, type = GL_NONE;
 };
 GlFormat gl_format(Format format);
+/// What OpenGL calls textures of that kind.
+GLenum gl_kind(TextureKind kind);
 
 /// A new OpenGL object and what it is, or why there is none; then nothing is left behind.
 template <class Object>

@@ -130,6 +130,15 @@ public:
         destination.copied_at = submission_;
     }
 
+    void operator()(const CopyTexture& c) {
+        if (in_pass_) find(Misuse::copy_inside_pass, "a pass is open");
+        const bool source_known = known(objects_.textures, c.source.id, "source");
+        if (!known(objects_.textures, c.destination.id, "destination") || !source_known) return;
+        const TextureDesc& destination = objects_.textures.at(c.destination.id);
+        if (c.source == c.destination || !can_copy(objects_.textures.at(c.source.id), destination, c.layer))
+            find(Misuse::copy_mismatch, destination.label);
+    }
+
     void operator()(const GenerateMips& c) {
         if (!known(objects_.textures, c.texture.id, "texture")) return;
         if (in_pass_ && attached(target_, c.texture)) find(Misuse::feedback_loop, "mips of the pass's target");

@@ -111,6 +111,35 @@ TEST_P(DeviceFormat, EveryLayerSurvivesUploadAndReadback) {
     }
 }
 
+TEST_P(DeviceFormat, EveryLayerIsCopiedAloneAndAsItIs) {
+    const auto [name, format, kind] = GetParam();
+    const gl::TextureDesc desc{.label = name,
+                               .kind = kind,
+                               .format = format,
+                               .width = 8,
+                               .height = 8,
+                               .layers = kind == TextureKind::array ? 3u : 1u};
+    const std::uint32_t layers = gl::layer_count(desc);
+    const std::size_t layer_bytes = std::size_t{64} * gl::transfer_bytes(format);
+    const std::vector<std::byte> sent = pattern(format, 8 * 8 * layers), nothing(sent.size());
+    const gl::TextureHandle from = keep(device().create_texture(desc, sent));
+    const gl::TextureHandle to = keep(device().create_texture(desc, nothing));
+    const auto bytes_of = [&](gl::TextureHandle texture, std::uint32_t layer) {
+        return read<std::byte>(texture, layer_bytes, layer);
+    };
+    const std::vector<std::byte> blank = bytes_of(to, 0);
+    for (std::uint32_t copied = 0; copied < layers; ++copied) {
+        gl::CommandList list;
+        list.add(gl::CopyTexture{from, to, copied});
+        run(list);
+        for (std::uint32_t layer = 0; layer < layers; ++layer)
+            EXPECT_EQ(bytes_of(to, layer), layer <= copied ? bytes_of(from, layer) : blank) << name << " layer " << layer;
+    }
+    gl::CommandList beyond;
+    beyond.add(gl::CopyTexture{from, to, layers});
+    EXPECT_EQ(device().submit(beyond).failure, gl::Failure::invalid_value);
+}
+
 TEST_P(DeviceFormat, EveryLayerCanBeDrawnIntoAlone) {
     const char* name = GetParam().name;
     const Format format = GetParam().format;

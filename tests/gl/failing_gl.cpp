@@ -173,7 +173,8 @@ FailingGl::FailingGl() {
                   &epoxy_glTextureSubImage2D, &epoxy_glGenerateTextureMipmap, &epoxy_glClearNamedBufferData,
                   &epoxy_glNamedBufferSubData, &epoxy_glClearBufferfv, &epoxy_glDrawArrays,
                   &epoxy_glDrawElementsInstancedBaseVertexBaseInstance, &epoxy_glGetTextureSubImage,
-                  &epoxy_glDispatchCompute, &epoxy_glCopyNamedBufferSubData, &epoxy_glGetNamedBufferSubData>();
+                  &epoxy_glDispatchCompute, &epoxy_glCopyNamedBufferSubData, &epoxy_glCopyImageSubData,
+                  &epoxy_glGetNamedBufferSubData>();
     make_unmappable<&epoxy_glMapBuffer, &epoxy_glMapBufferRange, &epoxy_glMapNamedBuffer,
                     &epoxy_glMapNamedBufferRange>();
     count_created<&epoxy_glCreateBuffers, &epoxy_glCreateFramebuffers, &epoxy_glCreateSamplers,

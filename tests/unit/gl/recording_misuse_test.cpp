@@ -150,6 +150,24 @@ TEST_F(RecordingMisuse, CopiesFitTheirBuffersAndStandOutsidePasses) {
     EXPECT_THAT(of({CopyBuffer{back, indices}}), ElementsAre(Misuse::copy_mismatch)) << "indices are fixed";
 }
 
+TEST_F(RecordingMisuse, TexturesAreCopiedLayerByLayerToTheirLikeOutsidePasses) {
+    const TextureDesc cube{"cube", TextureKind::cube, Format::d32f, 8, 8};
+    const auto made = [&](const TextureDesc& desc) { return device.create_texture(desc, {}).handle; };
+    const TextureHandle map = made(cube), twin = made(cube);
+    EXPECT_THAT(of({CopyTexture{map, twin, 0}, CopyTexture{map, twin, 5}}), IsEmpty());
+    EXPECT_THAT(of({CopyTexture{map, twin, 6}}), ElementsAre(Misuse::copy_mismatch)) << "a cube has six faces";
+    EXPECT_THAT(of({CopyTexture{map, map, 0}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({pass(), CopyTexture{map, twin, 0}, EndPass{}}), ElementsAre(Misuse::copy_inside_pass));
+    TextureDesc larger = cube, coarser = cube, array = cube;
+    larger.width = larger.height = 16;
+    coarser.format = Format::d16;
+    array.kind = TextureKind::array;
+    array.layers = 6;
+    EXPECT_THAT(of({CopyTexture{map, made(larger), 0}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({CopyTexture{map, made(coarser), 0}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({CopyTexture{map, made(array), 0}}), IsEmpty()) << "layers are the faces";
+}
+
 TEST_F(RecordingMisuse, OnlyBuffersToReadBackAreReadAndNothingElseIsWrittenIntoThem) {
     const BufferHandle back = read_back(8);
     std::array<std::byte, 8> eight{};
@@ -232,6 +250,8 @@ TEST_F(RecordingMisuse, EveryHandleInACommandMustLive) {
                                            Dispatch{{999}, 1, 1},
                                            CopyBuffer{no_buffer, items},
                                            CopyBuffer{items, no_buffer},
+                                           CopyTexture{no_texture, other, 0},
+                                           CopyTexture{other, no_texture, 0},
                                            Blit{{999}, {}, {0, 0, 1, 1}, {0, 0, 1, 1}}};
     for (const Command& command : commands) {
         EXPECT_THAT(of({command}), ElementsAre(Misuse::unknown_handle)) << to_text(command);
