@@ -97,6 +97,10 @@ public:
         const GLuint* sampler = find_object(objects_.samplers, h.id);
         return sampler == nullptr ? 0 : *sampler;
     }
+    GLuint name(BufferHandle h) const {
+        const GlBuffer* buffer = find_object(objects_.buffers, h.id);
+        return buffer == nullptr ? 0 : buffer->name;
+    }
 
     Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) override {
         const Failure checked = check_texture(desc, info_, pixels.size());
@@ -241,6 +245,11 @@ unsigned gl_name(const Device& gl45_device, TextureHandle texture) {
 unsigned gl_name(const Device& gl45_device, SamplerHandle sampler) {
     const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
     return device == nullptr ? 0 : device->name(sampler);
+}
+
+unsigned gl_name(const Device& gl45_device, BufferHandle buffer) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? 0 : device->name(buffer);
 }
 
 std::size_t live_objects(const Device& gl45_device) {

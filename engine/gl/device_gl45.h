@@ -17,10 +17,11 @@ using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 /// Error if the context is below 4.5 core (rule "gl.version").
 Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink);
 
-/// OpenGL's own name of a texture or sampler, for draw calls that are not Gnomon's. 0 if there is none. The object stays
-/// the device's: it may be replaced or deleted in any later frame.
+/// OpenGL's own name of a texture, sampler or buffer, for draw calls that are not Gnomon's. 0 if there is none. The
+/// object stays the device's: it may be replaced or deleted in any later frame.
 unsigned gl_name(const Device& gl45_device, TextureHandle texture);
 unsigned gl_name(const Device& gl45_device, SamplerHandle sampler);
+unsigned gl_name(const Device& gl45_device, BufferHandle buffer);
 
 /// GL objects this device currently owns (leak checks).
 std::size_t live_objects(const Device& gl45_device);
