@@ -31,7 +31,7 @@ run(${CMAKE_COMMAND} -S ${WORK}/stranger -B ${WORK}/build -G Ninja -DCMAKE_PREFI
     "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Werror")
 message("${output}")
 run(${CMAKE_COMMAND} --build ${WORK}/build)
-foreach(program components_only three_lines own_ecs forward)
+foreach(program components_only three_lines own_ecs forward deferred)
   run(${WORK}/build/${program})
   message("${program}: ${output}")
 endforeach()

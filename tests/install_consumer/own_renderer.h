@@ -1,0 +1,24 @@
+#pragma once
+#include <epoxy/gl.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "ground_and_box.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+/// What the stranger's two renderers share.
+
+/// The stage, with a light of each kind. Lamps stand far away on the sun's line, so that all shadows lie where the
+/// sun's does.
+gnomon::SceneSnapshot stage_with(const std::vector<gnomon::LightKind>& kinds, const gnomon::LightShadow& shadow,
+                                 const gnomon::assets::MeshLibrary& library);
+
+/// `main_text` with all it includes, for one light: which kind and which filter is said by row.glsl and its defines.
+gnomon::Result<std::string> fragment_for(const gnomon::shadow::ProgramRow& row, const char* main_text);
+
+/// 0 if it does not compile or link; stderr says why.
+GLuint make_program(const char* vertex, const char* fragment);
+GLuint make_buffer(std::size_t bytes);
