@@ -5,65 +5,32 @@
 
 #include "bench/accuracy.h"
 #include "bench/exact_visibility.h"
+#include "bench/filter_variants.h"
 #include "bench/stability_scene.h"
 #include "sample_game/picture_files.h"
 #include "systems/shadow/filter_demand.h"
-#include "systems/shadow/filter_table.h"
 
 namespace gnomon::bench {
 namespace {
 
-/// One line of the table: a row of the filter table and what of LightShadow differs from the defaults.
-struct Variant {
-    std::string name;
-    std::vector<std::string> settings;
-    const shadow::FilterRow* row = nullptr;
-    LightShadow shadow;
-};
-
-/// The disk that rows are judged by which soften shadows by the source: two degrees of sky, and four centimetres of
-/// lamp.
-const std::vector<std::string> kDisk = {"source_radius_m=0.02", "sun_radius_deg=1"};
-const std::vector<std::string> kPoint = {"source_radius_m=0", "sun_radius_deg=0"};
+constexpr std::uint32_t kShownGrid = 7;  // of pcf_grid, beside soft shadows
 
 /// Rows that take the light as a point, judged as if it were the disk: by how far a fixed width is off.
-Variant judged_by_disk(const Variant& variant) {
-    Variant other = variant;
+FilterVariant judged_by_disk(const FilterVariant& variant) {
+    FilterVariant other = variant;
     other.name += "_disk";
-    other.settings.insert(other.settings.end(), kDisk.begin(), kDisk.end());
+    other.settings.insert(other.settings.end(), disk_source().begin(), disk_source().end());
     return other;
 }
 
-std::vector<Variant> variants() {
-    std::vector<Variant> found, by_disk;
-    for (const shadow::FilterRow& row : shadow::filter_table()) {
-        const std::string name(row.name);
-        const auto add = [&](const std::string& suffix, const std::string& setting, const LightShadow& shadow) {
-            found.push_back({name + suffix, {"filter=" + name}, &row, shadow});
-            if (!setting.empty()) found.back().settings.push_back(setting);
-            const auto& source = row.width == shadow::FilterWidth::source ? kDisk : kPoint;
-            found.back().settings.insert(found.back().settings.end(), source.begin(), source.end());
-        };
-        LightShadow shadow{.filter = row.id};
-        if (row.width == shadow::FilterWidth::source) shadow.source_radius_m = shadow.sun_radius_rad = 0.02f;
-        LightShadow fewer = shadow;
-        fewer.filter_taps = 1;
-        if (row.width == shadow::FilterWidth::size) {
-            for (const std::uint32_t size : {3u, 5u, 7u}) {
-                shadow.filter_size = size;
-                add("_" + std::to_string(size), "filter_size=" + std::to_string(size), shadow);
-            }
-            if (row.id == ShadowFilter::pcf_grid) by_disk.push_back(judged_by_disk(found.back()));
-        } else if (row.width == shadow::FilterWidth::source || row.taps(shadow, false) != row.taps(fewer, false)) {
-            for (const std::uint32_t taps : {4u, 8u, 16u, 32u}) {
-                shadow.filter_taps = taps;
-                add("_" + std::to_string(taps), "filter_taps=" + std::to_string(taps), shadow);
-            }
-        } else {
-            add("", "", shadow);
-            if (row.id == ShadowFilter::hard || row.id == ShadowFilter::triangles)
-                by_disk.push_back(judged_by_disk(found.back()));
-        }
+/// All rows, and after them what is shown beside those that soften by the source.
+std::vector<FilterVariant> pictured() {
+    std::vector<FilterVariant> found = filter_variants(), by_disk;
+    for (const FilterVariant& variant : found) {
+        const ShadowFilter id = variant.row->id;
+        const bool widest_grid = id == ShadowFilter::pcf_grid && variant.shadow.filter_size == kShownGrid;
+        if (id == ShadowFilter::hard || id == ShadowFilter::triangles || widest_grid)
+            by_disk.push_back(judged_by_disk(variant));
     }
     found.insert(found.end(), by_disk.begin(), by_disk.end());
     return found;
@@ -125,21 +92,23 @@ double mean_error(const LightAccuracy& light) {
     return count == 0 ? 0.0 : sum / static_cast<double>(count);
 }
 
+constexpr const char* kTableHead =
+    "| filter | light | taps | E | wrong % | mean error % | bailing saves % | changes % | makes wrong % |\n"
+    "|---|---|---|---|---|---|---|---|---|\n";
 constexpr double kPercent = 100.0;
 constexpr float kHalf = 0.5f;
 
-std::string table_line(const Variant& variant, const LightAccuracy& light, const TapCount& taps) {
+std::string table_line(const FilterVariant& variant, const LightAccuracy& light, const TapCount& taps) {
     const bool cube = light.report.kind == LightKind::point;
-    const double time_ms = light.gpu_us.count == 0 ? 0.0 : light.gpu_us.median / 1000.0;
     char text[256];
     std::snprintf(
-        text, sizeof text, "| %s | %s | %u | %.1f | %.2f | %.3f | %.3f | %.1f | %.3f | %.3f |\n", variant.name.c_str(),
+        text, sizeof text, "| %s | %s | %u | %.1f | %.3f | %.3f | %.1f | %.3f | %.3f |\n", variant.name.c_str(),
         light.report.name.c_str(), variant.row->taps(variant.shadow, cube),
         static_cast<double>(shadow::filter_demand(variant.shadow, static_cast<std::uint32_t>(std::sqrt(
                                                                       static_cast<double>(light.report.texels))))
                                 .widest_texel),
-        time_ms, kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light),
-        kPercent * taps.saved(), kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
+        kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light), kPercent * taps.saved(),
+        kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
     return text;
 }
 
@@ -201,15 +170,14 @@ Result<std::vector<TapCount>> count_taps(Stage& stage, std::uint32_t points) {
     return counts;
 }
 
-Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::path& folder,
-                                          const FilterPicturesOptions& options) {
+Result<FilterPictures> write_filter_pictures(Stage& stage, const std::filesystem::path& folder,
+                                             const FilterPicturesOptions& options) {
     if (auto error = game::make_writable_folder(folder)) return *error;
-    std::string table =
-        "| filter | light | taps | E | ms | wrong % | mean error % | bailing saves % | changes % | makes wrong % |\n"
-        "|---|---|---|---|---|---|---|---|---|---|\n";
+    FilterPictures found;
+    found.point_figures = found.disk_figures = kTableHead;
     std::optional<glm::uvec2> window;
     bool soft_truth = false;
-    for (const Variant& variant : variants()) {
+    for (const FilterVariant& variant : pictured()) {
         if (variant.name.find(options.only) == std::string::npos) continue;
         if (auto error = apply(stage, variant.settings)) return *error;
         std::vector<TapCount> taps;
@@ -218,16 +186,17 @@ Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::p
             if (!counted) return counted.error();
             taps = std::move(counted).value();
         }
-        const auto accuracy = measure_accuracy(stage, {options.timed_frames, true});
+        const auto accuracy = measure_accuracy(stage, {0, true});
         if (!accuracy) return accuracy.error();
-        stage.set_economy(true);
         const std::vector<LightAccuracy>& lights = accuracy.value().lights;
         for (const LightAccuracy& light : lights) {
             const auto count =
                 std::find_if(taps.begin(), taps.end(), [&](const TapCount& c) { return c.light == light.report.name; });
-            table += table_line(variant, light, count == taps.end() ? TapCount{} : *count);
+            (light.soft ? found.disk_figures : found.point_figures) +=
+                table_line(variant, light, count == taps.end() ? TapCount{} : *count);
         }
         if (lights.empty()) continue;
+        (lights.front().soft ? found.disk : found.point).push_back(variant.name);
         const glm::uvec2 size_px = accuracy.value().size_px;
         if (!window) {
             window = busiest_window(lights.front(), size_px);
@@ -241,6 +210,21 @@ Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::p
         }
         if (auto error = write_window(lights.front().measured, size_px, *window, folder / (variant.name + ".png")))
             return *error;
+    }
+    return found;
+}
+
+std::string picture_table(const std::vector<std::string>& names, const std::string& folder) {
+    constexpr std::size_t kColumns = 3;
+    std::string table;
+    for (std::size_t first = 0; first < names.size(); first += kColumns) {
+        std::string titles, pictures;
+        for (std::size_t i = first; i < first + kColumns; ++i) {
+            const std::string name = i < names.size() ? names[i] : "";
+            titles += name.empty() ? "| " : "| `" + name + "` ";
+            pictures += name.empty() ? "| " : "| ![" + name + "](" + folder + "/" + name + ".png) ";
+        }
+        table += titles + "|\n" + (first == 0 ? "|---|---|---|\n" : "") + pictures + "|\n";
     }
     return table;
 }

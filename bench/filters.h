@@ -27,15 +27,24 @@ struct TapCount {
 Result<std::vector<TapCount>> count_taps(Stage& stage, std::uint32_t points);
 
 struct FilterPicturesOptions {
-    std::uint32_t timed_frames = 9;
     std::uint32_t points = 20000;
     std::string only;  // rows whose name has this part; empty: all
 };
 
-/// Every row of the filter table, some with several settings: taps, half-width, time and error of each light in a
-/// table, and in `folder` a picture of the first light's visibility, beside the truth, where that has the most edges.
-/// Returns the table. Errors as of measure_accuracy and count_taps, and "output.*".
-Result<std::string> write_filter_pictures(Stage& stage, const std::filesystem::path& folder,
-                                          const FilterPicturesOptions& options);
+/// Names of pictures, the truth's first, and a table of figures in Markdown: of rows that take the light as a point,
+/// and of what is judged by disk_source().
+struct FilterPictures {
+    std::vector<std::string> point = {"truth"}, disk = {"truth_disk"};
+    std::string point_figures, disk_figures;
+};
+
+/// Every row of the filter table, some with several settings: taps, half-width and error of each light, and in `folder`
+/// a picture of the first light's visibility, beside the truth, where that has the most edges.
+/// Errors as of measure_accuracy and count_taps, and "output.*".
+Result<FilterPictures> write_filter_pictures(Stage& stage, const std::filesystem::path& folder,
+                                             const FilterPicturesOptions& options);
+
+/// The pictures side by side, in Markdown. `folder`: as the page names it.
+std::string picture_table(const std::vector<std::string>& names, const std::string& folder);
 
 }  // namespace gnomon::bench

@@ -7,9 +7,11 @@
 #include "bench/accuracy.h"
 #include "bench/culling.h"
 #include "bench/drawings.h"
+#include "bench/filter_rows.h"
 #include "bench/filters.h"
 #include "bench/frame_times.h"
 #include "bench/heat_pictures.h"
+#include "bench/marked_text.h"
 #include "bench/set_shares.h"
 #include "bench/stability.h"
 #include "bench/stage.h"
@@ -29,7 +31,7 @@ struct Arguments {
     std::string scene, camera, size = "1280x720", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5;
     StabilityOptions stability;
-    std::string plot, drawings, filters;
+    std::string plot, drawings, filters, rows, markdown;
 };
 
 int fail(const Error& error) {
@@ -80,9 +82,25 @@ std::optional<Error> put_out(const Arguments& arguments, const std::string& tabl
     return game::write_file(arguments.json, std::as_bytes(std::span(json)));
 }
 
+int run_rows(Stage& stage, const Arguments& arguments) {
+    FilterRowsOptions options;
+    if (arguments.rows != "all") options.only = arguments.rows;
+    options.rounds = arguments.rounds;
+    options.frames = arguments.repeat;
+    const auto rows = measure_filter_rows(stage, options);
+    if (!rows) return fail(rows.error());
+    if (auto error = put_out(arguments, filter_rows_table(rows.value()), filter_rows_json(rows.value())))
+        return fail(*error);
+    if (!arguments.markdown.empty())
+        if (auto error = replace_marked(arguments.markdown, "rows", filter_rows_markdown(rows.value())))
+            return fail(*error);
+    return 0;
+}
+
 int run_accuracy(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
+    if (!arguments.rows.empty()) return run_rows(*stage.value(), arguments);
     const auto accuracy = measure_accuracy(*stage.value(), {arguments.repeat});
     if (!accuracy) return fail(accuracy.error());
     if (auto error = put_out(arguments, accuracy_table(accuracy.value()), accuracy_json(accuracy.value())))
@@ -124,9 +142,21 @@ int run_drawings(const Arguments& arguments) {
 int run_filters(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
-    const auto table = write_filter_pictures(*stage.value(), arguments.filters, {.timed_frames = arguments.repeat, .only = arguments.filter});
-    if (!table) return fail(table.error());
-    std::fputs(table.value().c_str(), stdout);
+    FilterPicturesOptions options;
+    options.only = arguments.filter;
+    const auto found = write_filter_pictures(*stage.value(), arguments.filters, options);
+    if (!found) return fail(found.error());
+    const FilterPictures& pictures = found.value();
+    std::fputs((pictures.point_figures + "\n" + pictures.disk_figures).c_str(), stdout);
+    if (arguments.markdown.empty()) return 0;
+    const std::filesystem::path page = arguments.markdown;
+    const std::string folder = std::filesystem::proximate(arguments.filters, page.parent_path()).generic_string();
+    const std::pair<const char*, std::string> parts[] = {{"pictures", picture_table(pictures.point, folder)},
+                                                         {"pictures of a disk", picture_table(pictures.disk, folder)},
+                                                         {"figures", pictures.point_figures},
+                                                         {"figures of a disk", pictures.disk_figures}};
+    for (const auto& [name, text] : parts)
+        if (auto error = replace_marked(page, name, text)) return fail(*error);
     return 0;
 }
 
@@ -158,6 +188,13 @@ int run(int argc, char** argv) {
     CLI::App* accuracy = app.add_subcommand("accuracy", "shadows of each light against ray-traced truth");
     add_common(*accuracy, arguments);
     accuracy->add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
+    accuracy->add_option("--filters", arguments.rows,
+                         "cost and error of rows of the filter table: all, or part of a name");
+    accuracy->add_option("--rounds", arguments.rounds, "with --filters: rounds of --repeat frames each")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    accuracy->add_option("--markdown", arguments.markdown,
+                         "with --filters: page whose text between <!-- rows --> and <!-- end of rows --> is replaced");
     CLI::App* frame = app.add_subcommand("frame", "frame times with and without shadows");
     add_common(*frame, arguments);
     frame->add_option("--rounds", arguments.rounds, "rounds of --repeat frames each")
@@ -179,10 +216,13 @@ int run(int argc, char** argv) {
     CLI::App* drawings = app.add_subcommand("drawings", "how the maps of each fit lie, as SVG files");
     add_common(*drawings, arguments);
     drawings->add_option("--out", arguments.drawings, "folder for the drawings")->required();
-    CLI::App* filters = app.add_subcommand("filters", "every filter on one scene beside the truth: taps, time, error");
+    CLI::App* filters = app.add_subcommand("filters", "every filter on one scene beside the truth: taps, error");
     add_common(*filters, arguments);
     filters->add_option("--out", arguments.filters, "folder for the pictures")->required();
     filters->add_option("--filter", arguments.filter, "part of a filter's name (default: all)");
+    filters->add_option("--markdown", arguments.markdown,
+                        "page whose text between <!-- pictures --> and <!-- end of pictures --> is replaced, likewise "
+                        "pictures of a disk, figures, figures of a disk");
     CLI::App* culling = app.add_subcommand("culling", "what finding receivers and casters and fitting to them costs");
     culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
     CLI::App* sets = app.add_subcommand("sets", "how many casters each light keeps, and how many of those in vain");

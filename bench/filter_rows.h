@@ -1,0 +1,65 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/filter_variants.h"
+#include "bench/spread.h"
+#include "bench/stage.h"
+#include "engine/core/result.h"
+
+namespace gnomon::bench {
+
+/// One row of the filter table at one size of maps, for one light.
+struct RowFigures {
+    std::uint32_t taps = 0;
+    std::uint64_t bytes = 0;
+    /// Share of pixels on the other side of 1/2 than the truth about a point, and mean difference from it; none of rows
+    /// that soften by the source.
+    std::optional<double> wrong, blur;
+    double disk_error = 0.0;  // mean difference from the truth about disk_source()
+    /// Time of the depth and lighting pass over that of `hard` at the same size, per round: with every view drawn, and
+    /// with maps that are kept. Nothing if no time is measured.
+    Spread drawn, kept;
+};
+
+/// What a front is made of: which error, and which time.
+enum class RowTruth : std::uint8_t { point, disk };
+enum class RowCost : std::uint8_t { drawn, kept };
+inline constexpr std::array<RowTruth, 2> kRowTruths = {RowTruth::point, RowTruth::disk};
+inline constexpr std::array<RowCost, 2> kRowCosts = {RowCost::drawn, RowCost::kept};
+
+struct FilterRows {
+    std::string scene, device;
+    glm::uvec2 size_px{0, 0};
+    std::vector<FilterVariant> variants;
+    std::vector<std::string> lights;
+    std::vector<std::uint32_t> resolutions_px;  // 0: each row's own
+    /// Of a resolution, a variant, a light.
+    std::vector<std::vector<std::vector<RowFigures>>> figures;
+
+    /// Of each variant, whether it is the best at some cost; 0 also for those that the truth does not judge.
+    std::vector<std::uint8_t> front(std::size_t resolution, std::size_t light, RowTruth truth, RowCost cost) const;
+    /// Names of rows none of whose variants is on any front.
+    std::vector<std::string> never_best() const;
+};
+
+struct FilterRowsOptions {
+    std::string only;                      // rows whose name has this part, and `hard`; empty: all
+    std::uint32_t rounds = 5, frames = 9;  // frames of each kind that are timed per round; 0: no timing
+};
+
+/// Every row of the filter table against the truths that it may be judged by, at one size of maps for all (the power of
+/// two at most the picture's larger side, so that what is coarse shows) and at each row's own. Truth is traced once.
+/// Errors: "bench.visibility", "bench.camera", "set.*".
+Result<FilterRows> measure_filter_rows(Stage& stage, const FilterRowsOptions& options);
+
+/// A table for people, and which rows are the best at some cost.
+std::string filter_rows_table(const FilterRows& rows);
+/// The same in Markdown.
+std::string filter_rows_markdown(const FilterRows& rows);
+/// Everything, for scripts: bench/README.md lists the keys.
+std::string filter_rows_json(const FilterRows& rows);
+
+}  // namespace gnomon::bench
