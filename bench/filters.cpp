@@ -100,15 +100,14 @@ constexpr float kHalf = 0.5f;
 
 std::string table_line(const FilterVariant& variant, const LightAccuracy& light, const TapCount& taps) {
     const bool cube = light.report.kind == LightKind::point;
+    const double texels = static_cast<double>(light.report.texels) / std::max(1u, light.report.views);
+    const auto edge_px = static_cast<std::uint32_t>(std::sqrt(texels));
     char text[256];
-    std::snprintf(
-        text, sizeof text, "| %s | %s | %u | %.1f | %.3f | %.3f | %.1f | %.3f | %.3f |\n", variant.name.c_str(),
-        light.report.name.c_str(), variant.row->taps(variant.shadow, cube),
-        static_cast<double>(shadow::filter_demand(variant.shadow, static_cast<std::uint32_t>(std::sqrt(
-                                                                      static_cast<double>(light.report.texels))))
-                                .widest_texel),
-        kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light), kPercent * taps.saved(),
-        kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
+    std::snprintf(text, sizeof text, "| %s | %s | %u | %.1f | %.3f | %.3f | %.1f | %.3f | %.3f |\n",
+                  variant.name.c_str(), light.report.name.c_str(), variant.row->taps(variant.shadow, cube),
+                  static_cast<double>(shadow::filter_demand(variant.shadow, edge_px).widest_texel),
+                  kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light),
+                  kPercent * taps.saved(), kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
     return text;
 }
 
