@@ -13,7 +13,27 @@ using Json = nlohmann::ordered_json;
 /// Unknown is null, never 0.
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-Json light_stats(const LightReport& light) {
+void add_why(const Why& why, Json& json) {
+    json["receivers"] = why.receivers;
+    json["casters"] = why.casters;
+    json["bytes_saved"] = why.bytes_saved;
+    json["saved_us"] = or_null(why.saved_us);
+}
+
+/// A light's why, its views' included.
+Json why_stats(const FrameReport& report, const LightReport& light) {
+    Json why, views = Json::array();
+    add_why(light.why, why);
+    for (const ViewReport& view : report.views_of(light)) {
+        Json entry = {{"view", view.layer}, {"state", to_text(view.state)}, {"reason", reason_code(view.reason)}};
+        add_why(view.why, entry);
+        views.push_back(std::move(entry));
+    }
+    why["views"] = std::move(views);
+    return why;
+}
+
+Json light_stats(const FrameReport& report, const LightReport& light) {
     return {{"name", light.name},
             {"kind", shadow::light_kind_row(light.kind).name},
             {"state", to_text(light.state)},
@@ -27,7 +47,8 @@ Json light_stats(const LightReport& light) {
             {"clears", light.clears},
             {"triangles", light.triangles},
             {"cpu_us", light.cpu_us},
-            {"gpu_us", or_null(light.gpu_us)}};
+            {"gpu_us", or_null(light.gpu_us)},
+            {"why", why_stats(report, light)}};
 }
 
 }  // namespace
@@ -41,7 +62,7 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
         clears += light.clears;
         triangles += light.triangles;
         bytes += light.bytes;
-        lights.push_back(light_stats(light));
+        lights.push_back(light_stats(report, light));
     }
     for (const DroppedEntity& entity : report.dropped)
         dropped.push_back({{"name", entity.name}, {"reason", reason_code(entity.reason)}});

@@ -64,6 +64,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     shadows_->commit(snapshot_, result.failure == gl::Failure::none);
     if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
     if (result.failure != gl::Failure::none) report_.failure = result.failure;
+    shadows_->draw_times().submitted(result.submission, snapshot_, report_);
     collect_timings();
 }
 
@@ -87,6 +88,7 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
 void Frame::collect_timings() {
     const std::vector<gl::Timing> timings = device_.take_timings();
     if (timings.empty()) return;
+    shadows_->draw_times().learn(timings);
     const std::uint64_t last = timings.back().submission;
     double all_us = 0.0, shadow_us = 0.0;
     for (const gl::Timing& t : timings) {

@@ -66,6 +66,8 @@ const char* reason_code(Reason reason) {
             return "depths_unread";
         case Reason::filter_cut:
             return "filter_cut";
+        case Reason::count:
+            break;
     }
     return "unknown";
 }

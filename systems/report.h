@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,12 +38,29 @@ enum class Reason : std::uint8_t {
     eye_invalid,             // a sun's eye distance or angle is absurd, it stays orthographic
     range_invalid,           // near_m and far_m are no range, the fitted one is used
     cascades_clamped,        // more cascades than a light can have
-    warp_unsupported,        // warp is absurd, or asked of other than a tight sun for one camera with a fitted depth range
-    splits_invalid,          // split_m, split_lambda or cascade_blend is absurd, the default is used
-    depths_unread,           // the picture's depths could not be had, splits go by the receivers' bounds
-    filter_cut               // a setting of the filter is absurd, or more than its map can bear
+    warp_unsupported,  // warp is absurd, or asked of other than a tight sun for one camera with a fitted depth range
+    splits_invalid,    // split_m, split_lambda or cascade_blend is absurd, the default is used
+    depths_unread,     // the picture's depths could not be had, splits go by the receivers' bounds
+    filter_cut,        // a setting of the filter is absurd, or more than its map can bear
+    count
 };
 const char* reason_code(Reason reason);
+
+/// The numbers behind what a light, or one of its views, was given.
+struct Why {
+    std::uint32_t receivers = 0;     // that a camera sees and the light reaches, by their bounds
+    std::uint32_t casters = 0;       // that may darken what is seen of those
+    std::uint64_t bytes_saved = 0;   // of maps that were not made, or not written
+    std::optional<double> saved_us;  // of drawing, by what it took when it was last measured; empty: never measured
+};
+
+/// One view that a light's map has room for: a cascade, a spot's view, a face of a cube.
+struct ViewReport {
+    std::uint32_t layer = 0;                  // cascade or face
+    LightState state = LightState::rendered;  // or reused, or skipped: it is neither drawn nor looked up
+    Reason reason = Reason::none;
+    Why why;
+};
 
 struct LightReport {
     ecs::Entity entity;
@@ -59,17 +77,24 @@ struct LightReport {
     std::uint64_t triangles = 0;
     double cpu_us = 0.0;           // of the shadow stages, what this light alone took
     std::optional<double> gpu_us;  // shadow and lighting pass; empty: not measured
+    Why why;
+    std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };
 
 struct FrameReport {
     std::vector<LightReport> lights;  // one per LightItem, same order
+    std::vector<ViewReport> views;    // of all lights, in their order
     std::vector<DroppedEntity> dropped;
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
     gl::Failure failure = gl::Failure::none;  // of what no picture can do without, or of the submission
+    std::span<const ViewReport> views_of(const LightReport& light) const {
+        return std::span(views).subspan(light.first_view, light.view_count);
+    }
     void clear() {
         lights.clear();
+        views.clear();
         dropped.clear();
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();

@@ -75,6 +75,45 @@ void time_cell(const std::optional<double>& time_us) {
         ImGui::TextUnformatted("-");
 }
 
+/// What a light, or one of its views, was given and what that saved.
+void why_cells(LightState state, Reason reason, const Why& why) {
+    for (const char* words : {to_text(state), reason_code(reason)}) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(words);
+    }
+    for (const std::uint64_t n : {std::uint64_t{why.receivers}, std::uint64_t{why.casters}, why.bytes_saved / 1024}) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(std::to_string(n).c_str());
+    }
+    time_cell(why.saved_us);
+}
+
+/// A row per light, and below it, opened up, one per view.
+void draw_why(const FrameReport& report) {
+    constexpr std::array kColumns{"view", "state", "reason", "receivers", "casters", "KiB saved", "us saved"};
+    const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::CollapsingHeader("why")) return;
+    if (!ImGui::BeginTable("why", static_cast<int>(kColumns.size()), flags)) return;
+    for (const char* column : kColumns) ImGui::TableSetupColumn(column);
+    ImGui::TableHeadersRow();
+    for (const LightReport& light : report.lights) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const ImGuiTreeNodeFlags leaf = light.view_count == 0 ? ImGuiTreeNodeFlags_Leaf : ImGuiTreeNodeFlags_None;
+        const bool open = ImGui::TreeNodeEx(light.name.c_str(), leaf);
+        why_cells(light.state, light.reason, light.why);
+        if (!open) continue;
+        for (const ViewReport& view : report.views_of(light)) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::Text("%u", view.layer);
+            why_cells(view.state, view.reason, view.why);
+        }
+        ImGui::TreePop();
+    }
+    ImGui::EndTable();
+}
+
 void draw_report(const FrameReport& report) {
     constexpr std::array kColumns{"light", "state", "reason", "texels", "KiB", "draws", "cpu us", "gpu us", "error px"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
@@ -132,6 +171,7 @@ void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 si
                     report.shadow_cpu_us * 1e-3);
         draw_debug_choice(world, report, state);
         draw_report(report);
+        draw_why(report);
         draw_settings(world);
         state.debug.area = beside_panel(size_px);
     }

@@ -20,10 +20,16 @@ double finest_texel_m(const ShadowView& view) {
 /// alone: its fit has said it.
 void state_errors(const SceneSnapshot& scene, std::span<const glm::dvec3> points_ws, double reach_texel,
                   ShadowView& view) {
-    for (std::uint32_t c = 0; c < scene.consumers.size(); ++c) {
-        view.consumer_mask |= 1u << c;
+    for (std::uint32_t c = 0; c < scene.consumers.size(); ++c)
         if (view.warp == glm::dvec2(0.0)) state_error(scene.consumers[c], points_ws, reach_texel, view);
-    }
+}
+
+/// Whose receivers lie in it: of a sun's cascades those of all, since each may reach into another's slice.
+void state_receivers(const LightItem& light, const PotentialSets& sets, const ShadowFrame& frame, ShadowView& view) {
+    const bool sun = light.kind == LightKind::directional;
+    const Beam& beam = frame.beams[sets.beams.first + (sun ? 0 : view.layer)];
+    view.consumer_mask = beam.consumers;
+    if (view.receivers == 0) view.receivers = beam.receivers;
 }
 
 }  // namespace
@@ -67,6 +73,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
         for (std::size_t v = first; v < frame.views.size(); ++v) {
             ShadowView& view = frame.views[v];
             view.demand = d;
+            state_receivers(light, sets, frame, view);
             select_view_casters(scene, view, frame);
             state_errors(scene, points, edge_texel_at(demand.filtering, finest_texel_m(view)), view);
         }

@@ -23,23 +23,27 @@ struct Signature {
     void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
 };
 
-/// What each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl).
-gl::TextureDesc triangles_of(gl::TextureDesc desc) {
-    desc.label += ", triangles";
+/// Labels are for what is made: a longer one takes memory, which a steady frame must not.
+gl::TextureDesc without_label(const gl::TextureDesc& desc) {
+    return {{}, desc.kind, desc.format, desc.width, desc.height, desc.layers, desc.mips};
+}
+
+/// What each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl). Without a label.
+gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
+    gl::TextureDesc desc = without_label(map);
     desc.format = gl::Format::rg32ui;
     return desc;
 }
 
-/// Of a light whose map is `desc`; what there is none of has a width of 0.
+/// Of a light whose map is `desc`, without labels; what there is none of has a width of 0.
 MomentMap moments_of(const gl::TextureDesc& desc, const ShadowDemand& demand) {
     MomentMap moments;
     if (filter_row(demand.filter).storage != FilterStorage::moments) return moments;
-    moments.desc = desc;
-    moments.desc.label += ", moments";
+    moments.desc = without_label(desc);
     moments.desc.format = demand.moments.format;
     moments.desc.mips = std::min(demand.moments.levels, static_cast<std::uint32_t>(std::bit_width(desc.width)));
     if (demand.filtering.size <= 1) return moments;
-    moments.scratch_desc = {.label = desc.label + ", scratch", .format = demand.moments.format, .width = desc.width};
+    moments.scratch_desc = {.format = demand.moments.format, .width = desc.width};
     moments.scratch_desc.height = desc.height + 2 * scratch_rows(demand, desc.kind == gl::TextureKind::cube);
     return moments;
 }
@@ -47,8 +51,27 @@ MomentMap moments_of(const gl::TextureDesc& desc, const ShadowDemand& demand) {
 /// OpenGL's table has them side by side.
 bool are_opposite_faces(std::uint32_t a, std::uint32_t b) { return a != b && a / 2 == b / 2; }
 
+/// What a light's map has to be, but for its label and a size that cannot be had.
+gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand) {
+    const gl::TextureKind kind = light_kind_row(light.kind).texture;
+    return {.kind = kind,
+            .format = depth_format_row(demand.depth_format).texture,
+            .width = demand.resolution_px,
+            .height = demand.resolution_px,
+            .layers = kind == gl::TextureKind::cube ? 1u : demand.view_count};
+}
+
+std::uint64_t byte_size(const gl::TextureDesc& map, bool triangles, const MomentMap& moments) {
+    std::uint64_t bytes = gl::byte_size(map);
+    if (triangles) bytes += gl::byte_size(triangles_of(map));
+    if (moments.desc.width > 0) bytes += gl::byte_size(moments.desc);
+    if (moments.scratch_desc.width > 0) bytes += gl::byte_size(moments.scratch_desc);
+    return bytes;
+}
+
 bool is_same_store(const MomentMap& a, const MomentMap& b) {
-    return a.desc == b.desc && a.scratch_desc == b.scratch_desc;
+    return without_label(a.desc) == without_label(b.desc) &&
+           without_label(a.scratch_desc) == without_label(b.scratch_desc);
 }
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
@@ -85,12 +108,13 @@ const LightHistory* MapStore::find(ecs::Entity light) const {
 }
 
 std::uint64_t MapStore::bytes(const LightHistory& history) {
-    if (!history.texture) return 0;
-    std::uint64_t bytes = gl::byte_size(history.desc);
-    if (history.triangles) bytes += gl::byte_size(triangles_of(history.desc));
-    if (history.moments.texture) bytes += gl::byte_size(history.moments.desc);
-    if (history.moments.scratch) bytes += gl::byte_size(history.moments.scratch_desc);
-    return bytes;
+    return history.texture ? byte_size(history.desc, static_cast<bool>(history.triangles), history.moments) : 0;
+}
+
+std::uint64_t MapStore::wanted_bytes(const LightItem& light, const ShadowDemand& demand) {
+    const gl::TextureDesc map = map_desc(light, demand);
+    return byte_size(map, filter_row(demand.filter).storage == FilterStorage::depth_and_triangle,
+                     moments_of(map, demand));
 }
 
 std::uint64_t MapStore::bytes() const {
@@ -135,6 +159,8 @@ bool MapStore::make_targets(LightHistory& map) const {
 Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) const {
     MomentMap& moments = map.moments = moments_of(map.desc, demand);
     if (moments.desc.width == 0) return Reason::none;
+    moments.desc.label = map.desc.label + ", moments";
+    moments.scratch_desc.label = map.desc.label + ", scratch";
     moments.texture = device_.create_texture(moments.desc, {}).handle;
     if (moments.texture && moments.scratch_desc.width > 0)
         moments.scratch = device_.create_texture(moments.scratch_desc, {}).handle;
@@ -156,7 +182,9 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
     LightHistory made;
     made.desc = desc;
     made.texture = device_.create_texture(desc, {}).handle;
-    if (made.texture && triangles) made.triangles = device_.create_texture(triangles_of(desc), {}).handle;
+    gl::TextureDesc shown = triangles_of(desc);
+    shown.label = desc.label + ", triangles";
+    if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
     Reason reason = Reason::none;
     if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
     if (reason == Reason::none && !make_targets(made)) reason = Reason::target_incomplete;
@@ -177,12 +205,10 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
 }
 
 bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
-    const LightKindRow& kind = light_kind_row(light.kind);
-    const std::uint32_t layers = kind.texture == gl::TextureKind::cube ? 1u : demand.view_count;
-    const gl::Format format = depth_format_row(demand.depth_format).texture;
+    gl::TextureDesc desc = map_desc(light, demand);
     const bool triangles = filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
     const gl::TextureDesc& held = history.desc;
-    if (history.texture && !(held.kind == kind.texture && held.layers == layers && held.format == format &&
+    if (history.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
                              static_cast<bool>(history.triangles) == triangles &&
                              is_same_store(history.moments, moments_of(held, demand)))) {
         // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
@@ -194,11 +220,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     if (fits && (history.failure == Reason::none || frame_ < history.retry_frame)) return true;
     if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == demand.resolution_px)
         return static_cast<bool>(history.texture);
-    gl::TextureDesc desc;
     desc.label = "shadow map " + light.name;
-    desc.kind = kind.texture;
-    desc.format = format;
-    desc.layers = layers;
     history.wanted_px = demand.resolution_px;
     history.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {

@@ -56,6 +56,8 @@ public:
     const LightHistory* find(ecs::Entity light) const;
     std::uint64_t bytes() const;
     static std::uint64_t bytes(const LightHistory& history);
+    /// What a light would hold whose demand is met.
+    static std::uint64_t wanted_bytes(const LightItem& light, const ShadowDemand& demand);
 
     static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
     static constexpr std::uint64_t kRetryFrames = 30;  // shadows are back within a second after memory is

@@ -103,8 +103,9 @@ private:
         }
     }
 
-    /// Appends the corners of the candidates within what their consumer sees and the given planes.
-    IndexRange clip_candidates(std::span<const math::Plane> opening) {
+    /// Appends the corners of the candidates within what their consumer sees and the given planes; of whom, and for
+    /// whom, goes to the beam.
+    IndexRange clip_candidates(std::span<const math::Plane> opening, Beam& beam) {
         const std::size_t first = frame_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
         for (const SetScratch::Candidate& candidate : scratch_.candidates) {
@@ -113,17 +114,23 @@ private:
             const auto end = std::copy(opening.begin(), opening.end(), middle);
             const math::Aabb box = reach_.clipped(scene_.instances[candidate.item].bounds_ws);
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
-            if (math::clip_box(used, box, frame_.receiver_points_ws) > 0) mark(scratch_.receivers, candidate.item);
+            if (math::clip_box(used, box, frame_.receiver_points_ws) == 0) continue;
+            mark(scratch_.receivers, candidate.item);
+            beam.consumers |= consumer_bit(candidate.consumer);
+            ++beam.receivers;
         }
         return since(first, frame_.receiver_points_ws.size());
     }
 
     void look_along_sun() {
-        const IndexRange range = clip_candidates({});
+        Beam seen;
+        const IndexRange range = clip_candidates({}, seen);
         if (range.count == 0) return;
         Beam beam =
             parallel_beam(math::basis_from_back(light_.rotation_ws[2]), points(range), frame_.outlines, scratch_);
         beam.receiver_points = range;
+        beam.receivers = seen.receivers;
+        beam.consumers = seen.consumers;
         frame_.beams.push_back(beam);
     }
 
@@ -133,13 +140,17 @@ private:
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
         if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, light_.position_ws_m)};
-        const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4));
-        Beam beam;
+        Beam seen, beam;
+        const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4), seen);
         if (range.count > 0)
             beam = opening_beam(light_.position_ws_m, opening, points(range), frame_.outlines, scratch_);
         beam.origin_ws_m = light_.position_ws_m;
         beam.axes = opening.axes;
-        if (beam.outline.count > 0) beam.receiver_points = range;
+        if (beam.outline.count > 0) {
+            beam.receiver_points = range;
+            beam.receivers = seen.receivers;
+            beam.consumers = seen.consumers;
+        }
         frame_.beams.push_back(beam);  // without receivers, too: beams are in the order of the openings
     }
 

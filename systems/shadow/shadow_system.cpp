@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "systems/shadow/demand.h"
+#include "systems/shadow/explain.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/sets.h"
 
@@ -78,7 +79,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     publish_lights(scene, samplers_, frame_);
     recorder_.record(scene, gpu, frame_, list, report);
     moments_.record(scene, frame_, list);
-    write_report(scene, report);
+    explain_lights(scene, frame_, maps_, draw_times_, report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;
 }
@@ -86,45 +87,6 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
 void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) {
     maps_.commit(scene, frame_, drawn);
     std::swap(history_, frame_.next_history);
-}
-
-void ShadowSystem::write_report(const SceneSnapshot& scene, FrameReport& report) const {
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        const LightItem& light = scene.lights[i];
-        const ShadowDemand& demand = frame_.demands[i];
-        LightReport& out = report.lights[i];
-        out.entity = light.entity;
-        out.name = light.name;
-        out.kind = light.kind;
-        out.cpu_us = frame_.cpu_us[i];
-        const LightHistory* history = maps_.find(light.entity);
-        const gl::TextureDesc* desc = history && history->texture ? &history->desc : nullptr;
-        if (desc) {
-            const std::uint64_t faces = desc->kind == gl::TextureKind::cube ? 6 : desc->layers;
-            out.texels = std::uint64_t{desc->width} * desc->height * faces;
-            out.bytes = MapStore::bytes(*history);
-        }
-        for (std::size_t v = 0; v < frame_.views.size(); ++v) {
-            if (frame_.views[v].demand != i || !frame_.slots[v].texture) continue;
-            ++out.views;
-            out.predicted_error_px = std::max(out.predicted_error_px, frame_.views[v].predicted_error_px);
-        }
-        out.reason = frame_.sets[i].skip;
-        if (out.reason != Reason::none) {
-            out.state = LightState::skipped;
-        } else if (history && history->failure != Reason::none) {
-            out.state = LightState::degraded;
-            out.reason = history->failure;
-        } else if (demand.note != Reason::none) {
-            out.state = LightState::degraded;
-            out.reason = demand.note;
-        } else if (out.views_drawn == 0) {
-            out.state = LightState::reused;
-            out.reason = Reason::content_unchanged;
-        } else {
-            out.state = LightState::rendered;
-        }
-    }
 }
 
 }  // namespace gnomon::shadow

@@ -5,6 +5,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/draw_times.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/moment_recorder.h"
 #include "systems/shadow/publish.h"
@@ -31,6 +32,9 @@ public:
     void commit(const SceneSnapshot& scene, bool drawn);
 
     const ShadowFrame& frame() const { return frame_; }
+    /// Where measurements of drawing go, and what reports take them from.
+    DrawTimes& draw_times() { return draw_times_; }
+
     const MapStore& maps() const { return maps_; }
     const History& held_fits() const { return history_; }
 
@@ -38,13 +42,13 @@ private:
     bool samplers_ready();
     bool moment_sampler_ready(const MomentDemand& demand);
     void provide_triangles(GpuScene& gpu);
-    void write_report(const SceneSnapshot& scene, FrameReport& report) const;
 
     gl::Device& device_;
     MapStore maps_;
     DepthRecorder recorder_;
     MomentRecorder moments_;
     MapSamplers samplers_;
+    DrawTimes draw_times_;
     ShadowFrame frame_;
     History history_;
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -21,6 +22,9 @@
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
 /// nothing is changed after its stage.
 namespace gnomon::shadow {
+
+/// Of a mask of consumers; those beyond its width share the last bit.
+inline std::uint32_t consumer_bit(std::uint32_t consumer) { return 1u << std::min(consumer, 31u); }
 
 /// Half-open range into a flat array.
 struct IndexRange {
@@ -63,6 +67,8 @@ struct Beam {
     glm::dvec3 origin_ws_m{0.0};  // of the outline's coordinates
     glm::dmat3 axes{1.0};         // columns u, v, toward the light; orthonormal
     IndexRange receiver_points;   // into ShadowFrame::receiver_points_ws: what lies in this opening
+    std::uint32_t receivers = 0;  // of how many that is, once for each consumer
+    std::uint32_t consumers = 0;  // consumer_bit() of each that sees any of it
     IndexRange outline;           // into ShadowFrame::outlines: convex polygon around them as the light sees them, in
                                   // metres along u and v (parallel), or tangents
     double slack = 0.0;           // by how much rounding may have moved a corner of it
@@ -96,7 +102,8 @@ struct ShadowView {
     double texel_m = 0.0;       // largest diagonal of a texel across the light, at a receiver
     double texel_extent_px = 0.0;     // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
     double predicted_error_px = 0.0;  // how far a shadow edge may be off on screen
-    std::uint32_t consumer_mask = 0;
+    std::uint32_t consumer_mask = 0;  // who may look it up: consumer_bit() of each that sees receivers in it
+    std::uint32_t receivers = 0;      // how many are seen in it
     bool held = false;   // meant to stay while cameras move: its casters are all that its map can show, so that the map
                          // holds; else only those that can darken what is seen now
     IndexRange casters;  // into ShadowFrame::view_caster_items, by mesh, then by index

@@ -1,4 +1,5 @@
 #include "engine/assets/mesh_shape.h"
+#include "systems/shadow/filter_table.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/unit/allocation_counter.h"
 
@@ -96,6 +97,19 @@ const auto moving = [](TestWorld& world, const TestWorld::Stage& stage, int i) {
 
 TEST_F(FrameCost, AStillSceneOfLocalLightsAllocatesNothing) {
     EXPECT_EQ(allocations_when_warm({LightKind::spot, LightKind::point}, settings, still), 0u);
+}
+
+TEST_F(FrameCost, NoFilterAllocatesInAStillScene) {
+    for (const shadow::FilterRow& row : shadow::filter_table()) {
+        const auto filtered = [&](TestWorld& made, const TestWorld::Stage&, int i) {
+            if (i > 0) return;
+            made.registry.each<LightShadow>([&](ecs::Entity e, const LightShadow&) {
+                made.registry.patch<LightShadow>(e, [&](LightShadow& s) { s.filter = row.id, s.resolution_px = 64; });
+            });
+        };
+        const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
+        EXPECT_EQ(allocations_when_warm(kinds, settings, filtered), 0u) << row.name;
+    }
 }
 
 TEST_F(FrameCost, AMovingSceneOfLocalLightsAllocatesNothingOnceWarm) {

@@ -94,14 +94,16 @@ ConsumerItem cut(ConsumerItem consumer, const CascadeSlice& slice) {
     return consumer;
 }
 
-/// Corners of what is seen of the receivers in the slice; they live until the next slice's.
-std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerItem& consumer, const FitInput& input) {
+/// Corners of what is seen of the receivers in the slice, and of how many; they live until the next slice's.
+std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerItem& consumer, const FitInput& input,
+                                      std::uint32_t& receivers) {
     std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     points_ws.clear();
+    receivers = 0;
     if (!(slice.holds_from_m < slice.holds_to_m)) return {};
     const math::Frustum frustum = consumer_frustum(cut(consumer, slice));
     for (const std::uint32_t r : input.receivers)
-        math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws);
+        receivers += math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws) > 0 ? 1 : 0;
     return points_ws;
 }
 
@@ -127,7 +129,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         const CascadeSlice& slice = slices[i];
         const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
         const bool whole = of_all || (last && first);
-        const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input);
+        auto receivers = static_cast<std::uint32_t>(input.receivers.size());
+        const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input, receivers);
         OrthographicBox box;
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
@@ -142,6 +145,7 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         ShadowView view = warp > 0.0 ? warped_view(cascade, last ? warp : 0.0, box)
                                      : orthographic_view(box, input.demand.resolution_px);
         view.layer = i;
+        view.receivers = receivers;
         view.held = input.light.shadow.fit != ShadowFit::tight;
         view.seen_from_m = alone ? slice.holds_from_m : 0.0;
         view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;

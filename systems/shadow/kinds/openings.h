@@ -14,7 +14,7 @@ namespace gnomon::shadow {
 struct LightOpening {
     glm::dmat3 axes{1.0};             // columns u, v, toward the light
     glm::dvec2 low{-1.0}, high{1.0};  // tangents along u and v
-    std::uint32_t layer = 0;          // of the map
+    std::uint32_t layer = 0;          // of the map; opening i of a light is of layer i
     std::uint32_t held_as = 0;        // index into HeldLight::views
 };
 

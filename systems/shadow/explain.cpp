@@ -1,0 +1,111 @@
+#include "systems/shadow/explain.h"
+
+#include <algorithm>
+
+namespace gnomon::shadow {
+namespace {
+
+/// Of a view that the fits left out: nothing is seen in it, or nothing stands before what is.
+Reason why_left_out(const LightItem& light, const PotentialSets& sets, const ShadowFrame& frame, std::uint32_t layer,
+                    Why& why) {
+    if (light.kind == LightKind::directional) return Reason::no_visible_receiver;
+    why.receivers = frame.beams[sets.beams.first + layer].receivers;
+    return why.receivers == 0 ? Reason::no_visible_receiver : Reason::no_caster;
+}
+
+/// Views [first, end) of the frame are the light's.
+void explain_views(const LightItem& light, const ShadowDemand& demand, const ShadowFrame& frame, std::size_t first,
+                   std::size_t end, std::optional<double> view_us, FrameReport& report, LightReport& out) {
+    out.first_view = static_cast<std::uint32_t>(report.views.size());
+    out.view_count = demand.view_count;
+    for (std::uint32_t layer = 0; layer < demand.view_count; ++layer) {
+        ViewReport& view = report.views.emplace_back();
+        view.layer = layer;
+        std::size_t v = first;
+        while (v < end && frame.views[v].layer != layer) ++v;
+        if (v == end) {
+            view.state = LightState::skipped;
+            view.reason = why_left_out(light, frame.sets[demand.light], frame, layer, view.why);
+        } else {
+            view.why.receivers = frame.views[v].receivers;
+            view.why.casters = frame.views[v].casters.count;
+            if (frame.slots[v].reuse) view.state = LightState::reused;
+            if (frame.slots[v].reuse) view.reason = Reason::content_unchanged;
+        }
+        if (view.state == LightState::rendered) continue;
+        view.why.bytes_saved = out.bytes / demand.view_count;
+        view.why.saved_us = view_us;
+    }
+}
+
+void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history,
+                   LightReport& out) {
+    out.reason = sets.skip;
+    if (out.reason != Reason::none) {
+        out.state = LightState::skipped;
+    } else if (history && history->failure != Reason::none) {
+        out.state = LightState::degraded;
+        out.reason = history->failure;
+    } else if (demand.note != Reason::none) {
+        out.state = LightState::degraded;
+        out.reason = demand.note;
+    } else if (out.views_drawn == 0) {
+        out.state = LightState::reused;
+        out.reason = Reason::content_unchanged;
+    } else {
+        out.state = LightState::rendered;
+    }
+}
+
+/// Of the whole light: what its views saved; all of them, and its map, if it is skipped.
+void explain_savings(const LightItem& light, const ShadowDemand& demand, std::optional<double> view_us,
+                     const FrameReport& report, LightReport& out) {
+    if (!light.has_shadow) return;
+    if (out.state == LightState::skipped) {
+        const std::uint64_t wanted = MapStore::wanted_bytes(light, demand);
+        out.why.bytes_saved = wanted - std::min(wanted, out.bytes);
+        if (view_us) out.why.saved_us = *view_us * demand.view_count;
+        return;
+    }
+    for (const ViewReport& view : report.views_of(out)) {
+        out.why.bytes_saved += view.why.bytes_saved;
+        if (view_us && view.state != LightState::rendered) out.why.saved_us = out.why.saved_us.value_or(0.0) + *view_us;
+    }
+}
+
+}  // namespace
+
+void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const MapStore& maps, const DrawTimes& times,
+                    FrameReport& report) {
+    report.views.clear();
+    std::size_t first = 0, end = 0;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i, first = end) {
+        const LightItem& light = scene.lights[i];
+        const ShadowDemand& demand = frame.demands[i];
+        const PotentialSets& sets = frame.sets[i];
+        LightReport& out = report.lights[i];
+        out.entity = light.entity;
+        out.name = light.name;
+        out.kind = light.kind;
+        out.cpu_us = frame.cpu_us[i];
+        const LightHistory* history = maps.find(light.entity);
+        if (history && history->texture) {
+            out.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
+            out.bytes = MapStore::bytes(*history);
+        }
+        while (end < frame.views.size() && frame.views[end].demand == i) ++end;
+        for (std::size_t v = first; v < end; ++v) {
+            if (!frame.slots[v].texture) continue;
+            ++out.views;
+            out.predicted_error_px = std::max(out.predicted_error_px, frame.views[v].predicted_error_px);
+        }
+        explain_state(sets, demand, history, out);
+        out.why.receivers = sets.receivers.count;
+        out.why.casters = sets.casters.count;
+        const std::optional<double> view_us = times.view_us(light.entity);
+        if (out.state != LightState::skipped) explain_views(light, demand, frame, first, end, view_us, report, out);
+        explain_savings(light, demand, view_us, report, out);
+    }
+}
+
+}  // namespace gnomon::shadow

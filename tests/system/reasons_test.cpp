@@ -1,0 +1,172 @@
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "components/shadow_caster.h"
+#include "systems/shadow/demand.h"
+#include "systems/shadow/fit.h"
+#include "tests/system/frame_fixture.h"
+
+/// Every reason has a code of its own, a line in docs/economy.md, and a scene that gives it.
+namespace gnomon {
+namespace {
+
+using Kind = gl::ResourceCall::Kind;
+
+std::string text_of(const std::string& file) {
+    std::ifstream in(std::string(GNOMON_SOURCE_DIR) + "/" + file);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+std::vector<Reason> all_reasons() {
+    std::vector<Reason> reasons;
+    for (int i = 0; i < static_cast<int>(Reason::count); ++i) reasons.push_back(static_cast<Reason>(i));
+    return reasons;
+}
+
+TEST(Reasons, AllHaveCodesOfTheirOwn) {
+    std::vector<std::string> codes;
+    for (const Reason reason : all_reasons()) {
+        const std::string code = reason_code(reason);
+        EXPECT_NE(code, "unknown") << static_cast<int>(reason);
+        EXPECT_EQ(std::count(codes.begin(), codes.end(), code), 0) << code;
+        codes.push_back(code);
+    }
+    EXPECT_STREQ(reason_code(Reason::count), "unknown");
+}
+
+TEST(Reasons, AllAreDocumented) {
+    const std::string page = text_of("docs/economy.md");
+    for (const Reason reason : all_reasons())
+        EXPECT_NE(page.find("\n| `" + std::string(reason_code(reason)) + "` |"), std::string::npos)
+            << reason_code(reason);
+}
+
+/// The smallest scene with a shadow, and what is wrong with it.
+class ReasonScenes : public FrameTest {
+protected:
+    struct Scene {
+        LightKind kind = LightKind::spot;
+        std::function<void(LightShadow&)> setting = {};
+        std::function<void()> change = {};  // of the world, or the device, before the frame
+        int frames = 1;
+    };
+    static Scene of_spot(std::function<void(LightShadow&)> setting) { return {LightKind::spot, std::move(setting)}; }
+    static Scene of_sun(std::function<void(LightShadow&)> setting) {
+        return {LightKind::directional, std::move(setting)};
+    }
+    Scene changed(std::function<void()> change) { return {LightKind::spot, {}, std::move(change)}; }
+    /// The first call of that kind and label of a frame without a fault fails.
+    Scene refused(Kind kind, const std::string& label, gl::Failure failure) {
+        return changed([=, this] { device.fail_call(calls_before + first_call(kind, label), failure); });
+    }
+    std::uint64_t first_call(Kind kind, const std::string& label) const {
+        gl::RecordingDevice other;
+        auto made = Frame::create(other, library);
+        TestWorld same;
+        same.add_stage();
+        shadowed(same, LightKind::spot);
+        made.value()->run(same.registry, settings);
+        std::uint64_t number = 0;
+        for (const gl::ResourceCall& call : other.resource_calls()) {
+            if (call.kind == kind && call.label == label) return number;
+            number += call.kind < Kind::destroy_texture || call.kind >= Kind::submit ? 1 : 0;
+        }
+        ADD_FAILURE() << "nothing is called " << label;
+        return number;
+    }
+    static ecs::Entity shadowed(TestWorld& in, LightKind kind) {
+        const ecs::Entity light = in.add_light(kind, kLightPlace_m, "lamp");
+        in.registry.patch<LightShadow>(light, [](LightShadow& s) { s.resolution_px = 64; });
+        return light;
+    }
+    std::map<Reason, Scene> scenes();
+    Reason given(const Scene& scene) {
+        stage = world.add_stage();
+        lamp = shadowed(world, scene.kind);
+        if (scene.setting) world.registry.patch<LightShadow>(lamp, scene.setting);
+        if (scene.change) scene.change();
+        for (int i = 0; i < scene.frames; ++i) step();
+        return light("lamp").reason;
+    }
+    void start_anew() {
+        frame.reset();
+        world = {};
+        device.stop_failing();
+        calls_before = device.calls();
+        start();
+    }
+    TestWorld::Stage stage;
+    ecs::Entity lamp;
+    std::uint64_t calls_before = 0;  // the frame was made
+};
+
+std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
+    return {
+        {Reason::none, {}},
+        {Reason::no_light_shadow, changed([this] { world.registry.remove<LightShadow>(lamp); })},
+        {Reason::shadows_off, of_spot([](LightShadow& s) { s.enabled = false; })},
+        {Reason::light_off, changed([this] { world.registry.patch<Light>(lamp, [](Light& l) { l.intensity = 0; }); })},
+        {Reason::no_visible_receiver, changed([this] {
+             world.move(stage.camera, {0, -4, 8});
+         })},
+        {Reason::no_caster, changed([this] { world.registry.remove<ShadowCaster>(stage.box); })},
+        {Reason::content_unchanged, {.frames = 2}},
+        {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
+        {Reason::map_shrunk, refused(Kind::create_texture, "shadow map lamp", gl::Failure::out_of_memory)},
+        {Reason::map_allocation_failed,
+         changed([this] { device.fail_label("shadow map", gl::Failure::out_of_memory); })},
+        {Reason::target_incomplete, refused(Kind::create_target, "shadow map lamp", gl::Failure::incomplete_target)},
+        {Reason::depth_program_failed, refused(Kind::create_program, "depth opaque", gl::Failure::compile_failed)},
+        {Reason::lighting_program_failed,
+         changed([this] { device.fail_label("filters", gl::Failure::compile_failed); })},
+        {Reason::buffer_failed, refused(Kind::create_buffer, "shadow draw items", gl::Failure::out_of_memory)},
+        {Reason::sampler_failed, refused(Kind::create_sampler, "shadow compare linear", gl::Failure::out_of_memory)},
+        {Reason::projection_unsupported, of_spot([](LightShadow& s) { s.projection = LightProjection::orthographic; })},
+        {Reason::eye_invalid, of_sun([](LightShadow& s) { s.eye_angle_rad = -1.0f; })},
+        {Reason::range_invalid, of_spot([](LightShadow& s) { s.near_m = 2.0f, s.far_m = 1.0f; })},
+        {Reason::cascades_clamped, of_sun([](LightShadow& s) { s.cascades = 9; })},
+        {Reason::warp_unsupported, of_sun([](LightShadow& s) { s.warp = 2.0f; })},
+        {Reason::splits_invalid, of_sun([](LightShadow& s) { s.cascade_blend = 2.0f; })},
+        {Reason::depths_unread,
+         {LightKind::directional, [](LightShadow& s) { s.splits = CascadeSplits::sampled; },
+          [this] { device.fail_label("view distances", gl::Failure::compile_failed); }, 2}},
+        {Reason::filter_cut, of_spot([](LightShadow& s) { s.filter = ShadowFilter::pcf_grid, s.filter_size = 0; })},
+    };
+}
+
+TEST_F(ReasonScenes, EveryReasonIsGiven) {
+    const std::map<Reason, Scene> all = scenes();
+    for (const Reason reason : all_reasons()) {
+        if (reason == Reason::fit_degenerate) continue;  // no world is known that comes so far: see below
+        const auto scene = all.find(reason);
+        ASSERT_NE(scene, all.end()) << "no scene gives " << reason_code(reason);
+        EXPECT_STREQ(reason_code(given(scene->second)), reason_code(reason));
+        start_anew();
+    }
+}
+
+TEST(Reasons, PointsInInfinityHaveNoFit) {
+    SceneSnapshot scene;
+    scene.consumers.emplace_back();
+    scene.lights.push_back({.kind = LightKind::directional, .intensity = 1.0f, .has_shadow = true});
+    scene.lights[0].shadow.cascades = 1;
+    shadow::ShadowFrame frame;
+    shadow::decide_demand(scene, gl::RecordingDevice::default_info(), true, {}, frame.demands);
+    frame.receiver_points_ws = {glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+    frame.beams.emplace_back();
+    frame.sets.emplace_back();
+    frame.sets[0].receiver_points = {0, 2};
+    frame.sets[0].beams = {0, 1};
+    shadow::fit_views(scene, {}, frame);
+    EXPECT_EQ(frame.sets[0].skip, Reason::fit_degenerate);
+    EXPECT_TRUE(frame.views.empty());
+}
+
+}  // namespace
+}  // namespace gnomon
