@@ -39,6 +39,7 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"state", to_text(light.state)},
             {"reason", reason_code(light.reason)},
             {"predicted_error_px", light.predicted_error_px},
+            {"keeps_max_error", light.keeps_max_error},
             {"views", light.views},
             {"views_drawn", light.views_drawn},
             {"texels", light.texels},

@@ -69,6 +69,7 @@ struct LightReport {
     LightState state = LightState::skipped;
     Reason reason = Reason::none;
     double predicted_error_px = 0.0;  // worst shadow-edge error over its views
+    bool keeps_max_error = false;     // that is within LightShadow::max_error_px, beside the picture's own pixel
     std::uint32_t views = 0;          // rendered or reused
     std::uint32_t views_drawn = 0;    // drawn this frame
     std::uint64_t texels = 0;         // of the map

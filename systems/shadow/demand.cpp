@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/shadow/contract.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/splits.h"
@@ -13,9 +14,6 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Also what sizes are multiples of: as many texels as a quantised grid needs, few enough that a window that grows by
-/// some pixels seldom makes new maps.
-constexpr std::uint32_t kLeastMap_px = 256;
 /// 256 MiB for one D32F layer: who wants more asks for it by resolution_px.
 constexpr std::uint32_t kLargestAutomatic_px = 8192;
 /// Below this no margin for the filter is left around the content.
@@ -79,6 +77,19 @@ LightShadow with_own_source(const LightItem& light) {
     return shadow;
 }
 
+/// As large as the picture asks for, or as the fits found to be enough (contract.h).
+void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, std::uint32_t held_px,
+                       ShadowDemand& demand) {
+    const std::uint32_t asked_px = light.shadow.resolution_px;
+    demand.most_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
+                                  : automatic_resolution(viewport_px, filter_row(demand.filter).texels_per_pixel,
+                                                         light.shadow.max_error_px, limit_px);
+    if (asked_px > 0 && demand.most_px != asked_px) demand.note = Reason::resolution_clamped;
+    set_resolution(light, demand.most_px, demand);
+    if (held_px > 0 && held_px < demand.most_px && follows_contract(light, demand))
+        set_resolution(light, held_px, demand);
+}
+
 void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {
     demand.faces_eighths = next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
     demand.view_count = cone_layers(demand.faces_eighths);
@@ -88,13 +99,22 @@ void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& de
 
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,
                                    std::uint32_t limit_px) {
-    const double wished_error_px = max_error_px > 0.0f ? static_cast<double>(max_error_px) : 1.0;
+    const double finest_px = std::min(max_error_px > 0.0f ? static_cast<double>(max_error_px) : 1.0, 1.0);
     const std::uint32_t most_px = std::min(limit_px, kLargestAutomatic_px);
     const double wish_px =
-        std::ceil(std::max(viewport_px.x, viewport_px.y) * static_cast<double>(texels_per_pixel) / wished_error_px);
+        std::ceil(std::max(viewport_px.x, viewport_px.y) * static_cast<double>(texels_per_pixel) / finest_px);
     const auto bounded_px =
         static_cast<std::uint32_t>(std::clamp(wish_px, double{kLeastMap_px}, double{kLargestAutomatic_px}));
     return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
+}
+
+void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand) {
+    demand.resolution_px = size_px;
+    demand.filtering = filter_demand(with_own_source(light), size_px);
+    demand.moments = moment_demand(filter_row(demand.filter), light.shadow, size_px);
+    // A cube's sampler leaves its face along a footprint, but not the way the map goes on there.
+    if (light_kind_row(light.kind).texture == gl::TextureKind::cube) demand.moments.anisotropy = 1;
+    if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
 
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,
@@ -113,22 +133,11 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         demand.view_count = kind.layers;
         const std::uint32_t limit_px =
             kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
-        if (light.shadow.resolution_px == 0) {
-            demand.resolution_px = automatic_resolution(viewport_px, filter_row(demand.filter).texels_per_pixel,
-                                                        light.shadow.max_error_px, limit_px);
-        } else {
-            demand.resolution_px =
-                std::clamp(light.shadow.resolution_px, std::min(kLeastRequested_px, limit_px), limit_px);
-            if (demand.resolution_px != light.shadow.resolution_px) demand.note = Reason::resolution_clamped;
-        }
-        demand.filtering = filter_demand(with_own_source(light), demand.resolution_px);
-        demand.moments = moment_demand(filter_row(demand.filter), light.shadow, demand.resolution_px);
-        // A cube's sampler leaves its face along a footprint, but not the way the map goes on there.
-        if (kind.texture == gl::TextureKind::cube) demand.moments.anisotropy = 1;
-        if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
+        const HeldLight* held_light = find(held, light.entity, i);
+        decide_resolution(light, viewport_px, limit_px, held_light ? held_light->map_px : 0, demand);
         decide_projection(light, scene.sampled_depths.failed, demand);
         if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
-        if (light.kind == LightKind::spot) decide_cone(light, find(held, light.entity, i), demand);
+        if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
         demands.push_back(demand);
     }
 }

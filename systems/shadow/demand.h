@@ -7,11 +7,14 @@
 
 namespace gnomon::shadow {
 
-/// Map edge when LightShadow::resolution_px is 0: the multiple of 256 at or above texels_per_pixel (FilterRow) /
-/// max_error_px times the picture's larger side, within [256, min(limit_px, 8192)]. max_error_px not above 0, or NaN,
-/// counts as 1.
+/// Most texels along a map's edge when LightShadow::resolution_px is 0: the multiple of kLeastMap_px at or above
+/// texels_per_pixel (FilterRow) times the picture's larger side, divided by max_error_px where that is below 1; within
+/// [kLeastMap_px, min(limit_px, 8192)]. max_error_px not above 0, or NaN, counts as 1.
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,
                                    std::uint32_t limit_px);
+
+/// Sets the size of the light's maps, and what of its filter's settings they bear.
+void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand);
 
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
 /// `shadows` false treats every light as disabled. `held`: what the fits left last frame.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "systems/shadow/contract.h"
+
 namespace gnomon::shadow {
 namespace {
 
@@ -100,6 +102,8 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
             out.predicted_error_px = std::max(out.predicted_error_px, frame.views[v].predicted_error_px);
         }
         explain_state(sets, demand, history, out);
+        out.keeps_max_error = out.views > 0 && history->failure == Reason::none &&
+                              keeps_contract(out.predicted_error_px, wished_error_px(light.shadow));
         out.why.receivers = sets.receivers.count;
         out.why.casters = sets.casters.count;
         const std::optional<double> view_us = times.view_us(light.entity);

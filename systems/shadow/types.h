@@ -41,7 +41,8 @@ struct ShadowDemand {
     DepthFormat depth_format = DepthFormat::d32f;
     FilterDemand filtering{};          // its settings
     MomentDemand moments{};            // of FilterStorage::moments
-    std::uint32_t resolution_px = 0;   // edge of the map or of a cube face
+    std::uint32_t resolution_px = 0;   // edge of the map or of a cube face: the fit takes fewer than most_px where they
+    std::uint32_t most_px = 0;         // keep the light's word (contract.h)
     std::uint32_t view_count = 0;      // layers of the map
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
     bool perspective_sun = false;      // one view from an eye instead of cascades

@@ -1,0 +1,41 @@
+#include "systems/shadow/contract.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/shadow/filter_demand.h"
+#include "systems/shadow/predicted_error.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way.
+constexpr std::uint32_t kPatience = 2;
+
+/// What of a predicted error is the texels' share.
+double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0.0, 0.0); }
+
+}  // namespace
+
+double wished_error_px(const LightShadow& shadow) {
+    return shadow.max_error_px > 0.0f ? static_cast<double>(shadow.max_error_px) : 1.0;
+}
+
+bool follows_contract(const LightItem& light, const ShadowDemand& demand) {
+    const bool stable = light.kind == LightKind::directional && light.shadow.fit == ShadowFit::stable;
+    return light.shadow.resolution_px == 0 && !stable && !needs_distances(demand.filtering);
+}
+
+std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
+                               std::uint32_t most_px) {
+    const double needed_px = std::ceil(size_px * of_texels_px(predicted_px) / wished_px);
+    if (!(needed_px < most_px)) return most_px;
+    const auto least_px = static_cast<std::uint32_t>(std::max(needed_px, 1.0));
+    const std::uint32_t wish_px = std::min((least_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
+    const bool stays = held && wish_px <= size_px && size_px <= most_px && size_px < kPatience * wish_px;
+    return stays ? size_px : wish_px;
+}
+
+bool keeps_contract(double predicted_px, double wished_px) { return of_texels_px(predicted_px) <= wished_px; }
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/types.h"
+
+/// The accuracy contract: as many texels as LightShadow::max_error_px asks for, and no more.
+///
+/// An edge is off by (1/2 + E) m pixels, and one more that comes from pixels alone (predicted_error.h); m shrinks as a
+/// map's edge grows. So the views of a fit, with maps of any size, tell which size keeps the light's word: coverage
+/// and distance decide, through what a texel is on the screen. Sizes are held: more texels are given at once, fewer
+/// only after half of them has done for a second, so that a walking camera seldom makes new maps.
+namespace gnomon::shadow {
+
+/// Map edges are multiples of it, and at least this: as many texels as a quantised grid needs, few enough that a window
+/// that grows by some pixels seldom makes new maps.
+inline constexpr std::uint32_t kLeastMap_px = 256;
+
+/// max_error_px, or 1 where it is not above 0.
+double wished_error_px(const LightShadow& shadow);
+
+/// Whether the light's maps may be smaller than its demand's most_px. Not where the size is given, where it must not
+/// depend on what is seen (ShadowFit::stable), or where a filter's width hangs on it (FilterWidth::source).
+bool follows_contract(const LightItem& light, const ShadowDemand& demand);
+
+/// What maps of `size_px` that err by `predicted_px` should become: the least multiple of kLeastMap_px that errs by no
+/// more than `wished_px` beside the pixel of the picture's own, at most `most_px`; if they are `held`, size_px itself
+/// unless that is less or twice as much. `predicted_px` 0: nothing is seen. Infinite or NaN: most_px.
+std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
+                               std::uint32_t most_px);
+
+/// How many frames in a row half of a held map's edge has to do before it becomes smaller: a second at 60 Hz, longer
+/// than a glance aside.
+inline constexpr std::uint32_t kSpareFrames = 60;
+
+/// Whether maps that err by `predicted_px` keep the light's word.
+bool keeps_contract(double predicted_px, double wished_px);
+
+}  // namespace gnomon::shadow
