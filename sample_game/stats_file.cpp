@@ -24,6 +24,7 @@ void add_why(const Why& why, Json& json) {
 Json why_stats(const FrameReport& report, const LightReport& light) {
     Json why, views = Json::array();
     add_why(light.why, why);
+    why["display_steps"] = or_null(light.why.display_steps);
     for (const ViewReport& view : report.views_of(light)) {
         Json entry = {{"view", view.layer}, {"state", to_text(view.state)}, {"reason", reason_code(view.reason)}};
         add_why(view.why, entry);

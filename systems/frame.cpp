@@ -42,6 +42,9 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(snapshot_.sampled_depths);
     gpu_scene_.update(snapshot_, commands_);
+    snapshot_.exposure.reset();
+    if (settings.leave_out_dim_lights && settings.exposure_ev)
+        snapshot_.exposure = lighting::exposure_scale(*settings.exposure_ev);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
     const bool sample_depths = !held && shadow::wants_sampled_depths(snapshot_, shadows);
     if (!sample_depths && !held) snapshot_.sampled_depths = {};  // of no use later

@@ -43,6 +43,8 @@ struct FrameSettings {
     /// Shadows stay fitted to the cameras as they were in the first frame that asked for it, while the picture follows
     /// its own. Lights and casters go on: shadows follow them, as those cameras need it.
     bool freeze_fits = false;
+    /// Lights whose shadows could not be seen in the picture cast none; needs a fixed exposure (docs/economy.md).
+    bool leave_out_dim_lights = true;
 };
 
 /// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.

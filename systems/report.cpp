@@ -30,6 +30,8 @@ const char* reason_code(Reason reason) {
             return "no_visible_receiver";
         case Reason::no_caster:
             return "no_caster";
+        case Reason::below_display_step:
+            return "below_display_step";
         case Reason::content_unchanged:
             return "content_unchanged";
         case Reason::resolution_clamped:

@@ -24,6 +24,7 @@ enum class Reason : std::uint8_t {
     light_off,            // no intensity
     no_visible_receiver,  // nothing that a camera sees is within the light's reach
     no_caster,            // nothing can darken what is seen
+    below_display_step,   // lit everywhere, it and others like it change no pixel by more than half a step
     content_unchanged,    // the map of an earlier frame still holds
     resolution_clamped,   // the device's limit is below the wish
     map_shrunk,           // the wished size could not be allocated, a smaller one could
@@ -48,9 +49,12 @@ const char* reason_code(Reason reason);
 
 /// The numbers behind what a light, or one of its views, was given.
 struct Why {
-    std::uint32_t receivers = 0;     // that a camera sees and the light reaches, by their bounds
-    std::uint32_t casters = 0;       // that may darken what is seen of those
-    std::uint64_t bytes_saved = 0;   // of maps that were not made, or not written
+    std::uint32_t receivers = 0;    // that a camera sees and the light reaches, by their bounds
+    std::uint32_t casters = 0;      // that may darken what is seen of those
+    std::uint64_t bytes_saved = 0;  // of maps that were not made, or not written
+    /// Of a light: the most that it can add to a pixel, in 8 bit steps of the picture; empty: exposure is not known, or
+    /// it was not asked for.
+    std::optional<double> display_steps;
     std::optional<double> saved_us;  // of drawing, by what it took when it was last measured; empty: never measured
 };
 

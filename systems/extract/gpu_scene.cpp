@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -116,6 +117,15 @@ std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& libra
     return triangles;
 }
 
+float most_reflected(const assets::Material& material) {
+    constexpr float kLeastAlpha = 1.0e-3f;  // as brdf.glsl has it
+    const float alpha = std::max(material.roughness * material.roughness, kLeastAlpha);
+    const float colour = std::max({material.base_colour.r, material.base_colour.g, material.base_colour.b});
+    const float diffuse = std::max(colour * (1.0f - material.metallic), 0.0f) / glm::pi<float>();
+    const float fresnel = std::max(colour, 1.0f);
+    return diffuse + fresnel / (2.0f * glm::pi<float>() * alpha * alpha * alpha);
+}
+
 Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary& library) {
     GpuScene scene;
     scene.device_ = &device;
@@ -138,6 +148,7 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
         for (const assets::Submesh& s : mesh.submeshes) {
             scene.submeshes_.push_back({range.first_index + s.first_index, s.index_count, s.material});
             const assets::Material& material = library.materials[s.material];
+            range.most_reflected = std::max(range.most_reflected, most_reflected(material));
             range.solid = range.solid && material.alpha_mode == assets::AlphaMode::opaque && !material.double_sided;
         }
         if (mesh.deformer) scene.bent_.push_back({static_cast<std::uint32_t>(scene.meshes_.size()), 0, mesh.vertices});

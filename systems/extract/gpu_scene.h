@@ -51,6 +51,10 @@ std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& libra
 void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
                           std::vector<glm::vec4>& normals);
 
+/// Bound of shaders/lighting/brdf.glsl over all directions, its cosine included, per unit of light: Lambert's term, and
+/// GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
+float most_reflected(const assets::Material& material);
+
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
 class GpuScene {
 public:
@@ -80,6 +84,7 @@ public:
         std::uint32_t first_index = 0;  // of the mesh in the common index buffer
         std::uint32_t first_submesh = 0, submesh_count = 0;
         std::uint64_t triangles = 0;
+        float most_reflected = 0.0f;  // of what falls on it, toward any viewer (most_reflected())
         bool solid = false;  // closed and wound outward, all of it opaque and single-sided: no ray from outside meets a
                              // back face first
     };

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -130,7 +131,10 @@ struct SceneSnapshot {
     /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all:
     /// the instances' bounds stand for it, as they must where a mesh changes.
     std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
-    SampledDepths sampled_depths;    // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
+    SampledDepths sampled_depths;  // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
+    /// By what the picture's radiance is multiplied before the tone curve, where that is known: lights are then left
+    /// out of shadowing whose shadows nobody could see (systems/shadow/dim_lights.h). Empty: none is.
+    std::optional<double> exposure = {};
     std::uint64_t tree_version = 0;  // the version it is of; of another one it is not used
 };
 

@@ -18,10 +18,10 @@ void put(std::vector<std::byte>& bytes, std::uint32_t offset, const void* record
     std::memcpy(bytes.data() + offset, record, size);
 }
 
-/// Saturation-based exposure of a camera at EV100: L_max = 1.2 * 2^EV (ISO 12232; Lagarde & de Rousiers 2014, 4.2).
-float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
-
 }  // namespace
+
+/// Saturation-based: L_max = 1.2 * 2^EV (ISO 12232; Lagarde & de Rousiers 2014, 4.2).
+float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 AmbientRecord ambient_for(const SceneSnapshot& scene) {
     // A clear sky gives about a tenth of the sun's light, bluish; the ground returns a fifth of that.

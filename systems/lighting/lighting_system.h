@@ -33,6 +33,9 @@ struct LightingSettings {
     bool sample_depths = false;        // count the picture's pixels by view distance, for collect_depths()
 };
 
+/// By what the picture of a camera at this EV100 is multiplied before the tone curve.
+float exposure_scale(float ev);
+
 /// Ambient light for a scene that brings none: a share of what its lights give, bluish from above.
 AmbientRecord ambient_for(const SceneSnapshot& scene);
 

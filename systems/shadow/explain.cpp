@@ -78,7 +78,7 @@ void explain_savings(const LightItem& light, const ShadowDemand& demand, std::op
 }  // namespace
 
 void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const MapStore& maps, const DrawTimes& times,
-                    FrameReport& report) {
+                    const DimLights& dim, FrameReport& report) {
     report.views.clear();
     std::size_t first = 0, end = 0;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i, first = end) {
@@ -106,6 +106,7 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
                               keeps_contract(out.predicted_error_px, wished_error_px(light.shadow));
         out.why.receivers = sets.receivers.count;
         out.why.casters = sets.casters.count;
+        out.why.display_steps = dim.steps(i);
         const std::optional<double> view_us = times.view_us(light.entity);
         if (out.state != LightState::skipped) explain_views(light, demand, frame, first, end, view_us, report, out);
         explain_savings(light, demand, view_us, report, out);

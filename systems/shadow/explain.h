@@ -1,6 +1,7 @@
 #pragma once
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/dim_lights.h"
 #include "systems/shadow/draw_times.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/types.h"
@@ -10,6 +11,6 @@ namespace gnomon::shadow {
 /// What became of each light and of each view that its map has room for, and the numbers behind it: fills
 /// report.lights, which counts what was drawn already, and report.views.
 void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const MapStore& maps, const DrawTimes& times,
-                    FrameReport& report);
+                    const DimLights& dim, FrameReport& report);
 
 }  // namespace gnomon::shadow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 #include "engine/math/projection.h"
 #include "systems/extract/volumes.h"
@@ -11,6 +12,7 @@
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/seed_cell.h"
+#include "systems/shadow/sets.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -136,14 +138,39 @@ CameraRecord camera_record(const ConsumerItem& c) {
     return record;
 }
 
+namespace {
+
+struct Ball {
+    glm::dvec3 centre_ws_m{0.0};
+    double radius_m = 0.0;
+};
+
+/// The smallest around what a local light of limited range reaches.
+Ball reached_ball(const LightItem& light) {
+    constexpr double kRounding = 1.0e-5;  // of the shaders' distances and cosines, in float
+    const double range_m = light.range_m * (1.0 + kRounding);
+    if (light.kind != LightKind::spot) return {light.position_ws_m, range_m};
+    const double angle_rad = std::min(light.outer_cone_rad + kRounding, 0.5 * glm::pi<double>());
+    const glm::dvec3 ahead = -light.rotation_ws[2];
+    // Narrow cones: through the apex and the rim. Wide ones: around the rim.
+    if (angle_rad <= 0.25 * glm::pi<double>()) {
+        const double radius_m = 0.5 * range_m / std::cos(angle_rad);
+        return {light.position_ws_m + ahead * radius_m, radius_m};
+    }
+    return {light.position_ws_m + ahead * (range_m * std::cos(angle_rad)), range_m * std::sin(angle_rad)};
+}
+
+}  // namespace
+
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
     const gl::Rect whole{0, 0, static_cast<std::int32_t>(c.viewport_px.x), static_cast<std::int32_t>(c.viewport_px.y)};
     if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return whole;
-    const glm::dvec3 p = (light.position_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
-    const double r = light.range_m;
+    const Ball ball = reached_ball(light);
+    const glm::dvec3 p = (ball.centre_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
+    const double r = ball.radius_m;
     const bool orthographic = c.projection == CameraProjection::orthographic;
     const double front_m = -p.z + r;  // farthest part of the sphere along the view
-    if (!(front_m > c.near_m)) return {};
+    if (!(front_m > c.near_m) || -p.z - r > c.far_m) return {};
     if (!orthographic && !(-p.z - r > c.near_m)) return whole;  // the sphere reaches the near plane
     const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
     const glm::dvec2 half(half_y * aspect(c), half_y);
@@ -181,13 +208,15 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out = {};
             out.light = i;
             out.row.kind_define = kind.define;
-            out.screen = screen_rectangle(light, consumer);
+            if (reaches_anything_seen(scene, light, consumer)) out.screen = screen_rectangle(light, consumer);
             out.record = light_record(light, fitted, consumer);
         }
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const ShadowSlot& slot = frame.slots[v];
             if (!slot.texture) continue;
             const ShadowView& view = frame.views[v];
+            // Other cameras than those that it is fitted to may see anything.
+            if (scene.pictures.empty() && (view.consumer_mask & consumer_bit(c)) == 0) continue;
             const ShadowDemand& demand = frame.demands[view.demand];
             const LightTime time(frame, demand.light);
             const LightItem& light = scene.lights[demand.light];

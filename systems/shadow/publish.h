@@ -30,8 +30,9 @@ struct MapSamplers {
 /// The consumer's camera as shaders see it.
 CameraRecord camera_record(const ConsumerItem& consumer);
 
-/// Pixels a light can reach in the consumer's picture: the whole viewport for a sun or an unlimited light,
-/// the bounding rectangle of the range sphere otherwise; empty if the sphere is behind the camera. Conservative.
+/// Pixels a light can reach in the consumer's picture: the whole viewport for a sun or an unlimited light, the bounding
+/// rectangle of a ball around its range, a spot's around its cone, otherwise; empty if that is behind the camera or
+/// beyond its far plane. Conservative.
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
 
 /// Stage 6: for each camera that draws, each light with its program row, record and textures. A light without a map is

@@ -239,6 +239,23 @@ ShadowLayers layers_of_all(const SceneSnapshot& scene, const ShadowFrame& frame)
 
 }  // namespace
 
+bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer) {
+    if (light.kind == LightKind::directional) return true;
+    const Reach reach(light);
+    const math::Frustum frustum = consumer_frustum(consumer);
+    const auto planes = math::planes_of(frustum);
+    bool found = false;
+    const auto classify = [&](const math::Aabb& box) {
+        if (found) return Overlap::outside;
+        const Overlap seen = math::overlap(planes, box);
+        if (seen == Overlap::outside) return seen;
+        const Overlap reached = reach.overlap(box);
+        return reached == Overlap::inside ? seen : reached;
+    };
+    visit_instances(scene, classify, [&](std::uint32_t i) { found = found || scene.instances[i].visible; });
+    return found;
+}
+
 std::span<const math::Plane> seen_by_the_only_consumer(const ShadowFrame& frame) {
     if (frame.seen.size() != 1) return {};
     return math::planes_of(frame.seen.front());

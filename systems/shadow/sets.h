@@ -14,6 +14,10 @@ namespace gnomon::shadow {
 /// the result is the same without, the time is not.
 void select_sets(const SceneSnapshot& scene, ShadowFrame& frame);
 
+/// Whether the light reaches any instance that the consumer may see, shadow or not: else it adds nothing to the picture.
+/// Conservative as the sets are.
+bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer);
+
 /// Planes that hold all that is seen; none where several look on.
 std::span<const math::Plane> seen_by_the_only_consumer(const ShadowFrame& frame);
 

@@ -71,6 +71,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
         for (ShadowDemand& demand : frame_.demands)
             if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
     select_sets(scene, frame_);
+    dim_lights_.leave_out(scene, gpu, frame_);
     fit_views(scene, history_, frame_);
     provide_triangles(gpu);
     maps_.assign_slots(scene, frame_);
@@ -79,7 +80,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     publish_lights(scene, samplers_, frame_);
     recorder_.record(scene, gpu, frame_, list, report);
     moments_.record(scene, frame_, list);
-    explain_lights(scene, frame_, maps_, draw_times_, report);
+    explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;
 }

@@ -5,6 +5,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/dim_lights.h"
 #include "systems/shadow/draw_times.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/moment_recorder.h"
@@ -49,6 +50,7 @@ private:
     MomentRecorder moments_;
     MapSamplers samplers_;
     DrawTimes draw_times_;
+    DimLights dim_lights_;
     ShadowFrame frame_;
     History history_;
 };

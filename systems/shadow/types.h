@@ -101,10 +101,10 @@ struct ShadowView {
     double fades_from_m = 0.0;  // view distance from which it may fade into the next, and where only its map's border
     double fades_to_m = 0.0;    // keeps it from having done so; both 0: at any distance
     double texel_m = 0.0;       // largest diagonal of a texel across the light, at a receiver
-    double texel_extent_px = 0.0;     // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
-    double predicted_error_px = 0.0;  // how far a shadow edge may be off on screen
-    std::uint32_t consumer_mask = 0;  // who may look it up: consumer_bit() of each that sees receivers in it
-    std::uint32_t receivers = 0;      // how many are seen in it
+    double texel_extent_px = 0.0;       // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
+    double predicted_error_px = 0.0;    // how far a shadow edge may be off on screen
+    std::uint32_t consumer_mask = ~0u;  // who may look it up: consumer_bit() of each that sees receivers in it
+    std::uint32_t receivers = 0;        // how many are seen in it
     bool held = false;   // meant to stay while cameras move: its casters are all that its map can show, so that the map
                          // holds; else only those that can darken what is seen now
     IndexRange casters;  // into ShadowFrame::view_caster_items, by mesh, then by index

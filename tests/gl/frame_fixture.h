@@ -102,7 +102,8 @@ protected:
 
     ecs::Registry world;
     assets::MeshLibrary library;
-    FrameSettings settings{.viewport_px = {320, 256}, .exposure_ev = 10.0f};
+    /// Shadows are looked at one by one, however dim their lights.
+    FrameSettings settings{.viewport_px = {320, 256}, .exposure_ev = 10.0f, .leave_out_dim_lights = false};
 
 private:
     std::unique_ptr<Frame> frame_;

@@ -59,9 +59,10 @@ protected:
                 contents[Way::kLavish].of(b.slots[v].target, device))
                 continue;
             const LightItem& light = both->scene().lights[a.demands[a.views[v].demand].light];
-            std::cout << "frame " << frame << ": layer " << a.views[v].layer << " of a light of kind "
-                      << static_cast<int>(light.kind) << " and filter " << static_cast<int>(light.shadow.filter)
-                      << "\n";
+            if (!mislead)
+                std::cout << "frame " << frame << ": layer " << a.views[v].layer << " of a light of kind "
+                          << static_cast<int>(light.kind) << " and filter " << static_cast<int>(light.shadow.filter)
+                          << "\n";
             return false;
         }
         return true;

@@ -1,3 +1,5 @@
+#include <functional>
+
 #include "engine/assets/mesh_shape.h"
 #include "systems/shadow/filter_table.h"
 #include "tests/system/frame_fixture.h"
@@ -110,6 +112,12 @@ TEST_F(FrameCost, NoFilterAllocatesInAStillScene) {
         const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
         EXPECT_EQ(allocations_when_warm(kinds, settings, filtered), 0u) << row.name;
     }
+}
+
+TEST_F(FrameCost, LeavingOutDimLightsAllocatesNothingOnceWarm) {
+    settings.exposure_ev = 30.0f;
+    for (const auto& edit : {std::function<void(TestWorld&, const TestWorld::Stage&, int)>(still), {moving}})
+        EXPECT_EQ(allocations_when_warm({LightKind::spot, LightKind::point, LightKind::spot}, settings, edit), 0u);
 }
 
 TEST_F(FrameCost, AMovingSceneOfLocalLightsAllocatesNothingOnceWarm) {

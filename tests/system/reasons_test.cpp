@@ -98,6 +98,7 @@ protected:
         frame.reset();
         world = {};
         device.stop_failing();
+        settings.exposure_ev.reset();
         calls_before = device.calls();
         start();
     }
@@ -116,6 +117,10 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
              world.move(stage.camera, {0, -4, 8});
          })},
         {Reason::no_caster, changed([this] { world.registry.remove<ShadowCaster>(stage.box); })},
+        {Reason::below_display_step, changed([this] {
+             settings.exposure_ev = 15.0f;
+             world.registry.patch<Light>(lamp, [](Light& l) { l.intensity = 1.0e-3f; });
+         })},
         {Reason::content_unchanged, {.frames = 2}},
         {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
         {Reason::map_shrunk, refused(Kind::create_texture, "shadow map lamp", gl::Failure::out_of_memory)},

@@ -34,7 +34,7 @@ protected:
     std::mt19937_64 random{print_seed()};
 };
 
-TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRange) {
+TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRangeAndOfTheCone) {
     int visible = 0, partial = 0;
     for (int round = 0; round < 2000; ++round) {
         const ConsumerItem c = camera(round % 2 == 1);
@@ -42,12 +42,16 @@ TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRange) {
         light.kind = round % 3 == 0 ? LightKind::spot : LightKind::point;
         light.position_ws_m = c.position_ws_m + number(0.0, 60.0) * direction();
         light.range_m = number(0.1, 20.0);
+        light.rotation_ws = math::basis_from_back(direction());
+        light.outer_cone_rad = number(0.05, 1.57);
         const gl::Rect rect = screen_rectangle(light, c);
         const bool flat = c.projection == CameraProjection::orthographic;
         const double half_y = flat ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
         if (rect.width > 0 && rect.width < static_cast<int>(c.viewport_px.x)) ++partial;
         for (int i = 0; i < 50; ++i) {
-            const glm::dvec3 p = (light.position_ws_m + light.range_m * std::cbrt(number(0, 1)) * direction() - c.position_ws_m) * c.rotation_ws;
+            const glm::dvec3 along = direction();
+            if (light.kind == LightKind::spot && glm::dot(along, -light.rotation_ws[2]) < std::cos(light.outer_cone_rad)) continue;
+            const glm::dvec3 p = (light.position_ws_m + light.range_m * std::cbrt(number(0, 1)) * along - c.position_ws_m) * c.rotation_ws;
             if (!(-p.z > c.near_m)) continue;
             const glm::dvec2 ndc = glm::dvec2(p) / (flat ? 1.0 : -p.z) / glm::dvec2(half_y * aspect(c), half_y);
             if (std::abs(ndc.x) > 1.0 || std::abs(ndc.y) > 1.0) continue;
@@ -86,6 +90,32 @@ TEST_F(ScreenRectangle, OfAFarLightIsSmall) {
     const gl::Rect rect = screen_rectangle(light, c);
     EXPECT_GT(rect.width, 0);
     EXPECT_LT(rect.width, 30);
+}
+
+TEST_F(ScreenRectangle, OfANarrowConeIsMuchSmallerThanThatOfItsRange) {
+    ConsumerItem c;
+    c.position_ws_m = {0, 0, 30};
+    LightItem spot;
+    spot.kind = LightKind::spot;
+    spot.range_m = 10.0;
+    spot.outer_cone_rad = 0.2;
+    spot.rotation_ws = math::basis_from_back(glm::dvec3(-1, 0, 0));  // shines to the right
+    LightItem point = spot;
+    point.kind = LightKind::point;
+    const gl::Rect narrow = screen_rectangle(spot, c), whole = screen_rectangle(point, c);
+    EXPECT_LT(3 * narrow.width * narrow.height, whole.width * whole.height);
+    EXPECT_GT(narrow.width, 0);
+}
+
+TEST_F(ScreenRectangle, BeyondTheFarPlaneThereIsNone) {
+    ConsumerItem c;
+    LightItem light;
+    light.position_ws_m = {0, 0, -50};
+    light.range_m = 10.0;
+    c.far_m = 45.0;
+    EXPECT_GT(screen_rectangle(light, c).width, 0);
+    c.far_m = 39.0;
+    EXPECT_EQ(screen_rectangle(light, c).width, 0);
 }
 
 }  // namespace
