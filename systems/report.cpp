@@ -68,6 +68,8 @@ const char* reason_code(Reason reason) {
             return "depths_unread";
         case Reason::filter_cut:
             return "filter_cut";
+        case Reason::depth_coarse:
+            return "depth_coarse";
         case Reason::count:
             break;
     }

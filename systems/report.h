@@ -43,6 +43,7 @@ enum class Reason : std::uint8_t {
     splits_invalid,    // split_m, split_lambda or cascade_blend is absurd, the default is used
     depths_unread,     // the picture's depths could not be had, splits go by the receivers' bounds
     filter_cut,        // a setting of the filter is absurd, or more than its map can bear
+    depth_coarse,      // steps of the depth format are wider than the map's texels where receivers are
     count
 };
 const char* reason_code(Reason reason);

@@ -1,9 +1,11 @@
 #include "systems/shadow/fit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
+#include "systems/shadow/depth_format.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/predicted_error.h"
@@ -36,6 +38,13 @@ void state_receivers(const LightItem& light, const PotentialSets& sets, const Sh
     const Beam& beam = frame.beams[sets.beams.first + (sun ? 0 : view.layer)];
     view.consumer_mask = beam.consumers;
     if (view.receivers == 0) view.receivers = beam.receivers;
+}
+
+/// Depths that differ by less are one, at the farthest receiver: 0 of floats, whose steps are a share of the distance.
+double depth_step_m(const ShadowView& view, DepthFormat format) {
+    const double step = depth_format_row(format).step;
+    if (view.projection == ViewProjection::orthographic) return step * (view.far_m - view.near_m);
+    return step * view.far_m * view.far_m / std::abs(view.depth_beta);  // d(alpha + beta / z)
 }
 
 /// The light's views, without casters, for maps of its demand's size. False if no finite volume exists.
@@ -121,6 +130,12 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
         if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
         next.spare_frames = spare_frames;
         next.map_px = follows_contract(light, demand) ? demand.resolution_px : 0;
+        for (std::size_t v = first; v < frame.views.size(); ++v) {
+            const ShadowView& view = frame.views[v];
+            if (depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 &&
+                demand.note == Reason::none)
+                demand.note = Reason::depth_coarse;
+        }
         for (std::size_t v = first; v < frame.views.size(); ++v) select_view_casters(scene, frame.views[v], frame);
     }
 }

@@ -142,6 +142,7 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
          {LightKind::directional, [](LightShadow& s) { s.splits = CascadeSplits::sampled; },
           [this] { device.fail_label("view distances", gl::Failure::compile_failed); }, 2}},
         {Reason::filter_cut, of_spot([](LightShadow& s) { s.filter = ShadowFilter::pcf_grid, s.filter_size = 0; })},
+        {Reason::depth_coarse, of_spot([](LightShadow& s) { s.depth_format = DepthFormat::d16, s.near_m = 1e-4f; })},
     };
 }
 

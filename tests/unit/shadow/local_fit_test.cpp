@@ -86,6 +86,20 @@ TEST(LocalFit, NearAndFarHoldCastersAndReceiversWithinTwoSteps) {
     EXPECT_LE(frame.views[0].far_m, 5.1 * 1.2);
 }
 
+TEST(LocalFit, DepthsCoarserThanTexelsAreReported) {
+    const auto note = [](DepthFormat format, float near_m) {
+        SceneSnapshot s = floor_and_posts(LightKind::spot);
+        s.lights[0].shadow.depth_format = format;
+        s.lights[0].shadow.near_m = near_m;
+        return fitted(s).demands[0].note;
+    };
+    EXPECT_EQ(note(DepthFormat::d16, 0.0f), Reason::none) << "fitted from 4 to 5 m";
+    EXPECT_EQ(note(DepthFormat::d16, 0.001f), Reason::depth_coarse) << "5 m in steps of 40 cm";
+    EXPECT_EQ(note(DepthFormat::d24, 0.001f), Reason::none);
+    EXPECT_EQ(note(DepthFormat::d24, 0.00001f), Reason::depth_coarse);
+    EXPECT_EQ(note(DepthFormat::d32f, 0.00001f), Reason::none);
+}
+
 /// Fits a walk and counts how often any view's matrix changed.
 struct Walk {
     int fits = 0, changes = 0;
