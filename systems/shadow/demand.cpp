@@ -111,9 +111,14 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand) {
     demand.resolution_px = size_px;
     demand.filtering = filter_demand(with_own_source(light), size_px);
-    demand.moments = moment_demand(filter_row(demand.filter), light.shadow, size_px);
+    const FilterRow& row = filter_row(demand.filter);
+    LightShadow shadow = light.shadow;
     // A cube's sampler leaves its face along a footprint, but not the way the map goes on there.
-    if (light_kind_row(light.kind).texture == gl::TextureKind::cube) demand.moments.anisotropy = 1;
+    if (light_kind_row(light.kind).texture == gl::TextureKind::cube)
+        shadow.moment_anisotropy = std::min(shadow.moment_anisotropy, 1u);
+    demand.moments = moment_demand(row, shadow, size_px);
+    demand.moments.cut |=
+        row.storage == FilterStorage::moments && shadow.moment_anisotropy != light.shadow.moment_anisotropy;
     if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
 

@@ -101,6 +101,21 @@ TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
         EXPECT_EQ(size(absurd), size(1.0f));
 }
 
+TEST_F(DemandTest, APointLightSaysThatItTakesNoAnisotropyAndPaysForNone) {
+    for (LightItem& light : scene.lights) light.shadow.filter = ShadowFilter::vsm;
+    const float plain = decide()[2].moments.reach_texel;
+    for (LightItem& light : scene.lights) light.shadow.moment_anisotropy = 4;
+    decide();
+    EXPECT_EQ(demands[0].note, Reason::none);
+    EXPECT_EQ(demands[1].note, Reason::none);
+    EXPECT_EQ(demands[1].moments.anisotropy, 4u);
+    EXPECT_EQ(demands[2].note, Reason::filter_cut);
+    EXPECT_EQ(demands[2].moments.anisotropy, 1u);
+    EXPECT_EQ(demands[2].moments.reach_texel, plain);
+    scene.lights[2].shadow.filter = ShadowFilter::hard;
+    EXPECT_EQ(decide()[2].note, Reason::none) << "a filter that has no use for it";
+}
+
 TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {
     for (LightItem& light : scene.lights) light.shadow.resolution_px = 777;
     for (const ShadowDemand& d : decide()) {
