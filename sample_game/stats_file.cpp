@@ -70,6 +70,7 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
         dropped.push_back({{"name", entity.name}, {"reason", reason_code(entity.reason)}});
     Json shadow = {{"cpu_us", report.shadow_cpu_us},
                    {"gpu_us", or_null(report.shadow_gpu_us)},
+                   {"still", report.still},
                    {"views", views},
                    {"draws", draws},
                    {"clears", clears},

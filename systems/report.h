@@ -91,6 +91,7 @@ struct FrameReport {
     std::vector<LightReport> lights;  // one per LightItem, same order
     std::vector<ViewReport> views;    // of all lights, in their order
     std::vector<DroppedEntity> dropped;
+    bool still = false;  // nothing that shadows follow from had changed: the stages' results of the last frame stand
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
@@ -102,6 +103,7 @@ struct FrameReport {
         lights.clear();
         views.clear();
         dropped.clear();
+        still = false;
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();
         shadow_gpu_us.reset();

@@ -343,6 +343,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     if (anew || (bends && !touch_bent(library, snapshot)) || !touch_moved(registry, library, snapshot)) {
         snapshot.changed_instances.clear();
         make_lists(registry, library, transforms, snapshot);
+        snapshot.list_version = snapshot.version;
         build_tree(snapshot);
     } else {
         refit_tree(snapshot);

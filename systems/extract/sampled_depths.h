@@ -17,6 +17,7 @@ struct SampledDepths {
     ecs::Entity camera = {};  // whose picture; none: nothing is known
     bool failed = false;      // asked for, but the device did not give it
     std::array<std::uint32_t, kDepthBins> pixels{};
+    bool operator==(const SampledDepths&) const = default;
 };
 
 }  // namespace gnomon

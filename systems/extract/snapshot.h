@@ -34,6 +34,7 @@ struct ConsumerItem {
     double near_m = 0.05;
     double far_m = 1.0e9;  // may be infinite for perspective
     glm::uvec2 viewport_px{1280, 720};
+    bool operator==(const ConsumerItem&) const = default;
 };
 
 struct LightItem {
@@ -126,7 +127,9 @@ struct SceneSnapshot {
     std::vector<DroppedEntity> dropped;
     std::vector<std::uint32_t> changed_instances;  // indices of those to upload this frame, by rising gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
-    std::uint64_t version = 0;                     // grows whenever anything changed
+    std::uint64_t version = 0;                     // grows whenever anything changed, by 1 if changed_instances are all
+                                                   // whose version grew with it; 0: nobody counts, all is new always
+    std::uint64_t list_version = 0;  // the version since which an index means the same instance; 0: not known
     math::BoundsTree tree;  // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
     /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all:
     /// the instances' bounds stand for it, as they must where a mesh changes.

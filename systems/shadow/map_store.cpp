@@ -9,19 +9,13 @@
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/moment_recorder.h"
+#include "systems/shadow/signature.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// FNV-1a, 64 bit, over 8-byte words.
-struct Signature {
-    std::uint64_t value = 14695981039346656037ull;
-    void add(std::uint64_t word) {
-        for (int i = 0; i < 8; ++i) value = (value ^ (word >> (8 * i) & 0xffu)) * 1099511628211ull;
-    }
-    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
-    void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
-};
+/// Between casters that stand still and those that move: where a draw may not go on.
+constexpr std::uint64_t kBoundary = ~std::uint64_t{0};
 
 /// Labels are for what is made: a longer one takes memory, which a steady frame must not.
 gl::TextureDesc without_label(const gl::TextureDesc& desc) {
@@ -31,7 +25,7 @@ gl::TextureDesc without_label(const gl::TextureDesc& desc) {
 /// What each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl). Without a label.
 gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
     gl::TextureDesc desc = without_label(map);
-    desc.format = gl::Format::rg32ui;
+    desc.format = kTriangleFormat;
     return desc;
 }
 
@@ -82,19 +76,26 @@ gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
 
 }  // namespace
 
-std::uint64_t content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                std::span<const std::uint32_t> casters, CasterFaces faces) {
+ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
+                                   std::span<const std::uint32_t> casters, CasterFaces faces) {
     Signature s;
     s.add(std::uint64_t{size_px});
     s.add(static_cast<std::uint64_t>(faces));
     for (int i = 0; i < 3; ++i) s.add(view.anchor_ws_m[i]);
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row) s.add(view.clip_from_anchor[column][row]);
-    for (const std::uint32_t i : casters) {
-        s.add(std::uint64_t{scene.instances[i].gpu_slot});
-        s.add(scene.instances[i].version);
-    }
-    return s.value == 0 ? 1 : s.value;
+    const auto add = [&](std::span<const std::uint32_t> group) {
+        for (const std::uint32_t i : group) {
+            s.add(std::uint64_t{scene.instances[i].gpu_slot});
+            s.add(scene.instances[i].version);
+        }
+    };
+    const std::size_t still = std::min<std::size_t>(view.still_casters, casters.size());
+    add(casters.first(still));
+    const std::uint64_t of_still = s.value();
+    if (still > 0 && still < casters.size()) s.add(kBoundary);
+    add(casters.subspan(still));
+    return {of_still, s.value()};
 }
 
 MapStore::~MapStore() {
@@ -108,7 +109,10 @@ const LightHistory* MapStore::find(ecs::Entity light) const {
 }
 
 std::uint64_t MapStore::bytes(const LightHistory& history) {
-    return history.texture ? byte_size(history.desc, static_cast<bool>(history.triangles), history.moments) : 0;
+    if (!history.texture) return 0;
+    const bool triangles = static_cast<bool>(history.triangles);
+    const std::uint64_t still = history.still.texture ? byte_size(history.desc, triangles, {}) : 0;
+    return byte_size(history.desc, triangles, history.moments) + still;
 }
 
 std::uint64_t MapStore::wanted_bytes(const LightItem& light, const ShadowDemand& demand) {
@@ -139,6 +143,8 @@ void MapStore::release(LightHistory& history) {
     for (const gl::TargetHandle target : history.moments.targets) device_.destroy(target);
     device_.destroy(history.moments.scratch_target);
     device_.destroy(history.moments.texture);
+    release_still(history.still);
+    history.still = {};
     device_.destroy(history.moments.scratch);
     history.moments = {};
     history.whole = {};
@@ -239,8 +245,19 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     return static_cast<bool>(history.texture);
 }
 
-void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
-    ++frame_;
+bool MapStore::stay() {
+    for (const LightHistory& history : lights_) {
+        const bool wanted = history.last_wanted_frame + 1 == frame_;
+        if (wanted && history.failure != Reason::none && frame_ >= history.retry_frame) return false;
+        if (!wanted && history.texture && frame_ - history.last_wanted_frame > kHoldFrames) return false;
+        if (is_still_idle(history)) return false;
+    }
+    for (LightHistory& history : lights_)
+        if (history.last_wanted_frame + 1 == frame_) history.last_wanted_frame = frame_;
+    return true;
+}
+
+void MapStore::assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
     frame.slots.assign(frame.views.size(), {});
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
         PotentialSets& sets = frame.sets[d];
@@ -278,10 +295,14 @@ void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
         slot.target = history.targets[view.layer];
         slot.size_px = history.desc.width;
         const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-        slot.content = content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
+        const ContentSignature signature =
+            content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
+        slot.content = signature.all;
+        slot.still_content = signature.still;
         slot.reuse = light.shadow.economy && history.content[view.layer] == slot.content;
     }
     assign_moments(scene, frame);
+    keep_still_apart(scene, gpu, frame);
     choose_routes(scene, frame);
 }
 
@@ -311,7 +332,7 @@ void MapStore::assign_moments(const SceneSnapshot& scene, ShadowFrame& frame) {
             s.add(std::uint64_t{frame.views[other].layer});
             s.add(frame.slots[other].content);
         }
-        slot.moment_content = s.value == 0 ? 1 : s.value;
+        slot.moment_content = s.value();
         slot.convert = !light.shadow.economy || moments.content[view.layer] != slot.moment_content;
     }
 }
@@ -320,9 +341,12 @@ void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
     const auto drawn = [&](std::size_t v) { return frame.slots[v].texture && !frame.slots[v].reuse; };
     for (std::size_t first = 0, end = 0; first < frame.views.size(); first = end) {
         std::uint32_t faces = 0;
-        for (end = first; end < frame.views.size() && frame.views[end].demand == frame.views[first].demand; ++end)
+        bool apart = false;
+        for (end = first; end < frame.views.size() && frame.views[end].demand == frame.views[first].demand; ++end) {
             faces += drawn(end) ? 1 : 0;
-        if (frame.views[first].projection != ViewProjection::cube_face || faces == 0) continue;
+            apart = apart || frame.slots[end].still_use != StillUse::none;
+        }
+        if (frame.views[first].projection != ViewProjection::cube_face || faces == 0 || apart) continue;
         const LightItem& light = scene.lights[frame.demands[frame.views[first].demand].light];
         const CubeRoute route = cube_route(light.shadow.cube_route, device_.info(), faces);
         if (route == CubeRoute::six_passes) continue;
@@ -343,6 +367,7 @@ void MapStore::commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool
         const ShadowView& view = frame.views[v];
         LightHistory& history = entry(scene.lights[frame.demands[view.demand].light].entity);
         if (!slot.reuse) history.content[view.layer] = drawn ? slot.content : 0;
+        if (slot.still_use == StillUse::fill) history.still.layers[view.layer].content = drawn ? slot.still_content : 0;
         if (slot.convert) history.moments.content[view.layer] = drawn ? slot.moment_content : 0;
     }
 }

@@ -5,6 +5,7 @@
 #include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/still_map.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::shadow {
@@ -27,6 +28,7 @@ struct LightHistory {
     gl::TextureHandle texture{};
     gl::TextureHandle triangles{};          // beside it for a filter of FilterStorage::depth_and_triangle; else {0}
     MomentMap moments;                      // beside it for a filter of FilterStorage::moments
+    StillMap still;                         // beside it while some of its casters move and others do not
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
@@ -44,11 +46,17 @@ public:
     MapStore(const MapStore&) = delete;
     MapStore& operator=(const MapStore&) = delete;
 
+    /// Counts the frame; to be called once in each, first.
+    void begin_frame() { ++frame_; }
+    /// In a frame in which nothing changed, instead of assign_slots(): all stays as it is. False: something is due, as
+    /// the end of a map that nobody needs any more, or another try; then the stages have to run.
+    bool stay();
+
     /// Stage 5: gives every view its slot, allocating, keeping and freeing maps; fills frame.slots and sets
     /// sets[i].skip where a light gets no map. A light without LightShadow, or disabled, loses its map at once;
     /// one that nobody sees for kHoldFrames later. A failed allocation is tried at half the edge, kHalvings times,
     /// then again after kRetryFrames; meanwhile the light is lit.
-    void assign_slots(const SceneSnapshot& scene, ShadowFrame& frame);
+    void assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
     /// Remembers what the frame drew. `drawn` false forgets the layers (a failed submission).
     void commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn);
@@ -68,6 +76,10 @@ private:
     void release(LightHistory& history);
     bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
     void assign_moments(const SceneSnapshot& scene, ShadowFrame& frame);
+    void keep_still_apart(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    bool provide_still(LightHistory& map) const;
+    void release_still(StillMap& still) const;
+    bool is_still_idle(const LightHistory& map) const;
     void choose_routes(const SceneSnapshot& scene, ShadowFrame& frame);
     Reason try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history);
     bool make_targets(LightHistory& map) const;
@@ -78,9 +90,17 @@ private:
     std::uint64_t frame_ = 0;
 };
 
-/// Everything that decides a view's depth picture, as one number: matrices, size, casters, their versions and faces.
-/// Never 0. Two different pictures share a number with probability 2^-64.
-std::uint64_t content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                std::span<const std::uint32_t> casters, CasterFaces faces);
+/// Of what each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl).
+inline constexpr gl::Format kTriangleFormat = gl::Format::rg32ui;
+
+/// Everything that decides a view's depth picture, as one number: matrices, size, casters in the order in which they
+/// are drawn, their versions and faces. Never 0. Two different pictures share a number with probability 2^-64.
+struct ContentSignature {
+    std::uint64_t still = 0;  // of its still casters alone
+    std::uint64_t all = 0;
+};
+/// `casters`: view.still_casters that stand still, then those that move.
+ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
+                                   std::span<const std::uint32_t> casters, CasterFaces faces);
 
 }  // namespace gnomon::shadow

@@ -41,6 +41,31 @@ bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) 
     return first.mirrored != second.mirrored ? second.mirrored : a < b;
 }
 
+std::span<const std::uint32_t> still_casters(const ShadowFrame& frame, const ShadowView& view) {
+    return std::span(frame.view_caster_items).subspan(view.casters.first, view.still_casters);
+}
+
+std::span<const std::uint32_t> moving_casters(const ShadowFrame& frame, const ShadowView& view) {
+    return std::span(frame.view_caster_items)
+        .subspan(view.casters.first + view.still_casters, view.casters.count - view.still_casters);
+}
+
+/// All that a view draws in this frame.
+std::span<const std::uint32_t> drawn_casters(const ShadowFrame& frame, std::size_t v) {
+    const ShadowView& view = frame.views[v];
+    if (frame.slots[v].still_use == StillUse::copy) return moving_casters(frame, view);
+    return std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+}
+
+/// A layer of the map into the store of still casters, or back.
+void copy_layer(const ShadowSlot& slot, std::uint32_t layer, bool back, gl::CommandList& list) {
+    const auto copy = [&](gl::TextureHandle map, gl::TextureHandle still) {
+        if (map) list.add(back ? gl::CopyTexture{still, map, layer} : gl::CopyTexture{map, still, layer});
+    };
+    copy(slot.texture, slot.still);
+    copy(slot.triangles, slot.still_triangles);
+}
+
 /// For want of a layered program: the maps are the same.
 void draw_separately(ShadowFrame& frame, std::uint32_t demand) {
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
@@ -107,10 +132,10 @@ Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, con
 
 std::size_t DepthRecorder::item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
                                       std::size_t v) const {
-    const IndexRange casters = frame.views[v].casters;
-    if (!frame.slots[v].triangles) return casters.count;
+    const auto casters = drawn_casters(frame, v);
+    if (!frame.slots[v].triangles) return casters.size();
     std::size_t items = 0;
-    for (const std::uint32_t i : std::span(frame.view_caster_items).subspan(casters.first, casters.count))
+    for (const std::uint32_t i : casters)
         for_each_depth_run(gpu, scene.instances[i].mesh, [&](const DepthRun&) { ++items; });
     return items;
 }
@@ -122,7 +147,7 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
         if (!is_drawn(frame, v)) continue;
         const ShadowView& view = frame.views[v];
         const LightTime time(frame, frame.demands[view.demand].light);
-        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+        const auto casters = drawn_casters(frame, v);
         const ShadowSlot& slot = frame.slots[v];
         if (slot.whole && ready(scene, gpu, way_of(slot), casters) == Reason::depth_program_failed)
             draw_separately(frame, view.demand);
@@ -183,54 +208,49 @@ void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
     std::memcpy(view_scratch_.data() + at, &record, sizeof record);
 }
 
-void DepthRecorder::gather_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v) {
-    const ShadowView& view = frame.views[v];
-    const std::size_t at = view_scratch_.size();
-    view_scratch_.resize(at + aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment));
-    append_uniforms(view, at);
+/// The casters of one view's group.
+DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
     const std::size_t first = caster_scratch_.size();
-    const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
     caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
     const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].mirrored; };
     if (std::any_of(casters.begin(), casters.end(), mirrored))
         std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
                   [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });
     layer_scratch_.resize(caster_scratch_.size(), 0);
+    return {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(casters.size())}, 0};
 }
 
-/// The casters of all views, by mesh: one draw per mesh draws it into every face.
-void DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, Pass& pass) {
-    const std::size_t at = view_scratch_.size();
-    view_scratch_.resize(at + aligned(kFaces * sizeof(DepthViewRecord), device_.info().uniform_alignment));
+/// Of one group the casters of all views, by mesh: one draw per mesh draws it into every face.
+DepthRecorder::Group DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame,
+                                                  const Pass& pass, bool moving) {
     pair_scratch_.clear();
-    pass.views = 0;
     for (std::size_t v = pass.first; v < pass.end; ++v) {
         if (!is_drawn(frame, v)) continue;
         const ShadowView& view = frame.views[v];
-        ++pass.views;
-        append_uniforms(view, at + view.layer * sizeof(DepthViewRecord));
-        for (std::uint32_t i = 0; i < view.casters.count; ++i)
-            pair_scratch_.emplace_back(frame.view_caster_items[view.casters.first + i], view.layer);
+        for (const std::uint32_t i : moving ? moving_casters(frame, view) : still_casters(frame, view))
+            pair_scratch_.emplace_back(i, view.layer);
     }
     std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
         return a.first != b.first ? drawn_before(scene, a.first, b.first) : a.second < b.second;
     });
+    const IndexRange range{static_cast<std::uint32_t>(caster_scratch_.size()),
+                           static_cast<std::uint32_t>(pair_scratch_.size())};
     for (const auto& [item, layer] : pair_scratch_) {
         caster_scratch_.push_back(item);
         layer_scratch_.push_back(layer);
     }
+    return {range, 0};
 }
 
-/// The items of a pass whose casters are known, in the order in which draw() takes them.
-void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                                 Pass& pass) {
-    pass.first_item = static_cast<std::uint32_t>(item_scratch_.size());
-    const auto casters = std::span(caster_scratch_).subspan(pass.casters.first, pass.casters.count);
+/// The items of a group whose casters are known, in the order in which draw() takes them.
+void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group) {
+    group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
+    const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
     const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
         item_scratch_.push_back({scene.instances[casters[i]].gpu_slot,
-                                 layer_scratch_[pass.casters.first + i] | first_triangle << kLayerBits});
+                                 layer_scratch_[group.casters.first + i] | first_triangle << kLayerBits});
     };
-    if (!frame.slots[pass.first].triangles) {
+    if (!triangles) {
         for (std::uint32_t i = 0; i < casters.size(); ++i) append(i, 0);
         return;
     }
@@ -239,6 +259,22 @@ void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu
             for (std::uint32_t i = first; i < first + count; ++i) append(i, run.first_index / 3);
         });
     });
+}
+
+/// The matrices of a pass's views: of a layered one by face.
+void DepthRecorder::gather_uniforms(const ShadowFrame& frame, Pass& pass) {
+    const std::size_t at = view_scratch_.size();
+    pass.uniform_offset = static_cast<std::uint32_t>(at);
+    const std::size_t records = pass.layered ? kFaces : 1;
+    view_scratch_.resize(
+        at + aligned(static_cast<std::uint32_t>(records * sizeof(DepthViewRecord)), device_.info().uniform_alignment));
+    pass.views = 0;
+    for (std::size_t v = pass.first; v < pass.end; ++v) {
+        if (!is_drawn(frame, v)) continue;
+        const ShadowView& view = frame.views[v];
+        append_uniforms(view, at + (pass.layered ? view.layer * sizeof(DepthViewRecord) : 0));
+        ++pass.views;
+    }
 }
 
 /// What this frame draws, pass by pass.
@@ -250,25 +286,28 @@ void DepthRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, cons
     view_scratch_.clear();
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
         if (!is_drawn(frame, v)) continue;
-        Pass pass{
-            v,  v + 1, static_cast<bool>(frame.slots[v].whole), 1, static_cast<std::uint32_t>(view_scratch_.size()),
-            {}, 0};
-        pass.casters.first = static_cast<std::uint32_t>(caster_scratch_.size());
+        const ShadowSlot& slot = frame.slots[v];
+        Pass pass{v, v + 1, static_cast<bool>(slot.whole), 1, 0, {}, {}};
+        while (pass.layered && pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand)
+            ++pass.end;
+        gather_uniforms(frame, pass);
         if (pass.layered) {
-            while (pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand) ++pass.end;
-            gather_layers(scene, frame, pass);
+            pass.still = gather_layers(scene, frame, pass, false);
+            pass.moving = gather_layers(scene, frame, pass, true);
         } else {
-            gather_view(scene, frame, v);
+            if (slot.still_use != StillUse::copy) pass.still = gather_view(scene, still_casters(frame, frame.views[v]));
+            pass.moving = gather_view(scene, moving_casters(frame, frame.views[v]));
         }
-        pass.casters.count = static_cast<std::uint32_t>(caster_scratch_.size()) - pass.casters.first;
-        append_items(scene, gpu, frame, pass);
+        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.still);
+        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.moving);
         passes_.push_back(pass);
         v = pass.end - 1;
     }
 }
 
-/// Opens the pass on cleared faces. A layered clear would clear every face, so it is for when every face is drawn.
-void DepthRecorder::begin(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass,
+/// Opens the pass on cleared faces, or on those of still casters alone. A layered clear would clear every face, so it
+/// is for when every face is drawn.
+void DepthRecorder::begin(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
                           gl::CommandList& list) const {
     const ShadowSlot& slot = frame.slots[pass.first];
     const auto size = static_cast<std::int32_t>(slot.size_px);
@@ -282,19 +321,28 @@ void DepthRecorder::begin(const SceneSnapshot& scene, const ShadowFrame& frame, 
         list.add(gl::BeginPass{frame.slots[v].target, {0, 0, size, size}, true, 0.0f, false, {}});
         list.add(gl::EndPass{});
     }
-    list.add(gl::BeginPass{pass.layered ? slot.whole : slot.target, {0, 0, size, size}, one_clear, 0.0f, false, {}});
+    if (slot.still_use == StillUse::copy) copy_layer(slot, frame.views[pass.first].layer, true, list);
+    begin_pass(gpu, frame, pass, one_clear && slot.still_use != StillUse::copy, list);
+}
+
+void DepthRecorder::begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
+                               gl::CommandList& list) const {
+    const ShadowSlot& slot = frame.slots[pass.first];
+    const auto size = static_cast<std::int32_t>(slot.size_px);
+    list.add(gl::BeginPass{pass.layered ? slot.whole : slot.target, {0, 0, size, size}, clear, 0.0f, false, {}});
     const std::size_t records = pass.layered ? kFaces : 1;
     list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
+    list.add(gl::BindStorage{0, gpu.instances()});
+    list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
 }
 
 void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-                         gl::CommandList& list, LightReport& report) {
-    const auto casters = std::span(caster_scratch_).subspan(pass.casters.first, pass.casters.count);
+                         const Group& group, gl::CommandList& list, LightReport& report) {
+    const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
     const ShadowView& view = frame.views[pass.first];
-    pipeline_ = {};
     way_ = way_of(frame.slots[pass.first]);
-    std::uint32_t next_item = pass.first_item;
+    std::uint32_t next_item = group.first_item;
     const LightItem& light = scene.lights[frame.demands[view.demand].light];
     const auto state_of = [&](std::uint32_t i) { return opaque_state(gpu, view, light, scene.instances[casters[i]]); };
     for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
@@ -322,14 +370,20 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, Shad
         const std::uint32_t light = frame.demands[frame.views[pass.first].demand].light;
         const LightTime time(frame, light);
         LightReport& light_report = report.lights[light];
-        begin(scene, frame, pass, list);
-        list.add(gl::BindStorage{0, gpu.instances()});
-        list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
-        draw(scene, gpu, frame, pass, list, light_report);
+        const ShadowSlot& slot = frame.slots[pass.first];
+        pipeline_ = {};
+        begin(scene, gpu, frame, pass, list);
+        draw(scene, gpu, frame, pass, pass.still, list, light_report);
+        if (slot.still_use == StillUse::fill) {
+            list.add(gl::EndPass{});
+            copy_layer(slot, frame.views[pass.first].layer, false, list);
+            begin_pass(gpu, frame, pass, false, list);
+        }
+        draw(scene, gpu, frame, pass, pass.moving, list, light_report);
         list.add(gl::EndPass{});
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
-        light_report.clears += pass.views;
+        if (slot.still_use != StillUse::copy) light_report.clears += pass.views;
         light_report.views_drawn += pass.views;
     }
 }

@@ -39,13 +39,17 @@ private:
         CubeRoute route = CubeRoute::six_passes;
         bool triangles = false;  // writes which triangle each texel shows
     };
+    /// Casters that stand still, or those that move: never in one draw.
+    struct Group {
+        IndexRange casters;            // into caster_scratch_ and layer_scratch_
+        std::uint32_t first_item = 0;  // an item per caster; with triangles, one per caster and draw of its mesh
+    };
     /// Views [first, end) of one light that one pass draws (those of them that are drawn), and what they draw.
     struct Pass {
         std::size_t first = 0, end = 0;
         bool layered = false;
         std::uint32_t views = 0, uniform_offset = 0;
-        IndexRange casters;            // into caster_scratch_ and layer_scratch_
-        std::uint32_t first_item = 0;  // an item per caster; with triangles, one per caster and draw of its mesh
+        Group still, moving;
     };
     static std::size_t which(const Way& way, bool masked);
     static Way way_of(const ShadowSlot& slot);
@@ -55,13 +59,17 @@ private:
     std::size_t item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
                            std::size_t view) const;
     void gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame);
-    void append_items(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, Pass& pass);
-    void gather_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t view);
-    void gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, Pass& pass);
+    void append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group);
+    void gather_uniforms(const ShadowFrame& frame, Pass& pass);
+    Group gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters);
+    Group gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass, bool moving);
     void append_uniforms(const ShadowView& view, std::size_t at);
-    void begin(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass, gl::CommandList& list) const;
+    void begin(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+               gl::CommandList& list) const;
+    void begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
+                    gl::CommandList& list) const;
     void draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-              gl::CommandList& list, LightReport& report);
+              const Group& group, gl::CommandList& list, LightReport& report);
     gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                    const InstanceItem& item) const;
     void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t first_item,

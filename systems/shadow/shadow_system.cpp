@@ -64,6 +64,34 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
+    maps_.begin_frame();
+    const bool others_move = motion_.update(scene);
+    const bool unchanged = still_.unchanged(scene, shadows) && !others_move;
+    if (others_move) frame_.moving = motion_.moving();
+    stands_ = std::exchange(may_stand_, false) && unchanged && maps_.stay();
+    if (stands_)
+        stand_still();
+    else
+        run_stages(scene, gpu, shadows, list, report);
+    report.still = stands_;
+    explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
+    report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    return frame_;
+}
+
+/// What the stages found in the last frame is what they would find now; all that it drew is there.
+void ShadowSystem::stand_still() {
+    for (ShadowSlot& slot : frame_.slots) {
+        slot.reuse = static_cast<bool>(slot.texture);
+        slot.convert = false;
+        slot.whole = {};
+        slot.route = CubeRoute::six_passes;
+        slot.still_use = StillUse::none;
+    }
+}
+
+void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
+                              FrameReport& report) {
     decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });
@@ -74,19 +102,30 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     dim_lights_.leave_out(scene, gpu, frame_);
     fit_views(scene, history_, frame_);
     provide_triangles(gpu);
-    maps_.assign_slots(scene, frame_);
+    maps_.assign_slots(scene, gpu, frame_);
     recorder_.prepare(scene, gpu, frame_);
     moments_.prepare(frame_);
     publish_lights(scene, samplers_, frame_);
     recorder_.record(scene, gpu, frame_, list, report);
     moments_.record(scene, frame_, list);
-    explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
-    report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-    return frame_;
+}
+
+/// Whether another run of the stages would do no more than this one, if nothing changes meanwhile: fits hold on to what
+/// they hold already, no light asks for all to be drawn, and nothing that failed is to be tried again but by maps_,
+/// which says so itself.
+bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
+    const auto settled = [&](const PotentialSets& sets, const ShadowDemand& demand) {
+        const bool lacks = sets.skip == Reason::depth_program_failed || sets.skip == Reason::buffer_failed ||
+                           sets.skip == Reason::sampler_failed;
+        return !lacks && (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
+    };
+    return history_ == frame_.next_history &&
+           std::equal(frame_.sets.begin(), frame_.sets.end(), frame_.demands.begin(), frame_.demands.end(), settled);
 }
 
 void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) {
     maps_.commit(scene, frame_, drawn);
+    may_stand_ = drawn && (stands_ || is_settled(scene));
     std::swap(history_, frame_.next_history);
 }
 

@@ -5,12 +5,14 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/caster_motion.h"
 #include "systems/shadow/dim_lights.h"
 #include "systems/shadow/draw_times.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/moment_recorder.h"
 #include "systems/shadow/publish.h"
 #include "systems/shadow/record.h"
+#include "systems/shadow/still_frame.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::shadow {
@@ -26,6 +28,7 @@ public:
 
     /// Runs all stages for `scene`, records the depth passes into `list` and fills report.lights.
     /// `shadows` false: every light is treated as disabled. Never throws; no device failure stops the frame.
+    /// Where nothing changed since the last frame, its results stand, and nothing is done that grows with the scene.
     const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report);
 
@@ -40,6 +43,10 @@ public:
     const History& held_fits() const { return history_; }
 
 private:
+    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
+                    FrameReport& report);
+    void stand_still();
+    bool is_settled(const SceneSnapshot& scene) const;
     bool samplers_ready();
     bool moment_sampler_ready(const MomentDemand& demand);
     void provide_triangles(GpuScene& gpu);
@@ -53,6 +60,10 @@ private:
     DimLights dim_lights_;
     ShadowFrame frame_;
     History history_;
+    CasterMotion motion_;
+    StillFrame still_;
+    bool stands_ = false;     // the last update() found nothing to do
+    bool may_stand_ = false;  // the next one may
 };
 
 }  // namespace gnomon::shadow

@@ -107,7 +107,16 @@ struct ShadowView {
     std::uint32_t receivers = 0;        // how many are seen in it
     bool held = false;   // meant to stay while cameras move: its casters are all that its map can show, so that the map
                          // holds; else only those that can darken what is seen now
-    IndexRange casters;  // into ShadowFrame::view_caster_items, by mesh, then by index
+    IndexRange casters;  // into ShadowFrame::view_caster_items: those that stand still before those that move, each by
+                         // mesh, then by index; drawn in that order, since of equal depths the first drawn one stays
+    std::uint32_t still_casters = 0;  // how many of them stand still
+};
+
+/// How a view that is drawn uses the store of still casters beside its light's map (still_map.h).
+enum class StillUse : std::uint8_t {
+    none,
+    fill,  // still casters are drawn into the map and copied there, before the others are drawn
+    copy   // they are copied back from there instead of being drawn
 };
 
 /// Struct 5. Where the view lives, and whether last frame's content still holds.
@@ -124,6 +133,9 @@ struct ShadowSlot {
     std::uint32_t size_px = 0;
     std::uint64_t content = 0;         // signature of what the layer is to hold (content_signature)
     std::uint64_t moment_content = 0;  // the same of its moments
+    std::uint64_t still_content = 0;   // the same of its still casters alone
+    StillUse still_use = StillUse::none;
+    gl::TextureHandle still{}, still_triangles{};  // where those are kept, if used; {0} where the map has none
     bool reuse = false;
     bool convert = false;  // the moments have to be made anew
 };
@@ -226,6 +238,7 @@ struct SetScratch {
 
 /// Everything of one frame between snapshot and commands. Storage is reused from frame to frame.
 struct ShadowFrame {
+    std::vector<std::uint64_t> moving;          // which instances move, as CasterMotion::moving(); none: none
     std::vector<ShadowDemand> demands;          // one per light
     std::vector<math::Frustum> seen;            // one per consumer: what it sees
     std::vector<PotentialSets> sets;            // one per demand

@@ -10,6 +10,7 @@
 #include "engine/math/convex_polygon.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/beams.h"
+#include "systems/shadow/caster_motion.h"
 #include "systems/shadow/kinds/warp.h"
 #include "systems/shadow/marks.h"
 #include "systems/shadow/sets.h"
@@ -225,6 +226,22 @@ void append_by_mesh(const SceneSnapshot& scene, SetScratch& scratch, std::vector
     for (const std::uint32_t i : scratch.items) out[first + scratch.mesh_starts[scene.instances[i].mesh]++] = i;
 }
 
+/// Those that move to the end, all else in order. How many come before them.
+std::uint32_t move_movers_back(const SceneSnapshot& scene, const std::vector<std::uint64_t>& moving,
+                               std::span<std::uint32_t> casters, std::vector<std::uint32_t>& movers) {
+    if (moving.empty()) return static_cast<std::uint32_t>(casters.size());
+    movers.clear();
+    std::size_t still = 0;
+    for (const std::uint32_t i : casters) {
+        if (moves(moving, scene.instances[i]))
+            movers.push_back(i);
+        else
+            casters[still++] = i;
+    }
+    std::copy(movers.begin(), movers.end(), casters.begin() + static_cast<std::ptrdiff_t>(still));
+    return static_cast<std::uint32_t>(still);
+}
+
 }  // namespace
 
 void select_view_casters(const SceneSnapshot& scene, ShadowView& view, ShadowFrame& frame) {
@@ -232,6 +249,9 @@ void select_view_casters(const SceneSnapshot& scene, ShadowView& view, ShadowFra
     view.casters.first = static_cast<std::uint32_t>(frame.view_caster_items.size());
     append_by_mesh(scene, frame.set_scratch, frame.view_caster_items);
     view.casters.count = static_cast<std::uint32_t>(frame.view_caster_items.size()) - view.casters.first;
+    view.still_casters =
+        move_movers_back(scene, frame.moving, std::span(frame.view_caster_items).subspan(view.casters.first),
+                         frame.set_scratch.items);
 }
 
 }  // namespace gnomon::shadow

@@ -64,6 +64,10 @@ void MapContents::draw(const gl::CommandList& list, const gl::RecordingDevice& d
             for (std::int32_t layer = 0; layer < 6; ++layer)
                 if (map->layer == layer || map->layer == gl::kAllLayers) layers_[{map->texture.id, layer}] = kCleared;
         }
+        if (const auto* copy = std::get_if<gl::CopyTexture>(&command)) {
+            const auto layer = static_cast<std::int32_t>(copy->layer);
+            layers_[{copy->destination.id, layer}] = layers_[{copy->source.id, layer}];
+        }
         if (const auto* b = std::get_if<gl::BindUniforms>(&command); b && b->binding == 0) bound.view = *b;
         if (const auto* b = std::get_if<gl::BindStorage>(&command); b && b->binding == 0) bound.instances = *b;
         if (const auto* b = std::get_if<gl::BindMeshes>(&command)) bound.meshes = *b;

@@ -71,10 +71,13 @@ private:
     gl::RecordingDevice inner_;
 };
 
-/// Allocations of the eighth frame; `edit` changes the world before each.
+/// More frames than anything counts: since when a map has not been used, since when something stands still.
+constexpr int kWarm = 100;
+
+/// Allocations of the last of so many frames, of all after the hundredth; `edit` changes the world before each.
 template <class Edit>
 std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const FrameSettings& settings, Edit edit,
-                                  const assets::MeshLibrary& library = test_library()) {
+                                  const assets::MeshLibrary& library = test_library(), int frames = 8) {
     SilentDevice silent;
     auto made = Frame::create(silent, library);
     if (!made) return ~std::size_t{0};
@@ -83,11 +86,12 @@ std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const 
     int n = 0;
     for (const LightKind kind : kinds) world.add_light(kind, kLightPlace_m, "l" + std::to_string(n++));
     std::size_t allocations = 0;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < frames; ++i) {
         edit(world, parts, i);
         const std::size_t before = allocation_count();
         made.value()->run(world.registry, settings);
-        allocations = allocation_count() - before;
+        const std::size_t made_now = allocation_count() - before;
+        allocations = i > kWarm ? allocations + made_now : made_now;
     }
     return allocations;
 }
@@ -133,6 +137,18 @@ TEST_F(FrameCost, LookingForTheNearestReceiverInItsMeshAllocatesNothingOnceWarm)
     assets::MeshLibrary shaped = test_library();
     for (assets::Mesh& mesh : shaped.meshes) mesh.shape = assets::shape_of(mesh);
     EXPECT_EQ(allocations_when_warm({LightKind::directional, LightKind::spot}, settings, moving, shaped), 0u);
+}
+
+const auto box_moves = [](TestWorld& world, const TestWorld::Stage& stage, int i) { world.move(stage.box, {0.001 * i, 1, 0}); };
+
+TEST_F(FrameCost, StillFramesAllocateNothing) {
+    const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
+    EXPECT_EQ(allocations_when_warm(kinds, settings, still, test_library(), 2 * kWarm), 0u);
+}
+
+TEST_F(FrameCost, FramesWithOneMoverAllocateNothing) {
+    const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
+    EXPECT_EQ(allocations_when_warm(kinds, settings, box_moves, test_library(), 2 * kWarm), 0u);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ struct Input {
             scene.instances.push_back(item);
         }
     }
-    std::uint64_t signature() const { return content_signature(view, size_px, scene, casters, faces); }
+    std::uint64_t signature() const { return content_signature(view, size_px, scene, casters, faces).all; }
 };
 
 TEST(ContentSignature, IsTheSameForTheSameAndNeverZero) {

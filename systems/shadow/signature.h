@@ -1,0 +1,34 @@
+#pragma once
+#include <bit>
+#include <cstdint>
+
+namespace gnomon::shadow {
+
+/// A number that follows from a sequence of words. Each step is one-to-one in what came before and in the word, and two
+/// multiplications carry each bit over all others: sequences that differ share a number with probability 2^-64.
+class Signature {
+public:
+    void add(std::uint64_t word) {
+        value_ = std::rotl(value_ ^ word * kWordFactor, kRotation) * kStepFactor + kStepOffset;
+    }
+    void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+    void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
+
+    /// Of what was added so far; never 0.
+    std::uint64_t value() const {
+        std::uint64_t v = (value_ ^ value_ >> 31) * kWordFactor;
+        v = (v ^ v >> 29) * kStepFactor;
+        v ^= v >> 32;
+        return v == 0 ? 1 : v;
+    }
+
+private:
+    // Odd numbers without pattern: 2^64 over the golden ratio, and digits of pi. The rotation brings the bits that a
+    // multiplication stirred most to where the next one spreads them.
+    static constexpr std::uint64_t kWordFactor = 0x9e3779b97f4a7c15ull, kStepFactor = 0x243f6a8885a308d3ull,
+                                   kStepOffset = 0x13198a2e03707345ull;
+    static constexpr int kRotation = 29;
+    std::uint64_t value_ = kStepOffset;
+};
+
+}  // namespace gnomon::shadow
