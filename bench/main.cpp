@@ -6,6 +6,7 @@
 
 #include "bench/accuracy.h"
 #include "bench/culling.h"
+#include "bench/demand.h"
 #include "bench/drawings.h"
 #include "bench/filter_rows.h"
 #include "bench/filters.h"
@@ -24,14 +25,16 @@ namespace {
 constexpr int kBadInput = 2;
 constexpr std::uint64_t kMaxSizePx = 16384;  // what OpenGL 4.5 guarantees for pictures
 constexpr std::uint32_t kMaxRepeats = 100000;
+constexpr std::uint32_t kMostLights = 100000;
 constexpr std::uint32_t kMaxPoints = 10000000;
 
 struct Arguments {
     StageOptions stage;
-    std::string scene, camera, size = "1280x720", offset, json, pictures, filter;
+    std::string scene, camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5;
     StabilityOptions stability;
     std::string plot, drawings, filters, rows, markdown;
+    DemandOptions demand;
 };
 
 int fail(const Error& error) {
@@ -66,9 +69,12 @@ std::optional<glm::dvec3> parse_offset(const std::string& text) {
 std::optional<Error> complete(Arguments& arguments) {
     if (!arguments.scene.empty()) arguments.stage.scene = arguments.scene;
     if (!arguments.camera.empty()) arguments.stage.camera = arguments.camera;
-    const auto size = parse_size(arguments.size);
-    if (!size) return Error{"--size wants WIDTHxHEIGHT, each 1 to 16384, not '" + arguments.size + "'", "", "", "size"};
-    arguments.stage.size_px = *size;
+    for (const auto& [text, size_px] : {std::pair(&arguments.size, &arguments.stage.size_px),
+                                        std::pair(&arguments.demand_size, &arguments.demand.size_px)}) {
+        const auto size = parse_size(*text);
+        if (!size) return Error{"--size wants WIDTHxHEIGHT, each 1 to 16384, not '" + *text + "'", "", "", "size"};
+        *size_px = *size;
+    }
     const auto offset = parse_offset(arguments.offset);
     if (!offset) return Error{"--offset wants X,Y,Z in metres, not '" + arguments.offset + "'", "", "", "offset"};
     arguments.stage.offset_m = *offset;
@@ -167,6 +173,40 @@ int run_set_shares(const Arguments& arguments) {
     return 0;
 }
 
+int run_demand(const Arguments& arguments) {
+    const auto demand = measure_demand(arguments.demand);
+    if (!demand) return fail(demand.error());
+    const std::string table = demand_markdown(demand.value());
+    if (auto error = put_out(arguments, table, demand_json(demand.value()))) return fail(*error);
+    if (!arguments.markdown.empty())
+        if (auto error = replace_marked(arguments.markdown, "demand", table)) return fail(*error);
+    if (arguments.plot.empty()) return 0;
+    const std::string plot = demand_plot(demand.value());
+    if (auto error = game::write_file(arguments.plot, std::as_bytes(std::span(plot)))) return fail(*error);
+    return 0;
+}
+
+void add_demand(CLI::App& command, Arguments& arguments) {
+    DemandOptions& options = arguments.demand;
+    command.add_option("--lights", options.lights, "how many lights, one scene each; separated by commas")
+        ->delimiter(',')
+        ->check(CLI::Range(1u, kMostLights))
+        ->capture_default_str();
+    command.add_option("--size", arguments.demand_size, "WIDTHxHEIGHT")->capture_default_str();
+    command.add_option("--set", options.settings, "KEY=VALUE of every LightShadow, as the game's --set")
+        ->allow_extra_args(false);
+    command.add_option("--repeat", options.frames, "frames of each block that are timed")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    command.add_option("--rounds", options.rounds, "rounds of blocks without shadows, with economy on and off")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    command.add_option("--json", arguments.json, "write all figures to this file");
+    command.add_option("--plot", arguments.plot, "write times, draws and bytes against lights to this SVG file");
+    command.add_option("--markdown", arguments.markdown,
+                       "page whose text between <!-- demand --> and <!-- end of demand --> is replaced");
+}
+
 void add_common(CLI::App& command, Arguments& arguments) {
     command.add_option("--scene", arguments.scene, "glTF or GLB (default: the built-in scene)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
@@ -225,6 +265,8 @@ int run(int argc, char** argv) {
                         "pictures of a disk, figures, figures of a disk");
     CLI::App* culling = app.add_subcommand("culling", "what finding receivers and casters and fitting to them costs");
     culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
+    CLI::App* demand = app.add_subcommand("demand", "what shadows cost by the number of lights, economy on and off");
+    add_demand(*demand, arguments);
     CLI::App* sets = app.add_subcommand("sets", "how many casters each light keeps, and how many of those in vain");
     add_common(*sets, arguments);
     try {
@@ -238,6 +280,7 @@ int run(int argc, char** argv) {
         run_culling(arguments.filter);
         return 0;
     }
+    if (*demand) return run_demand(arguments);
     if (*sets) return run_set_shares(arguments);
     if (*drawings) return run_drawings(arguments);
     if (*filters) return run_filters(arguments);

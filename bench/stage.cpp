@@ -13,28 +13,35 @@
 namespace gnomon::bench {
 
 Result<std::unique_ptr<Stage>> Stage::open(const StageOptions& options) {
+    const auto start = std::chrono::steady_clock::now();
+    auto scene = game::load_scene(options.scene);
+    if (!scene) return scene.error();
     std::unique_ptr<Stage> stage(new Stage);
-    if (auto error = stage->load(options)) return *error;
+    if (auto error = stage->spawn(options, std::move(scene).value())) return *error;
+    stage->load_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (auto error = stage->prepare(options)) return *error;
+    return stage;
+}
+
+Result<std::unique_ptr<Stage>> Stage::open(const StageOptions& options, assets::SceneData scene) {
+    std::unique_ptr<Stage> stage(new Stage);
+    if (auto error = stage->spawn(options, std::move(scene))) return *error;
     if (auto error = stage->prepare(options)) return *error;
     return stage;
 }
 
 Stage::~Stage() = default;
 
-std::optional<Error> Stage::load(const StageOptions& options) {
-    const auto start = std::chrono::steady_clock::now();
-    auto scene = game::load_scene(options.scene);
-    if (!scene) return scene.error();
-    for (assets::Node& node : scene.value().nodes)
+std::optional<Error> Stage::spawn(const StageOptions& options, assets::SceneData scene) {
+    for (assets::Node& node : scene.nodes)
         if (node.parent == assets::kNone) node.translation_m += options.offset_m;
     scene_name_ = options.scene ? options.scene->string() : "built-in";
-    spawned_ = game::spawn_scene(std::move(scene).value(), world_, library_);
+    spawned_ = game::spawn_scene(std::move(scene), world_, library_);
     time_s_ = options.time_s;
     moving_ = everything_moving(spawned_, world_);
     game::set_time(spawned_, time_s_, world_);
     for (const std::string& setting : options.settings)
         if (auto error = apply_setting(setting)) return error;
-    load_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (!options.camera) return std::nullopt;
     const auto camera = game::find_camera(spawned_, *options.camera);
     if (!camera) return camera.error();

@@ -32,6 +32,8 @@ class Stage {
 public:
     /// Errors: those of the loader, the context and the device; "set.*"; "camera.unknown".
     static Result<std::unique_ptr<Stage>> open(const StageOptions& options);
+    /// The same with a scene that was made, not loaded; `options.scene` is its name.
+    static Result<std::unique_ptr<Stage>> open(const StageOptions& options, assets::SceneData scene);
     ~Stage();
 
     void run_frame() { frame_->run(world_, settings_); }
@@ -52,13 +54,14 @@ public:
     ecs::Registry& world() { return world_; }
     const FrameSettings& settings() const { return settings_; }
     double time_s() const { return time_s_; }  // of the scene when it was opened
+    const game::SpawnedScene& spawned() const { return spawned_; }
     const std::string& scene_name() const { return scene_name_; }
-    double load_s() const { return load_s_; }                       // file to entities
+    double load_s() const { return load_s_; }                       // file to entities; 0: it was made
     std::uint32_t gl_complaints() const { return gl_complaints_; }  // debug messages of medium or high severity
 
 private:
     Stage() = default;
-    std::optional<Error> load(const StageOptions& options);
+    std::optional<Error> spawn(const StageOptions& options, assets::SceneData scene);
     std::optional<Error> prepare(const StageOptions& options);
 
     std::unique_ptr<platform::Context> context_;

@@ -1,4 +1,4 @@
 if(GNOMON_SAMPLE)
-  gnomon_tests(NAME unit_bench LABEL unit SOURCES bench/filter_front_test.cpp bench/marked_text_test.cpp
+  gnomon_tests(NAME unit_bench LABEL unit SOURCES bench/demand_test.cpp bench/filter_front_test.cpp bench/marked_text_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()
