@@ -1,3 +1,4 @@
+#include "systems/shadow/caster_motion.h"
 #include "tests/gl/traced_frame_fixture.h"
 
 /// What is kept of a map while others move must be what drawing it again would give, bit for bit.
@@ -38,7 +39,7 @@ protected:
     }
     struct Walk {
         std::vector<std::vector<float>> visibility;  // one per frame
-        std::uint32_t views = 0, drawn = 0;
+        std::uint32_t views = 0, drawn = 0, cleared = 0;
     };
     Walk walk(Change change) {
         Walk result;
@@ -48,6 +49,7 @@ protected:
             result.visibility.push_back(visibility());
             result.views += frame().report().lights.at(0).views;
             result.drawn += frame().report().lights.at(0).views_drawn;
+            result.cleared += frame().report().lights.at(0).clears;
         }
         return result;
     }
@@ -81,6 +83,28 @@ TEST_P(MovedCasters, AmongStillOnesGiveTheBitsOfAllMovingAndOfNothingKept) {
                 EXPECT_EQ(anew.visibility[i], kept.visibility[i]) << "frame " << i;
         }
     }
+}
+
+TEST_P(MovedCasters, DrawnOverACopyOfStillOnesGiveTheBitsOfAllDrawnInEveryKindOfMap) {
+    // So few texels that copying them is less than drawing a box or two.
+    make_world({.resolution_px = 32});
+    int moved = 0;
+    for (const ShadowFilter filter : {ShadowFilter::hardware_2x2, ShadowFilter::triangles, ShadowFilter::vsm}) {
+        world.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = filter; });
+        step(0, Change::one_moves);
+        for (std::uint64_t i = 0; i < shadow::CasterMotion::kStillFrames; ++i) draw();  // all stand still
+        walk(Change::one_moves);
+        const Walk kept = walk(Change::one_moves);
+        EXPECT_LT(kept.cleared, kept.drawn) << "some were drawn over a copy, or this shows nothing";
+        moved += kept.visibility.front() != kept.visibility.back() ? 1 : 0;
+        for (const Change change : {Change::nothing_is_kept, Change::all_are_touched}) {
+            const Walk anew = walk(change);
+            EXPECT_EQ(anew.cleared, anew.drawn);
+            for (std::size_t i = 0; i < kFrames; ++i)
+                EXPECT_EQ(anew.visibility[i], kept.visibility[i]) << "frame " << i << " of filter " << int(filter);
+        }
+    }
+    EXPECT_GE(moved, 2) << "a sun's moments are blurred too far to show it with so few texels";
 }
 
 }  // namespace
