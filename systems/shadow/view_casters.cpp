@@ -249,9 +249,8 @@ void select_view_casters(const SceneSnapshot& scene, ShadowView& view, ShadowFra
     view.casters.first = static_cast<std::uint32_t>(frame.view_caster_items.size());
     append_by_mesh(scene, frame.set_scratch, frame.view_caster_items);
     view.casters.count = static_cast<std::uint32_t>(frame.view_caster_items.size()) - view.casters.first;
-    view.still_casters =
-        move_movers_back(scene, frame.moving, std::span(frame.view_caster_items).subspan(view.casters.first),
-                         frame.set_scratch.items);
+    view.still_casters = move_movers_back(
+        scene, frame.moving, std::span(frame.view_caster_items).subspan(view.casters.first), frame.set_scratch.items);
 }
 
 }  // namespace gnomon::shadow
