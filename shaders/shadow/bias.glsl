@@ -26,7 +26,7 @@ float carried_error_m(vec2 texel_m, vec2 lateral, float cosine) {
 }
 #endif
 
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS) || defined(SHADOW_FOOTPRINT)
 // What of the offset rounding and snapping need: as much everywhere on the plane, where the rest is a share of the depth.
 float plane_lift(ViewRecord view, vec2 slope) { return view.numeric.x + kRasterSnap_texel * (abs(slope.x) + abs(slope.y)); }
 #endif

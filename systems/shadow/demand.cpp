@@ -110,9 +110,9 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
 
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand) {
     demand.resolution_px = size_px;
-    demand.filtering = filter_demand(with_own_source(light), size_px);
+    LightShadow shadow = with_own_source(light);
+    demand.filtering = filter_demand(shadow, size_px);
     const FilterRow& row = filter_row(demand.filter);
-    LightShadow shadow = light.shadow;
     // A cube's sampler leaves its face along a footprint, but not the way the map goes on there.
     if (light_kind_row(light.kind).texture == gl::TextureKind::cube)
         shadow.moment_anisotropy = std::min(shadow.moment_anisotropy, 1u);

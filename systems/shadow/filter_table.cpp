@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "systems/shadow/filter_demand.h"
+#include "systems/shadow/moments.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -44,6 +45,9 @@ std::uint32_t of_search(const LightShadow& shadow, bool cube) {
     return kTapsPerOctave * kOctaves + std::max(2 * shadow.filter_taps, of_votes(shadow, cube));
 }
 
+/// A lookup in each level of mipmaps, up to a texel as wide as the widest penumbra, and four between two of them.
+std::uint32_t of_levels(const LightShadow&, bool) { return widest_penumbra_levels(kMostPenumbra_texel) + 4; }
+
 // E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
 // a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts
 // the votes of texels up to 2 away and looks at their neighbours, but only where the four around the receiver do not
@@ -53,6 +57,17 @@ constexpr FilterRow prefiltered(ShadowFilter id, std::string_view name, std::str
                                 const MomentRow& moments) {
     FilterRow row{id, name, file, one, 1.0f, FilterWidth::size, MapReading::moments, FilterStorage::moments};
     row.moments = &moments;
+    return row;
+}
+
+/// The same, blurred by the default filter_size and by what a source with a size makes of it.
+constexpr FilterRow prefiltered_by_source(ShadowFilter id, std::string_view name, std::string_view file,
+                                          const MomentRow& moments) {
+    FilterRow row = prefiltered(id, name, file, moments);
+    row.taps = of_levels;
+    row.reach_texel = 2.0f;
+    row.width = FilterWidth::source;
+    row.texels_per_pixel = 0.75f;
     return row;
 }
 
@@ -86,6 +101,7 @@ constexpr FilterRow kRows[] = {
     prefiltered(ShadowFilter::moments, "moments", "shadow/filters/moments.glsl", kFourMoments),
     {ShadowFilter::pcss, "pcss", "shadow/filters/pcss.glsl", of_search, 3.0f, FilterWidth::source, MapReading::depths,
      FilterStorage::depth, 2.5f, 0.75f},
+    prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/pcss_moments.glsl", kFourMoments),
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

@@ -1,6 +1,7 @@
 #include "systems/shadow/moments.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "systems/shadow/filter_demand.h"
@@ -33,7 +34,21 @@ void set_footprint(MomentDemand& demand) {
     if (demand.anisotropy > 1) demand.reach_texel += demand.footprint_texel;
 }
 
+/// Of FilterWidth::source, as filter_demand() takes its size.
+std::uint32_t penumbra_levels(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
+    const auto has_size = [](float radius) { return std::isfinite(radius) && radius > 0.0f; };
+    const bool soft =
+        row.width == FilterWidth::source && (has_size(shadow.source_radius_m) || has_size(shadow.sun_radius_rad));
+    if (!soft) return 1;
+    const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
+    return widest_penumbra_levels(std::min(kMostPenumbra_texel, most_texel));
+}
+
 }  // namespace
+
+std::uint32_t widest_penumbra_levels(float radius_texel) {
+    return static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(std::max(radius_texel, 1.0f))));
+}
 
 MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
     MomentDemand demand;
@@ -59,6 +74,7 @@ MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std:
     }
     demand.cut =
         demand.cut || !share || demand.levels != shadow.moment_levels || demand.anisotropy != shadow.moment_anisotropy;
+    demand.levels = std::max(demand.levels, penumbra_levels(row, shadow, resolution_px));
     return demand;
 }
 

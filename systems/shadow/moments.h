@@ -30,6 +30,9 @@ struct MomentDemand {
     bool operator==(const MomentDemand&) const = default;
 };
 
+/// Levels of mipmaps whose coarsest texel is as wide as that radius, or up to half of it.
+std::uint32_t widest_penumbra_levels(float radius_texel);
+
 /// Of a row of FilterStorage::moments; of any other the default. A map that is too small for so many levels gets fewer.
 MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
 

@@ -229,7 +229,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out.row.depths = filter.reading == MapReading::depths;
             out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
             out.row.moments = filter.storage == FilterStorage::moments;
-            out.row.footprint = out.row.moments && demand.moments.footprint_texel > 1.0f;
+            out.row.footprint = demand.moments.levels > 1 || demand.moments.anisotropy > 1;
             out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
             out.map = out.row.moments ? slot.moments : slot.texture;
             out.triangles = slot.triangles;

@@ -26,7 +26,7 @@ protected:
         frame.demands = {demand};
         frame.sets.resize(1);
         frame.cpu_us.resize(1);
-        const gl::TextureDesc map{.label = "moments", .kind = kind_row.texture, .format = demand.moments.format, .width = size_px, .height = size_px};
+        const gl::TextureDesc map{.label = "moments", .kind = kind_row.texture, .format = demand.moments.format, .width = size_px, .height = size_px, .mips = demand.moments.levels};
         const auto moments = keep(device().create_texture(map, {}));
         const std::uint32_t rows = size_px + 2 * shadow::scratch_rows(demand, kind == LightKind::point);
         const auto scratch = keep(device().create_texture({.label = "scratch", .format = demand.moments.format, .width = size_px, .height = rows}, {}));

@@ -92,6 +92,25 @@ TEST_F(PrefilteredMaps, OfOneSpotAreExactlyTheseCommands) {
     EXPECT_NE(std::find(all.begin(), all.end(), gl::Command(gl::BindTexture{4, moments, {id("shadow moments", Kind::create_sampler)}})), all.end());
 }
 
+TEST_F(PrefilteredMaps, OfASoftFilterHaveMipmapsForAsLongAsTheSourceHasASize) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::pcss_moments);
+    step();
+    EXPECT_THAT(conversions(), SizeIs(2));
+    EXPECT_EQ(mip_generations(), 0u);
+    const std::uint64_t plain = light("lamp").bytes;
+    choose(lamp, [](LightShadow& s) { s.source_radius_m = 0.05f; });
+    step();
+    EXPECT_EQ(mip_generations(), 1u);
+    EXPECT_GT(light("lamp").bytes, plain);
+    choose(lamp, [](LightShadow& s) {
+        s.source_radius_m = 0.0f;
+        s.sun_radius_rad = 0.1f;  // not a spot's business
+    });
+    step();
+    EXPECT_EQ(mip_generations(), 0u);
+    EXPECT_EQ(light("lamp").bytes, plain);
+}
+
 TEST_F(PrefilteredMaps, AreMadeForNoLightOfAnotherRow) {
     for (const shadow::FilterRow& row : shadow::filter_table())
         if (row.storage != shadow::FilterStorage::moments) add_light(LightKind::spot, std::string(row.name), row.id);

@@ -37,6 +37,7 @@ vec3 kernel_at(float place, vec4 b) {
 
 // The two places where it is 0, the lesser first; far away instead of infinitely far.
 const float kFar = 1e4;
+const float kLeastWeight = 1e-6;   // what weighs less lies anywhere
 vec2 roots(vec3 c) {
     float q = -0.5 * (c.y + (c.y < 0.0 ? -1.0 : 1.0) * sqrt(max(c.y * c.y - 4.0 * c.x * c.z, 0.0)));
     float least = abs(q) / kFar;
@@ -45,14 +46,18 @@ vec2 roots(vec3 c) {
     return vec2(min(one, other), max(one, other));
 }
 
-float moments_lit(vec4 moments, float share, vec4 settings) {
+// x: how much of what is stored lies before the share, at least; y: where, on average; the share itself, if nothing does.
+vec2 moments_before(vec4 moments, float share, vec4 settings) {
     vec4 b = mix(settings.w > 0.0 ? unpacked_moments(moments) : moments, kSpreadMoments, settings.z);
     float place = 2.0 * share - 1.0;
     vec3 c = kernel_at(place, b);
     float own = clamp(1.0 / (c.x + place * (c.y + place * c.z)), 0.0, 1.0);   // what the receiver's place weighs
     vec2 other = roots(c);
-    if (place <= other.x) return 1.0;
-    if (place >= other.y) return own;
-    float nearer = ((1.0 - own) * other.y - (b.x - own * place)) / (other.y - other.x);
-    return clamp(1.0 - nearer, 0.0, 1.0);
+    if (place <= other.x) return vec2(0.0, share);
+    float others = b.x - own * place;
+    if (place >= other.y) return vec2(1.0 - own, 0.5 + 0.5 * others / max(1.0 - own, kLeastWeight));
+    float nearer = ((1.0 - own) * other.y - others) / (other.y - other.x);
+    return vec2(clamp(nearer, 0.0, 1.0), 0.5 + 0.5 * other.x);
 }
+
+float moments_lit(vec4 moments, float share, vec4 settings) { return 1.0 - moments_before(moments, share, settings).x; }

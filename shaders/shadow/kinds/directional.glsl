@@ -39,7 +39,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     vec2 source_texel = sun_source_texel(view);
     float reads_texel = read_texel(reach) + source_reach_texel(source_texel, vec2(0.0), projected.z / projected.w);
     ShadowPoint point = point_2d(i, projected, bias.depth, reads_texel);
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     point.source_texel = source_texel;
 #endif
     point.spread_texel = spread;
@@ -55,6 +55,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
 #ifdef SHADOW_MOMENTS
 #include "shadow/moments/distance.glsl"
 float shadow_share(ShadowPoint point) { return orthographic_share(point.reference); }
+float depth_at_share(ShadowPoint point, float share) { return 1.0 - share; }
 #endif
 
 // Along the view that the cascades are fitted to.

@@ -41,7 +41,7 @@ struct ShadowPoint {
 
 vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS) || defined(SHADOW_FOOTPRINT)
 // A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
 // It is the biased receiver's plane, but for plane_lift().
 vec2 shadow_slope(ShadowPoint point, vec3 normal) {
@@ -93,6 +93,17 @@ vec2 in_texels(ShadowPoint point, vec3 step_m) {
     vec3 along_v = row_xyz(view.map_from_anchor, 1) - point.map.y * along_w;
     float w = dot(along_w, point.position_ca + view.anchor_from_camera.xyz) + view.map_from_anchor[3][3];
     return shortened(vec2(dot(along_u, step_m), dot(along_v, step_m)) / (w * point.texel_uv));
+}
+
+// So many texels beside the point, of one level of its mipmaps or between two.
+vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {
+    return textureLod(shadow_map, vec3(point.map.xy + offset_texel * point.texel_uv, point.layer), level);
+}
+
+// For a lookup of texels within `reach` of it: before all of its plane there.
+ShadowPoint before_plane(ShadowPoint point, float reach_texel) {
+    point.reference = clamp(point.reference + reach_texel * (abs(point.slope.x) + abs(point.slope.y)), 0.0, 1.0);
+    return point;
 }
 
 vec4 shadow_moments(ShadowPoint point) {

@@ -39,7 +39,7 @@ struct ShadowPoint {
 #ifdef SHADOW_MOMENTS
     float reach_texel;    // what the bias is for
 #endif
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     vec2 source_texel;    // see shadow/source.glsl
     vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
     vec2 tangent;         // of its direction along the face's axes
@@ -68,7 +68,7 @@ vec3 turned_back(vec3 v) {
     return v + 2.0 * cross(axis, cross(axis, v) - light.cone.w * v);
 }
 
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS)
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS) || defined(SHADOW_FOOTPRINT)
 // 1 / z is linear in the tangents on any plane, see perspective_bias(); this one is the biased receiver's, but for
 // plane_lift().
 vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
@@ -137,17 +137,42 @@ vec3 step_in_face(ShadowPoint point, mat3 axes, vec2 tangent, vec3 step_ws) {
 }
 #endif
 
-// The sampler blends across seams; where the neighbour was not drawn it must not.
-vec4 shadow_moments(ShadowPoint point) {
-    mat3 axes = face_axes(point.position);
-    vec3 in_face = point.position * axes;
-    vec2 tangent = vec2(in_face.x, in_face.y) / largest(point.position);
-    float inner = 1.0 - 1.0 / float(textureSize(shadow_map, 0).x);
+// The sampler blends across seams; where the neighbour was not drawn it must not. texels: of the map, per one that is read.
+vec2 kept_tangent(vec2 tangent, mat3 axes, float texels) {
+    float inner = 1.0 - texels / float(textureSize(shadow_map, 0).x);
     for (int i = 0; i < 2; ++i) {
         vec3 across = vec3(0.0, 0.0, -1.0);
         across[i] = tangent[i] < 0.0 ? -1.01 : 1.01;
         if (abs(tangent[i]) > inner && !is_drawn(axes * across)) tangent[i] = clamp(tangent[i], -inner, inner);
     }
+    return tangent;
+}
+
+vec2 tangent_in_face(ShadowPoint point, mat3 axes) {
+    vec3 in_face = point.position * axes;
+    return vec2(in_face.x, in_face.y) / largest(point.position);
+}
+
+#ifdef SHADOW_FOOTPRINT
+// So many texels beside the point, of one level of its mipmaps or between two.
+vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {
+    mat3 axes = face_axes(point.position);
+    vec2 offset = offset_texel * (2.0 / float(textureSize(shadow_map, 0).x));
+    vec2 tangent = kept_tangent(tangent_in_face(point, axes) + offset, axes, exp2(ceil(level)));
+    return textureLod(shadow_map, axes * vec3(tangent, -1.0), level);
+}
+
+// For a lookup of texels within `reach` of it: before all of its plane there.
+ShadowPoint before_plane(ShadowPoint point, float reach_texel) {
+    point.reference += reach_texel * (abs(point.slope.x) + abs(point.slope.y));
+    point.reach_texel = reach_texel;
+    return point;
+}
+#endif
+
+vec4 shadow_moments(ShadowPoint point) {
+    mat3 axes = face_axes(point.position);
+    vec2 tangent = kept_tangent(tangent_in_face(point, axes), axes, 1.0);
 #ifdef SHADOW_FOOTPRINT
     vec3 right = step_in_face(point, axes, tangent, step_right(point.position_ca, point.normal));
     vec3 up = step_in_face(point, axes, tangent, step_up(point.position_ca, point.normal));
@@ -168,6 +193,11 @@ float shadow_stretch(ShadowPoint point) {
 float shadow_share(ShadowPoint point) {
     ViewRecord view = light.views[0];
     return perspective_share(point.reference, shadow_stretch(point), share_range(view.numeric.z, view.axis_back.w, kCubeCorner));
+}
+
+float depth_at_share(ShadowPoint point, float share) {
+    ViewRecord view = light.views[0];
+    return perspective_depth(share, shadow_stretch(point), share_range(view.numeric.z, view.axis_back.w, kCubeCorner));
 }
 #else
 float read_texel(float reach_texel) { return reach_texel; }
@@ -256,7 +286,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
 #ifdef SHADOW_SHOWN
     point.facts = facts_perspective(view, bias, length(position_la), z_m);
 #endif
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     map_axes = face_axes(point.position);
     z_m = largest(point.position);
     vec3 in_face = point.position * map_axes;

@@ -32,7 +32,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
 #endif
     vec3 moved = position_la + normal * bias.along_normal_m;
     ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
-#ifdef SHADOW_DEPTHS
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     point.source_texel = lamp_source_texel(view);
     point.tangent = vec2(position_map.x, position_map.y) / -position_map.z;
 #endif
@@ -49,6 +49,10 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
 float shadow_share(ShadowPoint point) {
     ViewRecord view = light.views[point.view];
     return perspective_share(point.reference, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
+}
+float depth_at_share(ShadowPoint point, float share) {
+    ViewRecord view = light.views[point.view];
+    return perspective_depth(share, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
 }
 #endif
 

@@ -5,6 +5,9 @@ float perspective_share(float depth, float stretch, vec4 range) {
     return clamp((distance_m - range.z) * range.w, 0.0, 1.0);
 }
 
+// The other way round.
+float perspective_depth(float share, float stretch, vec4 range) { return range.x + stretch * range.y / (range.z + share / range.w); }
+
 float orthographic_share(float depth) { return clamp(1.0 - depth, 0.0, 1.0); }
 
 // The corner of a cube's far plane is this much farther than its middle.

@@ -134,7 +134,9 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         OrthographicBox box;
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
-        if (filter_row(input.demand.filter).storage == FilterStorage::moments)
+        // Where maps hold true distances they reach up to the casters.
+        if (filter_row(input.demand.filter).storage == FilterStorage::moments &&
+            !needs_distances(input.demand.filtering))
             box.near_m -= kRoomForCasters * (box.far_m - box.near_m);
         if (counts_from_eye) override_from_eye(input.demand, eye, box);
         // No receiver lies in the slices that were left out, their part of the fading included.

@@ -294,6 +294,45 @@ TEST(MomentDemand, WidensTheFilterByWhatAPixelMayCoverAndFitsTheMap) {
     }
 }
 
+TEST(MomentDemand, HasALevelForEveryPenumbraOfASourceWithASizeAndNoMoreThanAskedForOfAnyOther) {
+    const FilterRow& soft = filter_row(ShadowFilter::pcss_moments);
+    EXPECT_EQ(moment_demand(soft, {}, 1024).levels, 1u);
+    EXPECT_EQ(moment_demand(soft, {.moment_levels = 3}, 1024).levels, 3u);
+    for (const auto field : {&LightShadow::source_radius_m, &LightShadow::sun_radius_rad}) {
+        LightShadow shadow{.filter = ShadowFilter::pcss_moments};
+        shadow.*field = 0.02f;
+        for (const std::uint32_t size : {16u, 64u, 512u, 1024u, 4096u}) {
+            const MomentDemand demand = moment_demand(soft, shadow, size);
+            const float widest = filter_demand(shadow, size).most_spread_texel;
+            const auto coarsest = static_cast<float>(1u << (demand.levels - 1));
+            EXPECT_TRUE(coarsest <= widest && widest < 2.0f * coarsest) << size;
+            EXPECT_EQ(demand.reach_texel, 0.0f) << "the bias is for what is read, not for the widest";
+            EXPECT_FALSE(demand.cut);
+        }
+        EXPECT_EQ(moment_demand(filter_row(ShadowFilter::moments), shadow, 1024).levels, 1u);
+        for (const float absurd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f}) {
+            shadow.*field = absurd;
+            EXPECT_EQ(moment_demand(soft, shadow, 1024).levels, 1u) << absurd;
+        }
+    }
+}
+
+TEST(Moments, TellWhereACasterIsAndHowMuchOfTheRegionItCovers) {
+    const Of<shader::Moments, ShadowFilter::moments> whole(32);
+    shader::Moments shader;
+    for (const double covered : {0.1, 0.5, 0.9})
+        for (const double at : {0.2, 0.5}) {
+            const auto before = shader.moments_before(whole.stored({{at, covered}, {0.8, 1.0 - covered}}), 0.8, whole.settings());
+            EXPECT_NEAR(before.x.value, covered, 0.01);
+            EXPECT_NEAR(before.y.value, at, 0.01);
+        }
+    const auto none = shader.moments_before(whole.stored({{0.8, 1.0}}), 0.8, whole.settings());
+    EXPECT_NEAR(none.x.value, 0.0f, 0.01f);
+    const auto all = shader.moments_before(whole.stored({{0.2, 0.5}, {0.4, 0.5}}), 0.8, whole.settings());
+    EXPECT_NEAR(all.x.value, 1.0f, 0.01f);
+    EXPECT_NEAR(all.y.value, 0.3f, 0.01f) << "two: their mean";
+}
+
 TEST(BlurWeights, SumUpToOneAndFallFromTheMiddle) {
     for (std::uint32_t size = 1; size <= kMostFilterSize; size += 2) {
         const auto weights = blur_weights(size);
