@@ -101,7 +101,7 @@ struct LightShadow {
     float moment_bleeding = 0.2f;           // 0 to 0.9: what is lit less counts as dark
     std::uint32_t moment_levels = 1;        // 1 to 4 of mipmaps
     std::uint32_t moment_anisotropy = 1;    // 1 to 16 samples along a pixel's footprint
-    /// Size of the light's source, for filters that soften shadows by it (pcss, pcss_moments): of a spot or a point its radius in
+    /// Size of the light's source, for pcss and pcss_moments, which soften by it: of a spot or a point its radius in
     /// metres, of a sun that of its disk as an angle (the real one's: 0.00465). 0: a point, whose shadows are hard.
     float source_radius_m = 0.0f, sun_radius_rad = 0.0f;
     bool early_bail = false;          // filters of many taps: five first, the others only if those differ
