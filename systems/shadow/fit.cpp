@@ -89,8 +89,9 @@ bool settle_size(const LightItem& light, std::span<const ShadowView> views, cons
     const std::uint32_t size_px =
         contract_size_px(demand.resolution_px, is_held, predicted_px, wished_error_px(light.shadow), demand.most_px);
     const bool spare = is_held && size_px < demand.resolution_px;
-    spare_frames = spare ? held.spare_frames + 1 : 0;
-    if (size_px == demand.resolution_px || (spare && spare_frames < kSpareFrames)) return false;
+    // Beyond kSpareFrames it was tried, and found too little: a filter's border is a larger share of a smaller map.
+    if (is_held) spare_frames = spare ? std::min(held.spare_frames + 1, kSpareFrames + 1) : 0;
+    if (size_px == demand.resolution_px || (spare && spare_frames != kSpareFrames)) return false;
     set_resolution(light, size_px, demand);
     return true;
 }
@@ -128,8 +129,8 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
             continue;
         }
         if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
-        next.spare_frames = spare_frames;
         next.map_px = follows_contract(light, demand) ? demand.resolution_px : 0;
+        next.spare_frames = next.map_px == before.map_px ? spare_frames : 0;
         for (std::size_t v = first; v < frame.views.size(); ++v) {
             const ShadowView& view = frame.views[v];
             if (depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 &&

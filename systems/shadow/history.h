@@ -70,7 +70,7 @@ struct HeldLight {
     ConeFade cone;
     HeldEnds sampled_ends;
     std::uint32_t map_px = 0;        // edge of its maps, where they follow the contract (contract.h); else 0
-    std::uint32_t spare_frames = 0;  // for how many frames half of it would have done
+    std::uint32_t spare_frames = 0;  // for how many frames half of it seems to have done
     bool operator==(const HeldLight&) const = default;
 };
 

@@ -88,14 +88,17 @@ TEST_P(Contract, IsKeptByThePredictionOrTheMapIsAsLargeAsItMayBe) {
     EXPECT_GT(smaller, 50);
 }
 
-TEST_P(Contract, FindsTheSameAgainInTheNextFrame) {
+TEST_P(Contract, FindsTheSameAgainWhileNothingChanges) {
     RandomScene random(print_seed());
     for (int i = 0; i < 100; ++i) {
         const SceneSnapshot s = scene(random);
         const ShadowFrame first = fitted(s);
-        const ShadowFrame second = fitted(s, first.next_history);
-        EXPECT_EQ(first.demands[0].resolution_px, second.demands[0].resolution_px);
-        EXPECT_TRUE(second.next_history == fitted(s, second.next_history).next_history);
+        History held = first.next_history;
+        for (std::uint32_t f = 0; f < kSpareFrames + 4; ++f) {
+            const ShadowFrame next = fitted(s, held);
+            ASSERT_EQ(first.demands[0].resolution_px, next.demands[0].resolution_px) << f;
+            held = next.next_history;
+        }
     }
 }
 
@@ -142,9 +145,39 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
         EXPECT_LE(after.demands[0].resolution_px, before / 2);
         EXPECT_TRUE(keeps_contract(predicted_px(after), 8.0));
         s.lights[0].shadow.max_error_px = 1.0f;
-        EXPECT_GE(fitted(s, after.next_history).demands[0].resolution_px, before) << "more are given at once";
+        const ShadowFrame again = fitted(s, after.next_history);
+        EXPECT_TRUE(keeps_contract(predicted_px(again), 1.0) ||
+                    again.demands[0].resolution_px == again.demands[0].most_px)
+            << "more are given at once";
     }
     EXPECT_GT(given_up, 5);
+}
+
+/// A size that seems to do, and is found too small when it is tried, is not tried again and again.
+TEST_P(Contract, ComesToRest) {
+    RandomScene random(print_seed());
+    int tried_in_vain = 0;
+    for (int i = 0; i < 60; ++i) {
+        SceneSnapshot s = scene(random);
+        s.lights[0].shadow.filter = ShadowFilter::pcf_grid;
+        s.lights[0].shadow.filter_size = 15;  // a border of a sixteenth of the smallest map
+        float& wish_px = s.lights[0].shadow.max_error_px;
+        const auto size = [&] { return fitted(s).demands[0].resolution_px; };
+        for (wish_px = 0.125f; wish_px < 64.0f && size() > 2 * kLeastMap_px; wish_px *= 1.1f) {
+        }
+        const ShadowFrame fine = fitted(s);
+        if (fine.views.empty() || fine.demands[0].resolution_px != 2 * kLeastMap_px) continue;
+        for (int step = 0; step < 24; ++step) {
+            wish_px *= 1.05f;
+            History held = fine.next_history;
+            for (std::uint32_t f = 0; f < kSpareFrames + 4; ++f) held = fitted(s, held).next_history;
+            EXPECT_TRUE(fitted(s, held).next_history == held) << i;
+            tried_in_vain += held.lights[0].spare_frames > kSpareFrames ? 1 : 0;
+        }
+    }
+    if (GetParam() != LightKind::point) {  // a cube's faces have no border
+        EXPECT_GT(tried_in_vain, 0) << "the test says something";
+    }
 }
 
 TEST_P(Contract, LeavesASizeAloneThatIsGivenOrMustNotFollowWhatIsSeen) {
