@@ -103,7 +103,7 @@ def read_bytes(path):
 def without_times(stats):
     """The stats with everything that a clock wrote taken out."""
     if isinstance(stats, dict):
-        return {k: without_times(v) for k, v in stats.items() if k not in ("cpu_us", "gpu_us")}
+        return {k: without_times(v) for k, v in stats.items() if k not in ("cpu_us", "gpu_us", "saved_us")}
     if isinstance(stats, list):
         return [without_times(v) for v in stats]
     return stats
