@@ -53,7 +53,10 @@ protected:
         draw();
         for (std::uint32_t i = 0; i < lights_.size(); ++i) {
             const LightReport& report = frame().report().lights[i];
-            EXPECT_EQ(report.state, LightState::rendered) << report.name;
+            // With a lamp near its plane, d16 is coarser than the texels and says so; the plane is lit all the same.
+            if (report.reason != Reason::depth_coarse) {
+                EXPECT_EQ(report.state, LightState::rendered) << report.name;
+            }
             const auto [lit, dark] = lit_and_dark(i);
             const LightShadow& shadow = *world.get<LightShadow>(lights_[i]);
             EXPECT_EQ(dark, 0u) << "round " << round << ", " << shadow::filter_row(shadow.filter).name << ", format "
