@@ -47,12 +47,18 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
 }
 
 void judge_edges(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& snapshot,
-                 const EdgeBounds& bounds, std::uint32_t index, double telling, LightAccuracy& light) {
+                 const EdgeBounds& bounds, std::uint32_t index, const AccuracyOptions& options, LightAccuracy& light) {
     const auto texel_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
-        return bounds.at(index, point, normal, telling);
+        return bounds.at(index, point, normal, options.telling);
     };
     light.exceptions = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
                                                light.truth, light.metrics.edge, texel_at);
+    const auto promised_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+        return bounds.promised(index, point, normal, options.wished);
+    };
+    if (light.report.keeps_max_error)
+        light.contract = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
+                                                 light.truth, light.metrics.edge, promised_at);
     for (std::size_t i = 0; i < hits.count(); ++i) {
         if (light.truth.scored[i] == 0) continue;
         const glm::dvec3 &point = hits.position_rel_m[i], &normal = hits.normal_ws[i];
@@ -103,7 +109,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         LightAccuracy& light = accuracy.lights[k];
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
-        judge_edges(tracer, hits, snapshot, bounds, indices[k], options.telling, light);
+        judge_edges(tracer, hits, snapshot, bounds, indices[k], options, light);
         judge_planes(hits, creases, bounds, indices[k], accuracy.size_px,
                      oracle::lit_between(tracer, hits, camera, snapshot.lights[indices[k]]), light);
     }

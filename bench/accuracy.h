@@ -30,6 +30,7 @@ struct LightAccuracy {
     std::vector<float> measured;  // as of --visibility
     oracle::LightTruth truth;
     oracle::EdgeExceptions exceptions;  // edges farther off than predicted there, by name
+    oracle::EdgeExceptions contract;    // farther off than max_error_px allows, where the report says it is kept
     oracle::FarErrors far;              // wrong pixels that neither an edge nor the map's texels there explain
     std::size_t beyond_stated = 0;      // scored pixels with a larger bound than their view states for their slope: 0
     std::optional<SoftAccuracy> soft;   // of lights whose source has a size
@@ -51,6 +52,7 @@ struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_ambiguous = true;
     double telling = 1.0;  // of predicted texels, see EdgeBounds::at
+    double wished = 1.0;   // of max_error_px, see EdgeBounds::promised
 };
 
 /// Runs frames as the scene asks for them, reads each light's visibility and compares it with ray-traced truth about

@@ -8,6 +8,7 @@
 
 #include "bench/one_fit.h"
 #include "bench/plain.h"
+#include "bench/update_cost.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/light_kinds.h"
@@ -141,6 +142,8 @@ void run_culling(const std::string& filter) {
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     if (std::string_view("one_fit").find(filter) != std::string_view::npos) std::fputs(one_fit_table().c_str(), stdout);
+    if (std::string_view("update").find(filter) != std::string_view::npos)
+        std::fputs(update_cost_table().c_str(), stdout);
 }
 
 }  // namespace gnomon::bench

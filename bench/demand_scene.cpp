@@ -36,20 +36,6 @@ private:
     std::mt19937_64 engine_;
 };
 
-assets::Mesh box_mesh(const char* name, const glm::dvec3& min, const glm::dvec3& max) {
-    const game::Shape shape = game::make_box(min, max);
-    assets::Mesh mesh;
-    mesh.name = name;
-    for (std::size_t i = 0; i < shape.positions.size(); ++i)
-        mesh.vertices.push_back({shape.positions[i], shape.normals[i], shape.uvs[i]});
-    mesh.indices = shape.indices;
-    mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), 0}};
-    mesh.bounds_ms = {min, max};
-    mesh.topology = assets::analyse_topology(mesh);
-    mesh.shape = assets::shape_of(mesh);
-    return mesh;
-}
-
 assets::Node& add_node(assets::SceneData& scene, const std::string& name, const glm::dvec3& at_m) {
     assets::Node& node = scene.nodes.emplace_back();
     node.name = name;
@@ -120,6 +106,20 @@ void add_light(assets::SceneData& scene, std::uint32_t i, Random& random) {
 }
 
 }  // namespace
+
+assets::Mesh box_mesh(const char* name, const glm::dvec3& min, const glm::dvec3& max) {
+    const game::Shape shape = game::make_box(min, max);
+    assets::Mesh mesh;
+    mesh.name = name;
+    for (std::size_t i = 0; i < shape.positions.size(); ++i)
+        mesh.vertices.push_back({shape.positions[i], shape.normals[i], shape.uvs[i]});
+    mesh.indices = shape.indices;
+    mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), 0}};
+    mesh.bounds_ms = {min, max};
+    mesh.topology = assets::analyse_topology(mesh);
+    mesh.shape = assets::shape_of(mesh);
+    return mesh;
+}
 
 assets::SceneData demand_scene(std::uint32_t lights, std::uint64_t seed) {
     assets::SceneData scene;

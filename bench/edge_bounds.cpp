@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "bench/exact_visibility.h"
+#include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/predicted_error.h"
@@ -53,17 +54,43 @@ glm::dvec3 to_light(const ShadowView& view, const glm::dvec3& p_ws) {
     return orthographic(view) ? view.axis_back : glm::normalize(view.anchor_ws_m - p_ws);
 }
 
+/// Nothing to be off but the picture's own pixels.
+oracle::TexelThere lit() {
+    oracle::TexelThere texel;
+    texel.error_px = shadow::edge_error_px(0.0, 0.0);
+    return texel;
+}
+
+/// The texel around the point, under a filter of that half-width, without an error.
+oracle::TexelThere texel_there(const ShadowView& view, const glm::dvec3& p_ws, const glm::dvec3& normal,
+                               double filter_texel) {
+    const shadow::TexelSides sides = shadow::texel_sides(view, p_ws);
+    oracle::TexelThere texel{
+        .u_m = sides.u_m, .v_m = sides.v_m, .filter_texel = filter_texel, .reach_texel = filter_texel};
+    const double cosine = glm::dot(to_light(view, p_ws), normal);
+    if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
+        const double u = std::abs(glm::dot(normal, view.axis_u)), v = std::abs(glm::dot(normal, view.axis_v));
+        texel.reach_texel += filter_texel * (u + v) * std::max(u, v);
+    }
+    return texel;
+}
+
 }  // namespace
 
 EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held)
     : scene_(scene) {
-    shadow::decide_demand(scene, device, true, {}, frame_.demands);
+    shadow::decide_demand(scene, device, true, held, frame_.demands);
     shadow::select_sets(scene, frame_);
     shadow::fit_views(scene, held, frame_);
 }
 
 double EdgeBounds::reach_texel(const ShadowView& view) const {
     return static_cast<double>(frame_.demands[view.demand].filtering.widest_texel);
+}
+
+double EdgeBounds::edge_texel(const ShadowView& view) const {
+    const shadow::FilterDemand& filter = frame_.demands[view.demand].filtering;
+    return static_cast<double>(filter.widest_texel - filter.still_texel);
 }
 
 /// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken, as
@@ -97,21 +124,26 @@ oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_r
                                   double telling) const {
     const ConsumerItem& consumer = scene_.consumers.front();
     const glm::dvec3 p_ws = consumer.position_ws_m + point_rel_m;
-    oracle::TexelThere texel;
-    texel.error_px = shadow::edge_error_px(0.0, 0.0);
     const ShadowView* view = view_of(light, p_ws);
-    if (!view) return texel;
-    const shadow::TexelSides sides = shadow::texel_sides(*view, p_ws);
-    texel.u_m = sides.u_m * telling;
-    texel.v_m = sides.v_m * telling;
-    texel.filter_texel = texel.reach_texel = reach_texel(*view);
-    const double cosine = glm::dot(to_light(*view, p_ws), normal);
-    if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
-        const double u = std::abs(glm::dot(normal, view->axis_u)), v = std::abs(glm::dot(normal, view->axis_v));
-        texel.reach_texel += texel.filter_texel * (u + v) * std::max(u, v);
-    }
+    if (!view) return lit();
+    oracle::TexelThere texel = texel_there(*view, p_ws, normal, reach_texel(*view));
+    texel.u_m *= telling;
+    texel.v_m *= telling;
     texel.error_px =
         shadow::edge_error_px(shadow::texel_extent_px(*view, consumer, p_ws, normal) * telling, texel.filter_texel);
+    return texel;
+}
+
+oracle::TexelThere EdgeBounds::promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                        double wished) const {
+    const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
+    const ShadowView* view = view_of(light, p_ws);
+    if (!view) return lit();
+    oracle::TexelThere texel = texel_there(*view, p_ws, normal, edge_texel(*view));
+    texel.u_m *= wished;
+    texel.v_m *= wished;
+    texel.error_px = shadow::allowed_error_px(wished * shadow::wished_error_px(scene_.lights[light].shadow),
+                                              glm::dot(to_light(*view, p_ws), normal));
     return texel;
 }
 

@@ -20,12 +20,18 @@ public:
     oracle::TexelThere at(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                           double telling = 1.0) const;
 
+    /// The texel that may move an edge there, and how far off the light's contract lets it be (shadow/contract.h).
+    /// `wished`: 1; else both are taken to be that many times as large, to see what a broken contract looks like.
+    oracle::TexelThere promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                double wished) const;
+
     /// What the view that serves the point states for receivers of its slope; 0 where none does.
     double stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const;
 
 private:
     const shadow::ShadowView* view_of(std::uint32_t light, const glm::dvec3& point_ws_m) const;
     double reach_texel(const shadow::ShadowView& view) const;
+    double edge_texel(const shadow::ShadowView& view) const;
 
     const SceneSnapshot& scene_;
     shadow::ShadowFrame frame_;

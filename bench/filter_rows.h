@@ -5,24 +5,11 @@
 #include <vector>
 
 #include "bench/filter_variants.h"
-#include "bench/spread.h"
+#include "bench/row_figures.h"
 #include "bench/stage.h"
 #include "engine/core/result.h"
 
 namespace gnomon::bench {
-
-/// One row of the filter table at one size of maps, for one light.
-struct RowFigures {
-    std::uint32_t taps = 0;
-    std::uint64_t bytes = 0;
-    /// Share of pixels on the other side of 1/2 than the truth about a point, and mean difference from it; none of rows
-    /// that soften by the source.
-    std::optional<double> wrong, blur;
-    double disk_error = 0.0;  // mean difference from the truth about disk_source()
-    /// Time of the depth and lighting pass over that of `hard` at the same size, per round: with every view drawn, and
-    /// with maps that are kept. Nothing if no time is measured.
-    Spread drawn, kept;
-};
 
 /// What a front is made of: which error, and which time.
 enum class RowTruth : std::uint8_t { point, disk };

@@ -14,19 +14,21 @@ Json to_json(const Spread& spread) {
 
 Json to_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
+Json whole(const Figure& count) { return count ? Json(static_cast<std::uint64_t>(*count)) : Json(nullptr); }
+
 Json figures_json(const FilterRows& rows, std::size_t resolution, std::size_t light) {
     Json all = Json::array();
     for (std::size_t v = 0; v < rows.variants.size(); ++v) {
         const RowFigures& f = rows.figures[resolution][v][light];
         all.push_back({{"name", rows.variants[v].name},
                        {"filter", rows.variants[v].row->name},
-                       {"taps", f.taps},
-                       {"bytes", f.bytes},
+                       {"taps", whole(f.taps)},
+                       {"bytes", whole(f.bytes)},
                        {"wrong", to_json(f.wrong)},
-                       {"mean_error", to_json(f.blur)},
-                       {"disk_error", f.disk_error},
-                       {"drawn", to_json(f.drawn)},
-                       {"kept", to_json(f.kept)}});
+                       {"mean_error", to_json(f.mean_error)},
+                       {"disk_error", to_json(f.disk_error)},
+                       {"drawn", to_json(f.gpu_ratio)},
+                       {"kept", to_json(f.kept_ratio)}});
     }
     return all;
 }

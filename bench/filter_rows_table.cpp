@@ -26,6 +26,7 @@ std::string joined(const std::vector<std::string>& words, const char* between = 
 }
 
 std::string ratio(const Spread& spread) { return spread.count == 0 ? "-" : text("%.2f", spread.median); }
+std::string count(const Figure& number) { return number ? text("%.0f", *number) : std::string("-"); }
 std::string percent(const std::optional<double>& share) {
     return share ? text("%.3f", kPercent * *share) : std::string("-");
 }
@@ -72,11 +73,10 @@ std::string markdown_of(const FilterRows& rows, std::size_t resolution) {
         const std::vector<RowFigures>& lights = rows.figures[resolution][v];
         table += "| `" + rows.variants[v].name + "`";
         for (const std::string& cell :
-             {each_light(lights, [](const RowFigures& f) { return std::to_string(f.taps); }),
-              each_light(lights,
-                         [](const RowFigures& f) { return text("%.0f", static_cast<double>(f.bytes) / kBytesPerMb); }),
-              each_light(lights, [](const RowFigures& f) { return ratio(f.drawn); }),
-              each_light(lights, [](const RowFigures& f) { return ratio(f.kept); }),
+             {each_light(lights, [](const RowFigures& f) { return count(f.taps); }),
+              each_light(lights, [](const RowFigures& f) { return text("%.0f", f.bytes.value_or(0.0) / kBytesPerMb); }),
+              each_light(lights, [](const RowFigures& f) { return ratio(f.gpu_ratio); }),
+              each_light(lights, [](const RowFigures& f) { return ratio(f.kept_ratio); }),
               each_light(lights, [](const RowFigures& f) { return percent(f.wrong); }),
               each_light(lights, [](const RowFigures& f) { return percent(f.disk_error); }),
               best_when(rows, resolution, v)})
@@ -120,10 +120,11 @@ std::string filter_rows_table(const FilterRows& rows) {
             for (std::size_t l = 0; l < rows.lights.size(); ++l) {
                 const RowFigures& f = rows.figures[r][v][l];
                 const std::uint32_t size_px = rows.resolutions_px[r];
-                table += text("%-24s %5u %6s %-18.18s %7.2f %8s %9s %8s %9s %9s\n", rows.variants[v].name.c_str(),
-                              f.taps, size_px == 0 ? "own" : std::to_string(size_px).c_str(), rows.lights[l].c_str(),
-                              static_cast<double>(f.bytes) / kBytesPerMb, ratio(f.drawn).c_str(), ratio(f.kept).c_str(),
-                              percent(f.wrong).c_str(), percent(f.blur).c_str(), percent(f.disk_error).c_str());
+                table += text("%-24s %5s %6s %-18.18s %7.2f %8s %9s %8s %9s %9s\n", rows.variants[v].name.c_str(),
+                              count(f.taps).c_str(), size_px == 0 ? "own" : std::to_string(size_px).c_str(),
+                              rows.lights[l].c_str(), f.bytes.value_or(0.0) / kBytesPerMb, ratio(f.gpu_ratio).c_str(),
+                              ratio(f.kept_ratio).c_str(), percent(f.wrong).c_str(), percent(f.mean_error).c_str(),
+                              percent(f.disk_error).c_str());
             }
     table +=
         "\nx drawn, x kept: time of the depth and lighting pass over that of `hard` at the same size, medians of "

@@ -13,9 +13,12 @@
 #include "bench/frame_times.h"
 #include "bench/heat_pictures.h"
 #include "bench/marked_text.h"
+#include "bench/queries.h"
+#include "bench/redraws.h"
 #include "bench/set_shares.h"
 #include "bench/stability.h"
 #include "bench/stage.h"
+#include "bench/sweep_command.h"
 #include "sample_game/number_text.h"
 #include "sample_game/picture_files.h"
 
@@ -24,17 +27,25 @@ namespace {
 
 constexpr int kBadInput = 2;
 constexpr std::uint64_t kMaxSizePx = 16384;  // what OpenGL 4.5 guarantees for pictures
+constexpr glm::uvec2 kQuickSize_px{640, 360};
 constexpr std::uint32_t kMaxRepeats = 100000;
 constexpr std::uint32_t kMostLights = 100000;
 constexpr std::uint32_t kMaxPoints = 10000000;
+constexpr unsigned kMostThreads = 1024;
 
 struct Arguments {
     StageOptions stage;
-    std::string scene, camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
+    std::vector<std::string> scenes;
+    std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
     std::uint32_t repeat = 9, rounds = 5;
     StabilityOptions stability;
     std::string plot, drawings, filters, rows, markdown;
     DemandOptions demand;
+    QueriesOptions queries;
+    std::string sweep, sweep_rows;
+    bool quick = false;
+    std::string out = "gnomon_sweep";
+    bool rounds_given = false, repeat_given = false, size_given = false;
 };
 
 int fail(const Error& error) {
@@ -67,7 +78,10 @@ std::optional<glm::dvec3> parse_offset(const std::string& text) {
 }
 
 std::optional<Error> complete(Arguments& arguments) {
-    if (!arguments.scene.empty()) arguments.stage.scene = arguments.scene;
+    if (arguments.quick) arguments.sweep = "quick";
+    if (arguments.scenes.size() > 1 && arguments.sweep.empty())
+        return Error{"several scenes are for accuracy --sweep alone", "", "", "scene"};
+    if (!arguments.scenes.empty()) arguments.stage.scene = arguments.scenes.front();
     if (!arguments.camera.empty()) arguments.stage.camera = arguments.camera;
     for (const auto& [text, size_px] : {std::pair(&arguments.size, &arguments.stage.size_px),
                                         std::pair(&arguments.demand_size, &arguments.demand.size_px)}) {
@@ -103,7 +117,26 @@ int run_rows(Stage& stage, const Arguments& arguments) {
     return 0;
 }
 
+int run_sweeps(const Arguments& arguments) {
+    SweepCommand command;
+    command.size = arguments.sweep == "quick" ? SweepSize::quick : SweepSize::full;
+    command.stage = arguments.stage;
+    command.scenes.assign(arguments.scenes.begin(), arguments.scenes.end());
+    command.folder = arguments.out;
+    command.only = arguments.sweep_rows;
+    command.markdown = arguments.markdown;
+    if (!arguments.size_given && command.size == SweepSize::quick) command.stage.size_px = kQuickSize_px;
+    if (arguments.rounds_given) command.rounds = arguments.rounds;
+    if (arguments.repeat_given) command.frames = arguments.repeat;
+    const auto scenes = run_sweep(command);
+    if (!scenes) return fail(scenes.error());
+    std::fputs(sweep_summary(scenes.value()).c_str(), stdout);
+    std::printf("%s\n", (command.folder / "report.html").c_str());
+    return 0;
+}
+
 int run_accuracy(const Arguments& arguments) {
+    if (!arguments.sweep.empty()) return run_sweeps(arguments);
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
     if (!arguments.rows.empty()) return run_rows(*stage.value(), arguments);
@@ -145,6 +178,15 @@ int run_drawings(const Arguments& arguments) {
     return 0;
 }
 
+int run_queries(const Arguments& arguments) {
+    QueriesOptions options = arguments.queries;
+    options.repeat = arguments.repeat;
+    const auto table = measure_queries(arguments.stage, options);
+    if (!table) return fail(table.error());
+    std::fputs(table.value().c_str(), stdout);
+    return 0;
+}
+
 int run_filters(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
@@ -170,6 +212,15 @@ int run_set_shares(const Arguments& arguments) {
     const auto table = set_shares(arguments.stage);
     if (!table) return fail(table.error());
     std::fputs(table.value().c_str(), stdout);
+    return 0;
+}
+
+int run_redraws(const Arguments& arguments) {
+    const auto table = redraws_table(arguments.stage, arguments.stability.frames);
+    if (!table) return fail(table.error());
+    std::fputs(table.value().c_str(), stdout);
+    if (!arguments.markdown.empty())
+        if (auto error = replace_marked(arguments.markdown, "redraws", table.value())) return fail(*error);
     return 0;
 }
 
@@ -208,7 +259,7 @@ void add_demand(CLI::App& command, Arguments& arguments) {
 }
 
 void add_common(CLI::App& command, Arguments& arguments) {
-    command.add_option("--scene", arguments.scene, "glTF or GLB (default: the built-in scene)");
+    command.add_option("--scene", arguments.scenes, "glTF or GLB (default: the built-in scene)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every LightShadow, as the game's --set")
@@ -221,20 +272,34 @@ void add_common(CLI::App& command, Arguments& arguments) {
     command.add_option("--json", arguments.json, "write all figures to this file");
 }
 
+void add_accuracy(CLI::App& command, Arguments& arguments) {
+    add_common(command, arguments);
+    command
+        .add_option("--sweep", arguments.sweep,
+                    "quick or full: what each setting costs and gains, as a report in --out; --scene may be repeated")
+        ->check(CLI::IsMember({"quick", "full"}));
+    command.add_option("--rows", arguments.sweep_rows,
+                       "with --sweep: regular expression for rows' names, the defaults aside (default: all)");
+    command.add_flag("--quick", arguments.quick, "the same as --sweep quick");
+    command.add_option("--out", arguments.out, "with --sweep: folder of the report, and of what it goes on from")
+        ->capture_default_str();
+    command.add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
+    command.add_option("--filters", arguments.rows,
+                       "cost and error of rows of the filter table: all, or part of a name");
+    command.add_option("--rounds", arguments.rounds, "with --filters and --sweep: rounds of --repeat frames each")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    command.add_option("--markdown", arguments.markdown,
+                       "page whose text between <!-- NAME --> and <!-- end of NAME --> is replaced; --filters: rows, "
+                       "--sweep: cost");
+}
+
 int run(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("What Gnomon's shadows cost, and how far they are from the truth", "gnomon_bench");
     app.require_subcommand(1);
     CLI::App* accuracy = app.add_subcommand("accuracy", "shadows of each light against ray-traced truth");
-    add_common(*accuracy, arguments);
-    accuracy->add_option("--pictures", arguments.pictures, "folder for truth, measured and error pictures");
-    accuracy->add_option("--filters", arguments.rows,
-                         "cost and error of rows of the filter table: all, or part of a name");
-    accuracy->add_option("--rounds", arguments.rounds, "with --filters: rounds of --repeat frames each")
-        ->check(CLI::Range(1u, kMaxRepeats))
-        ->capture_default_str();
-    accuracy->add_option("--markdown", arguments.markdown,
-                         "with --filters: page whose text between <!-- rows --> and <!-- end of rows --> is replaced");
+    add_accuracy(*accuracy, arguments);
     CLI::App* frame = app.add_subcommand("frame", "frame times with and without shadows");
     add_common(*frame, arguments);
     frame->add_option("--rounds", arguments.rounds, "rounds of --repeat frames each")
@@ -267,21 +332,42 @@ int run(int argc, char** argv) {
     culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
     CLI::App* demand = app.add_subcommand("demand", "what shadows cost by the number of lights, economy on and off");
     add_demand(*demand, arguments);
+    CLI::App* redraws = app.add_subcommand("redraws", "how many maps are drawn while a camera walks or a thing moves");
+    add_common(*redraws, arguments);
+    redraws->add_option("--frames", arguments.stability.frames, "frames of each run")
+        ->check(CLI::Range(2u, kMaxRepeats))
+        ->capture_default_str();
+    redraws->add_option("--markdown", arguments.markdown,
+                        "page whose text between <!-- redraws --> and <!-- end of redraws --> is replaced");
     CLI::App* sets = app.add_subcommand("sets", "how many casters each light keeps, and how many of those in vain");
     add_common(*sets, arguments);
+    CLI::App* queries =
+        app.add_subcommand("queries", "visibility queries on the CPU: how many per second, and their trees");
+    add_common(*queries, arguments);
+    queries->add_option("--places", arguments.queries.places, "places that are asked for in one batch")
+        ->check(CLI::Range(1u, kMaxPoints))
+        ->capture_default_str();
+    queries->add_option("--threads", arguments.queries.threads, "threads that share a batch")
+        ->check(CLI::Range(1u, kMostThreads))
+        ->capture_default_str();
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
         return fail({error.what(), "", "", "usage"});
     }
+    arguments.rounds_given = accuracy->count("--rounds") > 0;
+    arguments.repeat_given = accuracy->count("--repeat") > 0;
+    arguments.size_given = accuracy->count("--size") > 0;
     if (auto error = complete(arguments)) return fail(*error);
     if (*culling) {
         run_culling(arguments.filter);
         return 0;
     }
     if (*demand) return run_demand(arguments);
+    if (*redraws) return run_redraws(arguments);
     if (*sets) return run_set_shares(arguments);
+    if (*queries) return run_queries(arguments);
     if (*drawings) return run_drawings(arguments);
     if (*filters) return run_filters(arguments);
     if (*stability) return run_stability(arguments);

@@ -18,7 +18,7 @@ SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m) {
     SceneSnapshot scene;
     for (std::int64_t i = 0; i < boxes; ++i) {
         InstanceItem item;
-        item.mesh = static_cast<std::uint32_t>(i % 50);
+        item.mesh = static_cast<std::uint32_t>(i % kPlainMeshes);
         item.gpu_slot = static_cast<std::uint32_t>(i);
         const glm::dvec3 centre(number(-0.5, 0.5) * side_m, number(0.0, 2.0), number(-0.5, 0.5) * side_m);
         const glm::dvec3 half(number(0.2, 1.0), number(0.2, 2.0), number(0.2, 1.0));

@@ -7,8 +7,10 @@
 /// A scene of any number of boxes for what is measured without a picture.
 namespace gnomon::bench {
 
-/// Boxes of about a metre on a plain, four to a hundred square metres, with a light of `kind` and a camera above them.
-/// `sight_m`: how far the camera sees; as far as the plain goes if 0.
+inline constexpr std::uint32_t kPlainMeshes = 50;
+
+/// Boxes of about a metre, of kPlainMeshes meshes in turn, on a plain, four to a hundred square metres, with a light of
+/// `kind` and a camera above them. `sight_m`: how far the camera sees; as far as the plain goes if 0.
 SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m);
 
 /// The first stage, with a device that takes the largest maps.

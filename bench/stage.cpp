@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "bench/everything_moving.h"
-#include "components/light_shadow.h"
+#include "components/light.h"
 #include "engine/gl/device_gl45.h"
 #include "sample_game/light_settings.h"
 #include "sample_game/motion.h"
@@ -35,6 +35,7 @@ Stage::~Stage() = default;
 std::optional<Error> Stage::spawn(const StageOptions& options, assets::SceneData scene) {
     for (assets::Node& node : scene.nodes)
         if (node.parent == assets::kNone) node.translation_m += options.offset_m;
+    options_ = options;
     scene_name_ = options.scene ? options.scene->string() : "built-in";
     spawned_ = game::spawn_scene(std::move(scene), world_, library_);
     time_s_ = options.time_s;
@@ -42,6 +43,8 @@ std::optional<Error> Stage::spawn(const StageOptions& options, assets::SceneData
     game::set_time(spawned_, time_s_, world_);
     for (const std::string& setting : options.settings)
         if (auto error = apply_setting(setting)) return error;
+    for (const game::NamedEntity& light : spawned_.lights)
+        if (const auto* shadow = world_.get<LightShadow>(light.entity)) opened_.emplace_back(light.entity, *shadow);
     if (!options.camera) return std::nullopt;
     const auto camera = game::find_camera(spawned_, *options.camera);
     if (!camera) return camera.error();
@@ -75,6 +78,22 @@ std::optional<Error> Stage::apply_setting(const std::string& key_value) {
     for (const game::NamedEntity& light : spawned_.lights)
         world_.patch<LightShadow>(light.entity,
                                   [&](LightShadow& shadow) { (void)game::apply_setting(shadow, key_value); });
+    return std::nullopt;
+}
+
+std::optional<Error> Stage::start_over(std::span<const std::string> settings, LightKinds kinds) {
+    LightShadow probe;
+    for (const std::string& setting : settings)
+        if (auto error = game::apply_setting(probe, setting)) return error;
+    for (const auto& [entity, opened] : opened_) world_.remove<LightShadow>(entity);
+    run_frame();
+    for (const auto& [entity, opened] : opened_) {
+        const auto* light = world_.get<Light>(entity);
+        if (!light || !holds(kinds, light->kind)) continue;
+        LightShadow shadow = opened;
+        for (const std::string& setting : settings) (void)game::apply_setting(shadow, setting);
+        world_.emplace<LightShadow>(entity, shadow);
+    }
     return std::nullopt;
 }
 

@@ -5,9 +5,13 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "bench/row_setup.h"
+#include "components/light_shadow.h"
 #include "engine/assets/mesh_library.h"
 #include "engine/core/result.h"
 #include "engine/ecs/registry.h"
@@ -47,6 +51,10 @@ public:
     void set_economy(bool on);
     /// "KEY=VALUE" for every LightShadow. Errors: "set.*".
     std::optional<Error> apply_setting(const std::string& key_value);
+    /// Every light of these kinds as it was when the scene was opened, with these settings; lights of other kinds cast
+    /// no shadows. Runs a frame without any shadows in between, so that neither fits nor maps remember what was before.
+    /// Errors: "set.*"; then nothing is changed.
+    std::optional<Error> start_over(std::span<const std::string> settings, LightKinds kinds = kAllKinds);
 
     Frame& frame() { return *frame_; }
     gl::Device& device() { return *device_; }
@@ -56,6 +64,7 @@ public:
     double time_s() const { return time_s_; }  // of the scene when it was opened
     const game::SpawnedScene& spawned() const { return spawned_; }
     const std::string& scene_name() const { return scene_name_; }
+    const StageOptions& options() const { return options_; }
     double load_s() const { return load_s_; }                       // file to entities; 0: it was made
     std::uint32_t gl_complaints() const { return gl_complaints_; }  // debug messages of medium or high severity
 
@@ -70,8 +79,10 @@ private:
     assets::MeshLibrary library_;
     game::SpawnedScene spawned_;
     std::vector<game::MovingEntity> moving_;
+    std::vector<std::pair<ecs::Entity, LightShadow>> opened_;  // as the scene and the options have them
     FrameSettings settings_;
     std::unique_ptr<Frame> frame_;
+    StageOptions options_;
     std::string scene_name_;
     double time_s_ = 0.0, load_s_ = 0.0;
     std::uint32_t gl_complaints_ = 0;

@@ -32,7 +32,10 @@ set(GNOMON_ENGINE_HEADERS
   engine/math/lowest_in_tree.h
   engine/math/projection.h
   engine/math/shape_tree.h
-  engine/platform/context.h)
+  engine/platform/context.h
+  engine/rays/bvh.h
+  engine/rays/mesh_bvh.h
+  engine/rays/ray_packet.h)
 list(TRANSFORM GNOMON_ENGINE_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
 # Components and systems are public whole: whoever brings an own frame may take any stage.
 file(GLOB GNOMON_COMPONENT_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/components/*.h)

@@ -1,5 +1,7 @@
 #include "sample_game/app.h"
 
+#include <cstdlib>
+
 #include "components/light_shadow.h"
 #include "engine/gl/device_gl45.h"
 #include "sample_game/debug_request.h"
@@ -57,7 +59,10 @@ std::optional<Error> check_outputs(const CommandLine& line) {
     for (const auto& file : {line.stats, line.screenshot})
         if (file)
             if (auto error = check_writable(*file)) return error;
-    return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
+    for (const auto& folder : {line.visibility, line.program_cache})
+        if (folder && !folder->empty())
+            if (auto error = make_writable_folder(*folder)) return error;
+    return std::nullopt;
 }
 
 void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings) {
@@ -73,9 +78,15 @@ void set_timing(gl::Device& device, bool on) {
     device.set_timing(on ? mode : gl::TimingMode::off);
 }
 
+bool wants_timing(const CommandLine& line, const gl::Device& device) {
+    return line.stats || (line.shadow_budget.gpu_ms > 0.0f && !device.info().is_software);
+}
+
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
     // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
-    Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
+    Result<std::unique_ptr<gl::Device>> device =
+        gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {},
+                             program_folder(line, std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")));
     if (!device) return device.error();
     Renderer renderer{std::move(device).value(), nullptr};
     const gl::DeviceInfo& info = renderer.device->info();
@@ -83,7 +94,7 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, 
         return Error{
             .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
             .rule = "command_line"};
-    if (line.stats) set_timing(*renderer.device, true);
+    set_timing(*renderer.device, wants_timing(line, *renderer.device));
     Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, held_fits);
     if (!frame) return frame.error();
     renderer.frame = std::move(frame).value();

@@ -47,6 +47,8 @@ void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& setting
 
 /// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
 void set_timing(gl::Device& device, bool on);
+/// Whether the command line needs the times: --stats, or --shadow-ms, unless measuring would slow each frame down.
+bool wants_timing(const CommandLine& line, const gl::Device& device);
 
 /// Warns once of everything that is odd about the scene and yet no error.
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);

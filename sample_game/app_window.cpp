@@ -154,7 +154,8 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
     if (!made) return made.error();
     Renderer renderer = std::move(made).value();
 
-    FrameSettings settings{.viewport_px = line.size_px, .exposure_ev = line.exposure_ev};
+    FrameSettings settings{
+        .viewport_px = line.size_px, .exposure_ev = line.exposure_ev, .shadow_budget = line.shadow_budget};
     auto drawn = Gui::create(*renderer.device);
     if (!drawn) return drawn.error();
     Gui& gui = *drawn.value();
@@ -176,7 +177,7 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         last = Clock::now();
         if (pressed(input, platform::Key::f1)) {
             gui.panel.shown = !gui.panel.shown;
-            set_timing(*renderer.device, gui.panel.shown || line.stats);  // the panel shows times per light
+            set_timing(*renderer.device, gui.panel.shown || wants_timing(line, *renderer.device));  // it shows times
         }
         if (pressed(input, platform::Key::f2)) next_debug_light(world, gui.panel.debug);
         if (pressed(input, platform::Key::f3)) next_debug_view(world, gui.panel.debug);

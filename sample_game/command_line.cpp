@@ -14,12 +14,13 @@ constexpr std::uint64_t kMaxSize_px = 16384;
 constexpr std::uint64_t kMaxFrames = 100'000'000;
 constexpr double kMaxTime_s = 1.0e9;
 constexpr double kMaxExposure_ev = 64.0;
+constexpr double kMaxBudget_ms = 1.0e6;
 constexpr double kFramesPerSecond = 60.0;
 
 /// What was typed, before it is understood.
 struct Typed {
-    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, stats, screenshot, visibility,
-        debug;
+    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms, stats,
+        screenshot, visibility, program_cache, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -39,10 +40,16 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--frames", typed.frames, "N: frames to run, then exit");
     app.add_option("--time", typed.time, "SECONDS: scene time of the last frame");
     app.add_option("--exposure", typed.exposure, "EV|auto (default: auto)");
+    app.add_option("--shadow-bytes", typed.shadow_bytes, "N: bytes that all shadow maps may hold (default: any)");
+    app.add_option("--shadow-ms", typed.shadow_ms,
+                   "X: milliseconds of the GPU that shadows may take in a frame (default: any)");
     app.add_option("--stats", typed.stats, "F.json: per frame and light times, counts, report");
     app.add_option("--screenshot", typed.screenshot, "F.png: the last frame");
     app.add_option("--visibility", typed.visibility,
                    "DIR: DIR/<light>.pfm, the visible fraction of each shadowed light");
+    app.add_option("--program-cache", typed.program_cache,
+                   "DIR|off: where compiled programs are kept between runs (default: the user's cache folder in a "
+                   "window, off with --headless)");
     app.add_option("--set", typed.settings, "KEY=VALUE: a LightShadow field of every light; repeatable")
         ->expected(1)
         ->allow_extra_args(false)
@@ -93,6 +100,17 @@ std::optional<Error> read_numbers(const Typed& typed, const CLI::App& app, Comma
             return wrong("--exposure: '" + typed.exposure + "' is neither auto nor an EV within +-64");
         line.exposure_ev = static_cast<float>(*exposure);
     }
+    if (app.count("--shadow-bytes") > 0) {
+        line.shadow_budget.bytes = read_count(typed.shadow_bytes).value_or(0);
+        if (line.shadow_budget.bytes == 0)
+            return wrong("--shadow-bytes: '" + typed.shadow_bytes + "' is not a number of bytes above 0");
+    }
+    if (app.count("--shadow-ms") > 0) {
+        const auto ms = read_number(typed.shadow_ms);
+        if (!ms || !(*ms > 0.0 && *ms <= kMaxBudget_ms))
+            return wrong("--shadow-ms: '" + typed.shadow_ms + "' is not a number of milliseconds above 0, at most 1e6");
+        line.shadow_budget.gpu_ms = static_cast<float>(*ms);
+    }
     return std::nullopt;
 }
 
@@ -106,7 +124,9 @@ std::optional<Error> read_names(const Typed& typed, const CLI::App& app, Command
                      read("--fit-camera", typed.fit_camera, line.fit_camera) &&
                      read("--animation", typed.animation, line.animation) && read("--stats", typed.stats, line.stats) &&
                      read("--screenshot", typed.screenshot, line.screenshot) &&
-                     read("--visibility", typed.visibility, line.visibility);
+                     read("--visibility", typed.visibility, line.visibility) &&
+                     read("--program-cache", typed.program_cache, line.program_cache);
+    if (typed.program_cache == "off") line.program_cache = std::filesystem::path{};
     return all ? std::nullopt : std::optional(wrong("an empty name was given"));
 }
 
@@ -156,6 +176,15 @@ Result<CommandLine> parse_command_line(int argc, const char* const* argv) {
 bool plays_game(const CommandLine& line) {
     return line.demo || !(line.headless || line.scene || line.camera || line.fit_camera || line.animation ||
                           line.frames || line.time_s);
+}
+
+std::filesystem::path program_folder(const CommandLine& line, const char* cache_home, const char* home) {
+    if (line.program_cache) return *line.program_cache;
+    if (line.headless) return {};
+    // XDG base directories, 0.8: a path that is not absolute is to be ignored.
+    const std::filesystem::path named = cache_home ? cache_home : "", own = home ? home : "";
+    if (named.is_absolute()) return named / "gnomon";
+    return own.is_absolute() ? own / ".cache" / "gnomon" : std::filesystem::path{};
 }
 
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames) {

@@ -118,7 +118,7 @@ constexpr std::array kSettings{
                  .choice = word<ShadowFit>},
     LightSetting{.key = "cascades",
                  .values = "0 ... 8",
-                 .meaning = "of a sun; 0: four",
+                 .meaning = "of a sun; 0: four, or fewer that keep max_error_px",
                  .set = set_cascades,
                  .get = get_cascades,
                  .editor = kNumber,

@@ -12,6 +12,10 @@ namespace gnomon::game {
 /// Picture of width x height, 4 bytes per pixel, top row first. Empty if width or height is 0 or the sizes disagree.
 std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
 
+/// The same as a JPEG, alpha left out; quality 1 to 100.
+std::vector<std::uint8_t> encode_jpeg(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
+                                      int quality);
+
 /// Errors of the writers: rule "output.write", naming the file.
 std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const std::uint8_t> rgba);

@@ -34,6 +34,20 @@ Json why_stats(const FrameReport& report, const LightReport& light) {
     return why;
 }
 
+Json budget_stats(const BudgetReport& budget) {
+    return {{"wanted_px", budget.wanted_px},
+            {"px", budget.px},
+            {"wanted_views", budget.wanted_views},
+            {"views", budget.views},
+            {"plain", budget.plain},
+            {"refresh_frames", budget.refresh_frames},
+            {"wanted_bytes", budget.wanted_bytes},
+            {"bytes", budget.bytes},
+            {"wanted_us", budget.wanted_us},
+            {"model_us", budget.us},
+            {"harm", budget.harm}};
+}
+
 Json light_stats(const FrameReport& report, const LightReport& light) {
     return {{"name", light.name},
             {"kind", shadow::light_kind_row(light.kind).name},
@@ -50,6 +64,7 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"triangles", light.triangles},
             {"cpu_us", light.cpu_us},
             {"gpu_us", or_null(light.gpu_us)},
+            {"budget", light.budget ? budget_stats(*light.budget) : Json(nullptr)},
             {"why", why_stats(report, light)}};
 }
 
@@ -80,6 +95,7 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
             {"time_s", time_s},
             {"cpu_us", report.cpu_us},
             {"gpu_us", or_null(report.gpu_us)},
+            {"programs", {{"compiled", report.programs.compiled}, {"cached", report.programs.cached}}},
             {"shadow", std::move(shadow)},
             {"lights", std::move(lights)},
             {"dropped", std::move(dropped)}};

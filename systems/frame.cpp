@@ -32,6 +32,7 @@ const shadow::History& Frame::held_fits() const { return shadows_->held_fits(); 
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const auto start = std::chrono::steady_clock::now();
+    const gl::ProgramCounts programs = device_.program_counts();
     commands_.clear();
     report_.clear();
 
@@ -42,15 +43,17 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(snapshot_.sampled_depths);
     gpu_scene_.update(snapshot_, commands_);
-    snapshot_.exposure.reset();
-    if (settings.leave_out_dim_lights && settings.exposure_ev)
-        snapshot_.exposure = lighting::exposure_scale(*settings.exposure_ev);
+    snapshot_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
     const bool sample_depths = !held && shadow::wants_sampled_depths(snapshot_, shadows);
     if (!sample_depths && !held) snapshot_.sampled_depths = {};  // of no use later
-    has_picture_ =
-        !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
-                                                     {settings.exposure_ev, sample_depths}, commands_, report_);
+    const bool measure_exposure =
+        settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();
+    if (!measure_exposure) lighting_->forget_exposure();
+    has_picture_ = !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
+                                                                {settings.exposure_ev, settings.programs_per_frame,
+                                                                 measure_exposure, sample_depths},
+                                                                commands_, report_);
     if (has_picture_) {
         const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
         debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);
@@ -60,21 +63,33 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
                            static_cast<std::int32_t>(settings.viewport_px.y)};
         commands_.add(gl::Blit{lighting_->picture_target(), {}, all, all});
     }
+    const gl::ProgramCounts now = device_.program_counts();
+    report_.programs = {now.compiled - programs.compiled, now.cached - programs.cached};
     report_.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 
     const gl::SubmitResult result = device_.submit(commands_);
-    if (settings.repeatable && sample_depths) device_.finish();
+    if (settings.repeatable && (sample_depths || measure_exposure)) device_.finish();
     shadows_->commit(snapshot_, result.failure == gl::Failure::none);
     if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
     if (result.failure != gl::Failure::none) report_.failure = result.failure;
     shadows_->draw_times().submitted(result.submission, snapshot_, report_);
-    collect_timings();
+    // What a run measures differs from run to run.
+    const bool learn_costs = settings.shadow_budget.gpu_ms > 0.0f && !settings.repeatable;
+    if (learn_costs) shadows_->cost_clock().submitted(result.submission, snapshot_, shadows, report_);
+    collect_timings(learn_costs);
+}
+
+/// What the picture will be multiplied by, at most; empty: nobody is to ask.
+std::optional<double> Frame::most_exposure(const FrameSettings& settings) {
+    if (!settings.leave_out_dim_lights) return std::nullopt;
+    if (settings.exposure_ev) return lighting::exposure_scale(*settings.exposure_ev);
+    return lighting_->most_exposure(snapshot_.consumers.empty() ? ecs::Entity{} : snapshot_.consumers.front().entity);
 }
 
 /// While fits are frozen, the stages find the frozen cameras as the scene's consumers.
 const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) {
     const auto update = [&]() -> const shadow::ShadowFrame& {
-        return shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_);
+        return shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_, settings.shadow_budget);
     };
     if (!settings.freeze_fits) frozen_.reset();
     if (!settings.freeze_fits || snapshot_.consumers.empty()) return update();
@@ -88,10 +103,11 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
 }
 
 /// Sums what timers have come in. A device that answers late reports an earlier frame's times.
-void Frame::collect_timings() {
+void Frame::collect_timings(bool learn_costs) {
     const std::vector<gl::Timing> timings = device_.take_timings();
     if (timings.empty()) return;
     shadows_->draw_times().learn(timings);
+    if (learn_costs) shadows_->cost_clock().learn(timings);
     const std::uint64_t last = timings.back().submission;
     double all_us = 0.0, shadow_us = 0.0;
     for (const gl::Timing& t : timings) {

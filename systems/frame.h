@@ -15,6 +15,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/grant.h"
 #include "systems/shadow/history.h"
 #include "systems/transform/transform_system.h"
 
@@ -36,15 +37,21 @@ struct FrameSettings {
     std::optional<float> exposure_ev;  // EV100; empty: automatic
     bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
     bool present = false;              // copy the picture to the window at the end
-    /// Wait at the end of a frame for what the GPU measures in it (CascadeSplits::sampled), so that every run draws the
-    /// same pictures; else nothing is waited for, and measures arrive some frames later.
+    /// Wait at the end of a frame for what the GPU measures in it (CascadeSplits::sampled; automatic exposure, where
+    /// lights are faint), so that every run draws the same pictures; else nothing is waited for, and measures arrive
+    /// some frames later.
     bool repeatable = false;
     debug::Request debug = {};  // drawn over the picture; none by default
     /// Shadows stay fitted to the cameras as they were in the first frame that asked for it, while the picture follows
     /// its own. Lights and casters go on: shadows follow them, as those cameras need it.
     bool freeze_fits = false;
-    /// Lights whose shadows could not be seen in the picture cast none; needs a fixed exposure (docs/economy.md).
+    /// What shadows may take; those that are seen least are given less until it holds (docs/economy.md, "Budgets").
+    shadow::ShadowBudget shadow_budget = {};
+    /// Lights whose shadows could not be seen in the picture cast none (docs/economy.md).
     bool leave_out_dim_lights = true;
+    /// So many programs of lights are compiled in one frame at most. A light whose program has to wait is looked up
+    /// with one tap meanwhile, and says so (filter_program_waits). The default waits for none.
+    std::uint32_t programs_per_frame = ~0u;
 };
 
 /// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.
@@ -81,8 +88,9 @@ public:
 
 private:
     Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& held_fits, GpuScene scene);
+    std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
-    void collect_timings();
+    void collect_timings(bool learn_costs);
 
     gl::Device& device_;
     const assets::MeshLibrary& library_;

@@ -36,6 +36,10 @@ const char* reason_code(Reason reason) {
             return "content_unchanged";
         case Reason::resolution_clamped:
             return "resolution_clamped";
+        case Reason::over_budget:
+            return "over_budget";
+        case Reason::budget_shrunk:
+            return "budget_shrunk";
         case Reason::map_shrunk:
             return "map_shrunk";
         case Reason::map_allocation_failed:
@@ -46,6 +50,10 @@ const char* reason_code(Reason reason) {
             return "depth_program_failed";
         case Reason::lighting_program_failed:
             return "lighting_program_failed";
+        case Reason::filter_program_failed:
+            return "filter_program_failed";
+        case Reason::filter_program_waits:
+            return "filter_program_waits";
         case Reason::buffer_failed:
             return "buffer_failed";
         case Reason::sampler_failed:

@@ -27,11 +27,15 @@ enum class Reason : std::uint8_t {
     below_display_step,   // lit everywhere, it and others like it change no pixel by more than half a step
     content_unchanged,    // the map of an earlier frame still holds
     resolution_clamped,   // the device's limit is below the wish
+    over_budget,          // FrameSettings::shadow_budget does not hold it beside what is seen better
+    budget_shrunk,        // the same leaves it less than it asks for
     map_shrunk,           // the wished size could not be allocated, a smaller one could
     map_allocation_failed,
     target_incomplete,
     depth_program_failed,
     lighting_program_failed,
+    filter_program_failed,  // what the filter needs does not compile: its map is read with one tap
+    filter_program_waits,   // not compiled yet (FrameSettings::programs_per_frame): the same, for now
     buffer_failed,
     sampler_failed,
     fit_degenerate,          // no finite volume to render
@@ -67,6 +71,17 @@ struct ViewReport {
     Why why;
 };
 
+/// What a budget left a light of what it asked for, and by what numbers.
+struct BudgetReport {
+    std::uint32_t wanted_px = 0, px = 0;        // edge of its maps
+    std::uint32_t wanted_views = 0, views = 0;  // layers of its map
+    std::uint32_t refresh_frames = 1;           // what moves is drawn in one frame of so many
+    bool plain = false;                         // looked up with one tap, whatever its filter
+    std::uint64_t wanted_bytes = 0, bytes = 0;  // of its map
+    double wanted_us = 0.0, us = 0.0;           // of the GPU per frame, by the model
+    double harm = 0.0;                          // share of the picture that is wrong for it, by the model
+};
+
 struct LightReport {
     ecs::Entity entity;
     std::string name;
@@ -84,6 +99,7 @@ struct LightReport {
     double cpu_us = 0.0;           // of the shadow stages, what this light alone took
     std::optional<double> gpu_us;  // shadow and lighting pass; empty: not measured
     Why why;
+    std::optional<BudgetReport> budget;            // empty: none is set, or it asked for no map
     std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };
 
@@ -92,6 +108,7 @@ struct FrameReport {
     std::vector<ViewReport> views;    // of all lights, in their order
     std::vector<DroppedEntity> dropped;
     bool still = false;  // nothing that shadows follow from had changed: the stages' results of the last frame stand
+    gl::ProgramCounts programs;  // that were made in this frame
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
@@ -104,6 +121,7 @@ struct FrameReport {
         views.clear();
         dropped.clear();
         still = false;
+        programs = {};
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();
         shadow_gpu_us.reset();

@@ -53,6 +53,8 @@ const char* name(DepthTest test) {
             return "greater";
         case DepthTest::equal:
             return "equal";
+        case DepthTest::less:
+            return "less";
     }
     return "?";
 }
@@ -117,7 +119,9 @@ struct Writer {
                field("base_vertex", c.base_vertex) + field("first_item", c.first_item) +
                field("item_count", c.item_count);
     }
-    std::string operator()(const DrawTriangle&) const { return "DrawTriangle"; }
+    std::string operator()(const DrawTriangle& c) const {
+        return c.depth ? "DrawTriangle" + field("depth", *c.depth) : "DrawTriangle";
+    }
     std::string operator()(const DrawLines& c) const { return "DrawLines" + field("vertex_count", c.vertex_count); }
     std::string operator()(const Dispatch& c) const {
         return "Dispatch" + field("program", c.program) + field("groups_x", c.groups_x) + field("groups_y", c.groups_y);

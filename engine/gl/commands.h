@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -21,7 +22,7 @@ struct Rect {
 };
 
 enum class CullMode : std::uint8_t { none, back, front };
-enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal };
+enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal, less };
 enum class Blend : std::uint8_t { off, add, alpha };  // alpha: over, its own alpha channel becomes coverage
 
 struct PipelineState {
@@ -106,6 +107,7 @@ struct DrawMeshes {  // triangles
     bool operator==(const DrawMeshes&) const = default;
 };
 struct DrawTriangle {  // one full-screen triangle, vertex_count = 3, no attributes
+    std::optional<float> depth = {};  // all of it lies at this depth, in [0,1], whatever its shader says
     bool operator==(const DrawTriangle&) const = default;
 };
 struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage buffers

@@ -7,6 +7,7 @@
 
 #include "engine/gl/gl45_execute.h"
 #include "engine/gl/gl45_objects.h"
+#include "engine/gl/gl45_programs.h"
 #include "engine/gl/gl45_readbacks.h"
 #include "engine/gl/gl45_timers.h"
 #include "engine/gl/validate.h"
@@ -66,7 +67,8 @@ MessageSeverity severity_of(GLenum severity) {
 
 class Gl45Device final : public Device {
 public:
-    explicit Gl45Device(MessageSink sink) : sink_(std::move(sink)), info_(read_info()) {
+    Gl45Device(MessageSink sink, std::filesystem::path program_cache)
+        : sink_(std::move(sink)), info_(read_info()), programs_(std::move(program_cache)) {
         if (sink_) {
             glEnable(GL_DEBUG_OUTPUT);
             glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -88,6 +90,7 @@ public:
     }
 
     const DeviceInfo& info() const override { return info_; }
+    ProgramCounts program_counts() const override { return programs_.counts(); }
     std::size_t live_objects() const { return objects_.count(); }
     GLuint name(TextureHandle h) const {
         const GlTexture* texture = find_object(objects_.textures, h.id);
@@ -120,7 +123,7 @@ public:
     }
     Created<ProgramHandle> create_program(const ProgramDesc& desc) override {
         if (lost()) return refused<ProgramHandle>(Failure::context_lost, desc.label);
-        return keep<ProgramHandle>(objects_.programs, make_program(desc));
+        return keep<ProgramHandle>(objects_.programs, programs_.make(desc));
     }
     Created<TargetHandle> create_target(const TargetDesc& desc) override {
         if (lost()) return refused<TargetHandle>(Failure::context_lost, desc.label);
@@ -218,6 +221,7 @@ private:
 
     MessageSink sink_;
     DeviceInfo info_;
+    GlPrograms programs_;
     GlFixtures fixtures_;
     GlObjects objects_;
     GlTimers timers_;
@@ -229,12 +233,12 @@ private:
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink) {
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, std::filesystem::path program_cache) {
     const int version = epoxy_is_desktop_gl() ? epoxy_gl_version() : 0;
     if (version < kNeededVersion) {
         return Error{"the current context is not OpenGL 4.5 but " + get_string(GL_VERSION), {}, {}, "gl.version"};
     }
-    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink))};
+    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink), std::move(program_cache))};
 }
 
 unsigned gl_name(const Device& gl45_device, TextureHandle texture) {

@@ -189,6 +189,7 @@ void RecordingDevice::check_leaks() {
 }
 
 const DeviceInfo& RecordingDevice::info() const { return info_; }
+ProgramCounts RecordingDevice::program_counts() const { return {compiled_, 0}; }
 
 std::optional<Failure> RecordingDevice::injected(Call call, const std::string* label) {
     const std::optional<Failure> failure = lost_ ? Failure::context_lost : scheduled(calls_, call, label);
@@ -264,6 +265,7 @@ Created<BufferHandle> RecordingDevice::create_buffer(const BufferDesc& desc, std
 
 Created<ProgramHandle> RecordingDevice::create_program(const ProgramDesc& desc) {
     const auto kind = Kind::create_program;
+    ++compiled_;
     const std::optional<Failure> failure = injected(Call::creation, &desc.label);
     const bool draws = !desc.vertex.empty() || !desc.fragment.empty() || !desc.geometry.empty();
     if (desc.compute.empty() ? desc.vertex.empty() : draws) {

@@ -133,6 +133,7 @@ public:
 
     // Device
     const DeviceInfo& info() const override;
+    ProgramCounts program_counts() const override;  // every create_program() is compiled
     Created<TextureHandle> create_texture(const TextureDesc&, std::span<const std::byte>) override;
     Created<SamplerHandle> create_sampler(const SamplerDesc&) override;
     Created<BufferHandle> create_buffer(const BufferDesc&, std::span<const std::byte>) override;
@@ -168,6 +169,7 @@ private:
     std::uint32_t next_id_ = 1;  // one row of ids for all kinds: a handle cast to another kind is unknown
     std::uint64_t calls_ = 0;
     std::uint64_t submitted_ = 0;
+    std::uint64_t compiled_ = 0;
     struct LastingFault {
         std::uint64_t first;
         Failure failure;

@@ -72,6 +72,8 @@ GLenum gl_depth_test(DepthTest test) {
             return GL_GREATER;
         case DepthTest::equal:
             return GL_EQUAL;
+        case DepthTest::less:
+            return GL_LESS;
     }
     return GL_ALWAYS;
 }
@@ -223,9 +225,12 @@ public:
                                                       GL_UNSIGNED_INT, offset, static_cast<GLsizei>(c.item_count),
                                                       c.base_vertex, c.first_item);
     }
-    void operator()(const DrawTriangle&) {
+    void operator()(const DrawTriangle& c) {
         constexpr GLsizei corners = 3;
-        if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_TRIANGLES, 0, corners);
+        if (!can_draw(fixtures_.empty_layout)) return;
+        if (c.depth) glDepthRangef(*c.depth, *c.depth);
+        glDrawArrays(GL_TRIANGLES, 0, corners);
+        if (c.depth) glDepthRangef(0.0f, 1.0f);
     }
     void operator()(const DrawLines& c) {
         if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));

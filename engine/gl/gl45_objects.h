@@ -61,7 +61,6 @@ struct Made {
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels);
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
-Made<GLuint> make_program(const ProgramDesc& desc);
 Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects);
 
 /// Forgets errors that other users of the context left behind.

@@ -53,6 +53,7 @@ public:
     }
     void operator()(const SetPipeline& c) {
         has_pipeline_ = known(objects_.programs, c.state.program.id, "program");
+        writes_depth_ = c.state.depth_write;
         if (has_pipeline_ && computes(c.state.program)) find(Misuse::wrong_program, "a compute program cannot draw");
     }
     void operator()(const BindTexture& c) {
@@ -216,11 +217,18 @@ private:
         const auto names = [texture](const Attachment& a) { return a.texture == texture; };
         return names(at->second.depth) || std::any_of(at->second.colours.begin(), at->second.colours.end(), names);
     }
+    /// What a pass reads it may not write; its depth may be tested and read meanwhile.
+    bool written(TargetHandle handle, TextureHandle texture) const {
+        const auto at = objects_.targets.find(handle.id);
+        if (at == objects_.targets.end() || writes_depth_ || at->second.depth.texture != texture)
+            return attached(handle, texture);
+        return false;
+    }
     void check_draw() {
         if (!in_pass_) return find(Misuse::draw_outside_pass, "BeginPass comes first");
         if (!has_pipeline_) find(Misuse::draw_without_pipeline, "SetPipeline comes first");
         for (const auto& [unit, texture] : textures_) {
-            if (attached(target_, texture)) find(Misuse::feedback_loop, "unit " + std::to_string(unit));
+            if (written(target_, texture)) find(Misuse::feedback_loop, "unit " + std::to_string(unit));
         }
     }
     void check_vertices(const DrawMeshes& c, const RecordedBuffer& indices) {
@@ -244,7 +252,7 @@ private:
     std::size_t index_ = 0;
 
     std::size_t open_groups_ = 0;
-    bool in_pass_ = false, has_pipeline_ = false, has_meshes_ = false;
+    bool in_pass_ = false, has_pipeline_ = false, has_meshes_ = false, writes_depth_ = false;
     TargetHandle target_{};
     std::map<std::uint32_t, TextureHandle> textures_;  // by unit
     BindMeshes meshes_{};

@@ -28,6 +28,8 @@ public:
     void refit();
 
     std::size_t size() const { return items_.size(); }
+    /// Around all boxes; empty without any.
+    Aabb box() const { return nodes_.empty() ? Aabb{} : nodes_.front().box; }
 
     /// Calls visit(item) for each item whose box does not lie outside, in no particular order.
     /// classify(box) -> Overlap; it must not say `outside` of a box of which it says otherwise for a part, nor `inside`

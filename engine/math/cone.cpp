@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace gnomon::math {
 namespace {
@@ -14,21 +15,18 @@ double rounding(const glm::dvec3& p, const Aabb& box) {
 
 }  // namespace
 
-Overlap overlap(const Cone& cone, const Aabb& box) {
-    if (is_empty(box)) return Overlap::outside;
-    const glm::dvec3 middle = centre(box) - cone.apex, half = half_extent(box);
-    const double slack = rounding(cone.apex, box);
-    const double along = glm::dot(middle, cone.axis);
-    if (along + glm::dot(half, glm::abs(cone.axis)) < -slack) return Overlap::outside;
-    // The plane through the apex that touches the cone on the box's side; its normal points into the cone.
+std::array<Plane, kConeSides + 1> planes_around(const Cone& cone) {
     const double sine = std::sin(cone.half_angle_rad), cosine = std::cos(cone.half_angle_rad);
-    const glm::dvec3 aside = middle - along * cone.axis;
-    const double distance = glm::length(aside);
-    const glm::dvec3 away = distance > 0.0 ? aside / distance : glm::dvec3(0.0);
-    const glm::dvec3 normal = sine * cone.axis - cosine * away;
-    const double depth = glm::dot(normal, middle);
-    if (depth + glm::dot(half, glm::abs(normal)) < -slack) return Overlap::outside;
-    return depth - glm::length(half) > slack ? Overlap::inside : Overlap::partial;
+    const glm::dmat3 basis = basis_from_back(cone.axis);
+    const auto through_apex = [&](const glm::dvec3& normal) { return Plane{normal, -glm::dot(normal, cone.apex)}; };
+    std::array<Plane, kConeSides + 1> planes;
+    for (std::size_t i = 0; i < kConeSides; ++i) {
+        const double turn_rad = 2.0 * std::numbers::pi * static_cast<double>(i) / kConeSides;
+        const glm::dvec3 away = basis[0] * std::cos(turn_rad) + basis[1] * std::sin(turn_rad);
+        planes[i] = through_apex(sine * cone.axis - cosine * away);
+    }
+    planes[kConeSides] = through_apex(cone.axis);
+    return planes;
 }
 
 Overlap overlap_ball(const glm::dvec3& ball_centre, double radius, const Aabb& box) {

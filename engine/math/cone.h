@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <glm/vec3.hpp>
 
 #include "engine/math/aabb.h"
@@ -13,11 +14,15 @@ struct Cone {
     double half_angle_rad = 0.0;      // above 0, at most half pi
 };
 
-/// `outside` only if no point of the box is in the cone, `inside` only if all are, up to rounding. Between, it may err
-/// to `partial`: the box is told apart by the planes that touch the cone behind the apex and on the side of the box.
-Overlap overlap(const Cone& cone, const Aabb& box);
+/// As many sides as a pyramid around a cone has: its corners stand off the cone by 1 / cos(pi / 12), 3.5 %.
+inline constexpr std::size_t kConeSides = 12;
 
-/// The same for a ball; an infinite radius holds everything.
+/// Planes that touch the cone all around, and the one behind its apex: a box outside one of them has no point in the
+/// cone. The same for every box, so that none is outside of which a part is not (BoundsTree::visit).
+std::array<Plane, kConeSides + 1> planes_around(const Cone& cone);
+
+/// `outside` only if no point of the box is in the ball, `inside` only if all are, up to rounding; an infinite radius
+/// holds everything.
 Overlap overlap_ball(const glm::dvec3& centre, double radius, const Aabb& box);
 
 }  // namespace gnomon::math

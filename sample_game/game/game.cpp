@@ -34,6 +34,17 @@ bool holds(const math::Aabb& box, const glm::dvec3& point) {
     return glm::all(glm::greaterThanEqual(point, box.min)) && glm::all(glm::lessThanEqual(point, box.max));
 }
 
+/// The lamp as visibility queries take it.
+LightItem light_item(const Lamp& lamp, const WorldTransform& pose) {
+    LightItem item;
+    item.kind = lamp.light.type == assets::LightType::spot ? LightKind::spot : LightKind::point;
+    item.position_ws_m = pose.translation_ws_m;
+    item.rotation_ws[2] = glm::normalize(pose.basis[2]);
+    item.range_m = lamp.light.range_m;
+    item.outer_cone_rad = lamp.light.outer_cone_rad;
+    return item;
+}
+
 }  // namespace
 
 const char* to_text(Phase phase) {
@@ -129,14 +140,18 @@ void Game::place() {
     level_.occluders.place(poses_);
 }
 
-double Game::measured_light() const {
+double Game::measured_light() {
+    std::array<visibility::Place, kBody.size()> body;
+    for (std::size_t i = 0; i < kBody.size(); ++i) {
+        const auto& [height, side] = kBody[i];
+        body[i].at_ws_m = state_.feet_m + glm::dvec3(0.0, height, 0.0) + sideways(state_.yaw_rad) * side;
+    }
     double lux = 0.0;
-    for (const auto& [height, side] : kBody) {
-        const glm::dvec3 point = state_.feet_m + glm::dvec3(0.0, height, 0.0) + sideways(state_.yaw_rad) * side;
-        for (const Lamp& lamp : level_.lamps) {
-            const double open = lamp_lux(lamp, poses_[lamp.node], point);
-            if (open > 0.0 && !level_.occluders.blocked(poses_[lamp.node].translation_ws_m, point)) lux += open;
-        }
+    for (const Lamp& lamp : level_.lamps) {
+        std::array<float, kBody.size()> shares{};
+        level_.occluders.ask(light_item(lamp, poses_[lamp.node]), body, shares);
+        for (std::size_t i = 0; i < body.size(); ++i)
+            lux += static_cast<double>(shares[i]) * lamp_lux(lamp, poses_[lamp.node], body[i].at_ws_m);
     }
     return std::min(lux / static_cast<double>(kBody.size()) / kFullLight_lx, 1.0);
 }

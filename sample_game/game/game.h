@@ -53,7 +53,7 @@ public:
 private:
     void walk(const GameInput& input);
     void place();
-    double measured_light() const;
+    double measured_light();
 
     Level level_;
     GameState state_;

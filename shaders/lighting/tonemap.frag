@@ -1,20 +1,13 @@
 // Exposure and tone curve, and the sky behind everything. The target encodes sRGB.
 #include "lighting/sky.glsl"
+#include "lighting/exposure.glsl"
 layout(binding = 0) uniform sampler2D picture;
 layout(binding = 1) uniform sampler2D luminance_sum;
 layout(binding = 2) uniform sampler2D surface_depth;
-layout(std140, binding = 4) uniform ExposureBlock {
-    vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum
-};
 layout(location = 0) out vec4 colour_out;
 
 void main() {
-    float scale = exposure.x;
-    if (scale < 0.0) {
-        vec2 sum = textureLod(luminance_sum, vec2(0.5), exposure.y).rg;
-        const float kMiddleGrey = 0.18;
-        scale = sum.g > 0.0 ? kMiddleGrey / exp2(sum.r / sum.g) : 1.0;
-    }
+    float scale = exposure_scale(luminance_sum);
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     // Blended surfaces may stand before the sky: what they let through is in the picture's alpha.
     vec4 seen = texelFetch(picture, pixel, 0);

@@ -5,7 +5,7 @@ struct ViewRecord {
     vec4 axis_u;            // xyz: world direction of the map's u; w: texel edge, metres (orthographic) or tangent
     vec4 axis_v;
     vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta (see bias.glsl)
-    vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl), or view distance from which a cascade fades; w: layer of the map
+    vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl), or view distance from which a cascade fades; w: layer of the map, -1: there is none, since nothing can darken what the view serves
     vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where it has faded, and the next cascade serves
 };
 layout(std140, binding = 1) uniform LightBlock {
@@ -13,13 +13,13 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its shadow layers, 0 to 255
     vec4 radiance;             // rgb: lux (directional) or candela; w: size of the source, see shadow/source.glsl
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces; or a point's: the quaternion cube_turn()
-    ivec4 options;             // x: views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view distance; w: bit per layer that a view was drawn to
+    ivec4 options;             // x: views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view distance; w: bit per layer that a view has
     vec4 bias;                 // x: metres, z: texels of a manual bias; y: share of a cascade that fades
     ivec4 filtering;           // x: texels along a grid's edge; y: taps; z: 1 to bail early; w: 1 if seeds come from the world
     vec4 spread;               // see shadow/spread.glsl
     ivec4 seed_cell;           // see shadow/filters/seed.glsl
     vec4 seed_place;
     vec4 moments;              // of a prefiltered map, see its filter's file: x, y: exponents; z: least variance; w: 1 if stored in 16 bits
-    vec4 moment_sampling;      // x: what is lit less counts as dark; y: most texels of a pixel's footprint
+    vec4 moment_sampling;      // x: what is lit less counts as dark; y: most texels of a pixel's footprint; z: most taps along it
     ViewRecord views[kMaxViews];
 } light;

@@ -32,7 +32,7 @@ ShadowPoint compared_point(ShadowPoint point, vec3 normal) {
 // Compares on the receiver's own plane: of the offset, only what snapping and rounding need is left.
 float shadow_bias_texel() { return 0.0; }
 float filtered(ShadowPoint point, vec3 normal, float error_m) {
-    if (!point.covered) return 1.0;
+    if (!may_be_dark(point)) return 1.0;
     point = compared_point(point, normal);
     point.slope = shadow_slope(point, normal);
 #ifdef SHADOW_TRIANGLES
@@ -46,7 +46,7 @@ float filtered(ShadowPoint point, vec3 normal, float error_m) {
 #ifdef SHADOW_FOOTPRINT
     point.normal = normal;
 #endif
-    return point.covered ? shadow_filter(compared_point(point, normal)) : 1.0;
+    return may_be_dark(point) ? shadow_filter(compared_point(point, normal)) : 1.0;
 }
 #endif
 #endif

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 
 #include "systems/extract/snapshot.h"
 
@@ -27,6 +28,16 @@ void visit_instances(const SceneSnapshot& scene, Classify&& classify, Visit&& vi
     }
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
         if (classify(scene.instances[i].bounds_ws) != math::Overlap::outside) visit(i);
+}
+
+/// The lowest value of any instance, infinite without one; rank and value as in BoundsTree::lowest.
+template <class Rank, class Value>
+double lowest_of_instances(const SceneSnapshot& scene, Rank&& rank, Value&& value) {
+    if (has_tree(scene)) return scene.tree.lowest(rank, value);
+    double lowest = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
+        if (rank(scene.instances[i].bounds_ws) < lowest) lowest = value(i, lowest);
+    return lowest;
 }
 
 }  // namespace gnomon

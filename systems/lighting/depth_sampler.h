@@ -1,10 +1,10 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
 
 #include "engine/gl/device.h"
 #include "systems/extract/sampled_depths.h"
+#include "systems/lighting/readback_ring.h"
 #include "systems/retry.h"
 
 namespace gnomon::lighting {
@@ -13,7 +13,8 @@ namespace gnomon::lighting {
 /// waiting, a few pictures under way at most, in each frame the newest. Makes what it needs when first asked.
 class DepthSampler {
 public:
-    explicit DepthSampler(gl::Device& device) : device_(device) {}
+    explicit DepthSampler(gl::Device& device)
+        : device_(device), counts_(device, "view distances to read", sizeof(SampledDepths::pixels)) {}
     ~DepthSampler();
     DepthSampler(const DepthSampler&) = delete;
     DepthSampler& operator=(const DepthSampler&) = delete;
@@ -33,23 +34,13 @@ public:
     void collect(SampledDepths& depths);
 
 private:
-    /// A readback that is under way.
-    struct Slot {
-        gl::BufferHandle buffer{};
-        ecs::Entity camera = {};
-        std::uint64_t number = 0;  // of the picture; 0: free
-    };
-    static constexpr std::size_t kSlots = 3;  // as many frames as drivers queue
-
     bool prepare();
-    bool make_program();
-    bool make_buffer(gl::BufferHandle& buffer, const char* label, gl::BufferUse use);
 
     gl::Device& device_;
     gl::ProgramHandle program_{};
     gl::BufferHandle bins_{};
-    std::array<Slot, kSlots> slots_;
-    std::uint64_t pictures_ = 0, frames_ = 0;
+    ReadbackRing counts_;
+    std::uint64_t frames_ = 0;
     Retry retry_;
     bool failed_ = false;
 };

@@ -50,15 +50,28 @@ void LightPrograms::make(Entry& entry, const std::string& label, std::string_vie
     if (!entry.program) entry.retry.failed(frame_);
 }
 
-gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, RowOutput output,
-                                              std::string_view fragment) {
+LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ProgramRow& wanted, RowOutput output,
+                                                    std::string_view fragment) {
     shadow::ProgramRow row = wanted;
     if (row.filter_file.empty()) row = {row.kind_define, {}, {}};  // unshadowed is one program per kind
-    auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
+    const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
         return e.output == output && e.fragment == fragment && e.row == row;
     });
-    if (found == rows_.end()) found = rows_.insert(rows_.end(), {row, output, fragment, {}});
-    Entry& entry = found->entry;
+    return found != rows_.end() ? *found : rows_.emplace_back(RowEntry{row, output, fragment, {}});
+}
+
+bool LightPrograms::must_wait(const shadow::ProgramRow& row, RowOutput output) {
+    if (!is_due(find_or_add(row, output, {}).entry)) return false;
+    if (rows_left_ == 0) return true;
+    --rows_left_;
+    return false;
+}
+
+gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, RowOutput output,
+                                              std::string_view fragment) {
+    RowEntry& found = find_or_add(wanted, output, fragment);
+    const shadow::ProgramRow& row = found.row;
+    Entry& entry = found.entry;
     if (!is_due(entry)) return entry.program;
 
     std::vector<std::string> defines{std::string(row.kind_define) + " 1"};

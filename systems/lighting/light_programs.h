@@ -23,11 +23,17 @@ public:
     LightPrograms(const LightPrograms&) = delete;
     LightPrograms& operator=(const LightPrograms&) = delete;
 
-    /// To be called once a frame: the clock of the retries.
-    void next_frame() { ++frame_; }
+    static constexpr std::uint32_t kNoLimit = ~0u;
+    /// To be called once a frame: the clock of the retries. `most_rows`: must_wait() lets so many be made in it.
+    void next_frame(std::uint32_t most_rows = kNoLimit) {
+        ++frame_;
+        rows_left_ = most_rows;
+    }
 
     /// {0} if it cannot be made.
     gl::ProgramHandle row(const shadow::ProgramRow& row, RowOutput output) { return find_or_make(row, output, {}); }
+    /// Whether row() would have to make it and this frame's share is used up. If it is not, that is taken from it.
+    bool must_wait(const shadow::ProgramRow& row, RowOutput output);
     /// The row's lookups as `fragment`, a debug view's shader, shows them. {0} if it cannot be made.
     gl::ProgramHandle lookups(const shadow::ProgramRow& row, std::string_view fragment) {
         return find_or_make(row, RowOutput::lookups, fragment);
@@ -49,6 +55,7 @@ private:
         std::string_view fragment;  // of lookups
         Entry entry;
     };
+    RowEntry& find_or_add(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
     gl::ProgramHandle find_or_make(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
     void make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
@@ -59,6 +66,7 @@ private:
     std::vector<RowEntry> rows_;
     Entry surface_, blended_base_, luminance_, tonemap_;
     std::uint64_t frame_ = 0;
+    std::uint32_t rows_left_ = kNoLimit;
     gl::Failure failure_ = gl::Failure::none;
 };
 

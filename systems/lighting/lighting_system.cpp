@@ -46,6 +46,7 @@ LightingSystem::LightingSystem(gl::Device& device)
       programs_(device),
       targets_(device),
       depths_(device),
+      exposure_(device),
       items_(device, "surface draw items"),
       uniforms_(device, "lighting uniforms") {}
 
@@ -212,24 +213,33 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
     list.add(gl::BindTexture{3, targets_.material, point_sampler_});
 }
 
-void LightingSystem::bind_light(const shadow::LightingLight& light, std::uint32_t index, const GpuScene& gpu,
+void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, const GpuScene& gpu,
                                 gl::CommandList& list) const {
     list.add(
         gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
     if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
-    if (!light.row.triangles) return;
+    if (!light.triangles) return;
     list.add(gl::BindTexture{5, light.triangles, {}});
     list.add(gl::BindStorage{0, gpu.instances()});
     list.add(gl::BindStorage{2, gpu.caster_triangles()});
 }
 
-/// The program of a row; where it cannot be had, that of the same light without its shadow.
-LightingSystem::RowProgram LightingSystem::row_program(const shadow::ProgramRow& row, RowOutput output) {
-    const gl::ProgramHandle program = programs_.row(row, output);
-    if (program) return {program, false};
-    shadow::ProgramRow unshadowed = row;
+/// The light's own row; where that cannot be had, one tap of its map; or the same light without its shadow.
+LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, RowOutput output) {
+    const shadow::PlainLookup& plain = light.plain;
+    const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
+    const bool may_wait = has_plain && output != RowOutput::visibility;  // that is asked for by itself
+    Reason lacks = Reason::filter_program_waits;
+    if (!may_wait || !programs_.must_wait(light.row, output)) {
+        const gl::ProgramHandle own = programs_.row(light.row, output);
+        if (own) return {own, light.map, light.triangles, light.sampler};
+        lacks = Reason::filter_program_failed;
+    }
+    const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
+    if (one_tap) return {one_tap, plain.map, {}, plain.sampler, lacks};
+    shadow::ProgramRow unshadowed = light.row;
     unshadowed.filter_file = {};
-    return {programs_.row(unshadowed, output), true};
+    return {programs_.row(unshadowed, output), {}, {}, {}, Reason::lighting_program_failed};
 }
 
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
@@ -238,21 +248,22 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
         if (light.screen.width <= 0) continue;
-        const RowProgram row = row_program(light.row, RowOutput::picture);
-        if (row.fell_back) {
-            report.lights[light.light].state = LightState::skipped;
-            report.lights[light.light].reason = Reason::lighting_program_failed;
+        const LightProgram used = light_program(light, RowOutput::picture);
+        if (used.lacks != Reason::none) {
+            const bool lit = used.lacks == Reason::lighting_program_failed;
+            report.lights[light.light].state = lit ? LightState::skipped : LightState::degraded;
+            report.lights[light.light].reason = used.lacks;
         }
-        if (!row.program) continue;
+        if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
         list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
         list.add(gl::SetScissor{light.screen});
         list.add(gl::SetPipeline{
-            {row.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::add}});
+            {used.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
         bind_surface_textures(list);
-        bind_light(light, i, gpu, list);
-        list.add(gl::DrawTriangle{});
+        bind_light(used, i, gpu, list);
+        list.add(gl::DrawTriangle{light.farthest_depth});
         list.add(gl::EndPass{});
         list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});
@@ -264,7 +275,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
                                     FrameReport& report) {
     if (blended_.empty() || !programs_.blended_base()) return;
     list.add(gl::BeginGroup{"blended"});
-    list.add(gl::BeginPass{targets_.blended_target, viewport(), false, 0.0f, false, {}});
+    list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
     for (const SurfaceDraw& draw : blended_) {
         gl::PipelineState state{programs_.blended_base(),
                                 draw.two_sided ? gl::CullMode::none : gl::CullMode::back,
@@ -280,17 +291,18 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
                                     draw.item_count};
         list.add(meshes);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-            const RowProgram row = row_program(inputs.lights[i].row, RowOutput::blended);
+            if (inputs.lights[i].screen.width <= 0) continue;
+            const LightProgram used = light_program(inputs.lights[i], RowOutput::blended);
             LightReport& light = report.lights[inputs.lights[i].light];
-            if (row.fell_back && light.state != LightState::skipped) {
+            if (used.lacks != Reason::none && light.state != LightState::skipped) {
                 light.state = LightState::degraded;  // its shadow still falls on all that is not blended
-                light.reason = Reason::lighting_program_failed;
+                light.reason = used.lacks;
             }
-            state.program = row.program;
-            if (!state.program || inputs.lights[i].screen.width <= 0) continue;
+            state.program = used.program;
+            if (!state.program) continue;
             state.blend = gl::Blend::add;
             list.add(gl::SetPipeline{state});
-            bind_light(inputs.lights[i], i, gpu, list);
+            bind_light(used, i, gpu, list);
             list.add(meshes);
         }
     }
@@ -327,8 +339,9 @@ void LightingSystem::record_finish(gl::CommandList& list) {
 
 bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                             const LightingSettings& settings, gl::CommandList& list, FrameReport& report) {
+    const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
-    programs_.next_frame();
+    programs_.next_frame(settings.most_rows);
     report.failure = prepare(inputs, scene);
     if (report.failure != gl::Failure::none) {
         // What was freed is only given back when the device has done its work: then there may be room.
@@ -339,27 +352,27 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     upload(inputs, scene, settings, list);
     record_surfaces(gpu, list);
     if (settings.sample_depths)
-        depths_.record({scene.consumers[inputs.consumer].entity, targets_.depth, point_sampler_, uniforms_.handle(),
-                        targets_.size_px()},
-                       list);
+        depths_.record({camera, targets_.depth, point_sampler_, uniforms_.handle(), targets_.size_px()}, list);
     record_lights(inputs, scene, gpu, list, report);
     record_blended(inputs, gpu, list, report);
     record_finish(list);
+    if (settings.measure_exposure)
+        exposure_.record({camera, targets_.luminance, mip_sampler_, uniforms_.handle(), exposure_offset_}, list);
     return true;
 }
 
 bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
                                        gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
-    const shadow::LightingLight& item = inputs.lights[light];
-    const gl::ProgramHandle program = programs_.row(item.row, RowOutput::visibility);
-    if (!program) return false;
+    const LightProgram used = light_program(inputs.lights[light], RowOutput::visibility);
+    if (!used.program || used.lacks == Reason::lighting_program_failed) return false;
     constexpr float kNoSurface = -1.0f;
     list.add(gl::BeginGroup{"visibility"});
     list.add(gl::BeginPass{targets_.visibility_target, viewport(), false, 0.0f, true, {kNoSurface, 0.0f, 0.0f, 0.0f}});
-    list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(
+        gl::SetPipeline{{used.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     bind_surface_textures(list);
-    bind_light(item, light, gpu, list);
+    bind_light(used, light, gpu, list);
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::EndGroup{});
@@ -375,7 +388,7 @@ bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu,
     list.add(gl::SetScissor{lookups.area});
     list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::alpha}});
     bind_surface_textures(list);
-    bind_light(item, lookups.light, gpu, list);
+    bind_light({program, item.map, item.triangles, item.sampler}, lookups.light, gpu, list);
     list.add(gl::BindUniforms{5, lookups.block, 0, lookups.block_size});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});

@@ -10,6 +10,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/lighting/depth_sampler.h"
+#include "systems/lighting/exposure_meter.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/lighting_targets.h"
 #include "systems/report.h"
@@ -21,7 +22,7 @@ namespace gnomon::lighting {
 struct AmbientRecord {
     glm::vec4 sky_lux{0.0f}, ground_lux{0.0f};
 };
-/// Matches ExposureBlock in shaders/lighting/tonemap.frag (std140).
+/// Matches ExposureBlock in shaders/lighting/exposure.glsl (std140).
 struct ExposureRecord {
     float scale = -1.0f;  // below 0: automatic
     float top_mip = 0.0f;
@@ -29,8 +30,10 @@ struct ExposureRecord {
 };
 
 struct LightingSettings {
-    std::optional<float> exposure_ev;  // EV100; empty: from the picture's own logarithmic mean
-    bool sample_depths = false;        // count the picture's pixels by view distance, for collect_depths()
+    std::optional<float> exposure_ev;                   // EV100; empty: from the picture's own logarithmic mean
+    std::uint32_t most_rows = LightPrograms::kNoLimit;  // so many programs of lights are compiled in one frame at most
+    bool measure_exposure = false;                      // read the picture's own back, for most_exposure()
+    bool sample_depths = false;  // count the picture's pixels by view distance, for collect_depths()
 };
 
 /// By what the picture of a camera at this EV100 is multiplied before the tone curve.
@@ -39,8 +42,8 @@ float exposure_scale(float ev);
 /// Ambient light for a scene that brings none: a share of what its lights give, bluish from above.
 AmbientRecord ambient_for(const SceneSnapshot& scene);
 
-/// Deferred lighting: surfaces, one pass per light over its screen rectangle, blended surfaces, exposure.
-/// Reads of the shadow system only the LightingInputs it is handed. Owns its device objects.
+/// Deferred lighting: surfaces, one pass per light over its screen rectangle and before its farthest depth, blended
+/// surfaces, exposure. Reads of the shadow system only the LightingInputs it is handed. Owns its device objects.
 class LightingSystem {
 public:
     explicit LightingSystem(gl::Device& device);
@@ -48,8 +51,9 @@ public:
     LightingSystem(const LightingSystem&) = delete;
     LightingSystem& operator=(const LightingSystem&) = delete;
 
-    /// Records the picture of one consumer. Lights whose program fails are drawn unshadowed, or not at all, and
-    /// reported. False if something that no picture can do without could not be had: nothing was recorded then, and
+    /// Records the picture of one consumer. Lights whose program fails, or has to wait, are looked up with one tap
+    /// (LightingLight::plain); if that fails as well they are drawn unshadowed, or not at all. All of it is reported.
+    /// False if something that no picture can do without could not be had: nothing was recorded then, and
     /// report.failure says why.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
@@ -74,6 +78,10 @@ public:
     /// Where the pixels of an earlier picture lie, the newest that is known: see DepthSampler::collect().
     void collect_depths(SampledDepths& depths) { depths_.collect(depths); }
 
+    /// The most that the automatic exposure of the next picture of `camera` can be: see ExposureMeter::bound().
+    double most_exposure(ecs::Entity camera) { return exposure_.bound(camera); }
+    void forget_exposure() { exposure_.forget(); }
+
     /// Binds the camera (uniforms 0) and the surfaces (textures 0 to 3) of the last record(), as
     /// shaders/lighting/surface_targets.glsl names them.
     void bind_surface_textures(gl::CommandList& list) const;
@@ -95,11 +103,14 @@ private:
         double distance_m;  // blended ones: from the camera, for their order
     };
 
-    struct RowProgram {
+    /// What evaluates a light, and what it reads.
+    struct LightProgram {
         gl::ProgramHandle program{};
-        bool fell_back = false;
+        gl::TextureHandle map{}, triangles{};
+        gl::SamplerHandle sampler{};
+        Reason lacks = Reason::none;  // why it is not the light's own row
     };
-    RowProgram row_program(const shadow::ProgramRow& row, RowOutput output);
+    LightProgram light_program(const shadow::LightingLight& light, RowOutput output);
     gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
@@ -114,14 +125,14 @@ private:
     void record_finish(gl::CommandList& list);
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
-    void bind_light(const shadow::LightingLight& light, std::uint32_t index, const GpuScene& gpu,
-                    gl::CommandList& list) const;
+    void bind_light(const LightProgram& program, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list) const;
     gl::Rect viewport() const;
 
     gl::Device& device_;
     LightPrograms programs_;
     LightingTargets targets_;
     DepthSampler depths_;
+    ExposureMeter exposure_;
     GrowingBuffer items_, uniforms_;
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
     std::uint32_t light_stride_ = 0, lights_offset_ = 0, ambient_offset_ = 0, exposure_offset_ = 0;

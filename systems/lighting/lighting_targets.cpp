@@ -23,17 +23,17 @@ bool LightingTargets::make(gl::TargetHandle& target, const char* label,
 bool LightingTargets::resize(glm::uvec2 size) {
     if (size == size_px_ && picture_target) return true;
     release();
-    const bool made =
-        make(depth, "surface depth", gl::Format::d32f, size.x, size.y) &&
-        make(colour, "surface colour", gl::Format::srgb8_a8, size.x, size.y) &&
-        make(normals, "surface normals", gl::Format::rgba16_snorm, size.x, size.y) &&
-        make(material, "surface material", gl::Format::rgba8, size.x, size.y) &&
-        make(light_sum, "light sum", gl::Format::rgba16f, size.x, size.y) &&
-        make(luminance, "luminance", gl::Format::rg32f, kLuminanceSide_px, kLuminanceSide_px, 0) &&
-        make(picture, "picture", gl::Format::srgb8_a8, size.x, size.y) &&
-        make(surface_target, "surfaces", {colour, normals, material, light_sum}, depth) &&
-        make(light_target, "light sum", {light_sum}, {}) && make(blended_target, "blended", {light_sum}, depth) &&
-        make(luminance_target, "luminance", {luminance}, {}) && make(picture_target, "picture", {picture}, {});
+    const bool made = make(depth, "surface depth", gl::Format::d32f, size.x, size.y) &&
+                      make(colour, "surface colour", gl::Format::srgb8_a8, size.x, size.y) &&
+                      make(normals, "surface normals", gl::Format::rgba16_snorm, size.x, size.y) &&
+                      make(material, "surface material", gl::Format::rgba8, size.x, size.y) &&
+                      make(light_sum, "light sum", gl::Format::rgba16f, size.x, size.y) &&
+                      make(luminance, "luminance", gl::Format::rg32f, kLuminanceSide_px, kLuminanceSide_px, 0) &&
+                      make(picture, "picture", gl::Format::srgb8_a8, size.x, size.y) &&
+                      make(surface_target, "surfaces", {colour, normals, material, light_sum}, depth) &&
+                      make(light_target, "light sum", {light_sum}, depth) &&
+                      make(luminance_target, "luminance", {luminance}, {}) &&
+                      make(picture_target, "picture", {picture}, {});
     if (!made) {
         release();
         return false;
@@ -55,7 +55,7 @@ bool LightingTargets::ensure_visibility() {
 
 void LightingTargets::release() {
     for (gl::TargetHandle* t :
-         {&surface_target, &light_target, &blended_target, &luminance_target, &picture_target, &visibility_target}) {
+         {&surface_target, &light_target, &luminance_target, &picture_target, &visibility_target}) {
         device_.destroy(*t);
         *t = {};
     }

@@ -26,8 +26,7 @@ public:
     gl::Failure failure() const { return failure_; }  // of the last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{};
-    gl::TargetHandle surface_target{}, light_target{}, blended_target{}, luminance_target{}, picture_target{},
-        visibility_target{};
+    gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{};
 
 private:
     void release();

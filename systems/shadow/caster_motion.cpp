@@ -1,7 +1,5 @@
 #include "systems/shadow/caster_motion.h"
 
-#include "systems/shadow/marks.h"
-
 namespace gnomon::shadow {
 namespace {
 
@@ -34,7 +32,7 @@ void CasterMotion::touch(const InstanceItem& item) {
     if (moves(moving_, item)) {
         unlink(slot);
     } else {
-        mark(moving_, slot);
+        moving_[slot / kBits] |= std::uint64_t{1} << slot % kBits;
         changed_ = true;
     }
     append(slot);

@@ -9,7 +9,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way.
+/// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way. A
+/// number of cascades stays until it takes twice the texels of another.
 constexpr std::uint32_t kPatience = 2;
 
 /// What of a predicted error is the texels' share.
@@ -37,5 +38,22 @@ std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicte
 }
 
 bool keeps_contract(double predicted_px, double wished_px) { return of_texels_px(predicted_px) <= wished_px; }
+
+std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, std::uint32_t least,
+                                double wished_px) {
+    const auto all = static_cast<std::uint32_t>(trials.size());
+    const std::uint64_t most = trials.back().texels;
+    const auto keeps = [&](std::uint32_t count) { return keeps_contract(trials[count - 1].predicted_px, wished_px); };
+    for (std::uint32_t count = least; count <= all; ++count) {
+        const CascadeTrial& trial = trials[count - 1];
+        if (keeps(count) && trial.may_grow && trial.texels <= most) return count;
+        if (count == held && keeps(count) && trial.texels < kPatience * most) return count;
+    }
+    return all;
+}
+
+double allowed_error_px(double wished_px, double cosine) {
+    return wished_px * steeper_than_stated(cosine) + edge_error_px(0.0, 0.0);
+}
 
 }  // namespace gnomon::shadow

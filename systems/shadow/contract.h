@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <span>
 
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/types.h"
@@ -9,7 +10,9 @@
 /// An edge is off by (1/2 + E) m pixels, and one more that comes from pixels alone (predicted_error.h); m shrinks as a
 /// map's edge grows. So the views of a fit, with maps of any size, tell which size keeps the light's word: coverage
 /// and distance decide, through what a texel is on the screen. Sizes are held: more texels are given at once, fewer
-/// only after half of them has done for a second, so that a walking camera seldom makes new maps.
+/// only after half of them has done for a second, so that a walking camera seldom makes new maps. So is the number of a
+/// sun's cascades: more are chosen where the word is broken or maps have to grow, fewer only in every kMovesToCount-th
+/// frame in which maps move, and are drawn, anyway.
 namespace gnomon::shadow {
 
 /// Map edges are multiples of it, and at least this: as many texels as a quantised grid needs, few enough that a window
@@ -33,7 +36,30 @@ std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicte
 /// than a glance aside.
 inline constexpr std::uint32_t kSpareFrames = 60;
 
+/// Choosing another number costs as many fits as there are numbers, and a change all maps: a second of steady moving, as
+/// for sizes.
+inline constexpr std::uint32_t kMovesToCount = kSpareFrames;
+
+/// What a sun's cascades of one count come to.
+struct CascadeTrial {
+    double predicted_px = 0.0;
+    std::uint64_t texels = 0;  // of all their maps
+    bool may_grow = false;     // they are not as large as they may be
+};
+
+/// How many cascades a sun gets, where trials[i] is of i + 1 of them: the fewest that keep its word with no more texels
+/// than the most of them take, and may grow. All where there are none: each has then the smallest texels that can be
+/// had. The `held` number stays, unless fewer do, while it keeps the word with less than twice those texels;
+/// 0: none. No fewer than `least`.
+std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, std::uint32_t least,
+                                double wished_px);
+
 /// Whether maps that err by `predicted_px` keep the light's word.
 bool keeps_contract(double predicted_px, double wished_px);
+
+/// How far off an edge may be under a light that keeps its word, on a receiver whose normal has this cosine with the
+/// way to the light: `wished_px` up to 60 degrees, on steeper ones as much more as texels are longer there
+/// (steeper_than_stated), and the pixel of the picture's own.
+double allowed_error_px(double wished_px, double cosine);
 
 }  // namespace gnomon::shadow

@@ -32,9 +32,14 @@ void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand
     if (depths_failed && shadow.splits == CascadeSplits::sampled) demand.note = Reason::depths_unread;
     if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
     if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
-    demand.view_count = cascade_count(shadow, demand.view_count);
-    const LightShadow& usable = are_splits(shadow) ? shadow : LightShadow{};
-    demand.cascade_blend = demand.view_count > 1 ? usable.cascade_blend : 0.0f;
+    set_cascades(shadow, cascade_count(shadow, demand.view_count), demand);
+}
+
+/// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large as
+/// the contract makes them.
+bool leaves_count(const LightItem& light, const ShadowDemand& demand) {
+    return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, demand) &&
+           light.shadow.splits != CascadeSplits::manual && !demand.perspective_sun && demand.warp == 0.0f;
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
@@ -108,17 +113,19 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
     return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
 }
 
+void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& demand) {
+    const LightShadow& usable = are_splits(shadow) ? shadow : LightShadow{};
+    demand.view_count = count;
+    demand.cascade_blend = count > 1 ? usable.cascade_blend : 0.0f;
+}
+
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand) {
     demand.resolution_px = size_px;
-    LightShadow shadow = with_own_source(light);
-    demand.filtering = filter_demand(shadow, size_px);
+    const LightShadow shadow = with_own_source(light);
     const FilterRow& row = filter_row(demand.filter);
-    // A cube's sampler leaves its face along a footprint, but not the way the map goes on there.
-    if (light_kind_row(light.kind).texture == gl::TextureKind::cube)
-        shadow.moment_anisotropy = std::min(shadow.moment_anisotropy, 1u);
+    demand.filtering = filter_demand(row, shadow, size_px);
     demand.moments = moment_demand(row, shadow, size_px);
-    demand.moments.cut |=
-        row.storage == FilterStorage::moments && shadow.moment_anisotropy != light.shadow.moment_anisotropy;
+    demand.moments.sampler_anisotropy = light_kind_row(light.kind).texture != gl::TextureKind::cube;
     if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
 
@@ -143,6 +150,11 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
         decide_projection(light, scene.sampled_depths.failed, demand);
         if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
         if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
+        if (leaves_count(light, demand)) {
+            demand.most_views = demand.view_count;
+            if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
+                set_cascades(light.shadow, held_light->cascades, demand);
+        }
         demands.push_back(demand);
     }
 }

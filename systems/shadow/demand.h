@@ -16,6 +16,9 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
 /// Sets the size of the light's maps, and what of its filter's settings they bear.
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand);
 
+/// Sets how many cascades a sun has, and whether they fade into each other.
+void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& demand);
+
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
 /// `shadows` false treats every light as disabled. `held`: what the fits left last frame.
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,

@@ -16,7 +16,8 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 
 /// Which lights are too dim for their shadows to be seen: those that, lit everywhere, change no pixel by more than half
 /// a step all together. The dimmest first; one that is left out stays so until it must not, one that is not is left out
-/// only well below. Needs SceneSnapshot::exposure; LightShadow::economy=false exempts a light.
+/// only well below. Needs SceneSnapshot::exposure: none may be left out where that is infinite.
+/// LightShadow::economy=false exempts a light.
 class DimLights {
 public:
     /// After select_sets(): sets frame.sets[i].skip to below_display_step. Allocates nothing once warm.
@@ -25,10 +26,15 @@ public:
     /// Of light `index` in the last frame; empty: it was not asked for.
     std::optional<double> steps(std::uint32_t index) const { return steps_[index]; }
 
+    /// Whether a light is so faint beside another one that it is worth knowing the exposure. In the last frame.
+    bool wants_exposure() const { return wants_exposure_; }
+
     static constexpr double kMostSteps = 0.5;       // what rounds away, or to the next step
     static constexpr double kNewlyMostSteps = 0.4;  // a light whose brightness trembles stays what it is
 
 private:
+    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame);
+
     struct Dim {
         double steps = 0.0;
         std::uint32_t demand = 0;
@@ -37,6 +43,7 @@ private:
     std::vector<std::optional<double>> steps_;
     std::vector<Dim> candidates_;
     std::vector<ecs::Entity> out_;  // in the last frame, by rising entity
+    bool wants_exposure_ = false;
 };
 
 }  // namespace gnomon::shadow

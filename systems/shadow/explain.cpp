@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/shadow/contract.h"
+#include "systems/shadow/predicted_error.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -33,11 +34,20 @@ void explain_views(const LightItem& light, const ShadowDemand& demand, const Sha
             view.why.casters = frame.views[v].casters.count;
             if (frame.slots[v].reuse) view.state = LightState::reused;
             if (frame.slots[v].reuse) view.reason = Reason::content_unchanged;
+            if (frame.views[v].lit) view.state = LightState::skipped;
+            if (frame.views[v].lit) view.reason = Reason::no_caster;
         }
         if (view.state == LightState::rendered) continue;
         view.why.bytes_saved = out.bytes / demand.view_count;
         view.why.saved_us = view_us;
     }
+}
+
+/// What the fit predicts, in a map of fewer texels than it planned.
+double shown_error_px(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot) {
+    const double texels = static_cast<double>(demand.resolution_px) / slot.size_px;
+    const double own_px = edge_error_px(0.0, 0.0);  // the picture's
+    return texels > 1.0 ? (view.predicted_error_px - own_px) * texels + own_px : view.predicted_error_px;
 }
 
 void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history,
@@ -48,6 +58,9 @@ void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const 
     } else if (history && history->failure != Reason::none) {
         out.state = LightState::degraded;
         out.reason = history->failure;
+    } else if (demand.over_budget) {
+        out.state = LightState::degraded;
+        out.reason = Reason::budget_shrunk;
     } else if (demand.note != Reason::none) {
         out.state = LightState::degraded;
         out.reason = demand.note;
@@ -64,7 +77,7 @@ void explain_savings(const LightItem& light, const ShadowDemand& demand, std::op
                      const FrameReport& report, LightReport& out) {
     if (!light.has_shadow) return;
     if (out.state == LightState::skipped) {
-        const std::uint64_t wanted = MapStore::wanted_bytes(light, demand);
+        const std::uint64_t wanted = map_bytes(light, demand);
         out.why.bytes_saved = wanted - std::min(wanted, out.bytes);
         if (view_us) out.why.saved_us = *view_us * demand.view_count;
         return;
@@ -97,12 +110,13 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
         }
         while (end < frame.views.size() && frame.views[end].demand == i) ++end;
         for (std::size_t v = first; v < end; ++v) {
-            if (!frame.slots[v].texture) continue;
+            if (!frame.slots[v].texture || frame.views[v].lit) continue;
             ++out.views;
-            out.predicted_error_px = std::max(out.predicted_error_px, frame.views[v].predicted_error_px);
+            out.predicted_error_px =
+                std::max(out.predicted_error_px, shown_error_px(frame.views[v], demand, frame.slots[v]));
         }
         explain_state(sets, demand, history, out);
-        out.keeps_max_error = out.views > 0 && history->failure == Reason::none &&
+        out.keeps_max_error = out.views > 0 && history->failure == Reason::none && demand.refresh_frames == 1 &&
                               keeps_contract(out.predicted_error_px, wished_error_px(light.shadow));
         out.why.receivers = sets.receivers.count;
         out.why.casters = sets.casters.count;

@@ -1,7 +1,9 @@
 #include "systems/shadow/fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
@@ -78,22 +80,145 @@ bool fit_light(const SceneSnapshot& scene, const HeldLight& held, std::uint32_t 
     return true;
 }
 
+double predicted_px(std::span<const ShadowView> views) {
+    double worst_px = 0.0;
+    for (const ShadowView& view : views) worst_px = std::max(worst_px, view.predicted_error_px);
+    return worst_px;
+}
+
+/// Sizes that were fitted: a prediction says of another one only what its texels alone would make of it.
+struct FittedSizes {
+    std::uint32_t too_small_px = 0;                                       // the largest that did not keep the word
+    std::uint32_t enough_px = std::numeric_limits<std::uint32_t>::max();  // the smallest that did
+
+    void note(std::uint32_t size_px, bool keeps) {
+        if (keeps) enough_px = std::min(enough_px, size_px);
+        if (!keeps) too_small_px = std::max(too_small_px, size_px);
+    }
+    std::uint32_t between(std::uint32_t size_px) const {
+        if (size_px <= too_small_px) size_px = too_small_px + kLeastMap_px;
+        return std::min(size_px, enough_px);
+    }
+};
+
 /// Makes the light's maps the size that keeps its word; smaller than the last frame's not at once. True if that is
 /// another one than they were fitted for.
-bool settle_size(const LightItem& light, std::span<const ShadowView> views, const HeldLight& held,
+bool settle_size(const LightItem& light, std::span<const ShadowView> views, const HeldLight& held, FittedSizes& fitted,
                  std::uint32_t& spare_frames, ShadowDemand& demand) {
     if (views.empty() || !follows_contract(light, demand)) return false;
-    double predicted_px = 0.0;
-    for (const ShadowView& view : views) predicted_px = std::max(predicted_px, view.predicted_error_px);
     const bool is_held = demand.resolution_px == held.map_px;
-    const std::uint32_t size_px =
-        contract_size_px(demand.resolution_px, is_held, predicted_px, wished_error_px(light.shadow), demand.most_px);
+    const double wished_px = wished_error_px(light.shadow), error_px = predicted_px(views);
+    fitted.note(demand.resolution_px, keeps_contract(error_px, wished_px));
+    const std::uint32_t wish_px = contract_size_px(demand.resolution_px, is_held, error_px, wished_px, demand.most_px);
+    const std::uint32_t size_px = std::min(fitted.between(wish_px), demand.most_px);
     const bool spare = is_held && size_px < demand.resolution_px;
     // Beyond kSpareFrames it was tried, and found too little: a filter's border is a larger share of a smaller map.
     if (is_held) spare_frames = spare ? std::min(held.spare_frames + 1, kSpareFrames + 1) : 0;
     if (size_px == demand.resolution_px || (spare && spare_frames != kSpareFrames)) return false;
     set_resolution(light, size_px, demand);
     return true;
+}
+
+/// One light's views, from `first` on in the frame, in maps of the size that its contract asks for.
+class LightFit {
+public:
+    LightFit(const SceneSnapshot& scene, std::uint32_t d, ShadowFrame& frame)
+        : scene_(scene),
+          light_(scene.lights[frame.demands[d].light]),
+          d_(d),
+          frame_(frame),
+          first_(frame.views.size()) {}
+
+    /// False if no finite volume exists.
+    bool run(const HeldLight& held, HeldLight& next) {
+        if (!fit(held, next)) return false;
+        if (is_count_due(held, next)) return choose_count(held, next);
+        return true;
+    }
+
+private:
+    ShadowDemand& demand() { return frame_.demands[d_]; }
+    std::span<const ShadowView> views() const { return std::span(frame_.views).subspan(first_); }
+
+    bool fit(const HeldLight& held, HeldLight& next) {
+        std::uint32_t spare_frames = 0;
+        FittedSizes sizes;
+        bool fitted = false;
+        for (int again = 0; again <= kMostSizes; ++again) {
+            frame_.views.resize(first_);
+            next = held;
+            fitted = fit_light(scene_, held, d_, next, frame_);
+            if (!fitted || again == kMostSizes) break;
+            if (!settle_size(light_, views(), held, sizes, spare_frames, demand())) break;
+        }
+        next.map_px = follows_contract(light_, demand()) ? demand().resolution_px : 0;
+        next.spare_frames = next.map_px == held.map_px ? spare_frames : 0;
+        return fitted;
+    }
+
+    /// Whether it is time to look for another number of cascades.
+    bool is_count_due(const HeldLight& held, HeldLight& next) {
+        const std::uint32_t most = demand().most_views, usual = held.cascades > 0 ? held.cascades : most;
+        if (most == 0) next.cascades = next.moves = 0;
+        if (most == 0 || views().empty() || demand().view_count != std::min(usual, most)) return false;
+        if (held.cascades == 0) return true;
+        if (next.views != held.views) ++next.moves;
+        const bool fewer = demand().view_count < most;
+        if (fewer && !keeps_contract(predicted_px(views()), wished_error_px(light_.shadow))) return true;
+        if (fewer && next.map_px > held.map_px) return true;
+        return next.moves >= kMovesToCount;
+    }
+
+    /// Tries all, each as if it were the first fit of this light: what is held is of other slices.
+    bool choose_count(const HeldLight& held, HeldLight& next) {
+        HeldLight fresh = held;
+        fresh.views = {};
+        fresh.splits = {};
+        fresh.sampled_ends = {};
+        fresh.map_px = fresh.spare_frames = 0;
+        const ShadowDemand usual = demand();
+        std::array<CascadeTrial, kMaxCascades> trials;
+        // Fewer are for a scene that has calmed down: what makes the camera ask for more now may be gone in a frame.
+        const std::uint32_t least = next.moves >= kMovesToCount ? 1 : std::max(held.cascades, 1u);
+        for (std::uint32_t count = least; count <= usual.most_views; ++count) {
+            if (!fit_count(count, usual, fresh, next)) return false;
+            const std::uint64_t edge_px = demand().resolution_px;
+            trials[count - 1] = {predicted_px(views()), count * edge_px * edge_px, edge_px < usual.most_px};
+        }
+        const std::uint32_t chosen = contract_cascades(std::span(trials).first(usual.most_views), held.cascades, least,
+                                                       wished_error_px(light_.shadow));
+        const bool stays = chosen == held.cascades;
+        const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
+        next.cascades = chosen;
+        next.moves = 0;
+        return fitted;
+    }
+
+    bool fit_count(std::uint32_t count, const ShadowDemand& usual, const HeldLight& held, HeldLight& next) {
+        demand() = usual;
+        set_cascades(light_.shadow, count, demand());
+        set_resolution(light_, held.map_px > 0 ? held.map_px : usual.most_px, demand());
+        return fit(held, next);
+    }
+
+    const SceneSnapshot& scene_;
+    const LightItem& light_;
+    std::uint32_t d_;
+    ShadowFrame& frame_;
+    std::size_t first_;
+};
+
+/// The lists of the views from `first` on. False if all are empty. A face of a cube is drawn without casters, too,
+/// where the fit wants it: a filter that reads across seams has to find there that it is empty.
+bool select_casters(const SceneSnapshot& scene, std::size_t first, ShadowFrame& frame) {
+    bool any = false;
+    for (std::size_t v = first; v < frame.views.size(); ++v) {
+        ShadowView& view = frame.views[v];
+        select_view_casters(scene, view, frame);
+        view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;
+        any = any || view.casters.count > 0;
+    }
+    return any;
 }
 
 }  // namespace
@@ -115,29 +240,22 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
         if (sets.skip != Reason::none) continue;
         const HeldLight before = next;
         const std::size_t first = frame.views.size();
-        bool fitted = fit_light(scene, before, d, next, frame);
-        std::uint32_t spare_frames = 0;
-        for (int again = 0; again < kMostSizes && fitted; ++again) {
-            if (!settle_size(light, std::span(frame.views).subspan(first), before, spare_frames, demand)) break;
-            frame.views.resize(first);
-            next = before;
-            fitted = fit_light(scene, before, d, next, frame);
-        }
-        if (!fitted) {
+        if (!LightFit(scene, d, frame).run(before, next)) {
             frame.views.resize(first);
             sets.skip = Reason::fit_degenerate;
             continue;
         }
         if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
-        next.map_px = follows_contract(light, demand) ? demand.resolution_px : 0;
-        next.spare_frames = next.map_px == before.map_px ? spare_frames : 0;
         for (std::size_t v = first; v < frame.views.size(); ++v) {
             const ShadowView& view = frame.views[v];
             if (depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 &&
                 demand.note == Reason::none)
                 demand.note = Reason::depth_coarse;
         }
-        for (std::size_t v = first; v < frame.views.size(); ++v) select_view_casters(scene, frame.views[v], frame);
+        if (!select_casters(scene, first, frame)) {
+            frame.views.resize(first);
+            sets.skip = Reason::no_caster;
+        }
     }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/ecs/entity.h"
+#include "systems/shadow/grant.h"
 #include "systems/shadow/kinds/splits.h"
 
 /// What the fits remember from frame to frame, so that a map that is still good enough stays where it is: hysteresis.
@@ -71,11 +72,17 @@ struct HeldLight {
     HeldEnds sampled_ends;
     std::uint32_t map_px = 0;        // edge of its maps, where they follow the contract (contract.h); else 0
     std::uint32_t spare_frames = 0;  // for how many frames half of it seems to have done
+    std::uint32_t cascades = 0;      // that its contract chose; 0: none yet, or it leaves no choice
+    std::uint32_t moves = 0;         // in how many frames its maps moved since another number was tried
+    Grant grant;                     // what a budget left it; BudgetStage's, as all that follows
+    float activity = 0.0f;           // share of its views that changed per frame, of late
+    std::uint32_t new_frames = 0;    // in so many frames from now its views change because its grant did
     bool operator==(const HeldLight&) const = default;
 };
 
 struct History {
     std::vector<HeldLight> lights;  // in the order of the frame's lights
+    std::uint32_t calm_frames = 0;  // since grants changed (settle_grants); 0 without a budget
     bool operator==(const History&) const = default;
 };
 

@@ -1,72 +1,23 @@
 #include "systems/shadow/map_store.h"
 
 #include <algorithm>
-#include <bit>
+#include <utility>
 
-#include "systems/shadow/cube_route.h"
-#include "systems/shadow/depth_format.h"
 #include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
-#include "systems/shadow/moment_recorder.h"
-#include "systems/shadow/signature.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Between casters that stand still and those that move: where a draw may not go on.
-constexpr std::uint64_t kBoundary = ~std::uint64_t{0};
-
-/// Labels are for what is made: a longer one takes memory, which a steady frame must not.
-gl::TextureDesc without_label(const gl::TextureDesc& desc) {
-    return {{}, desc.kind, desc.format, desc.width, desc.height, desc.layers, desc.mips};
+bool is_same_store(const MomentMap& a, const MomentDescs& b) {
+    return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
 }
 
-/// What each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl). Without a label.
-gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
-    gl::TextureDesc desc = without_label(map);
-    desc.format = kTriangleFormat;
-    return desc;
+bool wants_triangles(const ShadowDemand& demand) {
+    return filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
 }
 
-/// Of a light whose map is `desc`, without labels; what there is none of has a width of 0.
-MomentMap moments_of(const gl::TextureDesc& desc, const ShadowDemand& demand) {
-    MomentMap moments;
-    if (filter_row(demand.filter).storage != FilterStorage::moments) return moments;
-    moments.desc = without_label(desc);
-    moments.desc.format = demand.moments.format;
-    moments.desc.mips = std::min(demand.moments.levels, static_cast<std::uint32_t>(std::bit_width(desc.width)));
-    if (demand.filtering.size <= 1) return moments;
-    moments.scratch_desc = {.format = demand.moments.format, .width = desc.width};
-    moments.scratch_desc.height = desc.height + 2 * scratch_rows(demand, desc.kind == gl::TextureKind::cube);
-    return moments;
-}
-
-/// OpenGL's table has them side by side.
-bool are_opposite_faces(std::uint32_t a, std::uint32_t b) { return a != b && a / 2 == b / 2; }
-
-/// What a light's map has to be, but for its label and a size that cannot be had.
-gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand) {
-    const gl::TextureKind kind = light_kind_row(light.kind).texture;
-    return {.kind = kind,
-            .format = depth_format_row(demand.depth_format).texture,
-            .width = demand.resolution_px,
-            .height = demand.resolution_px,
-            .layers = kind == gl::TextureKind::cube ? 1u : demand.view_count};
-}
-
-std::uint64_t byte_size(const gl::TextureDesc& map, bool triangles, const MomentMap& moments) {
-    std::uint64_t bytes = gl::byte_size(map);
-    if (triangles) bytes += gl::byte_size(triangles_of(map));
-    if (moments.desc.width > 0) bytes += gl::byte_size(moments.desc);
-    if (moments.scratch_desc.width > 0) bytes += gl::byte_size(moments.scratch_desc);
-    return bytes;
-}
-
-bool is_same_store(const MomentMap& a, const MomentMap& b) {
-    return without_label(a.desc) == without_label(b.desc) &&
-           without_label(a.scratch_desc) == without_label(b.scratch_desc);
-}
+}  // namespace
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
@@ -74,51 +25,22 @@ gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     return target;
 }
 
-}  // namespace
-
-ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
-                                   std::span<const std::uint32_t> casters, CasterFaces faces) {
-    Signature s;
-    s.add(std::uint64_t{size_px});
-    s.add(static_cast<std::uint64_t>(faces));
-    for (int i = 0; i < 3; ++i) s.add(view.anchor_ws_m[i]);
-    for (int column = 0; column < 4; ++column)
-        for (int row = 0; row < 4; ++row) s.add(view.clip_from_anchor[column][row]);
-    const auto add = [&](std::span<const std::uint32_t> group) {
-        for (const std::uint32_t i : group) {
-            s.add(std::uint64_t{scene.instances[i].gpu_slot});
-            s.add(scene.instances[i].version);
-        }
-    };
-    const std::size_t still = std::min<std::size_t>(view.still_casters, casters.size());
-    add(casters.first(still));
-    const std::uint64_t of_still = s.value();
-    if (still > 0 && still < casters.size()) s.add(kBoundary);
-    add(casters.subspan(still));
-    return {of_still, s.value()};
-}
-
 MapStore::~MapStore() {
     for (LightHistory& history : lights_) release(history);
 }
 
 const LightHistory* MapStore::find(ecs::Entity light) const {
-    const auto it =
-        std::find_if(lights_.begin(), lights_.end(), [&](const LightHistory& h) { return h.entity == light; });
-    return it == lights_.end() ? nullptr : &*it;
+    const auto place = places_.find(light.index);
+    if (place == places_.end() || place->second >= lights_.size()) return nullptr;
+    const LightHistory& history = lights_[place->second];
+    return history.entity == light ? &history : nullptr;
 }
 
 std::uint64_t MapStore::bytes(const LightHistory& history) {
     if (!history.texture) return 0;
     const bool triangles = static_cast<bool>(history.triangles);
-    const std::uint64_t still = history.still.texture ? byte_size(history.desc, triangles, {}) : 0;
-    return byte_size(history.desc, triangles, history.moments) + still;
-}
-
-std::uint64_t MapStore::wanted_bytes(const LightItem& light, const ShadowDemand& demand) {
-    const gl::TextureDesc map = map_desc(light, demand);
-    return byte_size(map, filter_row(demand.filter).storage == FilterStorage::depth_and_triangle,
-                     moments_of(map, demand));
+    const std::uint64_t still = history.still.texture ? still_bytes(history) : 0;
+    return map_bytes(history.desc, triangles, history.moments.desc, history.moments.scratch_desc) + still;
 }
 
 std::uint64_t MapStore::bytes() const {
@@ -128,11 +50,18 @@ std::uint64_t MapStore::bytes() const {
 }
 
 LightHistory& MapStore::entry(ecs::Entity light) {
-    for (LightHistory& history : lights_)
-        if (history.entity == light) return history;
+    if (const LightHistory* history = find(light)) return lights_[static_cast<std::size_t>(history - lights_.data())];
     lights_.emplace_back();
     lights_.back().entity = light;
+    note_places(lights_.size() - 1);
     return lights_.back();
+}
+
+/// Of all from `first` on.
+void MapStore::note_places(std::size_t first) {
+    if (first == 0) places_.clear();
+    for (std::size_t i = first; i < lights_.size(); ++i)
+        places_.insert_or_assign(lights_[i].entity.index, static_cast<std::uint32_t>(i));
 }
 
 void MapStore::release(LightHistory& history) {
@@ -150,6 +79,8 @@ void MapStore::release(LightHistory& history) {
     history.whole = {};
     history.targets.clear();
     history.content.clear();
+    history.placements.clear();
+    history.waits = false;
     history.texture = history.triangles = {};
 }
 
@@ -163,7 +94,10 @@ bool MapStore::make_targets(LightHistory& map) const {
 }
 
 Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) const {
-    MomentMap& moments = map.moments = moments_of(map.desc, demand);
+    MomentDescs descs = moments_of(map.desc, demand);
+    MomentMap& moments = map.moments = {};
+    moments.desc = std::move(descs.texture);
+    moments.scratch_desc = std::move(descs.scratch);
     if (moments.desc.width == 0) return Reason::none;
     moments.desc.label = map.desc.label + ", moments";
     moments.scratch_desc.label = map.desc.label + ", scratch";
@@ -184,7 +118,7 @@ Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) con
 }
 
 Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history) {
-    const bool triangles = filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
+    const bool triangles = wants_triangles(demand);
     LightHistory made;
     made.desc = desc;
     made.texture = device_.create_texture(desc, {}).handle;
@@ -207,12 +141,13 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
     history.moments = std::move(made.moments);
     history.targets = std::move(made.targets);
     history.content.assign(history.targets.size(), 0);
+    history.placements.assign(history.targets.size(), 0);
     return Reason::none;
 }
 
 bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
     gl::TextureDesc desc = map_desc(light, demand);
-    const bool triangles = filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
+    const bool triangles = wants_triangles(demand);
     const gl::TextureDesc& held = history.desc;
     if (history.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
                              static_cast<bool>(history.triangles) == triangles &&
@@ -222,17 +157,21 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
         history.wanted_px = 0;
         history.failure = Reason::none;
     }
-    const bool fits = history.texture && history.wanted_px == demand.resolution_px;
+    const bool fits = history.texture && history.wanted_px == desc.width;
     if (fits && (history.failure == Reason::none || frame_ < history.retry_frame)) return true;
-    if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == demand.resolution_px)
+    if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == desc.width)
         return static_cast<bool>(history.texture);
+    const std::uint32_t edge_px = desc.width;
     desc.label = "shadow map " + light.name;
-    history.wanted_px = demand.resolution_px;
+    history.wanted_px = edge_px;
     history.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
-        desc.width = desc.height = std::max(demand.resolution_px >> halving, 1u);
-        if (halving > 0 && fits && desc.width <= history.desc.width) break;  // what we hold is as good
-        const Reason reason = try_create(desc, demand, history);
+        desc.width = desc.height = std::max(edge_px >> halving, 1u);
+        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // as good
+        const MomentDescs moments = moments_of(desc, demand);
+        const bool has_room = make_room(map_bytes(desc, triangles, moments.texture, moments.scratch), &history);
+        const Reason reason = has_room ? try_create(desc, demand, history) : Reason::map_allocation_failed;
+        refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
         if (reason == Reason::none) {
             if (halving > 0) history.failure = Reason::map_shrunk;
             break;
@@ -250,126 +189,89 @@ bool MapStore::stay() {
         const bool wanted = history.last_wanted_frame + 1 == frame_;
         if (wanted && history.failure != Reason::none && frame_ >= history.retry_frame) return false;
         if (!wanted && history.texture && frame_ - history.last_wanted_frame > kHoldFrames) return false;
-        if (is_still_idle(history)) return false;
+        if (is_still_idle(history) || (wanted && history.waits)) return false;
     }
     for (LightHistory& history : lights_)
         if (history.last_wanted_frame + 1 == frame_) history.last_wanted_frame = frame_;
     return true;
 }
 
-void MapStore::assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
-    frame.slots.assign(frame.views.size(), {});
+/// Frees what the picture does without until there is room for so many bytes more: maps that nobody looks at, the
+/// longest unused first, copies of still casters, and at last the map that is to be replaced.
+bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
+    if (limit_ == kNoLimit) return true;
+    for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
+        LightHistory* unseen = nullptr;
+        LightHistory* apart = nullptr;
+        for (LightHistory& history : lights_) {
+            const bool is_seen = history.last_wanted_frame == frame_;
+            if (history.texture && !is_seen && (!unseen || history.last_wanted_frame < unseen->last_wanted_frame))
+                unseen = &history;
+            if (history.still.texture) apart = &history;
+        }
+        if (unseen)
+            release(*unseen);
+        else if (apart)
+            release_still(apart->still);
+        else if (replaced && replaced->texture)
+            release(*replaced);
+        else
+            return false;
+    }
+    return true;
+}
+
+/// Of a light that has no map in this frame: whether it keeps what it holds, in case the camera turns back.
+void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
+    const LightHistory* held = find(light);
+    if (!held) return;
+    LightHistory& history = entry(light);
+    history.kept_frame = frame_;
+    if (skip == Reason::over_budget || frame_ - history.last_wanted_frame > kHoldFrames) release(history);
+}
+
+void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
+    const auto light_of = [&](std::size_t d) -> const LightItem& { return scene.lights[frame.demands[d].light]; };
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
-        PotentialSets& sets = frame.sets[d];
-        const LightTime time(frame, frame.demands[d].light);
-        if (sets.skip != Reason::none) {
-            // Seen by nobody just now: the map is held for a while, in case the camera turns back.
-            if (frame.demands[d].skip == Reason::none && find(scene.lights[frame.demands[d].light].entity) == nullptr)
-                continue;
-            if (frame.demands[d].skip != Reason::none) continue;
-            LightHistory& history = entry(scene.lights[frame.demands[d].light].entity);
-            if (frame_ - history.last_wanted_frame <= kHoldFrames) continue;
-            release(history);
+        if (frame.demands[d].skip != Reason::none) continue;
+        if (frame.sets[d].skip != Reason::none) {
+            keep_or_release(light_of(d).entity, frame.sets[d].skip);
             continue;
         }
-        const LightItem& light = scene.lights[frame.demands[d].light];
-        LightHistory& history = entry(light.entity);
-        history.last_wanted_frame = frame_;
-        if (!ensure_map(light, frame.demands[d], history)) sets.skip = history.failure;
+        LightHistory& history = entry(light_of(d).entity);
+        history.kept_frame = history.last_wanted_frame = frame_;
+        history.waits = false;
     }
-    std::erase_if(lights_, [&](LightHistory& history) {
-        for (const ShadowDemand& demand : frame.demands)
-            if (scene.lights[demand.light].entity == history.entity && demand.skip == Reason::none) return false;
+    const auto is_gone = [&](LightHistory& history) {
+        if (history.kept_frame == frame_) return false;
         release(history);
         return true;
-    });
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        const ShadowView& view = frame.views[v];
-        if (frame.sets[view.demand].skip != Reason::none) continue;
-        const LightTime time(frame, frame.demands[view.demand].light);
-        const LightItem& light = scene.lights[frame.demands[view.demand].light];
-        const LightHistory& history = *find(light.entity);
-        ShadowSlot& slot = frame.slots[v];
-        slot.texture = history.texture;
-        slot.triangles = history.triangles;
-        slot.target = history.targets[view.layer];
-        slot.size_px = history.desc.width;
-        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
-        const ContentSignature signature =
-            content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
-        slot.content = signature.all;
-        slot.still_content = signature.still;
-        slot.reuse = light.shadow.economy && history.content[view.layer] == slot.content;
-    }
+    };
+    if (std::erase_if(lights_, is_gone) > 0) note_places(0);
+    // Within a limit maps that become smaller go first, so that the others find the room.
+    const bool limited = limit_ != kNoLimit;
+    if (limited) make_room(0, nullptr);
+    for (int round = 0; round < (limited ? 2 : 1); ++round)
+        for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+            if (frame.demands[d].skip != Reason::none || frame.sets[d].skip != Reason::none) continue;
+            const LightTime time(frame, frame.demands[d].light);
+            LightHistory& history = entry(light_of(d).entity);
+            const bool first = !limited || map_bytes(light_of(d), frame.demands[d]) < bytes(history);
+            if (first != (round == 0)) continue;
+            if (!ensure_map(light_of(d), frame.demands[d], history)) frame.sets[d].skip = history.failure;
+        }
+    if (!std::exchange(refused_, false)) return;
+    available_ = bytes();
+    short_until_frame_ = frame_ + kRetryFrames;
+}
+
+void MapStore::assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    frame.slots.assign(frame.views.size(), {});
+    provide_maps(scene, frame);
+    assign_views(scene, frame);
     assign_moments(scene, frame);
     keep_still_apart(scene, gpu, frame);
     choose_routes(scene, frame);
-}
-
-/// A view's moments follow from its own depths and, of a cube, those of the faces beside it.
-void MapStore::assign_moments(const SceneSnapshot& scene, ShadowFrame& frame) {
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        const ShadowView& view = frame.views[v];
-        const ShadowDemand& demand = frame.demands[view.demand];
-        ShadowSlot& slot = frame.slots[v];
-        if (!slot.texture || filter_row(demand.filter).storage != FilterStorage::moments) continue;
-        const LightItem& light = scene.lights[demand.light];
-        const MomentMap& moments = find(light.entity)->moments;
-        slot.moments = moments.texture;
-        slot.moment_target = moments.targets[view.layer];
-        slot.scratch = moments.scratch;
-        slot.scratch_target = moments.scratch_target;
-        Signature s;
-        s.add(static_cast<std::uint64_t>(demand.filter));
-        s.add(std::uint64_t{demand.filtering.size});
-        s.add(demand.moments.settings.x);
-        s.add(demand.moments.settings.y);
-        for (std::size_t other = 0; other < frame.views.size(); ++other) {
-            if (frame.views[other].demand != view.demand) continue;
-            const bool beside = view.projection == ViewProjection::cube_face &&
-                                !are_opposite_faces(frame.views[other].layer, view.layer);
-            if (other != v && !beside) continue;
-            s.add(std::uint64_t{frame.views[other].layer});
-            s.add(frame.slots[other].content);
-        }
-        slot.moment_content = s.value();
-        slot.convert = !light.shadow.economy || moments.content[view.layer] != slot.moment_content;
-    }
-}
-
-void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
-    const auto drawn = [&](std::size_t v) { return frame.slots[v].texture && !frame.slots[v].reuse; };
-    for (std::size_t first = 0, end = 0; first < frame.views.size(); first = end) {
-        std::uint32_t faces = 0;
-        bool apart = false;
-        for (end = first; end < frame.views.size() && frame.views[end].demand == frame.views[first].demand; ++end) {
-            faces += drawn(end) ? 1 : 0;
-            apart = apart || frame.slots[end].still_use != StillUse::none;
-        }
-        if (frame.views[first].projection != ViewProjection::cube_face || faces == 0 || apart) continue;
-        const LightItem& light = scene.lights[frame.demands[frame.views[first].demand].light];
-        const CubeRoute route = cube_route(light.shadow.cube_route, device_.info(), faces);
-        if (route == CubeRoute::six_passes) continue;
-        LightHistory& history = entry(light.entity);
-        if (!history.whole) history.whole = device_.create_target(target_of(history, gl::kAllLayers)).handle;
-        for (std::size_t v = first; v < end; ++v)
-            if (drawn(v) && history.whole) {
-                frame.slots[v].whole = history.whole;
-                frame.slots[v].route = route;
-            }
-    }
-}
-
-void MapStore::commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn) {
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        const ShadowSlot& slot = frame.slots[v];
-        if (!slot.texture) continue;
-        const ShadowView& view = frame.views[v];
-        LightHistory& history = entry(scene.lights[frame.demands[view.demand].light].entity);
-        if (!slot.reuse) history.content[view.layer] = drawn ? slot.content : 0;
-        if (slot.still_use == StillUse::fill) history.still.layers[view.layer].content = drawn ? slot.still_content : 0;
-        if (slot.convert) history.moments.content[view.layer] = drawn ? slot.moment_content : 0;
-    }
 }
 
 }  // namespace gnomon::shadow

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
 #include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/map_desc.h"
 #include "systems/shadow/still_map.h"
 #include "systems/shadow/types.h"
 
@@ -32,11 +34,20 @@ struct LightHistory {
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
+    std::vector<std::uint64_t> placements;  // per layer: ShadowSlot::placement of it
+    bool waits = false;                     // one of them shows casters as they were (Grant::refresh_frames)
     std::uint32_t wanted_px = 0;            // size asked for when the map was made
     Reason failure = Reason::none;          // why there is no map, or a smaller one
     std::uint64_t retry_frame = 0;
     std::uint64_t last_wanted_frame = 0;
+    std::uint64_t kept_frame = 0;  // in which its light last asked for shadows
 };
+
+/// What a store of still casters beside a light's map takes.
+std::uint64_t still_bytes(const LightHistory& map);
+
+/// One layer of a light's map, with its triangles, or gl::kAllLayers.
+gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer);
 
 /// The maps of all lights: the only state of the shadow system that outlives a frame. Owns the device objects.
 class MapStore {
@@ -48,24 +59,34 @@ public:
 
     /// Counts the frame; to be called once in each, first.
     void begin_frame() { ++frame_; }
+    /// The most that maps may hold from now on, at any time; kNoLimit: anything. Within a limit a map that becomes
+    /// larger may go before the new one stands, and what only saves time goes first.
+    void set_limit(std::uint64_t bytes) { limit_ = bytes; }
+    static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
+    /// For kRetryFrames after the device had no room for a map: what all held then, since more is not to be had;
+    /// kNoLimit otherwise.
+    std::uint64_t available() const { return frame_ < short_until_frame_ ? available_ : kNoLimit; }
+
     /// In a frame in which nothing changed, instead of assign_slots(): all stays as it is. False: something is due, as
     /// the end of a map that nobody needs any more, or another try; then the stages have to run.
     bool stay();
 
     /// Stage 5: gives every view its slot, allocating, keeping and freeing maps; fills frame.slots and sets
-    /// sets[i].skip where a light gets no map. A light without LightShadow, or disabled, loses its map at once;
-    /// one that nobody sees for kHoldFrames later. A failed allocation is tried at half the edge, kHalvings times,
-    /// then again after kRetryFrames; meanwhile the light is lit.
+    /// sets[i].skip where a light gets no map. A light without LightShadow, or disabled, or that the budget leaves
+    /// without shadow, loses its map at once; one that nobody sees for kHoldFrames later. A failed allocation is tried
+    /// at half the edge, kHalvings times, then again after kRetryFrames; meanwhile the light is lit.
     void assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
     /// Remembers what the frame drew. `drawn` false forgets the layers (a failed submission).
     void commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn);
 
     const LightHistory* find(ecs::Entity light) const;
+    /// Whether its last map could not be had as it was wanted, and it is not yet time to try again.
+    bool waits_for_room(const LightHistory& map) const {
+        return map.failure != Reason::none && frame_ < map.retry_frame;
+    }
     std::uint64_t bytes() const;
     static std::uint64_t bytes(const LightHistory& history);
-    /// What a light would hold whose demand is met.
-    static std::uint64_t wanted_bytes(const LightItem& light, const ShadowDemand& demand);
 
     static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
     static constexpr std::uint64_t kRetryFrames = 30;  // shadows are back within a second after memory is
@@ -73,7 +94,13 @@ public:
 
 private:
     LightHistory& entry(ecs::Entity light);
+    void note_places(std::size_t first);
     void release(LightHistory& history);
+    bool make_room(std::uint64_t bytes_more, LightHistory* replaced);
+    void keep_or_release(ecs::Entity light, Reason skip);
+    void provide_maps(const SceneSnapshot& scene, ShadowFrame& frame);
+    bool may_wait(const ShadowFrame& frame, std::size_t v, const LightHistory& history) const;
+    void assign_views(const SceneSnapshot& scene, ShadowFrame& frame);
     bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
     void assign_moments(const SceneSnapshot& scene, ShadowFrame& frame);
     void keep_still_apart(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
@@ -87,17 +114,18 @@ private:
 
     gl::Device& device_;
     std::vector<LightHistory> lights_;
-    std::uint64_t frame_ = 0;
+    std::unordered_map<std::uint32_t, std::uint32_t> places_;  // in lights_, by the entity's index, which may be any
+    std::uint64_t frame_ = 0, limit_ = kNoLimit;
+    std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
+    bool refused_ = false;  // in this frame
 };
-
-/// Of what each texel of a map shows: an instance and a triangle (shaders/shadow/caster_triangles.glsl).
-inline constexpr gl::Format kTriangleFormat = gl::Format::rg32ui;
 
 /// Everything that decides a view's depth picture, as one number: matrices, size, casters in the order in which they
 /// are drawn, their versions and faces. Never 0. Two different pictures share a number with probability 2^-64.
 struct ContentSignature {
     std::uint64_t still = 0;  // of its still casters alone
     std::uint64_t all = 0;
+    std::uint64_t placement = 0;  // without any caster
 };
 /// `casters`: view.still_casters that stand still, then those that move.
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,

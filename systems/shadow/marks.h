@@ -1,21 +1,49 @@
 #pragma once
-#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
-/// A set of indices as bits: what a search finds in any order comes out in rising order, and once.
 namespace gnomon::shadow {
 
-inline void clear_marks(std::vector<std::uint64_t>& marks, std::size_t count) { marks.assign((count + 63) / 64, 0); }
+/// A set of indices: what a search finds in any order comes out in rising order, and once. Costs what is in it, and a
+/// 4096th of what could be.
+class Marks {
+public:
+    /// Empty again, for indices below `count`.
+    void clear(std::size_t count) {
+        for_each_bit(used_, [&](std::size_t word) { words_[word] = 0; });
+        const std::size_t words = (count + kBits - 1) / kBits;
+        words_.resize(words, 0);
+        used_.assign((words + kBits - 1) / kBits, 0);
+    }
 
-inline void mark(std::vector<std::uint64_t>& marks, std::uint32_t i) { marks[i / 64] |= std::uint64_t{1} << i % 64; }
+    void add(std::uint32_t i) {
+        const std::size_t word = i / kBits;
+        words_[word] |= std::uint64_t{1} << i % kBits;
+        used_[word / kBits] |= std::uint64_t{1} << word % kBits;
+    }
 
-template <class Visit>
-void for_each_mark(const std::vector<std::uint64_t>& marks, Visit&& visit) {
-    for (std::size_t word = 0; word < marks.size(); ++word)
-        for (std::uint64_t bits = marks[word]; bits != 0; bits &= bits - 1)
-            visit(static_cast<std::uint32_t>(word * 64) + static_cast<std::uint32_t>(std::countr_zero(bits)));
-}
+    template <class Visit>
+    void for_each(Visit&& visit) const {
+        for_each_bit(used_, [&](std::size_t word) {
+            for (std::uint64_t bits = words_[word]; bits != 0; bits &= bits - 1)
+                visit(static_cast<std::uint32_t>(word * kBits) + static_cast<std::uint32_t>(std::countr_zero(bits)));
+        });
+    }
+
+private:
+    static constexpr std::size_t kBits = 64;
+
+    template <class Visit>
+    static void for_each_bit(const std::vector<std::uint64_t>& words, Visit&& visit) {
+        for (std::size_t word = 0; word < words.size(); ++word)
+            for (std::uint64_t bits = words[word]; bits != 0; bits &= bits - 1)
+                visit(word * kBits + static_cast<std::size_t>(std::countr_zero(bits)));
+    }
+
+    std::vector<std::uint64_t> words_;  // a bit per index
+    std::vector<std::uint64_t> used_;   // a bit per word that is not 0
+};
 
 }  // namespace gnomon::shadow

@@ -111,7 +111,7 @@ void MomentRecorder::prepare(ShadowFrame& frame) {
         if (ready(frame, v))
             ++count;
         else
-            drop_light(frame, frame.views[v].demand, Reason::depth_program_failed);
+            drop_moments(frame, frame.views[v].demand);
     }
     if (count == 0 || records_.reserve(count * aligned(sizeof(MomentRecord), device_.info().uniform_alignment))) return;
     for (std::size_t v = 0; v < frame.views.size(); ++v)

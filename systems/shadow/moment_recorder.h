@@ -37,8 +37,9 @@ public:
     MomentRecorder(const MomentRecorder&) = delete;
     MomentRecorder& operator=(const MomentRecorder&) = delete;
 
-    /// Makes programs and buffers for the slots that say `convert`; a light that cannot have them loses its slots, its
-    /// sets[i].skip says why. Call before record().
+    /// Makes programs and buffers for the slots that say `convert`. A light that cannot have the programs loses its
+    /// moments, one that cannot have the buffer its slots; its demand's note or sets[i].skip says why. Call before
+    /// record().
     void prepare(ShadowFrame& frame);
 
     /// The passes, to follow those that draw the depths.

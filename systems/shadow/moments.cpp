@@ -26,12 +26,12 @@ float exponent(float asked, float usual, float most, bool& cut) {
 constexpr float kMostFootprint_texel = 16.0f;
 
 /// A sampler's blend at the coarsest level reads texels up to one and a half of its own away, of which E has one of the
-/// finest already; anisotropy moves it along the footprint, by half of it, or, across a cube's seam, by as much as all.
+/// finest already; anisotropy moves it along the footprint, by half of it.
 void set_footprint(MomentDemand& demand) {
     const auto coarsest_texel = static_cast<float>(1u << (demand.levels - 1));
     demand.footprint_texel = std::min(coarsest_texel * static_cast<float>(demand.anisotropy), kMostFootprint_texel);
     demand.reach_texel = demand.levels > 1 ? 1.5f * coarsest_texel - 1.0f : 0.0f;
-    if (demand.anisotropy > 1) demand.reach_texel += demand.footprint_texel;
+    if (demand.anisotropy > 1) demand.reach_texel += 0.5f * demand.footprint_texel;
 }
 
 /// Of FilterWidth::source, as filter_demand() takes its size.

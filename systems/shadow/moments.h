@@ -22,6 +22,7 @@ struct MomentDemand {
     glm::vec4 settings{0.0f};
     float bleeding = 0.0f;
     std::uint32_t levels = 1, anisotropy = 1;
+    bool sampler_anisotropy = true;  // whether that is the sampler's; if not, the lookup's: see kinds/point.glsl
     /// Most texels that a pixel is taken to cover along a side; 1: the map is read as finely as it is.
     float footprint_texel = 1.0f;
     /// What that adds to E.

@@ -79,11 +79,7 @@ double nearest_receiver_m(const SceneSnapshot& scene, const ConsumerItem& consum
         const math::Aabb box = seen_from(consumer.position_ws_m, item.bounds_ws);
         return math::lowest_in(box, own.depth_m, own.within(), lowest, scratch);
     };
-    if (has_tree(scene)) return scene.tree.lowest(rank, depth_m);
-    double lowest = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-        if (rank(scene.instances[i].bounds_ws) < lowest) lowest = depth_m(i, lowest);
-    return lowest;
+    return lowest_of_instances(scene, rank, depth_m);
 }
 
 }  // namespace gnomon::shadow

@@ -103,9 +103,10 @@ double edge_error_px(double extent_px, double reach_texel) {
     return (kSampling_texel + reach_texel) * extent_px + kPixelCentres_px;
 }
 
+double steeper_than_stated(double cosine) { return std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0))); }
+
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
-    const double steeper = std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0)));
-    return edge_error_px(view.texel_extent_px * steeper, reach_texel);
+    return edge_error_px(view.texel_extent_px * steeper_than_stated(cosine), reach_texel);
 }
 
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,

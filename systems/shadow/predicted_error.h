@@ -46,6 +46,10 @@ double edge_error_px(double extent_px, double reach_texel);
 /// single number bounds them, since any curved surface has places that the light only grazes.
 inline constexpr double kSteepestReceiver = 2.0;
 
+/// How many times longer a texel is on a receiver whose normal has this cosine with the way to the light than on the
+/// steepest that is stated for; at least 1, infinite where the light grazes.
+double steeper_than_stated(double cosine);
+
 /// What the view states, slope by slope, so that it holds everywhere: ShadowView::predicted_error_px for receivers that
 /// face the light within 60 degrees; on steeper ones the texel's share of it grows as 1 / cosine (of the normal to the
 /// way to the light). No less than edge_error_px of any visible receiver point that the view serves.

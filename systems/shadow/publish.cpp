@@ -27,6 +27,9 @@ constexpr double kAlphaRounding = 2.0 * kUnitRoundoff;
 /// the lateral part seen through the slope.
 constexpr double kPositionRounding = 12.0 * kUnitRoundoff;
 
+/// Of a view whose points are lit: light_block.glsl.
+constexpr float kNoLayer = -1.0f;
+
 glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
 ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot,
@@ -44,7 +47,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
                                   (orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha));
     record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
                       static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
-                      static_cast<float>(view.layer)};
+                      view.lit ? kNoLayer : static_cast<float>(view.layer)};
     record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.fades_to_m);
     return record;
 }
@@ -52,6 +55,30 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
 std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind) {
     if (demand.perspective_sun) return kPerspectiveSunFile;
     return demand.warp > 0.0f ? kWarpedSunFile : kind.file;
+}
+
+/// The program and the textures of a light with a map.
+void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const ShadowSlot& slot,
+                const MapSamplers& samplers, LightingLight& out) {
+    const FilterRow &filter = filter_row(demand.filter), &one_tap = filter_row(ShadowFilter::hard);
+    out.plain.row = {kind.define, kind_file(demand, kind), one_tap.file, one_tap.reach_texel};
+    out.plain.map = slot.texture;
+    out.plain.sampler = samplers.of(one_tap.reading);
+    out.row = out.plain.row;
+    out.map = out.plain.map;
+    out.sampler = out.plain.sampler;
+    const bool moments = filter.storage == FilterStorage::moments;
+    if (moments && !slot.moments) return;  // they could not be made
+    out.row.filter_file = filter.file;
+    out.row.reach_texel = demand.filtering.reach_texel;
+    out.row.depths = filter.reading == MapReading::depths;
+    out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
+    out.row.moments = moments;
+    out.row.footprint = demand.moments.levels > 1 || demand.moments.anisotropy > 1;
+    out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
+    out.triangles = slot.triangles;
+    out.map = moments ? slot.moments : slot.texture;
+    out.sampler = moments ? samplers.of(demand.moments) : samplers.of(filter.reading);
 }
 
 /// A sun's cascades are chosen by distance along the view that they are fitted to, the consumer's unless that is
@@ -145,9 +172,10 @@ struct Ball {
     double radius_m = 0.0;
 };
 
+constexpr double kRounding = 1.0e-5;  // of the shaders' distances and cosines, in float
+
 /// The smallest around what a local light of limited range reaches.
 Ball reached_ball(const LightItem& light) {
-    constexpr double kRounding = 1.0e-5;  // of the shaders' distances and cosines, in float
     const double range_m = light.range_m * (1.0 + kRounding);
     if (light.kind != LightKind::spot) return {light.position_ws_m, range_m};
     const double angle_rad = std::min(light.outer_cone_rad + kRounding, 0.5 * glm::pi<double>());
@@ -190,6 +218,21 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
             static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
 }
 
+float farthest_depth(const LightItem& light, const ConsumerItem& c) {
+    if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return 0.0f;
+    const Ball ball = reached_ball(light);
+    const double centre_m = glm::dot(c.position_ws_m - ball.centre_ws_m, c.rotation_ws[2]);
+    const bool orthographic = c.projection == CameraProjection::orthographic;
+    const double exact_m = centre_m + ball.radius_m;
+    const double farthest_m = exact_m + kRounding * (orthographic ? c.far_m : exact_m);
+    if (!(farthest_m > c.near_m)) return 1.0f;
+    const double depth = orthographic ? (c.far_m - farthest_m) / (c.far_m - c.near_m)
+                         : std::isinf(c.far_m)
+                             ? c.near_m / farthest_m
+                             : c.near_m * (c.far_m - farthest_m) / (farthest_m * (c.far_m - c.near_m));
+    return static_cast<float>(std::clamp(depth, 0.0, 1.0));
+}
+
 void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, ShadowFrame& frame) {
     const std::vector<ConsumerItem>& pictures = scene.pictures.empty() ? scene.consumers : scene.pictures;
     frame.inputs.resize(pictures.size());
@@ -208,7 +251,10 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out = {};
             out.light = i;
             out.row.kind_define = kind.define;
-            if (reaches_anything_seen(scene, light, consumer)) out.screen = screen_rectangle(light, consumer);
+            // The rectangle is the cheaper question: of many lights most are not on the screen.
+            out.screen = screen_rectangle(light, consumer);
+            if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
+            out.farthest_depth = farthest_depth(light, consumer);
             out.record = light_record(light, fitted, consumer);
         }
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
@@ -220,20 +266,8 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             const ShadowDemand& demand = frame.demands[view.demand];
             const LightTime time(frame, demand.light);
             const LightItem& light = scene.lights[demand.light];
-            const LightKindRow& kind = light_kind_row(light.kind);
-            const FilterRow& filter = filter_row(demand.filter);
             LightingLight& out = inputs.lights[demand.light];
-            out.row.kind_file = kind_file(demand, kind);
-            out.row.filter_file = filter.file;
-            out.row.reach_texel = demand.filtering.reach_texel;
-            out.row.depths = filter.reading == MapReading::depths;
-            out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
-            out.row.moments = filter.storage == FilterStorage::moments;
-            out.row.footprint = demand.moments.levels > 1 || demand.moments.anisotropy > 1;
-            out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
-            out.map = out.row.moments ? slot.moments : slot.texture;
-            out.triangles = slot.triangles;
-            out.sampler = out.row.moments ? samplers.of(demand.moments) : samplers.of(filter.reading);
+            set_lookup(demand, light_kind_row(light.kind), slot, samplers, out);
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.w |= 1 << view.layer;
@@ -241,7 +275,8 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             bias_record(light.shadow, out);
             filter_record(light.shadow, demand.filtering, consumer, out.record);
             out.record.moments = demand.moments.settings;
-            out.record.moment_sampling = {demand.moments.bleeding, demand.moments.footprint_texel, 0.0f, 0.0f};
+            out.record.moment_sampling = {demand.moments.bleeding, demand.moments.footprint_texel,
+                                          static_cast<float>(demand.moments.anisotropy), 0.0f};
             out.record.radiance.w = source_size(light.kind, demand.filtering, view);
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;

@@ -22,8 +22,11 @@ struct MapSamplers {
     }
     gl::SamplerHandle of(const MomentDemand& demand) const {
         for (const OfMoments& m : moments)
-            if (m.mipmaps == (demand.levels > 1) && m.anisotropy == demand.anisotropy) return m.sampler;
+            if (m.mipmaps == (demand.levels > 1) && m.anisotropy == anisotropy(demand)) return m.sampler;
         return {};
+    }
+    static std::uint32_t anisotropy(const MomentDemand& demand) {
+        return demand.sampler_anisotropy ? demand.anisotropy : 1;
     }
 };
 
@@ -34,6 +37,10 @@ CameraRecord camera_record(const ConsumerItem& consumer);
 /// rectangle of a ball around its range, a spot's around its cone, otherwise; empty if that is behind the camera or
 /// beyond its far plane. Conservative.
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
+
+/// Depth of the picture (reversed, in [0,1]) that all surfaces within the light's reach exceed; 0: any surface may be.
+/// Conservative.
+float farthest_depth(const LightItem& light, const ConsumerItem& consumer);
 
 /// Stage 6: for each camera that draws, each light with its program row, record and textures. A light without a map is
 /// published unshadowed. Fills frame.inputs.

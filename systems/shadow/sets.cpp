@@ -13,7 +13,6 @@
 #include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/light_time.h"
-#include "systems/shadow/marks.h"
 #include "systems/shadow/nearest_receiver.h"
 #include "systems/shadow/swept_volume.h"
 
@@ -33,7 +32,7 @@ public:
             around_ = {light.position_ws_m - light.range_m, light.position_ws_m + light.range_m};
         }
         if (light.kind == LightKind::spot)
-            cone_ = math::Cone{light.position_ws_m, -light.rotation_ws[2], light.outer_cone_rad};
+            cone_ = math::planes_around({light.position_ws_m, -light.rotation_ws[2], light.outer_cone_rad});
     }
 
     Overlap overlap(const math::Aabb& box) const {
@@ -48,7 +47,7 @@ private:
     glm::dvec3 position_ws_m_{0.0};
     std::optional<double> range_m_;
     math::Aabb around_;
-    std::optional<math::Cone> cone_;
+    std::optional<std::array<math::Plane, math::kConeSides + 1>> cone_;
 };
 
 IndexRange since(std::size_t first, std::size_t end) {
@@ -70,11 +69,11 @@ public:
         const std::size_t receivers = frame_.receiver_items.size(), points = frame_.receiver_points_ws.size(),
                           beams = frame_.beams.size();
         find_candidates();
-        clear_marks(scratch_.receivers, scene_.instances.size());
+        scratch_.receivers.clear(scene_.instances.size());
         if (light_.kind == LightKind::directional) look_along_sun();
         const LightOpenings openings = light_openings(light_, demand_);
         for (const LightOpening& opening : openings.span()) look_through(opening);
-        for_each_mark(scratch_.receivers, [&](std::uint32_t i) { frame_.receiver_items.push_back(i); });
+        scratch_.receivers.for_each([&](std::uint32_t i) { frame_.receiver_items.push_back(i); });
         PotentialSets sets;
         sets.receivers = since(receivers, frame_.receiver_items.size());
         sets.receiver_points = since(points, frame_.receiver_points_ws.size());
@@ -87,7 +86,7 @@ private:
     void find_candidates() {
         scratch_.candidates.clear();
         for (std::uint32_t c = 0; c < frame_.seen.size(); ++c) {
-            clear_marks(scratch_.marks, scene_.instances.size());
+            scratch_.marks.clear(scene_.instances.size());
             const auto planes = math::planes_of(frame_.seen[c]);
             const auto classify = [&](const math::Aabb& box) {
                 const Overlap seen = math::overlap(planes, box);
@@ -97,9 +96,9 @@ private:
             };
             visit_instances(scene_, classify, [&](std::uint32_t i) {
                 const InstanceItem& item = scene_.instances[i];
-                if (item.visible && receives_under(light_, item)) mark(scratch_.marks, i);
+                if (item.visible && receives_under(light_, item)) scratch_.marks.add(i);
             });
-            for_each_mark(scratch_.marks, [&](std::uint32_t i) { scratch_.candidates.push_back({i, c}); });
+            scratch_.marks.for_each([&](std::uint32_t i) { scratch_.candidates.push_back({i, c}); });
         }
     }
 
@@ -115,7 +114,7 @@ private:
             const math::Aabb box = reach_.clipped(scene_.instances[candidate.item].bounds_ws);
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
             if (math::clip_box(used, box, frame_.receiver_points_ws) == 0) continue;
-            mark(scratch_.receivers, candidate.item);
+            scratch_.receivers.add(candidate.item);
             beam.consumers |= consumer_bit(candidate.consumer);
             ++beam.receivers;
         }
@@ -173,23 +172,32 @@ double lamp_reach(const FilterDemand& filter, double size_px, const LightOpening
     return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
 }
 
+/// Heights of a box and of one within it are not told apart by less of what they are sums of: 24 roundings.
+constexpr double kHeightRounding = 0x1p-48;
+
 /// Beyond a sun's, in metres: as far as the highest of them stands above the lowest receiver, times the tangent.
 double sun_reach_m(const SceneSnapshot& scene, const FilterDemand& filter, const Beam& beam) {
-    double height_m = 0.0;
-    for (const InstanceItem& item : scene.instances) {
-        const glm::dvec3 middle_m = (math::centre(item.bounds_ws) - beam.origin_ws_m) * beam.axes;
-        const double half_m = glm::dot(math::half_extent(item.bounds_ws), glm::abs(beam.axes[2]));
-        if (item.casts) height_m = std::max(height_m, middle_m.z + half_m + beam.far_m);
-    }
-    return height_m * static_cast<double>(filter.sun_radius_tan);
+    const auto height_m = [&](const math::Aabb& box) {
+        return glm::dot(math::centre(box) - beam.origin_ws_m, beam.axes[2]) +
+               glm::dot(math::half_extent(box), glm::abs(beam.axes[2])) + beam.far_m;
+    };
+    const auto rank = [&](const math::Aabb& box) {
+        const glm::dvec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(beam.origin_ws_m);
+        return -height_m(box) - kHeightRounding * (largest.x + largest.y + largest.z + beam.far_m);
+    };
+    const double highest_m = -lowest_of_instances(scene, rank, [&](std::uint32_t i, double lowest) {
+        const InstanceItem& item = scene.instances[i];
+        return item.casts ? std::min(lowest, -height_m(item.bounds_ws)) : lowest;
+    });
+    return std::max(highest_m, 0.0) * static_cast<double>(filter.sun_radius_tan);
 }
 
 /// Casters that touch any of the light's beams.
 void select_casters(const SceneSnapshot& scene, const ShadowDemand& demand, PotentialSets& sets, ShadowFrame& frame) {
     const LightItem& light = scene.lights[demand.light];
-    std::vector<std::uint64_t>& marks = frame.set_scratch.marks;
+    Marks& marks = frame.set_scratch.marks;
     std::vector<glm::dvec2>& polygon = frame.set_scratch.polygon;
-    clear_marks(marks, scene.instances.size());
+    marks.clear(scene.instances.size());
     const bool has_size = needs_distances(demand.filtering);
     const LightOpenings openings = has_size ? light_openings(light, demand) : LightOpenings{};
     for (std::uint32_t b = 0; b < sets.beams.count; ++b) {
@@ -207,11 +215,11 @@ void select_casters(const SceneSnapshot& scene, const ShadowDemand& demand, Pote
         visit_instances(
             scene, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
-                if (casts_under(light, scene.instances[i])) mark(marks, i);
+                if (casts_under(light, scene.instances[i])) marks.add(i);
             });
     }
     sets.casters.first = static_cast<std::uint32_t>(frame.caster_items.size());
-    for_each_mark(marks, [&](std::uint32_t i) { frame.caster_items.push_back(i); });
+    marks.for_each([&](std::uint32_t i) { frame.caster_items.push_back(i); });
     sets.casters.count = static_cast<std::uint32_t>(frame.caster_items.size()) - sets.casters.first;
 }
 

@@ -41,12 +41,13 @@ bool ShadowSystem::samplers_ready() {
 
 bool ShadowSystem::moment_sampler_ready(const MomentDemand& demand) {
     if (samplers_.of(demand)) return true;
+    const std::uint32_t anisotropy = MapSamplers::anisotropy(demand);
     const gl::SamplerDesc desc{.label = "shadow moments",
                                .linear = true,
                                .mipmaps = demand.levels > 1,
-                               .anisotropy = static_cast<float>(demand.anisotropy)};
+                               .anisotropy = static_cast<float>(anisotropy)};
     const gl::SamplerHandle sampler = device_.create_sampler(desc).handle;
-    if (sampler) samplers_.moments.push_back({desc.mipmaps, demand.anisotropy, sampler});
+    if (sampler) samplers_.moments.push_back({desc.mipmaps, anisotropy, sampler});
     return static_cast<bool>(sampler);
 }
 
@@ -60,21 +61,27 @@ void ShadowSystem::provide_triangles(GpuScene& gpu) {
 }
 
 const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                                        FrameReport& report) {
+                                        FrameReport& report, const ShadowBudget& budget) {
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
     maps_.begin_frame();
     const bool others_move = motion_.update(scene);
-    const bool unchanged = still_.unchanged(scene, shadows) && !others_move;
+    const bool unchanged = still_.unchanged(scene, shadows, budget) && !others_move;
     if (others_move) frame_.moving = motion_.moving();
-    stands_ = std::exchange(may_stand_, false) && unchanged && maps_.stay();
-    if (stands_)
+    BudgetLimits limits = limits_of(budget);
+    limits.bytes = std::min(limits.bytes, maps_.available());
+    const bool shared_out = !budget_.is_moved_by(limits, cost_clock_.factors());
+    stands_ = std::exchange(may_stand_, false) && unchanged && shared_out && maps_.stay();
+    if (stands_) {
         stand_still();
-    else
+    } else {
+        budget_.begin(limits, cost_clock_.factors());
         run_stages(scene, gpu, shadows, list, report);
+    }
     report.still = stands_;
     explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
+    budget_.report(report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;
 }
@@ -93,6 +100,7 @@ void ShadowSystem::stand_still() {
 void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report) {
     decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
+    budget_.apply(scene, history_, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });
     if (any && !samplers_ready())
@@ -101,8 +109,11 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     select_sets(scene, frame_);
     dim_lights_.leave_out(scene, gpu, frame_);
     fit_views(scene, history_, frame_);
+    budget_.decide(scene, gpu, history_, maps_, frame_);
     provide_triangles(gpu);
+    maps_.set_limit(budget_.limits().bytes);
     maps_.assign_slots(scene, gpu, frame_);
+    budget_.note_changes(scene, frame_);
     recorder_.prepare(scene, gpu, frame_);
     moments_.prepare(frame_);
     publish_lights(scene, samplers_, frame_);
@@ -116,7 +127,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     const auto settled = [&](const PotentialSets& sets, const ShadowDemand& demand) {
         const bool lacks = sets.skip == Reason::depth_program_failed || sets.skip == Reason::buffer_failed ||
-                           sets.skip == Reason::sampler_failed;
+                           sets.skip == Reason::sampler_failed || demand.note == Reason::filter_program_failed;
         return !lacks && (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
     };
     return history_ == frame_.next_history &&

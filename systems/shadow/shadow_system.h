@@ -5,7 +5,9 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
+#include "systems/shadow/budget_stage.h"
 #include "systems/shadow/caster_motion.h"
+#include "systems/shadow/cost_clock.h"
 #include "systems/shadow/dim_lights.h"
 #include "systems/shadow/draw_times.h"
 #include "systems/shadow/map_store.h"
@@ -30,7 +32,7 @@ public:
     /// `shadows` false: every light is treated as disabled. Never throws; no device failure stops the frame.
     /// Where nothing changed since the last frame, its results stand, and nothing is done that grows with the scene.
     const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                              FrameReport& report);
+                              FrameReport& report, const ShadowBudget& budget = {});
 
     /// To be called after the list was submitted: `drawn` says whether it was executed without failure.
     void commit(const SceneSnapshot& scene, bool drawn);
@@ -38,8 +40,11 @@ public:
     const ShadowFrame& frame() const { return frame_; }
     /// Where measurements of drawing go, and what reports take them from.
     DrawTimes& draw_times() { return draw_times_; }
+    /// The same for a budget's model; shown nothing, it stands as it is.
+    CostClock& cost_clock() { return cost_clock_; }
 
     const MapStore& maps() const { return maps_; }
+    const DimLights& dim_lights() const { return dim_lights_; }
     const History& held_fits() const { return history_; }
 
 private:
@@ -58,6 +63,8 @@ private:
     MapSamplers samplers_;
     DrawTimes draw_times_;
     DimLights dim_lights_;
+    BudgetStage budget_;
+    CostClock cost_clock_;
     ShadowFrame frame_;
     History history_;
     CasterMotion motion_;

@@ -13,9 +13,10 @@ bool keep(T& last, const T& now) {
 
 }  // namespace
 
-bool StillFrame::unchanged(const SceneSnapshot& scene, bool shadows) {
+bool StillFrame::unchanged(const SceneSnapshot& scene, bool shadows, const ShadowBudget& budget) {
     bool same = keep(version_, scene.version) && scene.version != 0;
     same &= keep(shadows_, shadows);
+    same &= keep(budget_, budget);
     same &= keep(consumers_, scene.consumers);
     same &= keep(pictures_, scene.pictures);
     same &= keep(sampled_depths_, scene.sampled_depths);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/grant.h"
 
 namespace gnomon::shadow {
 
@@ -12,11 +13,12 @@ namespace gnomon::shadow {
 class StillFrame {
 public:
     /// Whether all that is given is as it was in the last call. Never of a scene whose version is 0: nobody counts it.
-    bool unchanged(const SceneSnapshot& scene, bool shadows);
+    bool unchanged(const SceneSnapshot& scene, bool shadows, const ShadowBudget& budget);
 
 private:
     std::uint64_t version_ = 0;
     bool shadows_ = false;
+    ShadowBudget budget_;
     std::vector<ConsumerItem> consumers_, pictures_;
     SampledDepths sampled_depths_;
     std::optional<double> exposure_;

@@ -15,6 +15,8 @@ std::uint64_t copied_bytes(const LightHistory& map) {
 
 }  // namespace
 
+std::uint64_t still_bytes(const LightHistory& map) { return copied_bytes(map) * gl::layer_count(map.desc); }
+
 bool pays_to_copy(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> still_casters,
                   std::uint64_t bytes) {
     std::uint64_t worth = 0;
@@ -32,14 +34,15 @@ void MapStore::release_still(StillMap& still) const {
     for (StillMap::Layer& layer : still.layers) layer.content = 0;
 }
 
-/// Nobody misses it if the device has no room: all is drawn, as without it.
+/// Nobody misses it if the device, or the budget, has no room: all is drawn, as without it.
 bool MapStore::provide_still(LightHistory& map) const {
     StillMap& still = map.still;
     if (still.texture) return true;
     if (frame_ < still.retry_frame) return false;
     gl::TextureDesc desc = map.desc;
     desc.label += ", still";
-    still.texture = device_.create_texture(desc, {}).handle;
+    const bool fits = limit_ == kNoLimit || bytes() + still_bytes(map) <= limit_;
+    if (fits) still.texture = device_.create_texture(desc, {}).handle;
     desc.label += " triangles";
     desc.format = kTriangleFormat;
     if (still.texture && map.triangles) still.triangles = device_.create_texture(desc, {}).handle;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 
 #include "engine/math/cone.h"
@@ -165,6 +166,10 @@ private:
     SweptVolume volume_;
 };
 
+bool holds(const math::Aabb& outer, const math::Aabb& inner) {
+    return glm::all(glm::lessThanEqual(outer.min, inner.min)) && glm::all(glm::lessThanEqual(inner.max, outer.max));
+}
+
 math::Overlap both(math::Overlap a, math::Overlap b) {
     if (a == math::Overlap::outside || b == math::Overlap::outside) return math::Overlap::outside;
     return a == b ? a : math::Overlap::partial;
@@ -179,8 +184,8 @@ SweptVolume swept_volume(const Beam& beam, std::span<const glm::dvec2> polygon, 
 
 math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box) {
     if (!math::overlaps(volume.bounds, box)) return math::Overlap::outside;
-    // What is inside all planes and the ball is inside the bounds, too, or does not matter.
-    const math::Overlap planes = math::overlap({volume.planes.data(), volume.plane_count}, box);
+    math::Overlap planes = math::overlap({volume.planes.data(), volume.plane_count}, box);
+    if (planes == math::Overlap::inside && !holds(volume.bounds, box)) planes = math::Overlap::partial;
     if (planes == math::Overlap::outside || !std::isfinite(volume.reach_m)) return planes;
     return both(planes, math::overlap_ball(volume.origin_ws_m, volume.reach_m, box));
 }

@@ -17,6 +17,7 @@
 #include "systems/shadow/filter_demand.h"
 #include "systems/shadow/history.h"
 #include "systems/shadow/kinds/splits.h"
+#include "systems/shadow/marks.h"
 #include "systems/shadow/moments.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
@@ -44,12 +45,21 @@ struct ShadowDemand {
     std::uint32_t resolution_px = 0;   // edge of the map or of a cube face: the fit takes fewer than most_px where they
     std::uint32_t most_px = 0;         // keep the light's word (contract.h)
     std::uint32_t view_count = 0;      // layers of the map
+    std::uint32_t most_views = 0;      // of a sun whose count of cascades is the fit's to choose; else 0
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
     bool perspective_sun = false;      // one view from an eye instead of cascades
     float cascade_blend = 0.0f;        // share of a cascade that fades into the next
     float warp = 0.0f;                 // a sun's maps are warped (kinds/directional_warped.h) by so much at most
     double near_m = 0.0, far_m = 0.0;  // asked for, from the light or a sun's eye; 0: fitted
+    std::uint32_t map_px = 0;          // of a budget, after the fit: edge of the map instead of resolution_px; 0: that
+    std::uint32_t refresh_frames = 1;  // of a budget (Grant)
+    bool over_budget = false;          // a budget gives it less than it asks for
 };
+
+/// Edge of the light's maps in this frame.
+inline std::uint32_t map_edge_px(const ShadowDemand& demand) {
+    return demand.map_px > 0 ? demand.map_px : demand.resolution_px;
+}
 
 /// Struct 3. Who is seen and lit (PSR), who can darken them (PSC). One per demand, same order.
 struct PotentialSets {
@@ -110,6 +120,7 @@ struct ShadowView {
     IndexRange casters;  // into ShadowFrame::view_caster_items: those that stand still before those that move, each by
                          // mesh, then by index; drawn in that order, since of equal depths the first drawn one stays
     std::uint32_t still_casters = 0;  // how many of them stand still
+    bool lit = false;  // nothing can darken what it serves: it is published, but neither drawn, cleared nor looked up
 };
 
 /// How a view that is drawn uses the store of still casters beside its light's map (still_map.h).
@@ -132,12 +143,14 @@ struct ShadowSlot {
     CubeRoute route = CubeRoute::six_passes;
     std::uint32_t size_px = 0;
     std::uint64_t content = 0;         // signature of what the layer is to hold (content_signature)
+    std::uint64_t placement = 0;       // the same without its casters
     std::uint64_t moment_content = 0;  // the same of its moments
     std::uint64_t still_content = 0;   // the same of its still casters alone
     StillUse still_use = StillUse::none;
     gl::TextureHandle still{}, still_triangles{};  // where those are kept, if used; {0} where the map has none
     bool reuse = false;
     bool convert = false;  // the moments have to be made anew
+    bool changed = false;  // the layer shows other than what it should: it is drawn, or has to wait (Grant)
 };
 
 inline constexpr std::uint32_t kMaxViews = 8;  // kMaxViews in shaders/shadow/light_block.glsl
@@ -201,13 +214,22 @@ struct ProgramRow {
     bool operator==(const ProgramRow&) const = default;
 };
 
+/// How a light is looked up while its own row's program cannot be had: one tap of the depths that it has in any case.
+struct PlainLookup {
+    ProgramRow row;  // no filter file: the light has no map
+    gl::TextureHandle map{};
+    gl::SamplerHandle sampler{};
+};
+
 /// Struct 6. One light as one consumer's lighting needs it: GPU-ready, with the textures to bind.
 struct LightingLight {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
     ProgramRow row;
     gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
     gl::SamplerHandle sampler{};
+    PlainLookup plain;
     gl::Rect screen{};  // pixels the light can reach; empty: none
+    float farthest_depth = 0.0f;  // of the picture: surfaces that it can reach have larger ones, and the sky never has
     LightRecord record;
 };
 struct LightingInputs {
@@ -228,8 +250,7 @@ struct SetScratch {
     struct Candidate {
         std::uint32_t item, consumer;
     };
-    std::vector<std::uint64_t> marks;  // a bit per instance
-    std::vector<std::uint64_t> receivers;
+    Marks marks, receivers;  // of instances
     std::vector<Candidate> candidates;
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, polygon, clipped;
@@ -262,6 +283,18 @@ inline void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) 
     frame.sets[demand].skip = reason;
     for (std::size_t v = 0; v < frame.views.size(); ++v)
         if (frame.views[v].demand == demand) frame.slots[v] = {};
+}
+
+/// Takes a light's prefiltered maps, whose programs cannot be had: its depths are read instead (PlainLookup).
+inline void drop_moments(ShadowFrame& frame, std::uint32_t demand) {
+    frame.demands[demand].note = Reason::filter_program_failed;
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (frame.views[v].demand != demand) continue;
+        ShadowSlot& slot = frame.slots[v];
+        slot.moments = slot.scratch = {};
+        slot.moment_target = slot.scratch_target = {};
+        slot.convert = false;
+    }
 }
 
 }  // namespace gnomon::shadow

@@ -12,7 +12,6 @@
 #include "systems/shadow/beams.h"
 #include "systems/shadow/caster_motion.h"
 #include "systems/shadow/kinds/warp.h"
-#include "systems/shadow/marks.h"
 #include "systems/shadow/sets.h"
 #include "systems/shadow/swept_volume.h"
 
@@ -54,7 +53,7 @@ public:
     }
 
     void run() {
-        clear_marks(scratch_.marks, scene_.instances.size());
+        scratch_.marks.clear(scene_.instances.size());
         if (view_.projection == ViewProjection::orthographic)
             look_along();
         else
@@ -75,7 +74,7 @@ private:
         visit_instances(
             scene_, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
-                if (casts_under(light_, scene_.instances[i])) mark(scratch_.marks, i);
+                if (casts_under(light_, scene_.instances[i])) scratch_.marks.add(i);
             });
     }
 
@@ -207,7 +206,7 @@ private:
 void append_by_mesh(const SceneSnapshot& scene, SetScratch& scratch, std::vector<std::uint32_t>& out) {
     scratch.items.clear();
     std::uint32_t meshes = 0;
-    for_each_mark(scratch.marks, [&](std::uint32_t i) {
+    scratch.marks.for_each([&](std::uint32_t i) {
         scratch.items.push_back(i);
         meshes = std::max(meshes, scene.instances[i].mesh + 1);
     });

@@ -15,7 +15,7 @@ TIMEOUT_S = 120
 
 
 class Picture:
-    """An 8-bit RGBA PNG, top row first."""
+    """An 8-bit RGBA or RGB PNG, top row first; rgba either way."""
 
     def __init__(self, path):
         with open(path, "rb") as file:
@@ -30,15 +30,24 @@ class Picture:
                 raise ValueError("bad checksum in chunk %r" % kind)
             if kind == b"IHDR":
                 self.width, self.height, depth, colour = struct.unpack(">IIBB", body[:10])
-                if (depth, colour) != (8, 6):
-                    raise ValueError("not 8-bit RGBA")
+                if depth != 8 or colour not in (2, 6):
+                    raise ValueError("neither 8-bit RGBA nor RGB")
+                self.channels = 4 if colour == 6 else 3
             if kind == b"IDAT":
                 packed += body
             at += 12 + length
-        self.rgba = self._unfilter(zlib.decompress(packed))
+        pixels = self._unfilter(zlib.decompress(packed))
+        self.rgba = pixels if self.channels == 4 else self._with_alpha(pixels)
+
+    @staticmethod
+    def _with_alpha(rgb):
+        rgba = bytearray(b"\xff" * (len(rgb) // 3 * 4))
+        for channel in range(3):
+            rgba[channel::4] = rgb[channel::3]
+        return bytes(rgba)
 
     def _unfilter(self, raw):
-        step, stride = 4, self.width * 4
+        step, stride = self.channels, self.width * self.channels
         out, above = bytearray(), bytearray(stride)
         for y in range(self.height):
             start = y * (stride + 1)

@@ -220,7 +220,8 @@ TEST_P(DebugBias, AConstantOneHasItsColourOnTheScale) {
               {.filter = ShadowFilter::hard,
                .resolution_px = 512,
                .bias = BiasMode::constant,
-               .bias_m = static_cast<float>(kBias_m)});
+               .bias_m = static_cast<float>(kBias_m),
+               .cascade_blend = 0.0f});  // into a cascade that nothing can darken it fades to the plain picture
     look_along();
     show_plain();
     show("bias", light_name());

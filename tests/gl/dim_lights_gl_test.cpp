@@ -59,6 +59,31 @@ TEST_F(DimLightsGl, NoPixelChangesByMoreThanAStepWhateverIsLeftOut) {
     EXPECT_GT(some, 3u);
 }
 
+TEST_F(DimLightsGl, AnExposureThatFollowsThePictureLeavesFaintLightsOut) {
+    settings.exposure_ev.reset();
+    settings.repeatable = true;
+    add_lights(1.0e-3f);
+    Light sun;
+    sun.kind = LightKind::directional;
+    sun.intensity = 1.0e3f;
+    lights.push_back(add_light(sun, {0, 5, 0}, {1, -2, -1}));
+    drawn(true);
+    EXPECT_EQ(left_out(), 0u) << "nothing is known yet";
+    const std::vector<std::uint8_t> with = drawn(true);
+    EXPECT_EQ(left_out(), 4u);
+    for (const LightReport& light : frame().report().lights)
+        if (light.kind == LightKind::point) {
+            EXPECT_GT(light.why.display_steps.value(), 0.0);
+        }
+    EXPECT_LE(most_apart(with, drawn(false)), 1);
+    // Ten thousand times as bright they are not faint enough any more.
+    for (const ecs::Entity light : lights)
+        if (world.get<Light>(light)->kind == LightKind::point)
+            world.patch<Light>(light, [](Light& l) { l.intensity *= 1.0e4f; });
+    for (int i = 0; i < 3; ++i) drawn(true);
+    EXPECT_EQ(left_out(), 0u);
+}
+
 TEST_F(DimLightsGl, ShadowsThatAreSeenChangeMore) {
     add_lights(64.0f);
     EXPECT_GT(most_apart(drawn(true), drawn(false, false)), 1) << "the comparison sees shadows";

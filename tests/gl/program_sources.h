@@ -121,8 +121,9 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             programs.push_back({std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : ""), vertex.value(),
                                 fragment.value()});
     }
-    if (const auto compute = gl::expand_shader(shader_files(), "shadow/depth_bins.comp", {}))
-        programs.push_back({.label = "view distances", .compute = compute.value()});
+    for (const char* file : {"shadow/depth_bins.comp", "lighting/exposure.comp"})
+        if (const auto compute = gl::expand_shader(shader_files(), file, {}))
+            programs.push_back({.label = file, .compute = compute.value()});
     const auto add_view = [&](std::string_view vertex_file, std::string_view fragment_file) {
         const auto vertex = gl::expand_shader(shader_files(), vertex_file, {});
         const auto fragment = gl::expand_shader(shader_files(), fragment_file, {});

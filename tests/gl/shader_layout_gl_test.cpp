@@ -170,6 +170,7 @@ std::vector<Block> expected_blocks() {
          {{"line_vertices[0].position_ca", offsetof(debug::LineVertex, position_ca_m)},
           {"line_vertices[0].colour", offsetof(debug::LineVertex, colour)}}},
         {GL_SHADER_STORAGE_BLOCK, "DepthBinBuffer", 0, sizeof(SampledDepths::pixels[0]), {{"depth_bins[0]", 0}}},
+        {GL_SHADER_STORAGE_BLOCK, "ExposureBuffer", 0, sizeof(float), {{"exposures[0]", 0}}},
     };
 }
 

@@ -18,7 +18,7 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     };
     const auto prefiltered =
         static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
-    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 4, kCompute = 1, kBlur = 1, kSources = 3;
+    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 4, kCompute = 2, kBlur = 1, kSources = 3;
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered);  // those by a pixel's footprint, too
     std::size_t views_programs = 1;  // lines
     for (const debug::ViewRow& view : debug::view_table()) {

@@ -2,7 +2,9 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_truth LABEL gl SOURCES
     soft_shadows_gl_test.cpp
+    sweep_gl_test.cpp
     truth_accuracy_gl_test.cpp
+    truth_contract_gl_test.cpp
     truth_controls_gl_test.cpp
     truth_edges_gl_test.cpp
     truth_planes_gl_test.cpp

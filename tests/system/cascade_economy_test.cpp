@@ -82,6 +82,31 @@ TEST_F(CascadeEconomy, AMapThatIsHeldIsDrawnAgainWhenACasterMoves) {
     }
 }
 
+TEST_F(CascadeEconomy, ACascadeThatNothingCanDarkenIsNeitherDrawnNorClearedNorLookedUp) {
+    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.cascades = 4; });
+    // Ground far behind the box, which none of it darkens.
+    for (const double z_m : {-40.0, -60.0, -80.0}) world.add_mesh(kPlane, {0, 0, z_m}, false);
+    step();
+    std::uint32_t lit = 0;
+    for (const ViewReport& view : frame->report().views_of(light("sun"))) {
+        if (view.reason != Reason::no_caster) continue;
+        ++lit;
+        EXPECT_EQ(view.state, LightState::skipped);
+        EXPECT_GT(view.why.receivers, 0u);
+        EXPECT_EQ(view.why.casters, 0u);
+    }
+    ASSERT_GT(lit, 0u);
+    EXPECT_THAT(depth_passes(), SizeIs(light("sun").views));
+    EXPECT_EQ(light("sun").clears, light("sun").views);
+    EXPECT_LE(light("sun").views + lit, 4u);
+    world.add_mesh(kBox, {0, 1, -60}, true);
+    step();
+    EXPECT_GT(depth_passes().size(), 0u) << "and with something there it is drawn";
+    std::uint32_t still_lit = 0;
+    for (const ViewReport& view : frame->report().views_of(light("sun"))) still_lit += view.reason == Reason::no_caster;
+    EXPECT_LT(still_lit, lit);
+}
+
 TEST_F(CascadeEconomy, EightCascadesHaveEightLayersAndNineAreReported) {
     world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.cascades = 8; });
     step();

@@ -1,3 +1,4 @@
+#include "systems/shadow/publish.h"
 #include "tests/system/frame_fixture.h"
 
 /// The whole first frame of the smallest shadowed scene, command by command.
@@ -54,8 +55,8 @@ std::vector<gl::Command> CommandListTest::expected() const {
     constexpr std::uint32_t kBoxFirst = 6, kBoxCount = 36, kPlaneCount = 6;
     const PipelineState depth_state{program("depth opaque"), CullMode::none, false, DepthTest::greater, true, true, Blend::off};
     const PipelineState surface{program("surface"), CullMode::back, false, DepthTest::greater, true, false, Blend::off};
-    const auto screen = [&](const char* label, Blend blend) {
-        return SetPipeline{{program(label), CullMode::none, false, DepthTest::off, false, false, blend}};
+    const auto screen = [&](const char* label, Blend blend, DepthTest test = DepthTest::off) {
+        return SetPipeline{{program(label), CullMode::none, false, test, false, false, blend}};
     };
     return {
         UpdateBuffer{instances, 0, 0, kInstances},
@@ -98,7 +99,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BeginTimer{1},
         BeginPass{target("light sum"), picture, false, 0.0f, false, {}},
         SetScissor{picture},
-        screen("light LIGHT_SPOT shadow/filters/hardware_2x2.glsl", Blend::add),
+        screen("light LIGHT_SPOT shadow/filters/hardware_2x2.glsl", Blend::add, DepthTest::less),
         BindUniforms{0, uniforms, 0, 160},
         BindTexture{0, depth, point},
         BindTexture{1, texture("surface colour"), point},
@@ -106,7 +107,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BindTexture{3, texture("surface material"), point},
         BindUniforms{1, uniforms, 3 * kAlign, kLight},
         BindTexture{4, texture("shadow map lamp"), linear},
-        DrawTriangle{},
+        DrawTriangle{shadow::farthest_depth(frame->snapshot().lights[0], frame->snapshot().consumers[0])},
         EndPass{},
         EndTimer{1},
         EndGroup{},

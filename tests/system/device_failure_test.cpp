@@ -36,6 +36,7 @@ public:
     MOCK_METHOD(gl::SubmitResult, submit, (const gl::CommandList&), (override));
 
     const gl::DeviceInfo& info() const override { return recording.info(); }
+    gl::ProgramCounts program_counts() const override { return recording.program_counts(); }
     void destroy(gl::TextureHandle h) override { recording.destroy(h); }
     void destroy(gl::SamplerHandle h) override { recording.destroy(h); }
     void destroy(gl::BufferHandle h) override { recording.destroy(h); }
@@ -195,10 +196,26 @@ TEST_P(DeviceFailure, AMaskedDepthShaderThatDoesNotCompileLeavesOnlyItsLightsLit
     end_fault();
 }
 
-TEST_P(DeviceFailure, ALightingShaderThatDoesNotCompileLeavesTheLightLit) {
+TEST_P(DeviceFailure, AFilterThatDoesNotCompileLeavesOneTapOfTheSameMap) {
+    EXPECT_CALL(device, create_program).Times(::testing::AnyNumber());
+    EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, HasSubstr("filters/hardware_2x2"))))
+        .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::compile_failed));
+    for (int i = 0; i < 3; ++i) {  // asked for once, not in every frame
+        step();
+        EXPECT_EQ(report().state, LightState::degraded);
+        EXPECT_STREQ(reason_code(report().reason), "filter_program_failed");
+        EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/hard.glsl")));
+        EXPECT_GT(report().views, 0u);
+    }
+    end_fault();
+    EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/hardware_2x2.glsl")));
+}
+
+TEST_P(DeviceFailure, ALightingShaderThatDoesNotCompileInAnyFormLeavesTheLightLit) {
     EXPECT_CALL(device, create_program).Times(::testing::AnyNumber());
     EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, HasSubstr("filters"))))
-        .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::compile_failed));
+        .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::compile_failed))
+        .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::link_failed));
     for (int i = 0; i < 3; ++i) {
         step();
         expect_lit(Reason::lighting_program_failed);

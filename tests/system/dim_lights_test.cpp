@@ -1,5 +1,10 @@
 #include "systems/shadow/dim_lights.h"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "systems/lighting/lighting_system.h"
 #include "tests/system/frame_fixture.h"
 
 /// Lights that are too dim for their shadows to be seen, at a known exposure.
@@ -121,6 +126,155 @@ TEST_F(DimLightsTest, AGlossyReceiverOrOneThatTouchesItNeedsTheShadow) {
     world.registry.patch<Transform>(lamp, [](Transform& t) { t.translation_m = {0, 1.2, 0}; });
     step();
     EXPECT_FALSE(left_out("lamp")) << "it stands in the box";
+}
+
+/// The exposure follows from the picture, and comes back from the device.
+class MeasuredExposure : public DimLightsTest {
+protected:
+    void SetUp() override {
+        DimLightsTest::SetUp();
+        settings.repeatable = true;
+    }
+    /// What the device will read from now on.
+    void answer(double exposure) {
+        const float scale = static_cast<float>(exposure);
+        const auto bytes = std::as_bytes(std::span(&scale, 1));
+        device.script_readback("exposure to read", {bytes.begin(), bytes.end()});
+    }
+    /// At which `candela` add so many steps.
+    double exposure_of(double steps, float candela) {
+        settings.exposure_ev = 10.0f;
+        return steps / 0.1 * static_cast<double>(lighting::exposure_scale(10.0f)) *
+               static_cast<double>(candela_of(0.1) / candela);
+    }
+    void follow_the_picture() { settings.exposure_ev.reset(); }
+    template <class Command>
+    std::size_t recorded() const {
+        const auto& all = frame->commands().commands;
+        return static_cast<std::size_t>(std::count_if(
+            all.begin(), all.end(), [](const gl::Command& c) { return std::holds_alternative<Command>(c); }));
+    }
+    static constexpr float kBright_cd = 1.0e4f, kFaint_cd = 1.0f;
+};
+
+TEST_F(MeasuredExposure, CostsNothingWhereNoLightIsFaintBesideAnother) {
+    follow_the_picture();
+    add_lamp("one", kFaint_cd);
+    for (int i = 0; i < 2; ++i) step();
+    add_lamp("other", 1000.0f * kFaint_cd);
+    for (int i = 0; i < 2; ++i) {
+        step();
+        EXPECT_EQ(recorded<gl::Dispatch>() + recorded<gl::CopyBuffer>(), 0u);
+    }
+    for (const gl::ResourceCall& call : device.resource_calls()) {
+        EXPECT_NE(call.kind, gl::ResourceCall::Kind::read_buffer);
+        EXPECT_NE(call.label.rfind("exposure", 0), 0u) << call.label;
+    }
+}
+
+TEST_F(MeasuredExposure, LeavesAFaintLightOutOnceItIsKnown) {
+    answer(exposure_of(0.09, kFaint_cd));
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    step();
+    EXPECT_FALSE(left_out("faint"));
+    EXPECT_FALSE(light("faint").why.display_steps) << "not known yet";
+    EXPECT_EQ(recorded<gl::Dispatch>(), 1u);
+    EXPECT_EQ(recorded<gl::CopyBuffer>(), 1u);
+    step();
+    EXPECT_TRUE(left_out("faint"));
+    EXPECT_FALSE(left_out("bright"));
+    const double most = 0.09 * lighting::ExposureMeter::kMostGrowth;
+    EXPECT_GE(light("faint").why.display_steps.value(), 0.999 * most);
+    EXPECT_LE(light("faint").why.display_steps.value(), 1.2 * most) << "rounded up to a quarter stop";
+    for (int i = 0; i < 3; ++i) step();
+    EXPECT_TRUE(left_out("faint"));
+}
+
+TEST_F(MeasuredExposure, IsReckonedWithTwoStopsMore) {
+    answer(exposure_of(0.13, kFaint_cd));  // four times that is more than half a step
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    for (int i = 0; i < 4; ++i) step();
+    EXPECT_FALSE(left_out("faint"));
+    EXPECT_TRUE(light("faint").why.display_steps.has_value());
+}
+
+TEST_F(MeasuredExposure, ThatShowsMoreBringsTheShadowBack) {
+    const double dark = exposure_of(0.02, kFaint_cd);
+    answer(dark);
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    for (int i = 0; i < 3; ++i) step();
+    EXPECT_TRUE(left_out("faint"));
+    answer(100.0 * dark);
+    for (int i = 0; i < 2; ++i) step();
+    EXPECT_FALSE(left_out("faint"));
+}
+
+TEST_F(MeasuredExposure, ThatTremblesLeavesTheFrameStill) {
+    const double exposure = exposure_of(0.02, kFaint_cd);
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    answer(exposure);
+    for (std::uint64_t i = 0; i < 2 * shadow::MapStore::kHoldFrames; ++i) step();
+    EXPECT_TRUE(frame->report().still);
+    for (const double factor : {0.8, 1.0, 0.7, 0.95}) {
+        answer(factor * exposure);
+        for (int i = 0; i < 2; ++i) {
+            step();
+            EXPECT_TRUE(frame->report().still) << factor;
+            EXPECT_TRUE(left_out("faint"));
+        }
+    }
+}
+
+TEST_F(MeasuredExposure, IsNotWaitedForAndNoMoreThanThreeAreUnderWay) {
+    answer(exposure_of(0.02, kFaint_cd));
+    settings.repeatable = false;
+    device.delay_readbacks(5);
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    std::size_t copies = 0;
+    for (int i = 0; i < 6; ++i) {
+        step();
+        EXPECT_FALSE(left_out("faint")) << i;
+        copies += recorded<gl::CopyBuffer>();
+    }
+    EXPECT_EQ(copies, 3u);
+    step();
+    EXPECT_TRUE(left_out("faint"));
+}
+
+TEST_F(MeasuredExposure, ThatIsLostOrOfAnotherCameraOrAbsurdLeavesNoLightOut) {
+    const double exposure = exposure_of(0.02, kFaint_cd);
+    answer(exposure);
+    follow_the_picture();
+    add_lamp("bright", kBright_cd);
+    add_lamp("faint", kFaint_cd);
+    for (int i = 0; i < 3; ++i) step();
+    ASSERT_TRUE(left_out("faint"));
+    device.fail_call(device.calls(), gl::Failure::out_of_memory);
+    step();
+    EXPECT_FALSE(left_out("faint")) << "lost";
+    step();
+    EXPECT_TRUE(left_out("faint"));
+    world.registry.destroy(stage.camera);
+    world.add_camera({0, 4, 8.5}, {0, 0, 0});
+    step();
+    EXPECT_FALSE(left_out("faint")) << "of another camera";
+    step();
+    EXPECT_TRUE(left_out("faint"));
+    for (const double absurd : {0.0, -1.0, HUGE_VAL, std::nan("")}) {
+        answer(absurd);
+        for (int i = 0; i < 2; ++i) step();
+        EXPECT_FALSE(left_out("faint")) << absurd;
+    }
 }
 
 TEST(MostReflected, HoldsTheTermsOfTheShader) {

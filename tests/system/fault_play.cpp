@@ -30,6 +30,7 @@ bool is_loss(Reason reason) {
         case Reason::target_incomplete:
         case Reason::depth_program_failed:
         case Reason::lighting_program_failed:
+        case Reason::filter_program_failed:
         case Reason::buffer_failed:
         case Reason::sampler_failed:
         case Reason::depths_unread:

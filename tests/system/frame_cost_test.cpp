@@ -47,6 +47,7 @@ TEST_F(FrameCost, TimesAreOfThisFrameAlone) {
 class SilentDevice final : public gl::Device {
 public:
     const gl::DeviceInfo& info() const override { return inner_.info(); }
+    gl::ProgramCounts program_counts() const override { return inner_.program_counts(); }
     gl::Created<gl::TextureHandle> create_texture(const gl::TextureDesc& d, std::span<const std::byte> b) override { return inner_.create_texture(d, b); }
     gl::Created<gl::SamplerHandle> create_sampler(const gl::SamplerDesc& d) override { return inner_.create_sampler(d); }
     gl::Created<gl::BufferHandle> create_buffer(const gl::BufferDesc& d, std::span<const std::byte> b) override { return inner_.create_buffer(d, b); }
@@ -149,6 +150,13 @@ TEST_F(FrameCost, StillFramesAllocateNothing) {
 TEST_F(FrameCost, FramesWithOneMoverAllocateNothing) {
     const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
     EXPECT_EQ(allocations_when_warm(kinds, settings, box_moves, test_library(), 2 * kWarm), 0u);
+}
+
+TEST_F(FrameCost, FramesWithinABudgetAllocateNothing) {
+    const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point, LightKind::spot};
+    settings.shadow_budget = {1u << 20, 0.02f};
+    for (const auto& edit : {std::function<void(TestWorld&, const TestWorld::Stage&, int)>(still), {box_moves}, {moving}})
+        EXPECT_EQ(allocations_when_warm(kinds, settings, edit, test_library(), 2 * kWarm), 0u);
 }
 
 }  // namespace

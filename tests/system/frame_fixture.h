@@ -65,7 +65,8 @@ protected:
     assets::MeshLibrary library = test_library();
     TestWorld world;
     std::unique_ptr<Frame> frame;
-    FrameSettings settings{{640, 360}, {}, true, false};
+    static inline const FrameSettings kSettings{{640, 360}, {}, true, false};
+    FrameSettings settings = kSettings;
 };
 
 }  // namespace gnomon

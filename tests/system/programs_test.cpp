@@ -1,3 +1,6 @@
+#include <array>
+
+#include "systems/retry.h"
 #include "tests/system/frame_fixture.h"
 
 /// Programs exist only for what the scene uses.
@@ -125,6 +128,63 @@ TEST_F(Programs, BlendedRowsAreMadeOnlyWhereABlendedSurfaceIsSeen) {
     step();
     EXPECT_THAT(made(), Contains("blended base"));
     EXPECT_THAT(made(), Contains("blended light LIGHT_SPOT shadow/filters/hardware_2x2.glsl"));
+}
+
+TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
+    world.add_stage();
+    constexpr std::array kFilters = {ShadowFilter::pcf_grid, ShadowFilter::poisson, ShadowFilter::pcss};
+    for (std::size_t i = 0; i < kFilters.size(); ++i) {
+        const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp" + std::to_string(i));
+        world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = kFilters[i]; });
+    }
+    settings.programs_per_frame = 1;
+    const auto waiting = [&] {
+        std::vector<std::string> names;
+        for (const LightReport& l : frame->report().lights) {
+            if (l.reason != Reason::filter_program_waits) continue;
+            EXPECT_EQ(l.state, LightState::degraded);
+            EXPECT_EQ(l.views, 1u);
+            names.push_back(l.name);
+        }
+        return names;
+    };
+    step();
+    EXPECT_THAT(waiting(), ElementsAre("lamp1", "lamp2"));
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/hard.glsl")) << "what stands in never waits";
+    const std::size_t first = made().size();
+    step();
+    EXPECT_THAT(waiting(), ElementsAre("lamp2"));
+    step();
+    EXPECT_THAT(waiting(), ElementsAre());
+    EXPECT_EQ(made().size(), first + 2);
+    step();
+    EXPECT_EQ(made().size(), first + 2);
+}
+
+TEST_F(Programs, ThatMakeMomentsAndDoNotCompileLeaveOneTapOfTheDepths) {
+    world.add_stage();
+    const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::vsm; });
+    device.fail_label("moments ", gl::Failure::compile_failed);
+    for (int i = 0; i < 3; ++i) {
+        step();
+        EXPECT_EQ(light("lamp").state, LightState::degraded);
+        EXPECT_STREQ(reason_code(light("lamp").reason), "filter_program_failed");
+        EXPECT_EQ(light("lamp").views, 1u);
+        EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/hard.glsl"));
+        EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/vsm.glsl")));
+        const auto& all = frame->commands().commands;
+        const auto bind = std::find_if(all.begin(), all.end(), [](const gl::Command& c) {
+            const auto* texture = std::get_if<gl::BindTexture>(&c);
+            return texture && texture->unit == 4;
+        });
+        ASSERT_NE(bind, all.end());
+        EXPECT_EQ(device.texture(std::get<gl::BindTexture>(*bind).texture)->label, "shadow map lamp");
+    }
+    device.stop_failing();
+    for (std::uint64_t i = 0; i <= Retry::kFrames; ++i) step();
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/vsm.glsl"));
+    EXPECT_TRUE(light("lamp").state != LightState::degraded) << reason_code(light("lamp").reason);
 }
 
 }  // namespace

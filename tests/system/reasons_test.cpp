@@ -98,7 +98,7 @@ protected:
         frame.reset();
         world = {};
         device.stop_failing();
-        settings.exposure_ev.reset();
+        settings = kSettings;
         calls_before = device.calls();
         start();
     }
@@ -123,6 +123,10 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
          })},
         {Reason::content_unchanged, {.frames = 2}},
         {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
+        {Reason::over_budget, changed([this] { settings.shadow_budget.bytes = 1; })},
+        {Reason::budget_shrunk,
+         {LightKind::spot, [](LightShadow& s) { s.resolution_px = 128; },
+          [this] { settings.shadow_budget.bytes = 4 * 64 * 64; }}},
         {Reason::map_shrunk, refused(Kind::create_texture, "shadow map lamp", gl::Failure::out_of_memory)},
         {Reason::map_allocation_failed,
          changed([this] { device.fail_label("shadow map", gl::Failure::out_of_memory); })},
@@ -130,6 +134,9 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
         {Reason::depth_program_failed, refused(Kind::create_program, "depth opaque", gl::Failure::compile_failed)},
         {Reason::lighting_program_failed,
          changed([this] { device.fail_label("filters", gl::Failure::compile_failed); })},
+        {Reason::filter_program_failed,
+         changed([this] { device.fail_label("filters/hardware_2x2", gl::Failure::compile_failed); })},
+        {Reason::filter_program_waits, changed([this] { settings.programs_per_frame = 0; })},
         {Reason::buffer_failed, refused(Kind::create_buffer, "shadow draw items", gl::Failure::out_of_memory)},
         {Reason::sampler_failed, refused(Kind::create_sampler, "shadow compare linear", gl::Failure::out_of_memory)},
         {Reason::projection_unsupported, of_spot([](LightShadow& s) { s.projection = LightProjection::orthographic; })},

@@ -72,6 +72,28 @@ TEST_F(StillFrames, FrozenCamerasCountAsTheCamerasThatTheyAre) {
     EXPECT_FALSE(step().still) << "the fits go where the picture is";
 }
 
+/// An engine of its own numbers its lights as it likes; some have no number at all.
+TEST_F(StillFrames, TakeLightsOfAnyNumber) {
+    step();
+    SceneSnapshot scene = frame->snapshot();
+    ASSERT_GT(scene.lights.size(), 1u);
+    scene.lights[0].entity = {};
+    scene.lights[1].entity = {0x7fffffffu, 3};
+    auto gpu = GpuScene::create(device, library);
+    ASSERT_TRUE(gpu);
+    shadow::ShadowSystem system(device);
+    gl::CommandList list;
+    FrameReport report;
+    gpu.value().update(scene, list);
+    system.update(scene, gpu.value(), true, list, report);
+    system.commit(scene, true);
+    for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+        EXPECT_GT(report.lights[i].views, 0u);
+        EXPECT_TRUE(system.maps().find(scene.lights[i].entity));
+    }
+    EXPECT_FALSE(system.maps().find({0x7fffffffu, 2}));
+}
+
 /// The system alone, on a scene that can be taken away from it.
 TEST_F(StillFrames, LookAtNoInstance) {
     step();

@@ -125,6 +125,9 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
 }
 #endif
 
+// Whether it has to be looked up; else it is lit.
+bool may_be_dark(ShadowPoint point) { return point.covered && point.layer >= 0.0; }
+
 #ifdef SHADOW_SHOWN
 // Which of the light's maps serves the point; -1: none.
 int shadow_layer(ShadowPoint point) { return point.covered ? int(point.layer) : -1; }

@@ -42,6 +42,8 @@ struct ShadowPoint {
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     vec2 source_texel;    // see shadow/source.glsl
     vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
+#endif
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     vec2 tangent;         // of its direction along the face's axes
 #endif
 #ifdef SHADOW_MANUAL_BIAS
@@ -128,12 +130,11 @@ float seam_texel(float reach_texel) { return reach_texel; }
 
 #ifdef SHADOW_FOOTPRINT
 #include "shadow/moments/footprint.glsl"
-// From a step in the world to one of the direction of length 1 along the face's axis.
-vec3 step_in_face(ShadowPoint point, mat3 axes, vec2 tangent, vec3 step_ws) {
-    vec3 step_m = turned_back(step_ws) * axes;
-    vec2 step_tan = (vec2(step_m.x, step_m.y) + tangent * step_m.z) / largest(point.position);
-    float texel_tan = light.views[0].axis_u.w;
-    return axes * vec3(shortened(step_tan / texel_tan) * texel_tan, 0.0);
+// From a step in the world to one in texels of the face.
+vec2 step_in_face(ShadowPoint point, vec3 step_ws) {
+    vec3 step_m = turned_back(step_ws) * face_axes(point.position);
+    vec2 step_tan = (vec2(step_m.x, step_m.y) + point.tangent * step_m.z) / largest(point.position);
+    return shortened(step_tan / light.views[0].axis_u.w);
 }
 #endif
 
@@ -148,17 +149,12 @@ vec2 kept_tangent(vec2 tangent, mat3 axes, float texels) {
     return tangent;
 }
 
-vec2 tangent_in_face(ShadowPoint point, mat3 axes) {
-    vec3 in_face = point.position * axes;
-    return vec2(in_face.x, in_face.y) / largest(point.position);
-}
-
 #ifdef SHADOW_FOOTPRINT
 // So many texels beside the point, of one level of its mipmaps or between two.
 vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {
     mat3 axes = face_axes(point.position);
     vec2 offset = offset_texel * (2.0 / float(textureSize(shadow_map, 0).x));
-    vec2 tangent = kept_tangent(tangent_in_face(point, axes) + offset, axes, exp2(ceil(level)));
+    vec2 tangent = kept_tangent(point.tangent + offset, axes, exp2(ceil(level)));
     return textureLod(shadow_map, axes * vec3(tangent, -1.0), level);
 }
 
@@ -170,17 +166,30 @@ ShadowPoint before_plane(ShadowPoint point, float reach_texel) {
 }
 #endif
 
+#ifdef SHADOW_FOOTPRINT
+// Taps along the longer side of the pixel's footprint, as wide as its shorter one: a sampler would leave the face as it pleases
+// and not know which faces were drawn. Most pixels need one.
+vec4 shadow_moments(ShadowPoint point) {
+    vec2 right = step_in_face(point, step_right(point.position_ca, point.normal));
+    vec2 up = step_in_face(point, step_up(point.position_ca, point.normal));
+    vec2 longer = length(right) > length(up) ? right : up;
+    float longer_texel = length(longer), shorter_texel = max(min(length(right), length(up)), 1.0);
+    int taps = int(clamp(ceil(longer_texel / shorter_texel), 1.0, light.moment_sampling.z));
+    float most_level = float(textureQueryLevels(shadow_map) - 1);
+    float level = clamp(log2(longer_texel / float(taps)), 0.0, most_level);
+    vec4 sum = vec4(0.0);
+    int i = 0;
+    do {
+        sum += shadow_moments_at(point, longer * ((float(i) + 0.5) / float(taps) - 0.5), level);
+    } while (++i < taps);
+    return sum / float(taps);
+}
+#else
 vec4 shadow_moments(ShadowPoint point) {
     mat3 axes = face_axes(point.position);
-    vec2 tangent = kept_tangent(tangent_in_face(point, axes), axes, 1.0);
-#ifdef SHADOW_FOOTPRINT
-    vec3 right = step_in_face(point, axes, tangent, step_right(point.position_ca, point.normal));
-    vec3 up = step_in_face(point, axes, tangent, step_up(point.position_ca, point.normal));
-    return textureGrad(shadow_map, axes * vec3(tangent, -1.0), right, up);
-#else
-    return textureLod(shadow_map, axes * vec3(tangent, -1.0), 0.0);
-#endif
+    return textureLod(shadow_map, axes * vec3(kept_tangent(point.tangent, axes, 1.0), -1.0), 0.0);
 }
+#endif
 
 // How much longer the way from the light is than its part along the face's axis; the least of that within reach.
 float shadow_stretch(ShadowPoint point) {
@@ -217,6 +226,8 @@ float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     return texture(shadow_map, vec4(direction, clamp(depth + point.bias_depth, 0.0, 1.0)));
 }
 #endif
+
+bool may_be_dark(ShadowPoint point) { return point.covered; }
 
 #ifdef SHADOW_SHOWN
 // The face that serves the point, in OpenGL's order; -1: none.
@@ -286,11 +297,11 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
 #ifdef SHADOW_SHOWN
     point.facts = facts_perspective(view, bias, length(position_la), z_m);
 #endif
+#if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
+    vec3 in_face = point.position * face_axes(point.position);
+    point.tangent = vec2(in_face.x, in_face.y) / largest(point.position);
+#endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
-    map_axes = face_axes(point.position);
-    z_m = largest(point.position);
-    vec3 in_face = point.position * map_axes;
-    point.tangent = vec2(in_face.x, in_face.y) / z_m;
     point.source_texel = source_texel;
 #endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "systems/extract/scene_tree.h"
 #include "systems/shadow/kinds/cascade_fit.h"
 #include "systems/shadow/kinds/gliding_ends.h"
 #include "systems/shadow/kinds/held_fit.h"
@@ -21,12 +22,26 @@ double view_distance(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
     return -glm::dot(p_ws - consumer.position_ws_m, consumer.rotation_ws[2]);
 }
 
+/// Of all that can be seen and receives.
+math::Aabb bounds_of_receivers(const SceneSnapshot& scene) {
+    const auto least = [&](auto&& side) {
+        return lowest_of_instances(scene, side, [&](std::uint32_t i, double lowest) {
+            const InstanceItem& item = scene.instances[i];
+            return item.visible && item.receives ? std::min(lowest, side(item.bounds_ws)) : lowest;
+        });
+    };
+    math::Aabb all;
+    for (int axis = 0; axis < 3; ++axis) {
+        all.min[axis] = least([axis](const math::Aabb& box) { return box.min[axis]; });
+        all.max[axis] = -least([axis](const math::Aabb& box) { return -box.max[axis]; });
+    }
+    return all;
+}
+
 /// Neither turning nor walking among receivers may change it: as far as receivers lie apart; seen from outside, as far
 /// as the farthest one.
 DepthSpan stable_span(const SceneSnapshot& scene, const ConsumerItem& consumer) {
-    math::Aabb all;
-    for (const InstanceItem& item : scene.instances)
-        if (item.visible && item.receives) all = math::merged(all, item.bounds_ws);
+    const math::Aabb all = bounds_of_receivers(scene);
     if (math::is_empty(all)) return {consumer.near_m, 0.0};
     const double across_m = 2.0 * glm::length(math::half_extent(all));
     return {consumer.near_m, std::max(across_m, math::farthest_distance(all, consumer.position_ws_m))};

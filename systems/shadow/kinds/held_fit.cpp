@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/shadow/kinds/steps.h"
+#include "systems/shadow/filter_table.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -34,11 +34,19 @@ Side hold(const Side& needed, const Side& full, bool used, const Side& held) {
 
 }  // namespace
 
-PerspectiveRange held_range(double nearest_m, double farthest_m, const HeldView& held, HeldView& next) {
+bool is_near_free(const ShadowDemand& demand) {
+    return demand.depth_format == DepthFormat::d32f && filter_row(demand.filter).storage != FilterStorage::moments &&
+           !needs_distances(demand.filtering) && !(demand.filtering.spread_m > 0.0f);
+}
+
+PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
+                            HeldView& next) {
     const PerspectiveRange tight = perspective_range(nearest_m, farthest_m);
     if (!(tight.near_m < tight.far_m) || !std::isfinite(tight.far_m)) return tight;
     next.far_step = hold_above(tight.far_m, held.used, held.far_step, kHoldSteps);
-    next.near_step = hold_below(tight.near_m, held.used, held.near_step, kHoldSteps);
+    next.near_step =
+        hold_below(tight.near_m, held.used, held.near_step, near_is_free ? kHoldFreeNearSteps : kHoldSteps);
+    if (near_is_free && held.used && next.near_step < held.near_step) next.near_step -= kFreeNearHeadroom;
     return {step_size(next.near_step), step_size(next.far_step)};
 }
 

@@ -65,8 +65,8 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     }
     if (!any) return true;
     HeldView next = input.held.views[0];
-    const PerspectiveRange range =
-        overridden(input.demand, held_range(nearest_m, farthest_m, input.held.views[0], next));
+    const PerspectiveRange range = overridden(
+        input.demand, held_range(nearest_m, farthest_m, is_near_free(input.demand), input.held.views[0], next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[0] = next;

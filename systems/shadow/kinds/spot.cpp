@@ -40,8 +40,8 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     const auto reach = static_cast<double>(input.reach_texel);
     include_casters(input, beam, has_size ? with_border(crop, input.demand.resolution_px, reach) : crop, content);
     if (!content.casters) return true;
-    const PerspectiveRange range =
-        overridden(input.demand, held_range(content.nearest_m, content.farthest_m, held, next));
+    const PerspectiveRange range = overridden(
+        input.demand, held_range(content.nearest_m, content.farthest_m, is_near_free(input.demand), held, next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[opening.held_as] = next;

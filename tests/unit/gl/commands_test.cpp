@@ -86,6 +86,8 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            DrawMeshes{0, 3, 1, 0, 1},
                                            DrawMeshes{0, 3, -1, 0, 1},
                                            DrawTriangle{},
+                                           DrawTriangle{0.0f},
+                                           DrawTriangle{0.5f},
                                            DrawLines{6},
                                            Dispatch{{1}, 2, 3},
                                            Dispatch{{1}, 3, 2},

@@ -212,7 +212,11 @@ TEST_F(RecordingMisuse, BlitsLieInTheirTargetsAndNeedColour) {
 TEST_F(RecordingMisuse, NoTextureIsBoundWhileThePassDrawsIntoIt) {
     EXPECT_THAT(in_draw({BindTexture{3, other, sampler}}), IsEmpty());
     EXPECT_THAT(in_draw({BindTexture{3, colour, sampler}}), ElementsAre(Misuse::feedback_loop));
-    EXPECT_THAT(in_draw({BindTexture{3, depth, sampler}}), ElementsAre(Misuse::feedback_loop));
+    const SetPipeline writes{{.program = program, .depth_test = DepthTest::greater, .depth_write = true}};
+    const SetPipeline tests{{.program = program, .depth_test = DepthTest::greater}};
+    EXPECT_THAT(in_draw({writes, BindTexture{3, depth, sampler}}), ElementsAre(Misuse::feedback_loop));
+    EXPECT_THAT(in_draw({tests, BindTexture{3, depth, sampler}}), IsEmpty()) << "depth that is tested alone";
+    EXPECT_THAT(in_draw({tests, BindTexture{3, colour, sampler}}), ElementsAre(Misuse::feedback_loop));
     EXPECT_THAT(in_draw({BindTexture{3, colour, sampler}, BindTexture{3, {}, {}}}), IsEmpty());
     EXPECT_THAT(of({pass(), BindTexture{3, colour, sampler}, EndPass{}}), IsEmpty()) << "nothing was drawn";
 }
@@ -221,7 +225,7 @@ TEST_F(RecordingMisuse, AnyLayerOfAnAttachedTextureIsFeedback) {
     const auto maps = device.create_texture({.kind = TextureKind::array, .format = Format::d32f, .layers = 2}, {});
     const auto layer = device.create_target({.label = "layer", .depth = {maps.handle, 1}});
     const BeginPass into_layer{.target = layer.handle, .viewport = {0, 0, 1, 1}};
-    const SetPipeline set{{.program = program}};
+    const SetPipeline set{{.program = program, .depth_write = true}};
     EXPECT_THAT(of({into_layer, set, BindTexture{0, maps.handle, {}}, DrawTriangle{}, EndPass{}}),
                 ElementsAre(Misuse::feedback_loop));
     EXPECT_THAT(of({pass(), set, BindTexture{0, maps.handle, {}}, DrawTriangle{}, EndPass{}}), IsEmpty());

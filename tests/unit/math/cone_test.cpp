@@ -28,22 +28,21 @@ bool contains(const Cone& cone, const glm::dvec3& p) {
     return glm::dot(to, cone.axis) > glm::length(to) * std::cos(cone.half_angle_rad);
 }
 
-TEST_F(ConeTest, ABoxWithAPointInTheConeIsNeverOutsideNorOneWithAPointOutsideInside) {
-    int outside = 0, inside = 0;
+TEST_F(ConeTest, ABoxWithAPointInTheConeIsNeverOutsideNorIsOneOfWhichAPartIsNot) {
+    int outside = 0;
     for (int round = 0; round < 20000; ++round) {
         const Cone cone{vector(5.0), glm::normalize(vector(1.0)), number(0.01, 1.5707)};
         const Aabb b = box();
-        const Overlap o = overlap(cone, b);
-        outside += o == Overlap::outside;
-        inside += o == Overlap::inside;
+        const auto planes = planes_around(cone);
+        if (overlap(planes, b) != Overlap::outside) continue;
+        ++outside;
         for (int k = 0; k < 20; ++k) {
-            const bool in = contains(cone, point(b));
-            EXPECT_FALSE(in && o == Overlap::outside);
-            EXPECT_FALSE(!in && o == Overlap::inside);
+            const glm::dvec3 p = point(b), q = point(b);
+            EXPECT_FALSE(contains(cone, p));
+            EXPECT_EQ(overlap(planes, {glm::min(p, q), glm::max(p, q)}), Overlap::outside);
         }
     }
     EXPECT_GT(outside, 3000);
-    EXPECT_GT(inside, 100);
 }
 
 TEST_F(ConeTest, FewBoxesOutsideAreTakenForTouching) {
@@ -51,7 +50,7 @@ TEST_F(ConeTest, FewBoxesOutsideAreTakenForTouching) {
     for (int round = 0; round < 3000; ++round) {
         const Cone cone{vector(5.0), glm::normalize(vector(1.0)), number(0.05, 1.5)};
         const Aabb b = box();
-        if (overlap(cone, b) == Overlap::outside) continue;
+        if (overlap(planes_around(cone), b) == Overlap::outside) continue;
         ++touching;
         bool any = false;
         for (int k = 0; k < 2000 && !any; ++k) any = contains(cone, point(b));
@@ -76,7 +75,7 @@ TEST_F(ConeTest, ABallIsToldFromABoxToo) {
 }
 
 TEST_F(ConeTest, AnEmptyBoxIsOutside) {
-    EXPECT_EQ(overlap(Cone{{}, {0, 0, -1}, 1.0}, Aabb{}), Overlap::outside);
+    EXPECT_EQ(overlap(planes_around({{}, {0, 0, -1}, 1.0}), Aabb{}), Overlap::outside);
     EXPECT_EQ(overlap_ball({}, 1.0, Aabb{}), Overlap::outside);
 }
 

@@ -43,12 +43,40 @@ TEST(CommandLine, EveryFlagIsUnderstood) {
     EXPECT_EQ(l.settings, (std::vector<std::string>{"filter=hard", "bias=0.5"}));
 }
 
+TEST(CommandLine, ABudgetIsANumberAboveNothing) {
+    const CommandLine l = parse({"--shadow-bytes", "67108864", "--shadow-ms=4.5"}).value();
+    EXPECT_EQ(l.shadow_budget, (shadow::ShadowBudget{64u << 20, 4.5f}));
+    EXPECT_EQ(parse({}).value().shadow_budget, shadow::ShadowBudget{});
+    for (const char* bad : {"0", "-1", "", "64M", "1e6", "99999999999999999999"})
+        EXPECT_FALSE(parse({"--shadow-bytes", bad})) << bad;
+    for (const char* bad : {"0", "-1", "", "nan", "inf", "4ms", "1e9"}) EXPECT_FALSE(parse({"--shadow-ms", bad})) << bad;
+}
+
+TEST(CommandLine, ProgramsAreKeptWhereItSaysElseForWindowsInTheUsersCache) {
+    const CommandLine window = parse({"--size", "64x32"}).value(), headless = parse({"--headless"}).value();
+    EXPECT_EQ(program_folder(window, "/cache", "/home/a"), "/cache/gnomon");
+    EXPECT_EQ(program_folder(window, nullptr, "/home/a"), "/home/a/.cache/gnomon");
+    EXPECT_EQ(program_folder(window, "not/absolute", "/home/a"), "/home/a/.cache/gnomon");
+    EXPECT_EQ(program_folder(window, "", ""), "");
+    EXPECT_EQ(program_folder(window, nullptr, nullptr), "");
+    EXPECT_EQ(program_folder(headless, "/cache", "/home/a"), "");
+    EXPECT_EQ(program_folder(parse({"--headless", "--program-cache", "p"}).value(), "/cache", "/home/a"), "p");
+    EXPECT_EQ(program_folder(parse({"--program-cache", "off"}).value(), "/cache", "/home/a"), "");
+    EXPECT_FALSE(parse({"--program-cache", ""}));
+}
+
 TEST(CommandLine, TheGameIsPlayedInAPlainWindowAndByTheDemo) {
-    for (const auto& plays : {std::vector<const char*>{}, {"--size", "64x64"}, {"--demo"}, {"--demo", "--headless"},
+    for (const auto& plays : {std::vector<const char*>{},
+                              {"--size", "64x64"},
+                              {"--demo"},
+                              {"--demo", "--headless"},
                               {"--demo", "--frames", "2", "--time", "1"}})
         EXPECT_TRUE(plays_game(parse(plays).value()));
-    for (const auto& looks : {std::vector<const char*>{"--headless"}, {"--scene", "a.glb"}, {"--camera", "top"},
-                              {"--frames", "2"}, {"--time", "0"}})
+    for (const auto& looks : {std::vector<const char*>{"--headless"},
+                              {"--scene", "a.glb"},
+                              {"--camera", "top"},
+                              {"--frames", "2"},
+                              {"--time", "0"}})
         EXPECT_FALSE(plays_game(parse(looks).value())) << looks.front();
     EXPECT_FALSE(parse({"--demo", "--scene", "a.glb"}));
     EXPECT_FALSE(parse({"--demo", "--camera", "top"}));

@@ -45,6 +45,19 @@ TEST_F(PictureFiles, PngStartsWithItsSignatureAndSize) {
     EXPECT_TRUE(encode_png(4, 2, rgba).empty());
 }
 
+TEST_F(PictureFiles, JpegStartsAndEndsWithItsMarkersAndIsSmallerThanPngOfNoise) {
+    std::vector<std::uint8_t> rgba;
+    for (std::uint32_t i = 0, noise = 1; i < 64 * 64 * 4; ++i, noise = noise * 1664525u + 1013904223u)
+        rgba.push_back(static_cast<std::uint8_t>(noise >> 24));
+    const auto jpeg = encode_jpeg(64, 64, rgba, 85);
+    ASSERT_GT(jpeg.size(), 4u);
+    EXPECT_EQ((std::vector(jpeg.begin(), jpeg.begin() + 2)), (std::vector<std::uint8_t>{0xff, 0xd8}));
+    EXPECT_EQ((std::vector(jpeg.end() - 2, jpeg.end())), (std::vector<std::uint8_t>{0xff, 0xd9}));
+    EXPECT_LT(jpeg.size(), encode_png(64, 64, rgba).size());
+    EXPECT_TRUE(encode_jpeg(0, 2, {}, 85).empty());
+    EXPECT_TRUE(encode_jpeg(65, 64, rgba, 85).empty());
+}
+
 TEST_F(PictureFiles, CheckingChangesNothing) {
     EXPECT_FALSE(check_writable(folder_ / "new"));
     EXPECT_FALSE(fs::exists(folder_ / "new"));

@@ -101,19 +101,17 @@ TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
         EXPECT_EQ(size(absurd), size(1.0f));
 }
 
-TEST_F(DemandTest, APointLightSaysThatItTakesNoAnisotropyAndPaysForNone) {
+TEST_F(DemandTest, EveryKindTakesAnisotropyAndPaysForHalfItsFootprint) {
     for (LightItem& light : scene.lights) light.shadow.filter = ShadowFilter::vsm;
-    const float plain = decide()[2].moments.reach_texel;
+    for (const ShadowDemand& d : decide()) EXPECT_EQ(d.moments.reach_texel, 0.0f);
     for (LightItem& light : scene.lights) light.shadow.moment_anisotropy = 4;
-    decide();
-    EXPECT_EQ(demands[0].note, Reason::none);
-    EXPECT_EQ(demands[1].note, Reason::none);
-    EXPECT_EQ(demands[1].moments.anisotropy, 4u);
-    EXPECT_EQ(demands[2].note, Reason::filter_cut);
-    EXPECT_EQ(demands[2].moments.anisotropy, 1u);
-    EXPECT_EQ(demands[2].moments.reach_texel, plain);
-    scene.lights[2].shadow.filter = ShadowFilter::hard;
-    EXPECT_EQ(decide()[2].note, Reason::none) << "a filter that has no use for it";
+    for (const ShadowDemand& d : decide()) {
+        EXPECT_EQ(d.note, Reason::none);
+        EXPECT_EQ(d.moments.anisotropy, 4u);
+        EXPECT_EQ(d.moments.footprint_texel, 4.0f);
+        EXPECT_EQ(d.moments.reach_texel, 2.0f);
+        EXPECT_EQ(d.moments.sampler_anisotropy, d.light != 2) << "a sampler knows nothing of a cube's faces";
+    }
 }
 
 TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {

@@ -45,6 +45,8 @@ TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRangeAndOfTheCone) {
         light.rotation_ws = math::basis_from_back(direction());
         light.outer_cone_rad = number(0.05, 1.57);
         const gl::Rect rect = screen_rectangle(light, c);
+        const float farthest = farthest_depth(light, c);
+        const glm::mat4 clip_from_view(camera_record(c).clip_from_anchor);
         const bool flat = c.projection == CameraProjection::orthographic;
         const double half_y = flat ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
         if (rect.width > 0 && rect.width < static_cast<int>(c.viewport_px.x)) ++partial;
@@ -55,6 +57,8 @@ TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRangeAndOfTheCone) {
             if (!(-p.z > c.near_m)) continue;
             const glm::dvec2 ndc = glm::dvec2(p) / (flat ? 1.0 : -p.z) / glm::dvec2(half_y * aspect(c), half_y);
             if (std::abs(ndc.x) > 1.0 || std::abs(ndc.y) > 1.0) continue;
+            const glm::vec4 clip = clip_from_view * glm::vec4(glm::vec3(c.rotation_ws * p), 1.0f);
+            EXPECT_GT(clip.z / clip.w, farthest) << "at " << -p.z << " m";
             const glm::dvec2 px = (ndc * 0.5 + 0.5) * glm::dvec2(c.viewport_px);
             ++visible;
             EXPECT_TRUE(px.x >= rect.x && px.y >= rect.y && px.x <= rect.x + rect.width && px.y <= rect.y + rect.height)
@@ -65,6 +69,28 @@ TEST_F(ScreenRectangle, HoldsEveryVisiblePointOfTheRangeAndOfTheCone) {
     }
     EXPECT_GT(visible, 1000) << "the test must see something";
     EXPECT_GT(partial, 50) << "and not only whole pictures";
+}
+
+TEST_F(ScreenRectangle, GoesWithADepthThatLittleBeyondTheRangeHas) {
+    for (int round = 0; round < 1000; ++round) {
+        const ConsumerItem c = camera(round % 2 == 1);
+        LightItem light;
+        light.kind = LightKind::point;
+        light.range_m = number(0.1, 20.0);
+        light.position_ws_m = c.position_ws_m - number(0.0, 60.0) * c.rotation_ws[2];
+        const double beyond_m = glm::dot(c.position_ws_m - light.position_ws_m, c.rotation_ws[2]) + light.range_m * 1.001 +
+                                (round % 2 == 1 ? 1e-4 * c.far_m : 1e-4 * 60.0);
+        const glm::vec4 clip = glm::mat4(camera_record(c).clip_from_anchor) *
+                               glm::vec4(glm::vec3(-beyond_m * c.rotation_ws[2]), 1.0f);
+        EXPECT_LT(clip.z / clip.w, farthest_depth(light, c));
+        light.range_m = 0.0;
+        EXPECT_EQ(farthest_depth(light, c), 0.0f) << "unlimited";
+        light.range_m = 1.0;
+        light.position_ws_m = c.position_ws_m + 2.0 * c.rotation_ws[2];
+        EXPECT_EQ(farthest_depth(light, c), 1.0f) << "behind the camera";
+        light.kind = LightKind::directional;
+        EXPECT_EQ(farthest_depth(light, c), 0.0f);
+    }
 }
 
 TEST_F(ScreenRectangle, IsEmptyBehindTheCameraAndWholeForTheUnlimited) {

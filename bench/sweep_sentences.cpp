@@ -1,0 +1,57 @@
+#include "bench/number_words.h"
+#include "bench/sweep_json.h"
+#include "bench/sweep_report.h"
+
+namespace gnomon::bench {
+namespace {
+
+std::string named(const SceneSweep& sweep, const Choice& choice) {
+    return "“" + sweep.plan[choice.row].name + "” (" + percent_words(choice.error) + ", × " +
+           factor_words(choice.cost) + ")";
+}
+
+std::string sentence(const SceneSweep& sweep, const std::string& light, SweepTruth truth) {
+    const HalvingCost found = halving_cost(sweep, light, truth, SweepCost::drawn);
+    const char* error = truth == SweepTruth::point ? "wrong pixels" : "error of soft shadows";
+    std::string text = light;
+    if (found.factor)
+        text += ": halving the " + std::string(error) + " multiplies the time by " + factor_words(*found.factor) +
+                " on average, from " + named(sweep, found.steps.front().from) + " to " +
+                named(sweep, found.steps.back().to) + ". ";
+    else
+        text += ": no row has half the " + std::string(error) + " of the cheapest. ";
+    if (!found.defaults) return text;
+    text += "The defaults have " + percent_words(found.defaults->error) + "; ";
+    if (!found.from_defaults) return text + "no row halves that.";
+    return text + "halving that takes × " + factor_words(found.from_defaults->cost_factor()) + " their time, by “" +
+           sweep.plan[found.from_defaults->to.row].name + "” (" + percent_words(found.from_defaults->to.error) + ").";
+}
+
+}  // namespace
+
+std::vector<std::string> halving_sentences(const SceneSweep& sweep) {
+    std::vector<std::string> sentences;
+    for (const std::string& light : lights_of(sweep))
+        for (const SweepTruth truth : kSweepTruths)
+            if (!choices(sweep, light, truth, SweepCost::drawn).empty())
+                sentences.push_back(sentence(sweep, light, truth));
+    return sentences;
+}
+
+std::string sweep_summary(const std::vector<SceneSweep>& scenes) {
+    std::string text;
+    for (const SceneSweep& sweep : scenes) {
+        text += "scene   " + sweep.scene + "\ndevice  " + sweep.device + "\npicture " +
+                std::to_string(sweep.size_px.x) + " x " + std::to_string(sweep.size_px.y) + "\nrows    " +
+                std::to_string(sweep.plan.size()) + ", of all lights " + std::to_string(light_rows(sweep.plan)) +
+                ", timed in " + std::to_string(sweep.rounds) + " rounds\n\n";
+        for (const std::string& line : halving_sentences(sweep)) text += line + "\n";
+        for (std::size_t row = 0; row < sweep.plan.size(); ++row)
+            if (sweep.rows[row].error) text += "FAILED " + sweep.plan[row].name + ": " + *sweep.rows[row].error + "\n";
+        if (sweep.gl_complaints > 0) text += "OpenGL complained " + std::to_string(sweep.gl_complaints) + " times.\n";
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/stage.h"
+#include "engine/core/result.h"
+#include "tests/oracle/reference_tracer.h"
+#include "tests/oracle/soft_truth.h"
+
+namespace gnomon::bench {
+
+struct TracedLight {
+    std::uint32_t index = 0;  // into the snapshot's lights
+    std::string name;
+    LightKind kind = LightKind::point;
+    oracle::LightTruth point;
+    oracle::SoftTruth disk;  // about disk_source(); empty if it was not asked for
+};
+
+/// What every row is held against: of a scene that stands still, traced once.
+struct TracedTruths {
+    std::unique_ptr<oracle::ReferenceTracer> tracer;
+    oracle::PrimaryHits hits;
+    std::vector<TracedLight> lights;  // those with a LightShadow
+    double trace_s = 0.0;
+    std::vector<std::uint32_t> indices() const;  // of the lights
+};
+
+/// Leaves the lights with disk_source() if `disks`. Errors: "bench.camera", "set.*".
+Result<TracedTruths> trace_truths(Stage& stage, bool disks);
+
+}  // namespace gnomon::bench

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "engine/gl/gl45_objects.h"
+#include "engine/gl/program_cache.h"
+
+namespace gnomon::gl {
+
+/// Makes programs: out of a cache if it has what this driver takes, else from their sources. Private to the executor.
+class GlPrograms {
+public:
+    /// `cache_folder` empty: always from their sources. Asks the driver, so that a context must be current.
+    explicit GlPrograms(std::filesystem::path cache_folder);
+
+    Made<GLuint> make(const ProgramDesc& desc);
+    ProgramCounts counts() const { return counts_; }
+
+private:
+    GLuint from_cache(const ProgramDesc& desc) const;
+    void keep(const ProgramDesc& desc, GLuint program) const;
+
+    std::vector<GLint> formats_;  // of binaries that the driver takes
+    ProgramCache cache_;
+    ProgramCounts counts_;
+};
+
+}  // namespace gnomon::gl

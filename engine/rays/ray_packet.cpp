@@ -1,0 +1,143 @@
+#include "engine/rays/ray_packet.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+
+namespace gnomon::rays {
+namespace {
+
+constexpr double kFloatUnit = 0x1p-24, kDoubleUnit = 0x1p-53;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Rays are cut where they enter and leave the box, widened by this share of its longest side: the cuts then lie so far
+/// from all triangles that float can tell.
+constexpr double kWider = 1.0 / 64.0;
+/// Between these sizes products of three coordinates are normal floats.
+constexpr double kLeastSize = 1e-9, kMostSize = 1e9;
+/// A component of `along` below this share of the coordinates moves no point of [0, 1] by more than the slack holds,
+/// and its inverse is finite.
+constexpr float kLeastAlong = 0x1p-30f;
+/// from and along round once each, by 1 and 2 units of the largest coordinate; a slab's distance by three units of no
+/// more than thrice that. 16 is above their sum.
+constexpr double kBoxUnits = 16.0;
+/// Of an inverse basis times a vector, in units of its condition: the inverse's entries, the products, their sums.
+constexpr double kInverseUnits = 64.0;
+
+double norm(const glm::dmat3& m) {
+    const glm::dvec3 rows = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]);
+    return std::max({rows.x, rows.y, rows.z});
+}
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// In which part of t a ray is in the box. Comparisons are such that a NaN, from a ray along a face, cuts nothing.
+struct Cut {
+    double first, last;
+    Cut(const FramedRays& rays, std::size_t ray, const glm::dvec3& low, const glm::dvec3& high)
+        : first(rays.first[ray]), last(rays.last) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<glm::length_t>(axis);
+            const double from = rays.from[axis][ray], inverse = rays.inverse[axis][ray];
+            const double one = (low[i] - from) * inverse, other = (high[i] - from) * inverse;
+            first = std::max(first, inverse < 0.0 ? other : one);
+            last = std::min(last, inverse < 0.0 ? one : other);
+        }
+    }
+};
+
+void put(const FramedRays& rays, const Cut& cut, std::size_t ray, float least, SegmentPacket& segments,
+         std::size_t lane) {
+    float largest_along = 0.0f;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double along = rays.along[axis][ray];
+        const auto length = static_cast<float>((cut.last - cut.first) * along);
+        const float size = std::max(std::abs(length), least);
+        const float kept = std::copysign(size, length);
+        segments.from[axis][lane] = static_cast<float>(rays.from[axis][ray] + cut.first * along);
+        segments.along[axis][lane] = kept;
+        segments.inverse[axis][lane] = 1.0f / kept;
+        largest_along = std::max(largest_along, size);
+    }
+    segments.size[lane] = largest_along;
+}
+
+/// What float knows nothing of, or nothing at all: any numbers.
+void put_unknown(SegmentPacket& segments, std::size_t lane) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        segments.from[axis][lane] = 0.0f;
+        segments.along[axis][lane] = segments.inverse[axis][lane] = 1.0f;
+    }
+    segments.size[lane] = 1.0f;
+}
+
+}  // namespace
+
+FramedRays in_frame(const RayPacket& rays, Lanes wanted, const Frame& frame) {
+    FramedRays framed;
+    framed.last = rays.last;
+    framed.rays = wanted;
+    const glm::dmat3 inverse = glm::inverse(frame.basis);
+    double farthest_m = 0.0;
+    for (; wanted != 0; wanted &= wanted - 1u) {
+        const auto ray = static_cast<std::size_t>(std::countr_zero(wanted));
+        const glm::dvec3 from_m = rays.from[ray] - frame.origin_ws_m;
+        const glm::dvec3 from = inverse * from_m, along = inverse * rays.along[ray];
+        farthest_m = std::max(farthest_m, largest(from_m));
+        framed.first[ray] = rays.first[ray];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto i = static_cast<glm::length_t>(axis);
+            framed.from[axis][ray] = from[i];
+            framed.along[axis][ray] = along[i];
+            framed.inverse[axis][ray] = 1.0 / along[i];
+        }
+    }
+    const double inverse_norm = norm(inverse);
+    framed.largest = inverse_norm * farthest_m;
+    framed.rounding = kInverseUnits * kDoubleUnit * inverse_norm * norm(frame.basis);
+    return framed;
+}
+
+void SegmentPacket::drop(Lanes dropped) {
+    lanes &= ~dropped;
+    for (; dropped != 0; dropped &= dropped - 1u) last[static_cast<std::size_t>(std::countr_zero(dropped))] = -1.0f;
+}
+
+Lanes SegmentPacket::rays_of(Lanes of) const {
+    Lanes rays = 0;
+    for (; of != 0; of &= of - 1u) rays |= 1u << ray[static_cast<std::size_t>(std::countr_zero(of))];
+    return rays;
+}
+
+void cut_to(const Box& box, const FramedRays& rays, Lanes wanted, SegmentPacket& segments) {
+    segments.lanes = 0;
+    if (is_empty(box)) return;
+    const glm::dvec3 min(box.min), max(box.max);
+    const double rounding = rays.rounding * std::max(rays.largest, std::max(largest(min), largest(max)));
+    const glm::dvec3 wider(kWider * largest(max - min) + rounding);
+    const glm::dvec3 low = min - wider, high = max + wider;
+    const double size = std::max(largest(low), largest(high));
+    const bool known = size > kLeastSize && size < kMostSize && std::isfinite(rounding);
+    const float least = static_cast<float>(size) * kLeastAlong;
+    std::size_t count = 0;
+    for (Lanes open = wanted & rays.rays; open != 0; open &= open - 1u) {
+        const auto ray = static_cast<std::size_t>(std::countr_zero(open));
+        const Cut cut(rays, ray, low, high);
+        if (known && !(cut.first <= cut.last)) continue;
+        if (known)
+            put(rays, cut, ray, least, segments, count);
+        else
+            put_unknown(segments, count);
+        segments.ray[count++] = static_cast<std::uint8_t>(ray);
+    }
+    segments.lanes = (1u << count) - 1u;
+    segments.last.fill(-1.0f);
+    std::fill_n(segments.last.begin(), count, 1.0f);
+    for (std::size_t lane = count; lane % kVectorLanes != 0; ++lane) put_unknown(segments, lane);
+    segments.rounding = static_cast<float>(known ? kFloatUnit * size + rounding : kInfinity);
+    segments.box_slack = static_cast<float>(kBoxUnits) * segments.rounding;
+}
+
+}  // namespace gnomon::rays

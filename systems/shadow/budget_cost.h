@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/grant.h"
+#include "systems/shadow/types.h"
+
+/// What a light's shadow takes of a budget, and what is lost by giving it less: a model, the same for the same input.
+namespace gnomon::shadow {
+
+/// One fetch, one texel, no store beside the map, and the narrowest footprint: no border or bias is too small for it.
+inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
+
+/// Below, a shadow says little more than that there is one.
+inline constexpr std::uint32_t kLeastGranted_px = 64;
+
+/// Nanoseconds by kind of work, of a GPU of the middle class: where measurements start from (CostFactors). Only their
+/// ratios decide who is given less; their scale decides when.
+inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
+inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
+
+/// Measured over modelled time, by kind of work (CostClock).
+struct CostFactors {
+    double drawing = 1.0, lighting = 1.0;
+    bool operator==(const CostFactors&) const = default;
+};
+
+/// One light that would have a map.
+struct LightLoad {
+    const LightItem* light = nullptr;
+    ShadowDemand wanted;      // what it asks for; resolution_px is the edge that it needs
+    std::uint64_t key = 0;    // of the light itself, wherever it stands in a list: decides between equals
+    double weight = 0.0;      // what its shadow means to the picture, 0 to 1
+    double extent_px = 0.0;   // of a texel on screen (predicted_error.h), with maps as wanted
+    double activity = 0.0;    // share of its views that are drawn in a frame, 0 to 1
+    double pixels = 0.0;      // that look it up
+    std::uint32_t views = 0;  // of its map that are fitted
+    std::uint64_t triangles = 0, draws = 0;  // of drawing them all; may be 0 where nothing is drawn
+};
+
+struct Cost {
+    std::uint64_t bytes = 0;
+    std::uint64_t ns = 0;  // per frame
+    double harm = 0.0;     // share of the picture that is wrong, by the model; 0: all is as asked for
+};
+
+/// The demand as the grant leaves it; that of Grant::none is unchanged.
+ShadowDemand granted(const LightItem& light, const ShadowDemand& wanted, const Grant& grant);
+
+/// Whether it gives that demand less than it asks for.
+bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& grant);
+
+Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors);
+
+/// Fetches of a lookup, on the average of its pixels.
+double mean_fetches(const LightItem& light, ShadowFilter filter);
+
+/// Of drawing so many views with so much in them.
+double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws);
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,60 @@
+#include "systems/shadow/map_desc.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "systems/shadow/depth_format.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/moment_recorder.h"
+
+namespace gnomon::shadow {
+
+gl::TextureDesc without_label(const gl::TextureDesc& desc) {
+    return {{}, desc.kind, desc.format, desc.width, desc.height, desc.layers, desc.mips};
+}
+
+gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand) {
+    const gl::TextureKind kind = light_kind_row(light.kind).texture;
+    return {.kind = kind,
+            .format = depth_format_row(demand.depth_format).texture,
+            .width = map_edge_px(demand),
+            .height = map_edge_px(demand),
+            .layers = kind == gl::TextureKind::cube ? 1u : demand.view_count};
+}
+
+gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
+    gl::TextureDesc desc = without_label(map);
+    desc.format = kTriangleFormat;
+    return desc;
+}
+
+MomentDescs moments_of(const gl::TextureDesc& map, const ShadowDemand& demand) {
+    MomentDescs moments;
+    if (filter_row(demand.filter).storage != FilterStorage::moments) return moments;
+    moments.texture = without_label(map);
+    moments.texture.format = demand.moments.format;
+    moments.texture.mips = std::min(demand.moments.levels, static_cast<std::uint32_t>(std::bit_width(map.width)));
+    if (demand.filtering.size <= 1) return moments;
+    moments.scratch = {.format = demand.moments.format, .width = map.width};
+    moments.scratch.height = map.height + 2 * scratch_rows(demand, map.kind == gl::TextureKind::cube);
+    return moments;
+}
+
+std::uint64_t map_bytes(const gl::TextureDesc& map, bool triangles, const gl::TextureDesc& moments,
+                        const gl::TextureDesc& scratch) {
+    std::uint64_t bytes = gl::byte_size(map);
+    if (triangles) bytes += gl::byte_size(triangles_of(map));
+    if (moments.width > 0) bytes += gl::byte_size(moments);
+    if (scratch.width > 0) bytes += gl::byte_size(scratch);
+    return bytes;
+}
+
+std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand) {
+    const gl::TextureDesc map = map_desc(light, demand);
+    const MomentDescs moments = moments_of(map, demand);
+    return map_bytes(map, filter_row(demand.filter).storage == FilterStorage::depth_and_triangle, moments.texture,
+                     moments.scratch);
+}
+
+}  // namespace gnomon::shadow

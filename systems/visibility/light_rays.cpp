@@ -1,0 +1,94 @@
+#include "systems/visibility/light_rays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+#include <numeric>
+
+namespace gnomon::visibility {
+namespace {
+
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Sample i of n on a spiral whose turns are the golden angle: equal areas, evenly round (Vogel 1979).
+glm::dvec2 on_spiral(std::size_t i, std::size_t n) {
+    const double golden_rad = glm::pi<double>() * (3.0 - std::sqrt(5.0));
+    const double radius = std::sqrt((static_cast<double>(i) + 0.5) / static_cast<double>(n));
+    const double angle_rad = golden_rad * static_cast<double>(i);
+    return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)};
+}
+
+/// The step, near the golden section of n, that visits all n places before it repeats one.
+std::size_t even_step(std::size_t n) {
+    auto step = static_cast<std::size_t>(std::lround(static_cast<double>(n) * 0.5 * (std::sqrt(5.0) - 1.0)));
+    while (std::gcd(step, n) != 1) ++step;
+    return step;
+}
+
+std::array<glm::dvec3, 2> axes_across(const glm::dvec3& unit) {
+    const glm::dvec3 helper = std::abs(unit.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 first = glm::normalize(glm::cross(unit, helper));
+    return {first, glm::cross(unit, first)};
+}
+
+}  // namespace
+
+void fill_disk(std::size_t count, std::vector<glm::dvec2>& disk) {
+    if (disk.size() == count) return;
+    disk.clear();
+    for (std::size_t i = 0; i < count; ++i) disk.push_back(on_spiral(i, count));
+}
+
+LightRays::LightRays(const LightItem& light, std::span<const glm::dvec2> disk)
+    : light_(light), disk_(disk), partner_(even_step(disk.size())) {
+    const bool sun = light.kind == LightKind::directional;
+    size_ = sun ? std::tan(static_cast<double>(std::clamp(light.shadow.sun_radius_rad, 0.0f, kMostSunRadius_rad)))
+                : static_cast<double>(std::clamp(light.shadow.source_radius_m, 0.0f, kMostSourceRadius_m));
+    sized_ = size_ > 0.0;
+    last_ = sun ? std::numeric_limits<double>::infinity() : 1.0;
+    outer_cosine_ = std::cos(light.outer_cone_rad);
+    const glm::dvec3& back = light.rotation_ws[2];
+    usable_ = is_finite(light.position_ws_m) && is_finite(back) && glm::dot(back, back) > 0.0;
+}
+
+bool LightRays::reaches(const glm::dvec3& point_ws_m) const {
+    if (light_.kind == LightKind::directional) return true;
+    const glm::dvec3 to_light = light_.position_ws_m - point_ws_m;
+    const double distance_m = glm::length(to_light);
+    if (!(distance_m > 0.0) || (light_.range_m > 0.0 && distance_m > light_.range_m)) return false;
+    if (light_.kind == LightKind::point) return true;
+    const glm::dvec3& back = light_.rotation_ws[2];
+    return glm::dot(to_light, back) >= outer_cosine_ * distance_m * glm::length(back);
+}
+
+Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) const {
+    if (!usable_ || !is_finite(place.at_ws_m)) return Reach::none;
+    const bool sun = light_.kind == LightKind::directional;
+    glm::dvec3 middle = sun ? light_.rotation_ws[2] : light_.position_ws_m - place.at_ws_m;
+    ray.from_ws_m = place.at_ws_m;
+    const bool sphere = place.radius_m > 0.0;
+    if (sphere || sized_) {
+        const double distance = glm::length(middle);
+        if (sphere && !sun && distance <= place.radius_m) return reaches(place.at_ws_m) ? Reach::all : Reach::none;
+        if (!(distance > 0.0)) return Reach::none;
+        const glm::dvec3 toward = middle / distance;
+        const auto [right, up] = axes_across(toward);
+        if (sphere) {
+            const glm::dvec2& at = disk_[sample];
+            const double height = std::sqrt(std::max(1.0 - glm::dot(at, at), 0.0));
+            ray.from_ws_m += place.radius_m * (right * at.x + up * at.y + toward * height);
+            if (!sun) middle = light_.position_ws_m - ray.from_ws_m;
+        }
+        const glm::dvec2& at = disk_[sample * partner_ % disk_.size()];
+        ray.along = middle + size_ * (right * at.x + up * at.y);
+    } else {
+        ray.along = middle;
+    }
+    if (!is_finite(ray.along) || !is_finite(ray.from_ws_m)) return Reach::none;
+    return reaches(ray.from_ws_m) ? Reach::ray : Reach::none;
+}
+
+}  // namespace gnomon::visibility

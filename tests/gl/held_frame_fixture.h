@@ -1,0 +1,59 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "systems/extract/extract.h"
+#include "systems/lighting/lighting_system.h"
+#include "systems/shadow/shadow_system.h"
+#include "systems/transform/transform_system.h"
+#include "tests/gl/frame_fixture.h"
+
+namespace gnomon {
+
+/// A frame whose parts the test holds itself, so that it can hand the lighting what it likes. `world` and `library` are
+/// filled before the first run().
+class HeldFrameTest : public FrameTest {
+protected:
+    void TearDown() override {
+        lighting.reset();
+        shadows.reset();
+        scene.reset();
+        FrameTest::TearDown();
+    }
+    /// As Frame::run(), with inputs as they were published.
+    void run() {
+        if (!scene) {
+            auto made = GpuScene::create(device(), library);
+            ASSERT_TRUE(made);
+            scene = std::make_unique<GpuScene>(std::move(made).value());
+            shadows = std::make_unique<shadow::ShadowSystem>(device());
+            lighting = std::make_unique<lighting::LightingSystem>(device());
+        }
+        gl::CommandList list;
+        extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
+        world.discard_changes();
+        scene->update(snapshot, list);
+        shadows->update(snapshot, *scene, true, list, report);
+        record_picture(inputs(), list);
+        GlTest::run(list);
+        shadows->commit(snapshot, true);
+    }
+    void record_picture(const shadow::LightingInputs& handed, gl::CommandList& list) {
+        ASSERT_TRUE(lighting->record(handed, snapshot, *scene, {.exposure_ev = settings.exposure_ev}, list, report));
+    }
+    const shadow::LightingInputs& inputs() const { return shadows->frame().inputs.front(); }
+    std::vector<std::uint8_t> drawn_picture() {
+        return read<std::uint8_t>(lighting->picture_texture(), std::size_t{4} * settings.viewport_px.x * settings.viewport_px.y);
+    }
+
+    TransformSystem transforms;
+    Extractor extractor;
+    SceneSnapshot snapshot;
+    FrameReport report;
+    std::unique_ptr<GpuScene> scene;
+    std::unique_ptr<shadow::ShadowSystem> shadows;
+    std::unique_ptr<lighting::LightingSystem> lighting;
+};
+
+}  // namespace gnomon

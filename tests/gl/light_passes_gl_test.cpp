@@ -1,0 +1,83 @@
+#include <random>
+
+#include "bench/demand_scene.h"
+#include "sample_game/spawn.h"
+#include "systems/shadow/publish.h"
+#include "tests/gl/held_frame_fixture.h"
+
+/// A light's pass leaves out pixels that the light cannot reach, and no other.
+namespace gnomon {
+namespace {
+
+class LightPasses : public HeldFrameTest {
+protected:
+    void SetUp() override {
+        HeldFrameTest::SetUp();
+        settings.viewport_px = {160, 90};
+        settings.exposure_ev = 4.0f;
+    }
+    /// The same frame, with every light over the whole picture, or at any depth.
+    std::vector<std::uint8_t> drawn_with(bool screen, bool depth) {
+        shadow::LightingInputs handed = inputs();
+        const auto size = glm::ivec2(settings.viewport_px);
+        for (shadow::LightingLight& light : handed.lights) {
+            if (!screen && light.screen.width > 0) light.screen = {0, 0, size.x, size.y};
+            if (!depth) light.farthest_depth = 0.0f;
+        }
+        gl::CommandList list;
+        record_picture(handed, list);
+        GlTest::run(list);
+        return drawn_picture();
+    }
+};
+
+TEST_F(LightPasses, OfAHundredLightsGiveTheSamePictureWithoutTheirBounds) {
+    const game::SpawnedScene spawned = game::spawn_scene(bench::demand_scene(100, 7), world, library);
+    const ecs::Entity eyes = spawned.cameras.at(0).entity;
+    const Camera as_it_is = *world.get<Camera>(eyes);
+    std::mt19937_64 random(1);
+    const auto number = [&](double from, double to) {
+        return from + (to - from) * std::ldexp(static_cast<double>(random() >> 11U), -53);
+    };
+    std::size_t bounded = 0;
+    for (int view = 0; view < 12; ++view) {
+        const glm::dvec3 at(number(-40.0, 40.0), number(0.5, 8.0), number(-40.0, 40.0));
+        const glm::dvec3 ahead(number(-1.0, 1.0), number(-0.4, 0.1), number(-1.0, 1.0));
+        world.emplace<Transform>(eyes, {.translation_m = at, .rotation = looking_along(ahead)});
+        world.patch<Camera>(eyes, [&](Camera& camera) {
+            camera = as_it_is;
+            if (view % 3 == 1) camera.far_m = 60.0;
+            if (view % 3 == 2) camera = {.projection = CameraProjection::orthographic, .far_m = 200.0};
+        });
+        run();
+        const std::vector<std::uint8_t> bounds = drawn_picture();
+        EXPECT_EQ(drawn_with(true, false), bounds) << "view " << view << ": not at any depth";
+        EXPECT_EQ(drawn_with(false, false), bounds) << "view " << view << ": not over the whole picture";
+        for (const shadow::LightingLight& light : inputs().lights)
+            bounded += light.screen.width > 0 && light.farthest_depth > 0.0f ? 1 : 0;
+    }
+    EXPECT_GT(bounded, 60u);
+}
+
+TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
+    place(add_mesh(game::make_card({0, 0, 0}, {2, 0, 0}, {0, 2, 0})), {}, false);
+    add_camera({}, {0.0, 0.0, 5.0}, {0.0, 0.0, -1.0});
+    Light lamp;
+    lamp.intensity = 100.0f;
+    lamp.range_m = 3.0f;
+    add_light(lamp, {0.0, 0.0, 2.0}, {0, 0, -1});
+    run();
+    ASSERT_GT(inputs().lights.at(0).screen.width, 0);
+    const std::vector<std::uint8_t> lit = drawn_picture();
+    EXPECT_EQ(drawn_with(true, false), lit);
+    // The control: told that it reaches less far, the pass leaves the wall out.
+    shadow::LightingInputs nearer = inputs();
+    nearer.lights[0].farthest_depth = inputs().lights[0].farthest_depth * 1.5f;
+    gl::CommandList list;
+    record_picture(nearer, list);
+    GlTest::run(list);
+    EXPECT_NE(drawn_picture(), lit);
+}
+
+}  // namespace
+}  // namespace gnomon

@@ -1,0 +1,147 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "bench/sweep.h"
+#include "bench/sweep_json.h"
+#include "tests/gl/truth_scenes.h"
+
+// The sweep on the real pipeline: what it finds depends on a row alone.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+bench::SweepRow row(const std::string& name, const std::vector<std::string>& settings,
+                    bench::LightKinds kinds = bench::kAllKinds) {
+    bench::SweepRow made;
+    made.name = name;
+    made.factor = "filter";
+    made.settings = settings;
+    made.kinds = kinds;
+    return made;
+}
+
+const bench::SweepRow kDefaults = row("defaults", {}), kHard = row("hard", {"filter=hard"}),
+                      kLarge = row("large", {"filter=pcf_grid", "resolution=1024"}),
+                      kSunAlone = row("one cascade", {"cascades=1"}, bench::only(LightKind::directional)),
+                      kSoft = row("soft", {"filter=pcss", "source_radius_m=0.02", "sun_radius_deg=1"}),
+                      kNonsense = row("nonsense", {"filter=none such"});
+
+class SweepGl : public TruthTest {
+protected:
+    static std::filesystem::path root() {
+        return std::filesystem::temp_directory_path() / ("gnomon_sweep_" + std::to_string(::getpid()));
+    }
+    bench::SceneSweep sweep(const std::string& folder, std::vector<bench::SweepRow> plan, std::uint32_t rounds = 0) {
+        bench::StageOptions stage_options;
+        stage_options.size_px = {160, 90};
+        const auto stage = open(stage_options);
+        if (!stage) return {};
+        bench::SweepOptions options;
+        options.folder = root() / folder;
+        std::filesystem::create_directories(options.folder);
+        options.plan = std::move(plan);
+        options.rounds = rounds;
+        options.progress = [this](const std::string& line) { said_.push_back(line); };
+        auto found = bench::measure_sweep(*stage, options);
+        if (!found) {
+            ADD_FAILURE() << to_line(found.error());
+            return {};
+        }
+        EXPECT_EQ(found.value().gl_complaints, 0u);
+        return std::move(found).value();
+    }
+    void TearDown() override {
+        std::filesystem::remove_all(root());
+        TruthTest::TearDown();
+    }
+
+    /// Everything but times.
+    static nlohmann::ordered_json found(const bench::SceneSweep& sweep, const std::string& name) {
+        for (const bench::JudgedRow& judged : sweep.rows)
+            if (judged.name == name) {
+                auto lights = nlohmann::ordered_json::array();
+                for (bench::LightRow light : judged.lights) {
+                    light.figures.gpu_us = light.figures.gpu_ratio = light.figures.kept_us = light.figures.kept_ratio =
+                        light.figures.cpu_us = {};
+                    lights.push_back(bench::to_json(light));
+                }
+                return lights;
+            }
+        return nullptr;
+    }
+
+    std::vector<std::string> said_;
+};
+
+TEST_F(SweepGl, ErrorsAreTheSameInAnyOrderOfRows) {
+    const auto a = sweep("a", {kDefaults, kHard, kLarge, kSoft, kSunAlone});
+    const auto b = sweep("b", {kDefaults, kSunAlone, kSoft, kLarge, kHard});
+    for (const char* name : {"defaults", "hard", "large", "soft", "one cascade"}) {
+        ASSERT_FALSE(found(a, name).empty()) << name;
+        EXPECT_EQ(found(a, name), found(b, name)) << name;
+    }
+    EXPECT_NE(found(a, "hard"), found(a, "defaults"));
+}
+
+TEST_F(SweepGl, ARowThatFailsIsSaidAndTheOthersAreMeasured) {
+    const auto all = sweep("a", {kDefaults, kNonsense, kHard}, 1);
+    ASSERT_THAT(all.rows, SizeIs(3));
+    ASSERT_TRUE(all.rows[1].error);
+    EXPECT_THAT(*all.rows[1].error, HasSubstr("set.value"));
+    EXPECT_THAT(all.rows[1].lights, SizeIs(0));
+    for (const std::size_t i : {0u, 2u}) {
+        EXPECT_FALSE(all.rows[i].error);
+        ASSERT_THAT(all.rows[i].lights, SizeIs(3));
+        for (const bench::LightRow& light : all.rows[i].lights) EXPECT_EQ(light.figures.gpu_ratio.count, 1u);
+    }
+    EXPECT_THAT(said_, Contains(HasSubstr("nonsense: FAILED")));
+}
+
+TEST_F(SweepGl, WhatWasFoundBeforeIsNotMeasuredAgainAndTheRestIs) {
+    const auto whole = sweep("a", {kDefaults, kHard, kSoft}, 1);
+    const auto journal = root() / "a" / "journal.jsonl";
+    std::string text;
+    {
+        std::ifstream in(journal, std::ios::binary);
+        text.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    std::size_t kept = 0;  // the header and two rows
+    for (int line = 0; line < 3; ++line) kept = text.find('\n', kept) + 1;
+    std::filesystem::resize_file(journal, kept + 5);
+    said_.clear();
+    const auto again = sweep("a", {kDefaults, kHard, kSoft}, 1);
+    EXPECT_THAT(said_, Contains(HasSubstr("2 rows are taken from an earlier run")));
+    EXPECT_THAT(said_, Contains(HasSubstr("row 3 of 3: soft")));
+    for (const char* name : {"defaults", "hard", "soft"}) EXPECT_EQ(found(whole, name), found(again, name)) << name;
+    said_.clear();
+    (void)sweep("a", {kDefaults, kHard}, 1);  // another plan begins anew
+    EXPECT_THAT(said_, Contains(HasSubstr("row 1 of 2: defaults")));
+}
+
+TEST_F(SweepGl, LightsOfOtherKindsAreNotInARow) {
+    const auto all = sweep("a", {kDefaults, kSunAlone});
+    ASSERT_THAT(all.rows.at(1).lights, SizeIs(1));
+    EXPECT_EQ(all.rows[1].lights[0].kind, LightKind::directional);
+    EXPECT_EQ(all.rows[1].lights[0].figures.views, 1.0);
+}
+
+TEST_F(SweepGl, SoftRowsAreJudgedByTheDiskAloneAndHardOnesByBoth) {
+    const auto all = sweep("a", {kDefaults, kSoft});
+    for (const bench::LightRow& light : all.rows.at(0).lights) {
+        EXPECT_TRUE(light.figures.wrong);
+        EXPECT_TRUE(light.figures.disk_error);
+        EXPECT_EQ(light.figures.unexplained, 0.0) << light.light;
+    }
+    for (const bench::LightRow& light : all.rows.at(1).lights) {
+        EXPECT_FALSE(light.figures.wrong);
+        EXPECT_TRUE(light.figures.disk_error);
+    }
+}
+
+}  // namespace
+}  // namespace gnomon

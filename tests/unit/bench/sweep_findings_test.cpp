@@ -1,0 +1,104 @@
+#include "bench/sweep_findings.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/bench/made_up_sweep.h"
+
+namespace gnomon::bench {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr auto kPoint = SweepTruth::point;
+constexpr auto kDrawn = SweepCost::drawn;
+
+std::vector<std::string> front_of(const SceneSweep& sweep) {
+    std::vector<std::string> names;
+    for (const Choice& choice : choices(sweep, "sun", kPoint, kDrawn))
+        if (choice.best) names.push_back(sweep.plan[choice.row].name);
+    return names;
+}
+
+TEST(SweepFindings, TheFrontIsWhatNothingBeatsTheCheapestFirst) {
+    const SceneSweep sweep =
+        made_up_sweep({{"defaults", 0.02, 1.0}, {"fine", 0.005, 3.0}, {"poor", 0.03, 2.0}, {"cheap", 0.04, 0.5}});
+    EXPECT_THAT(front_of(sweep), ElementsAre("cheap", "defaults", "fine"));
+}
+
+TEST(SweepFindings, TheDefaultsCostOneWhateverTheirOwnRowShows) {
+    const SceneSweep sweep = made_up_sweep({{"defaults", 0.02, 1.4}, {"other", 0.03, 1.2}});
+    EXPECT_THAT(front_of(sweep), ElementsAre("defaults"));
+    EXPECT_EQ(choices(sweep, "sun", kPoint, kDrawn).front().cost, 1.0);
+}
+
+TEST(SweepFindings, WhereEachHalvingTakesTwiceTheTimeTheFactorIsTwo) {
+    const SceneSweep sweep =
+        made_up_sweep({{"a", 0.08, 1.0}, {"b", 0.04, 2.0}, {"c", 0.02, 4.0}, {"d", 0.01, 8.0}, {"beaten", 0.05, 3.0}});
+    const HalvingCost found = halving_cost(sweep, "sun", kPoint, kDrawn);
+    ASSERT_EQ(found.steps.size(), 3u);
+    for (const Halving& step : found.steps) {
+        EXPECT_DOUBLE_EQ(step.error_factor(), 0.5);
+        EXPECT_DOUBLE_EQ(step.cost_factor(), 2.0);
+    }
+    ASSERT_TRUE(found.factor);
+    EXPECT_NEAR(*found.factor, 2.0, 1.0e-9);
+}
+
+TEST(SweepFindings, AStepThatGainsMoreThanHalfCountsForAsManyHalvings) {
+    const SceneSweep sweep = made_up_sweep({{"a", 0.08, 1.0}, {"b", 0.01, 8.0}});  // an eighth for eight times the time
+    const HalvingCost found = halving_cost(sweep, "sun", kPoint, kDrawn);
+    ASSERT_EQ(found.steps.size(), 1u);
+    EXPECT_NEAR(*found.factor, 2.0, 1.0e-9);
+}
+
+TEST(SweepFindings, FromTheDefaultsItIsTheCheapestRowWithHalfTheirError) {
+    const SceneSweep sweep = made_up_sweep(
+        {{"defaults", 0.02, 1.0, "defaults"}, {"half", 0.01, 1.5}, {"finer", 0.001, 4.0}, {"cheap", 0.1, 0.5}});
+    const HalvingCost found = halving_cost(sweep, "sun", kPoint, kDrawn);
+    ASSERT_TRUE(found.from_defaults);
+    EXPECT_EQ(sweep.plan[found.from_defaults->to.row].name, "half");
+    EXPECT_DOUBLE_EQ(found.from_defaults->cost_factor(), 1.5);
+}
+
+TEST(SweepFindings, WhereNothingIsTwiceAsGoodThereIsNoFactor) {
+    const SceneSweep sweep = made_up_sweep({{"defaults", 0.02, 1.0, "defaults"}, {"fine", 0.015, 3.0}});
+    const HalvingCost found = halving_cost(sweep, "sun", kPoint, kDrawn);
+    EXPECT_THAT(found.steps, IsEmpty());
+    EXPECT_FALSE(found.factor);
+    EXPECT_FALSE(found.from_defaults);
+    EXPECT_FALSE(halving_cost(sweep, "no such light", kPoint, kDrawn).factor);
+}
+
+TEST(SweepFindings, NoWrongPixelAtAllCountsAsHalfOfOne) {
+    const SceneSweep sweep = made_up_sweep({{"a", 1.0e-6, 1.0}, {"none", 0.0, 2.0}});
+    const auto all = choices(sweep, "sun", kPoint, kDrawn);
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_DOUBLE_EQ(all.back().error, 0.5e-6);
+    EXPECT_NEAR(*halving_cost(sweep, "sun", kPoint, kDrawn).factor, 2.0, 1.0e-6);
+}
+
+TEST(SweepFindings, RowsThatFailedOrHaveNoTimesAreNoChoice) {
+    SceneSweep sweep = made_up_sweep({{"a", 0.08, 1.0}, {"failed", 0.04, 2.0}, {"untimed", 0.02, 4.0}});
+    sweep.rows[1].error = "cannot";
+    sweep.rows[1].lights.clear();
+    sweep.rows[2].lights[0].figures.gpu_ratio = {};
+    EXPECT_THAT(front_of(sweep), ElementsAre("a"));
+}
+
+TEST(SweepFindings, ABargainIsTheBestThatNoMoreTimeBuys) {
+    const SceneSweep sweep = made_up_sweep(
+        {{"tutorial", 0.08, 1.0, std::string(kTutorialFactor)}, {"a", 0.04, 0.8}, {"b", 0.02, 1.0}, {"c", 0.01, 2.0}});
+    const std::vector<Bargain> found = bargains(sweep, "sun", kDrawn);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(sweep.plan[found[0].best.row].name, "b");
+}
+
+TEST(SweepFindings, NeverBestAreThoseThatAreOnNoFront) {
+    const SceneSweep sweep = made_up_sweep({{"a", 0.08, 1.0}, {"b", 0.1, 2.0}, {"c", 0.01, 4.0}});
+    EXPECT_THAT(never_best(sweep), ElementsAre("b"));
+}
+
+}  // namespace
+}  // namespace gnomon::bench

@@ -1,0 +1,6 @@
+gnomon_tests(NAME unit_visibility LABEL unit LIBRARIES gnomon_oracle
+  SOURCES visibility/light_queries_test.cpp allocation_counter.cpp)
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME unit_visibility_scenes LABEL unit LIBRARIES gnomon_oracle gnomon_sample
+    SOURCES visibility/real_scenes_test.cpp)
+endif()
