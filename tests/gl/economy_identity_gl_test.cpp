@@ -16,6 +16,14 @@ namespace {
 
 constexpr glm::uvec2 kPicture_px{96, 64};
 
+/// Whether a light's shadows are meant to be those of its rays: not of a range that somebody else chose, which leaves
+/// out casters beyond it, and not of a sun seen in perspective, whose rays are not parallel.
+bool follows_rays(const LightItem& light) {
+    const LightShadow& shadow = light.shadow;
+    const bool is_spread = light.kind == LightKind::directional && shadow.projection == LightProjection::perspective;
+    return shadow.near_m == 0.0f && shadow.far_m == 0.0f && !is_spread;
+}
+
 /// One of each way to store a map and to read it; all of them in a long run, since each costs programs.
 std::vector<ShadowFilter> filters_of_run() {
     if (!std::getenv("GNOMON_LONG"))
@@ -79,6 +87,7 @@ protected:
             for (std::size_t i = 0; i < scene.lights.size(); ++i) {
                 const Reason reason = both->report(Way::kThrifty).lights[i].reason;
                 if (reason != Reason::no_caster && reason != Reason::no_visible_receiver) continue;
+                if (!follows_rays(scene.lights[i])) continue;
                 if (hits.count() == 0) hits = tracer.trace_primary(scene.consumers[c]);
                 const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights[i], true);
                 const Floats& seen = visibilities[Way::kThrifty][c * scene.lights.size() + i];
