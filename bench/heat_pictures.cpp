@@ -1,10 +1,14 @@
 #include "bench/heat_pictures.h"
 
-#include "bench/heat_colours.h"
 #include "sample_game/picture_files.h"
+#include "systems/truth/error_colours.h"
 
 namespace gnomon::bench {
 namespace {
+
+using truth::Colour;
+using truth::error_colour;
+using truth::visibility_colour;
 
 template <class ColourOf>
 std::optional<Error> write(const Accuracy& accuracy, const std::filesystem::path& file, const ColourOf& colour_of) {

@@ -2,11 +2,17 @@
 
 #include <glm/common.hpp>
 
-#include "bench/heat_colours.h"
 #include "sample_game/picture_files.h"
+#include "systems/truth/error_colours.h"
 
 namespace gnomon::bench {
 namespace {
+
+using truth::Colour;
+using truth::ComparedPixel;
+using truth::error_colour;
+using truth::soft_error_colour;
+using truth::visibility_colour;
 
 constexpr std::uint32_t kPlaceStep_px = 16;
 constexpr int kJpegQuality = 85;

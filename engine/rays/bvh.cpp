@@ -12,8 +12,8 @@ constexpr int kBins = 16;
 /// ./gnomon bench queries; 3 takes a quarter less memory than 1.
 constexpr double kNodeCost = 3.0;
 constexpr std::uint32_t kMostSlots = 8;
-/// Below this depth halves are equal, so that no tree is deeper than this and 28 levels more.
-constexpr int kMostUneven = 64;
+/// Below this depth halves are equal.
+constexpr int kMostUneven = static_cast<int>(kMostDepth) - 28;
 
 struct Part {
     Box box;

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <span>
@@ -10,6 +11,9 @@
 namespace gnomon::rays {
 
 using Box = math::ShapeTree::Box;
+
+/// A tree is at most that deep: 64 uneven cuts, then halves of at most 2^28 items.
+inline constexpr std::size_t kMostDepth = 64 + 28;
 
 inline bool is_empty(const Box& box) { return !(box.min.x <= box.max.x); }
 

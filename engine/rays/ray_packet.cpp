@@ -26,6 +26,9 @@ constexpr double kBoxUnits = 16.0;
 /// Of an inverse basis times a vector, in units of its condition: the inverse's entries, the products, their sums.
 constexpr double kInverseUnits = 64.0;
 
+/// A share of a segment rounds to float by 2^-24, and is never cut to nothing.
+constexpr double kShareSlack = 0x1p-20;
+
 double norm(const glm::dmat3& m) {
     const glm::dvec3 rows = glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2]);
     return std::max({rows.x, rows.y, rows.z});
@@ -62,6 +65,8 @@ void put(const FramedRays& rays, const Cut& cut, std::size_t ray, float least, S
         largest_along = std::max(largest_along, size);
     }
     segments.size[lane] = largest_along;
+    segments.begin[lane] = cut.first;
+    segments.length[lane] = cut.last - cut.first;
 }
 
 /// What float knows nothing of, or nothing at all: any numbers.
@@ -71,6 +76,7 @@ void put_unknown(SegmentPacket& segments, std::size_t lane) {
         segments.along[axis][lane] = segments.inverse[axis][lane] = 1.0f;
     }
     segments.size[lane] = 1.0f;
+    segments.begin[lane] = segments.length[lane] = 0.0;
 }
 
 }  // namespace
@@ -103,6 +109,12 @@ FramedRays in_frame(const RayPacket& rays, Lanes wanted, const Frame& frame) {
 void SegmentPacket::drop(Lanes dropped) {
     lanes &= ~dropped;
     for (; dropped != 0; dropped &= dropped - 1u) last[static_cast<std::size_t>(std::countr_zero(dropped))] = -1.0f;
+}
+
+void SegmentPacket::shorten(std::size_t lane, double t) {
+    if (!(length[lane] > 0.0)) return;
+    const double share = std::clamp((t - begin[lane]) / length[lane], 0.0, 1.0) + kShareSlack;
+    last[lane] = std::min(last[lane], static_cast<float>(share));
 }
 
 Lanes SegmentPacket::rays_of(Lanes of) const {

@@ -51,14 +51,17 @@ FramedRays in_frame(const RayPacket& rays, Lanes wanted, const Frame& frame);
 /// for sure holds for the rays. They fill the first lanes, so that a few cost less than many.
 struct SegmentPacket {
     alignas(64) std::array<PerLane<float>, 3> from, along, inverse;
-    alignas(64) PerLane<float> last;  // 1; below 0: the lane is none
+    alignas(64) PerLane<float> last;  // 1, or less once it is shortened; below 0: the lane is none
     alignas(64) PerLane<float> size;  // largest component of along
     PerLane<std::uint8_t> ray;        // which of the packet's each lane holds
+    PerLane<double> begin, length;    // the ray's own t where a lane's is 0, and from there to 1; length 0: not known
     float box_slack = 0.0f;           // by which boxes are widened; infinite: float knows nothing
     float rounding = 0.0f;            // of coordinates; infinite as well
     Lanes lanes = 0;
 
     void drop(Lanes dropped);
+    /// What lies beyond `t` of the lane's ray is of no interest any more: boxes there are no longer near.
+    void shorten(std::size_t lane, double t);
     Lanes rays_of(Lanes of) const;  // a bit per ray of the packet
 };
 

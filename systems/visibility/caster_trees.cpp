@@ -13,7 +13,7 @@ std::span<const assets::Vertex> CasterTrees::vertices_of(const SceneSnapshot& sc
 void CasterTrees::list_meshes(const SceneSnapshot& scene) {
     trees_.resize(library_->meshes.size());
     for (const InstanceItem& item : scene.instances) {
-        if (!item.casts || item.mesh >= trees_.size() || trees_[item.mesh].kept) continue;
+        if (!wants(item) || item.mesh >= trees_.size() || trees_[item.mesh].kept) continue;
         Tree& tree = trees_[item.mesh];
         tree.bvh = rays::MeshBvh(library_->meshes[item.mesh], vertices_of(scene, item.mesh), library_->materials);
         const PoseItem* pose = pose_of(scene, item.mesh);

@@ -31,10 +31,10 @@ public:
     std::size_t count(double radius_m) const { return sized_ || radius_m > 0.0 ? disk_.size() : 1; }
     double last() const { return last_; }
     Reach ray(const Place& place, std::size_t sample, LightRay& ray) const;
-
-private:
+    /// Whether the point lies within the light's range and cone.
     bool reaches(const glm::dvec3& point_ws_m) const;
 
+private:
     const LightItem& light_;
     double size_ = 0.0;  // of the source: radius in metres, or the tangent of a sun's angular radius
     double outer_cosine_ = -1.0, last_ = 1.0;

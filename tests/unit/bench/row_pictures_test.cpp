@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/heat_colours.h"
+#include "systems/truth/error_colours.h"
 
 namespace gnomon::bench {
 namespace {
+
+using truth::Colour;
+using truth::error_colour;
+using truth::soft_error_colour;
 
 constexpr glm::uvec2 kSize_px{640, 360};
 

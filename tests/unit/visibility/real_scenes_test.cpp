@@ -5,10 +5,7 @@
 #include <optional>
 #include <random>
 
-#include "sample_game/scene_source.h"
-#include "sample_game/spawn.h"
-#include "systems/extract/extract.h"
-#include "systems/transform/transform_system.h"
+#include "tests/unit/visibility/loaded_scene.h"
 #include "tests/unit/visibility/query_scene.h"
 
 /// Visibility queries on scenes that others made, against the reference's double.
@@ -17,30 +14,9 @@ namespace {
 
 const std::filesystem::path kSponza = "sponza-crytek/Sponza.gltf", kFox = "fox-draco-testdata/Fox/glTF/Fox.gltf";
 
-/// A file's scene as entities, moved to a time.
-struct LoadedScene {
-    ecs::Registry world;
-    assets::MeshLibrary library;
-    game::SpawnedScene spawned;
-    TransformSystem transforms;
-    Extractor extractor;
-    SceneSnapshot snapshot;
-
-    explicit LoadedScene(assets::SceneData scene, const glm::dvec3& offset_m = glm::dvec3(0.0)) {
-        const ecs::Entity root = world.create();
-        world.emplace<Transform>(root, {.translation_m = offset_m});
-        spawned = game::spawn_scene(std::move(scene), world, library);
-        for (const ecs::Entity node : spawned.nodes)
-            world.patch<Transform>(node, [&](Transform& transform) {
-                if (transform.parent == ecs::kNull) transform.parent = root;
-            });
-        move_to(0.0);
-    }
-    void move_to(double time_s) {
-        game::set_time(spawned, time_s, world);
-        extractor.update(world, library, transforms.update(world), {64, 64}, snapshot);
-    }
-    math::Aabb bounds() const { return snapshot.tree.box(); }
+/// A loaded scene, what is asked of it, and the answers against the reference.
+struct AskedScene : test::LoadedScene {
+    using LoadedScene::LoadedScene;
 
     /// A sun, a lamp with a range and a spot, all of which reach a good part of it.
     std::vector<LightItem> lights() const {
@@ -80,14 +56,14 @@ struct LoadedScene {
     }
 };
 
-std::unique_ptr<LoadedScene> load(const std::optional<std::filesystem::path>& name,
-                                  const glm::dvec3& offset_m = glm::dvec3(0.0)) {
+std::unique_ptr<AskedScene> load(const std::optional<std::filesystem::path>& name,
+                                 const glm::dvec3& offset_m = glm::dvec3(0.0)) {
     std::optional<std::filesystem::path> file;
     if (name) file = std::filesystem::path(GNOMON_DATA_DIR) / *name;
     if (file && !std::filesystem::exists(*file)) return nullptr;
     auto scene = game::load_scene(file);
     EXPECT_TRUE(scene) << to_line(scene.error());
-    return std::make_unique<LoadedScene>(std::move(scene).value(), offset_m);
+    return std::make_unique<AskedScene>(std::move(scene).value(), offset_m);
 }
 
 void expect_agreement(const test::Agreement& agreement, std::size_t asked) {

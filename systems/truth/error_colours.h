@@ -3,7 +3,7 @@
 #include <cstdint>
 
 /// How pictures of visibility and of its errors are coloured; bench/README.md has the legend.
-namespace gnomon::bench {
+namespace gnomon::truth {
 
 using Colour = std::array<std::uint8_t, 4>;
 
@@ -20,4 +20,4 @@ Colour error_colour(const ComparedPixel& pixel);
 /// Against the truth about a disk: the truth in grey, red as far as light is missing, blue as far as it is too much.
 Colour soft_error_colour(const ComparedPixel& pixel);
 
-}  // namespace gnomon::bench
+}  // namespace gnomon::truth

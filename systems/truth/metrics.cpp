@@ -1,4 +1,4 @@
-#include "tests/oracle/metrics.h"
+#include "systems/truth/metrics.h"
 
 #include <algorithm>
 #include <cassert>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace gnomon::oracle {
+namespace gnomon::truth {
 namespace {
 
 constexpr float kHalf = 0.5f;
@@ -179,4 +179,4 @@ Metrics compare(const ComparedPictures& pictures) {
     return Comparison(pictures).run();
 }
 
-}  // namespace gnomon::oracle
+}  // namespace gnomon::truth

@@ -1,9 +1,9 @@
-#include "bench/heat_colours.h"
+#include "systems/truth/error_colours.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace gnomon::bench {
+namespace gnomon::truth {
 namespace {
 
 constexpr Colour kBlack{0, 0, 0, 255}, kGrey{70, 70, 70, 255}, kGreen{60, 170, 80, 255}, kDark{25, 45, 30, 255},
@@ -46,4 +46,4 @@ Colour soft_error_colour(const ComparedPixel& pixel) {
     return mix(mix(kDark, kGreen, pixel.truth), more < 0.0f ? kRed : kBlue, std::min(std::abs(more), 1.0f));
 }
 
-}  // namespace gnomon::bench
+}  // namespace gnomon::truth

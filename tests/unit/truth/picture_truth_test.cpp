@@ -1,0 +1,184 @@
+#include "systems/truth/picture_truth.h"
+
+#include <gtest/gtest.h>
+
+#include <ctime>
+#include <filesystem>
+#include <glm/geometric.hpp>
+#include <memory>
+
+#include "tests/oracle/reference_tracer.h"
+#include "tests/unit/visibility/loaded_scene.h"
+
+/// The library's truth about a picture against the reference tracer's, which finds its triangles by another tree and
+/// another test.
+namespace gnomon::truth {
+namespace {
+
+constexpr glm::uvec2 kSize_px{320, 180};
+constexpr unsigned kThreads = 2;
+static_assert(kMinCosine == oracle::kMinCosine && kJitter == oracle::kJitter, "else they count other pixels");
+const std::filesystem::path kSponza = "sponza-crytek/Sponza.gltf", kFox = "fox-draco-testdata/Fox/glTF/Fox.gltf";
+
+std::unique_ptr<test::LoadedScene> load(const std::optional<std::filesystem::path>& name, double time_s,
+                                        const glm::dvec3& offset_m = glm::dvec3(0.0)) {
+    std::optional<std::filesystem::path> file;
+    if (name) file = std::filesystem::path(GNOMON_DATA_DIR) / *name;
+    if (file && !std::filesystem::exists(*file)) return nullptr;
+    auto scene = game::load_scene(file);
+    EXPECT_TRUE(scene) << to_line(scene.error());
+    auto loaded = std::make_unique<test::LoadedScene>(std::move(scene).value(), offset_m);
+    loaded->move_to(time_s, kSize_px);
+    return loaded;
+}
+
+PictureTruth traced(const test::LoadedScene& scene) {
+    TraceState state;
+    PictureTruth truth = trace_picture(scene.snapshot, scene.library, kThreads, state);
+    EXPECT_EQ(state.share(), 1.0);
+    return truth;
+}
+
+/// Pixels that differ. Where two surfaces lie in one plane either may be seen, and at a pixel whose centre lies on an
+/// edge, to the last bits, what is before it or behind: places are compared, to what the truth itself cannot tell
+/// apart. Lights are compared where those are the same, and visibility where the reference is sure.
+struct Differing {
+    std::size_t surfaces = 0, visibility = 0, scored = 0, ambiguous = 0;
+    std::size_t lit = 0, dark = 0;  // by the reference
+};
+
+Differing compared(const test::LoadedScene& scene, const PictureTruth& truth) {
+    const ConsumerItem& camera = scene.snapshot.consumers.front();
+    const oracle::ReferenceTracer reference(scene.snapshot, scene.library, camera.position_ws_m, kThreads);
+    const oracle::PrimaryHits hits = reference.trace_primary(camera);
+    Differing differing;
+    const auto same = [&](std::size_t i) {
+        const bool none = hits.triangle[i] == oracle::kNoTriangle, no_surface = truth.seen.instance[i] == kNoSurface;
+        if (none || no_surface) return none && no_surface;
+        const glm::dvec3 place = truth.seen.position_ws_m[i] - camera.position_ws_m;
+        return glm::length(place - hits.position_rel_m[i]) <= kJitter * glm::length(place);
+    };
+    for (std::size_t i = 0; i < hits.count(); ++i) differing.surfaces += !same(i);
+    for (const TracedLight& light : truth.lights) {
+        const oracle::LightTruth expected =
+            reference.trace_light(hits, as_point(scene.snapshot.lights[light.light]), true);
+        for (std::size_t i = 0; i < hits.count(); ++i) {
+            if (!same(i)) continue;
+            differing.scored += light.truth.scored[i] != expected.scored[i];
+            differing.ambiguous += light.truth.ambiguous[i] != expected.ambiguous[i];
+            if (expected.ambiguous[i] != 0) continue;
+            differing.visibility += light.truth.visibility[i] != expected.visibility[i];
+            if (expected.scored[i] != 0) (expected.visibility[i] > 0.5f ? differing.lit : differing.dark)++;
+        }
+    }
+    return differing;
+}
+
+void expect_agreement(const Differing& differing) {
+    const std::size_t pixels = std::size_t{kSize_px.x} * kSize_px.y;
+    EXPECT_LE(differing.surfaces, pixels / 20000);
+    EXPECT_EQ(differing.visibility, 0u);
+    EXPECT_LE(differing.scored, pixels / 20000);
+    EXPECT_LE(differing.ambiguous, pixels / 20000);
+    EXPECT_GT(differing.lit, pixels / 50);
+    EXPECT_GT(differing.dark, pixels / 50);
+    std::printf("differ: surfaces %zu, visibility %zu, scored %zu, ambiguous %zu\n", differing.surfaces,
+                differing.visibility, differing.scored, differing.ambiguous);
+}
+
+TEST(TruthOfAPicture, OfTheCourtyardIsTheReferencesHereAndFarAway) {
+    for (const double offset_m : {0.0, 1e6}) {
+        const auto scene = load(std::nullopt, 3.0, {offset_m, 0.0, -offset_m});
+        const PictureTruth truth = traced(*scene);
+        ASSERT_EQ(truth.lights.size(), 3u);
+        expect_agreement(compared(*scene, truth));
+    }
+}
+
+TEST(TruthOfAPicture, OfSponzaIsTheReferences) {
+    const auto scene = load(kSponza, 0.0);
+    if (!scene) GTEST_SKIP() << kSponza << " is not there";
+    expect_agreement(compared(*scene, traced(*scene)));
+}
+
+TEST(TruthOfAPicture, OfWhatIsBentIsTheReferencesAndOfItsRestIsNot) {
+    const auto scene = load(kFox, 0.35);
+    if (!scene) GTEST_SKIP() << kFox << " is not there";
+    const PictureTruth truth = traced(*scene);
+    const Differing now = compared(*scene, truth);
+    EXPECT_LE(now.surfaces, 3u);
+    EXPECT_EQ(now.visibility, 0u);
+    EXPECT_GT(now.lit, 500u);
+    EXPECT_GT(now.dark, 50u);
+    scene->move_to(0.0, kSize_px);
+    EXPECT_GT(compared(*scene, truth).surfaces, 100u);
+}
+
+TEST(TruthOfAPicture, WithoutACasterEverythingInReachIsLit) {
+    const auto scene = load(std::nullopt, 3.0);
+    for (InstanceItem& item : scene->snapshot.instances) item.casts = false;
+    const PictureTruth truth = traced(*scene);
+    std::size_t scored = 0;
+    for (const TracedLight& light : truth.lights)
+        for (std::size_t i = 0; i < truth.seen.count(); ++i) {
+            if (light.truth.scored[i] == 0) continue;
+            ++scored;
+            ASSERT_EQ(light.truth.visibility[i], 1.0f);
+            ASSERT_EQ(light.truth.ambiguous[i], 0);
+        }
+    EXPECT_GT(scored, 20000u);
+}
+
+TEST(TruthOfAPicture, ASourcesSizeAndTheNumberOfThreadsChangeNothing) {
+    const auto scene = load(std::nullopt, 3.0);
+    const PictureTruth plain = traced(*scene);
+    for (LightItem& light : scene->snapshot.lights) {
+        light.shadow.source_radius_m = 0.3f;
+        light.shadow.sun_radius_rad = 0.02f;
+    }
+    TraceState state;
+    const PictureTruth sized = trace_picture(scene->snapshot, scene->library, 1, state);
+    for (std::size_t i = 0; i < plain.lights.size(); ++i) {
+        EXPECT_EQ(plain.lights[i].truth.visibility, sized.lights[i].truth.visibility);
+        EXPECT_EQ(plain.lights[i].truth.ambiguous, sized.lights[i].truth.ambiguous);
+    }
+}
+
+TEST(TruthOfAPicture, WithoutACameraNothingIsSeen) {
+    const auto scene = load(std::nullopt, 0.0);
+    scene->snapshot.consumers.clear();
+    TraceState state;
+    EXPECT_TRUE(trace_picture(scene->snapshot, scene->library, 1, state).lights.empty());
+}
+
+TEST(TruthInTheBackground, IsThatOfTheSceneAsItWasWhenItBegan) {
+    const auto scene = load(std::nullopt, 3.0);
+    const PictureTruth expected = traced(*scene);
+    BackgroundTrace trace(scene->snapshot, scene->library, kThreads);
+    scene->move_to(7.0, kSize_px);
+    const PictureTruth& truth = trace.truth();
+    EXPECT_TRUE(trace.finished());
+    EXPECT_EQ(trace.share(), 1.0);
+    ASSERT_EQ(truth.lights.size(), expected.lights.size());
+    for (std::size_t i = 0; i < truth.lights.size(); ++i)
+        EXPECT_EQ(truth.lights[i].truth.visibility, expected.lights[i].truth.visibility);
+    EXPECT_NE(traced(*scene).lights[2].truth.visibility, expected.lights[2].truth.visibility) << "the lamp has turned";
+}
+
+TEST(TruthInTheBackground, EndsSoonWhenNobodyWantsItAnyMore) {
+    auto scene = load(std::nullopt, 3.0);
+    scene->move_to(3.0, {4096, 4096});        // 270 million rays: whole, it would take minutes
+    const std::clock_t start = std::clock();  // this process's time: others may have the processor
+    double share = 0.0;
+    {
+        const BackgroundTrace trace(scene->snapshot, scene->library, 1);
+        while (trace.share() <= 0.0) std::this_thread::yield();
+        share = trace.share();
+        EXPECT_FALSE(trace.finished());
+    }
+    EXPECT_LT(share, 0.5);
+    EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 10.0);
+}
+
+}  // namespace
+}  // namespace gnomon::truth
