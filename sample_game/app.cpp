@@ -1,6 +1,8 @@
 #include "sample_game/app.h"
 
+#include <algorithm>
 #include <cstdlib>
+#include <thread>
 
 #include "components/light_shadow.h"
 #include "engine/gl/device_gl45.h"
@@ -45,6 +47,7 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
     for (const NamedEntity& light : world->scene.lights) {
         if (!world->registry.has<LightShadow>(light.entity)) continue;
         world->registry.patch<LightShadow>(light.entity, [&](LightShadow& shadow) {
+            if (line.preset) apply_preset(*line.preset, shadow);
             for (const std::string& setting : line.settings) apply_setting(shadow, setting);
         });
     }
@@ -52,11 +55,13 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
     for (const NamedEntity& light : world->scene.lights)
         if (world->registry.has<LightShadow>(light.entity)) shadowed.push_back(light.name);
     if (auto error = check_debug_light(line.debug, shadowed)) return *error;
+    if (line.truth_light)
+        if (auto error = check_shadowed_light("--truth-light", *line.truth_light, shadowed)) return *error;
     return world;
 }
 
 std::optional<Error> check_outputs(const CommandLine& line) {
-    for (const auto& file : {line.stats, line.screenshot})
+    for (const auto& file : {line.stats, line.screenshot, line.truth})
         if (file)
             if (auto error = check_writable(*file)) return error;
     for (const auto& folder : {line.visibility, line.program_cache})
@@ -78,8 +83,8 @@ void set_timing(gl::Device& device, bool on) {
     device.set_timing(on ? mode : gl::TimingMode::off);
 }
 
-bool wants_timing(const CommandLine& line, const gl::Device& device) {
-    return line.stats || (line.shadow_budget.gpu_ms > 0.0f && !device.info().is_software);
+bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device) {
+    return line.stats || (budget.gpu_ms > 0.0f && !device.info().is_software);
 }
 
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
@@ -94,7 +99,7 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, 
         return Error{
             .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
             .rule = "command_line"};
-    set_timing(*renderer.device, wants_timing(line, *renderer.device));
+    set_timing(*renderer.device, wants_timing(line, line.shadow_budget, *renderer.device));
     Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, held_fits);
     if (!frame) return frame.error();
     renderer.frame = std::move(frame).value();
@@ -107,13 +112,18 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
         log.warn(on_one_line("'" + dropped.name + "' is left out: " + reason_code(dropped.reason)));
 }
 
+unsigned trace_threads() { return std::max(std::thread::hardware_concurrency(), 2u) - 1u; }
+
+std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px) {
+    std::vector<std::uint8_t> rgba;
+    if (!frame.read_picture(rgba))
+        return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
+    return write_png(file, size_px.x, size_px.y, rgba);
+}
+
 std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats) {
-    if (line.screenshot) {
-        std::vector<std::uint8_t> rgba;
-        if (!frame.read_picture(rgba))
-            return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
-        if (auto error = write_png(*line.screenshot, size_px.x, size_px.y, rgba)) return error;
-    }
+    if (line.screenshot)
+        if (auto error = write_picture(*line.screenshot, frame, size_px)) return error;
     if (line.visibility) {
         const std::vector<LightItem>& lights = frame.snapshot().lights;
         std::vector<float> values;

@@ -47,14 +47,20 @@ void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& setting
 
 /// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
 void set_timing(gl::Device& device, bool on);
-/// Whether the command line needs the times: --stats, or --shadow-ms, unless measuring would slow each frame down.
-bool wants_timing(const CommandLine& line, const gl::Device& device);
+/// Whether the times are needed: for --stats, or for a budget of them, unless measuring would slow each frame down.
+bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device);
 
 /// Warns once of everything that is odd about the scene and yet no error.
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);
 
+/// The threads that a trace may take beside the one that draws.
+unsigned trace_threads();
+
 /// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
 std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats);
+
+/// Writes the picture as it is to `file`.
+std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px);
 
 /// Run until done. Empty: all went well.
 std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);

@@ -3,6 +3,7 @@
 #include "engine/platform/context.h"
 #include "sample_game/app.h"
 #include "sample_game/gui/gui.h"
+#include "sample_game/last_frame.h"
 
 namespace gnomon::game {
 
@@ -21,7 +22,7 @@ Result<Stage> make_stage(const CommandLine& line, const GameWorld& world, const 
     auto renderer = make_renderer(line, world, held_fits);
     if (!renderer) return renderer.error();
     Stage stage{std::move(context).value(), std::move(renderer).value(), nullptr};
-    if (world.game || line.debug.view) {
+    if (world.game || line.debug.view || line.truth) {
         auto drawn = Gui::create(*stage.renderer.device);
         if (!drawn) return drawn.error();
         stage.gui = std::move(drawn).value();
@@ -70,7 +71,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         if (i == 0) log_warnings(world, frame.report(), log);
         if (line.stats) stats.add(frame.report(), i, time_s, world.game ? &world.game->state() : nullptr);
     }
-    return write_outputs(line, *stage->renderer.frame, line.size_px, stats);
+    return write_last_frame(line, world, *stage->renderer.frame, settings, stage->gui.get(), stats);
 }
 
 }  // namespace gnomon::game

@@ -11,6 +11,7 @@
 #include "sample_game/fly_camera.h"
 #include "sample_game/gamepad.h"
 #include "sample_game/gui/gui.h"
+#include "sample_game/last_frame.h"
 
 namespace gnomon::game {
 namespace {
@@ -54,7 +55,7 @@ private:
 /// Frames per second, shown in the title now and then.
 class TitleMeter {
 public:
-    /// `state`: of the game, shown at once when it changes; empty if none is played.
+    /// `state`: shown at once when it changes; empty if there is nothing to say.
     void frame_done(platform::Window& window, const std::string& state, const std::string& device) {
         ++frames_;
         if (state != state_ && !rate_.empty()) show(window, state, device);
@@ -88,6 +89,20 @@ void update_capture(const platform::Input& input, platform::Window& window, bool
     if (want == captured) return;
     captured = want;
     window.capture_mouse(captured);
+}
+
+std::string words_of_state(const GameWorld& world, const FrozenFrame& frozen) {
+    if (frozen.judged()) return "frozen";
+    if (frozen.on()) return "tracing the truth";
+    return world.game ? to_text(world.game->state().phase) : "";
+}
+
+/// Freezes the frame that is shown, or lets it go.
+void toggle_frozen(const GameWorld& world, const Frame& frame, FrozenFrame& frozen) {
+    if (frozen.on())
+        frozen.thaw();
+    else
+        frozen.freeze(frame, world.library, trace_threads());
 }
 
 /// Whatever runs in the window: the game, or the motion of a scene and a walk through it.
@@ -161,9 +176,10 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
     Gui& gui = *drawn.value();
     StatsFile stats(renderer.device->info().name);
     gui.panel.debug = line.debug;
+    gui.panel.budget = line.shadow_budget;
     Play play(world, line);
     TitleMeter title;
-    bool captured = false;
+    bool captured = false, is_first = true;
     Clock::time_point last = Clock::now();
     while (!line.frames || play.frame() < *line.frames) {
         const platform::Input& input = window.poll();
@@ -177,20 +193,31 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         last = Clock::now();
         if (pressed(input, platform::Key::f1)) {
             gui.panel.shown = !gui.panel.shown;
-            set_timing(*renderer.device, gui.panel.shown || wants_timing(line, *renderer.device));  // it shows times
+            set_timing(*renderer.device,
+                       gui.panel.shown || wants_timing(line, gui.panel.budget, *renderer.device));  // it shows times
         }
-        if (pressed(input, platform::Key::f2)) next_debug_light(world, gui.panel.debug);
+        if (pressed(input, platform::Key::f5) || std::exchange(gui.panel.toggle_frozen, false))
+            toggle_frozen(world, *renderer.frame, gui.frozen);
+        if (pressed(input, platform::Key::f2)) {
+            if (gui.frozen.on())
+                gui.frozen.choose_next();
+            else
+                next_debug_light(world, gui.panel.debug);
+        }
         if (pressed(input, platform::Key::f3)) next_debug_view(world, gui.panel.debug);
         if (pressed(input, platform::Key::f4)) gui.panel.freeze_fits = !gui.panel.freeze_fits;
         const bool was_captured = captured;  // how the mouse came to where it clicked does not turn the head
         update_capture(input, window, gui.panel.shown, captured);
-        play.advance(input, was_captured && captured, std::exchange(gui.panel.toggle_motion, false), dt_s,
-                     renderer.frame->snapshot());
+        const bool stop_or_go = std::exchange(gui.panel.toggle_motion, false);
+        if (!gui.frozen.on())
+            play.advance(input, was_captured && captured, stop_or_go, dt_s, renderer.frame->snapshot());
         settings.viewport_px = {input.framebuffer_width, input.framebuffer_height};
         settings.shadows = gui.panel.shadows;
         settings.debug = gui.panel.debug;
         settings.freeze_fits = gui.panel.freeze_fits;
-        if (play.frame() == 1) {
+        settings.shadow_budget = gui.panel.budget;
+        const bool first = std::exchange(is_first, false);
+        if (first) {
             freeze_at_fit_camera(world, *renderer.frame, settings);
             gui.panel.freeze_fits = settings.freeze_fits;
         }
@@ -198,15 +225,16 @@ std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlo
         renderer.frame->run(world.registry, settings);
         if (renderer.frame->report().failure == gl::Failure::context_lost)
             return Error{.message = "the graphics context was lost, and the window with it", .rule = "gl.context_lost"};
+        gui.frozen.update(*renderer.frame);
         gui.draw(world, *renderer.frame, settings.viewport_px, &input, dt_s, true);
         window.present();
-        if (play.frame() == 1) log_warnings(world, renderer.frame->report(), log);
-        if (line.stats)
+        if (first) log_warnings(world, renderer.frame->report(), log);
+        if (line.stats && !gui.frozen.on())
             stats.add(renderer.frame->report(), play.frame() - 1, play.time_s(),
                       world.game ? &world.game->state() : nullptr);
-        title.frame_done(window, world.game ? to_text(world.game->state().phase) : "", renderer.device->info().name);
+        title.frame_done(window, words_of_state(world, gui.frozen), renderer.device->info().name);
     }
-    return write_outputs(line, *renderer.frame, settings.viewport_px, stats);
+    return write_last_frame(line, world, *renderer.frame, settings, &gui, stats);
 }
 
 }  // namespace gnomon::game

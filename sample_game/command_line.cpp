@@ -20,7 +20,7 @@ constexpr double kFramesPerSecond = 60.0;
 /// What was typed, before it is understood.
 struct Typed {
     std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms, stats,
-        screenshot, visibility, program_cache, debug;
+        screenshot, visibility, truth, truth_light, program_cache, preset, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -47,20 +47,26 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--screenshot", typed.screenshot, "F.png: the last frame");
     app.add_option("--visibility", typed.visibility,
                    "DIR: DIR/<light>.pfm, the visible fraction of each shadowed light");
+    app.add_option(
+        "--truth", typed.truth,
+        "F.png: the last frame with its errors against ray-traced truth over it; their figures go to --stats");
+    app.add_option("--truth-light", typed.truth_light, "NAME: with --truth, this light's errors (default: the worst)");
     app.add_option("--program-cache", typed.program_cache,
                    "DIR|off: where compiled programs are kept between runs (default: the user's cache folder in a "
                    "window, off with --headless)");
+    app.add_option("--preset", typed.preset, "fast|default|high: LightShadow fields of every light, before --set");
     app.add_option("--set", typed.settings, "KEY=VALUE: a LightShadow field of every light; repeatable")
         ->expected(1)
         ->allow_extra_args(false)
         ->take_all();
     app.add_option("--debug", typed.debug, "NAME[:LIGHT[:MAP]]: a debug view over the picture, see --list");
-    app.add_flag("--list", typed.list, "print what --set and --debug know, and exit");
+    app.add_flag("--list", typed.list, "print what --set, --preset and --debug know, and exit");
     app.footer(
         "In the window: WASD walk, Shift faster, click to look with the mouse, Tab frees it, P pauses,\n"
         "F1 shows the lights and their settings, F3 the debug views one after the other, F2 the same of the next "
         "light,\n"
-        "F4 keeps the shadows' fits while the camera goes on, Esc quits.\n"
+        "F4 keeps the shadows' fits while the camera goes on, F5 freezes the frame and shows its errors against\n"
+        "ray-traced truth, Esc quits.\n"
         "The game, in a window without --scene, --camera, --fit-camera, --animation, --frames and --time: cross the\n"
         "courtyard to the gate unseen;\n"
         "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
@@ -125,6 +131,8 @@ std::optional<Error> read_names(const Typed& typed, const CLI::App& app, Command
                      read("--animation", typed.animation, line.animation) && read("--stats", typed.stats, line.stats) &&
                      read("--screenshot", typed.screenshot, line.screenshot) &&
                      read("--visibility", typed.visibility, line.visibility) &&
+                     read("--truth", typed.truth, line.truth) &&
+                     read("--truth-light", typed.truth_light, line.truth_light) &&
                      read("--program-cache", typed.program_cache, line.program_cache);
     if (typed.program_cache == "off") line.program_cache = std::filesystem::path{};
     return all ? std::nullopt : std::optional(wrong("an empty name was given"));
@@ -135,7 +143,7 @@ Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
     line.headless = typed.headless;
     line.demo = typed.demo;
     line.settings = typed.settings;
-    if (typed.list) line.print = list_settings() + list_debug_views();
+    if (typed.list) line.print = list_settings() + list_presets() + list_debug_views();
     if (app.count("--size") > 0)
         if (auto error = read_size(typed.size, line.size_px)) return *error;
     if (auto error = read_numbers(typed, app, line)) return *error;
@@ -144,6 +152,11 @@ Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
         return wrong(
             "--demo plays the built-in scene with its own camera: no --scene, --camera, --fit-camera or --animation "
             "goes with it");
+    if (line.truth_light && !line.truth) return wrong("--truth-light says whose errors --truth shows: give both");
+    if (app.count("--preset") > 0) {
+        line.preset = find_preset(typed.preset);
+        if (!line.preset) return wrong("--preset: '" + typed.preset + "' is none; --list shows them");
+    }
     if (app.count("--debug") > 0) {
         Result<debug::Request> debug = read_debug_request(typed.debug);
         if (!debug) return debug.error();

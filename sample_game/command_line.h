@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "sample_game/presets.h"
 #include "systems/debug/debug_view.h"
 #include "systems/shadow/grant.h"
 
@@ -26,8 +27,11 @@ struct CommandLine {
     std::optional<float> exposure_ev;     // empty: automatic
     shadow::ShadowBudget shadow_budget;   // what shadows may take
     std::optional<std::filesystem::path> stats, screenshot, visibility;
+    std::optional<std::filesystem::path> truth;          // the last frame beside its truth: picture with errors over it
+    std::optional<std::string> truth_light;              // whose errors it shows; empty: each pixel's worst
     std::optional<std::filesystem::path> program_cache;  // folder; empty path: off; nothing: see program_folder()
     debug::Request debug;                                // its light is not checked against a scene
+    const Preset* preset = nullptr;                      // applied before the settings
     std::vector<std::string> settings;                   // KEY=VALUE, each known to be right
     std::string print;                                   // not empty (--help, --list): print it and exit with 0
 };

@@ -14,7 +14,11 @@ namespace gnomon::game {
 /// Errors: rules "debug.view" (no such view), "debug.syntax".
 Result<debug::Request> read_debug_request(std::string_view text);
 
-/// Error: rule "debug.light", if `request` names a light that is not among `lights`.
+/// Error: rule "debug.light", if `name`, given with `flag`, is not among `lights`.
+std::optional<Error> check_shadowed_light(const char* flag, const std::string& name,
+                                          const std::vector<std::string>& lights);
+
+/// The same, if `request` names a light that is not among `lights`.
 std::optional<Error> check_debug_light(const debug::Request& request, const std::vector<std::string>& lights);
 
 /// What --list prints of them.

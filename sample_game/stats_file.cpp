@@ -112,7 +112,8 @@ void StatsFile::add(const FrameReport& report, std::uint64_t index, double time_
 }
 
 std::optional<Error> StatsFile::write(const std::filesystem::path& file) const {
-    const Json document = {{"device", device_}, {"frames", frames_}};
+    Json document = {{"device", device_}, {"frames", frames_}};
+    if (!truth_.is_null()) document["truth"] = truth_;
     constexpr int kIndent = 1;
     // Names come from files: text that is not UTF-8 is replaced, not thrown at the user.
     const std::string text = document.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";

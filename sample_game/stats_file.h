@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/core/result.h"
 #include "sample_game/game/game.h"
@@ -21,11 +22,14 @@ public:
     explicit StatsFile(std::string device) : device_(std::move(device)) {}
     /// `game`: null if none is played.
     void add(const FrameReport& report, std::uint64_t index, double time_s, const GameState* game);
+    /// Of the last frame: truth_stats().
+    void set_truth(nlohmann::ordered_json truth) { truth_ = std::move(truth); }
     std::optional<Error> write(const std::filesystem::path& file) const;
 
 private:
     std::string device_;
     nlohmann::ordered_json frames_ = nlohmann::ordered_json::array();
+    nlohmann::ordered_json truth_;  // null: not asked for
 };
 
 }  // namespace gnomon::game

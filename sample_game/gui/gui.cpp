@@ -65,9 +65,16 @@ void Gui::draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platfor
     if (input && panel.shown) feed(io, *input);
     ImGui::NewFrame();
     if (world.game) draw_game_overlay(world.game->state(), glm::vec2(size_px), !panel.shown);
+    errors_.draw(frozen, frame.report(), glm::vec2(size_px));
     draw_debug_labels(frame.debug_labels(), glm::vec2(size_px));
     panel.debug.area = {};
-    if (panel.shown) draw_light_panel(world, frame.report(), size_px, panel);
+    if (panel.shown) {
+        panel.graph.add(frame.report());
+        note_contract(world, frame.report(), panel.contract);
+        draw_light_panel(world, frame.report(), size_px, frozen, panel);
+    } else {
+        panel.graph.clear();  // it would have a gap that it does not show
+    }
     ImGui::Render();
 
     list_.clear();

@@ -144,6 +144,24 @@ void draw_report(const FrameReport& report) {
     ImGui::EndTable();
 }
 
+/// Freezes the frame, and chooses whose errors are shown.
+void draw_frozen_choice(FrozenFrame& frozen, PanelState& state) {
+    bool on = frozen.on();
+    if (ImGui::Checkbox("freeze and trace the truth (F5)", &on)) state.toggle_frozen = true;
+    if (!frozen.on()) return;
+    const auto now = frozen.chosen();
+    const char* worst = "each pixel's worst";
+    ImGui::SameLine();
+    ImGui::PushItemWidth(12.0f * ImGui::GetFontSize());
+    if (ImGui::BeginCombo("errors of (F2)", now ? frozen.lights()[*now].name.c_str() : worst)) {
+        if (ImGui::Selectable(worst, !now)) frozen.choose({});
+        for (std::size_t i = 0; i < frozen.lights().size(); ++i)
+            if (ImGui::Selectable(frozen.lights()[i].name.c_str(), now == i)) frozen.choose(i);
+        ImGui::EndCombo();
+    }
+    ImGui::PopItemWidth();
+}
+
 /// The picture to the right of the current window; all of it if less than a third remains.
 gl::Rect beside_panel(glm::uvec2 size_px) {
     const auto right_px = static_cast<std::int32_t>(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x);
@@ -155,7 +173,8 @@ gl::Rect beside_panel(glm::uvec2 size_px) {
 
 }  // namespace
 
-void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, PanelState& state) {
+void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, FrozenFrame& frozen,
+                      PanelState& state) {
     const ImVec2 at{12.0f, 12.0f};
     ImGui::SetNextWindowPos(at, ImGuiCond_Once);
     if (ImGui::Begin("Lights and shadows (F1)", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -170,7 +189,11 @@ void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 si
         ImGui::Text("frame %.2f ms, of it shadows %.2f ms on the CPU", report.cpu_us * 1e-3,
                     report.shadow_cpu_us * 1e-3);
         draw_debug_choice(world, report, state);
+        draw_frozen_choice(frozen, state);
         draw_report(report);
+        draw_light_graph(world, state.graph);
+        draw_contract(world, state.contract);
+        draw_budget(report, state.budget);
         draw_why(report);
         draw_settings(world);
         state.debug.area = beside_panel(size_px);

@@ -30,11 +30,11 @@ void main() {
 }
 )";
 constexpr const char* kFragmentSource = R"(#version 450 core
-layout(binding = 0) uniform sampler2D font;
+layout(binding = 0) uniform sampler2D image;
 layout(location = 0) out vec4 colour_out;
 in vec4 tint;
 in vec2 at;
-void main() { colour_out = tint * texture(font, at); }
+void main() { colour_out = tint * texture(image, at); }
 )";
 
 /// sRGB as ImGui's colours mean it, 0..255, to linear; the target encodes again. IEC 61966-2-1.
@@ -52,6 +52,10 @@ OverlayVertex converted(const ImDrawVert& v, const ImDrawData& data) {
             {v.uv.x, v.uv.y}};
 }
 
+gl::TextureHandle texture_of(ImTextureID image) {
+    return {static_cast<decltype(gl::TextureHandle::id)>(reinterpret_cast<std::uintptr_t>(image))};
+}
+
 /// ImGui's clip rectangle, y down, as a scissor, y up. Without width or height: nothing to draw.
 gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
     const auto within = [](float value, std::uint32_t most) {
@@ -63,6 +67,10 @@ gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
 }
 
 }  // namespace
+
+ImTextureID image_of(gl::TextureHandle texture) {
+    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id));
+}
 
 Overlay::Overlay(gl::Device& device)
     : device_(device),
@@ -87,6 +95,7 @@ Result<std::unique_ptr<Overlay>> Overlay::create(gl::Device& device) {
                                .width = static_cast<std::uint32_t>(width),
                                .height = static_cast<std::uint32_t>(height)};
     overlay->font_ = device.create_texture(font, std::as_bytes(std::span(texels, bytes))).handle;
+    ImGui::GetIO().Fonts->SetTexID(image_of(overlay->font_));
     overlay->sampler_ = device.create_sampler({.label = "overlay font", .linear = true}).handle;
     overlay->program_ =
         device.create_program({.label = "overlay", .vertex = kVertexSource, .fragment = kFragmentSource}).handle;
@@ -119,7 +128,6 @@ void Overlay::record(const ImDrawData& data, gl::TargetHandle target, glm::uvec2
         gl::BeginPass{.target = target,
                       .viewport = {0, 0, static_cast<std::int32_t>(size_px.x), static_cast<std::int32_t>(size_px.y)}});
     list.add(gl::SetPipeline{{.program = program_, .blend = gl::Blend::alpha}});
-    list.add(gl::BindTexture{0, font_, sampler_});
     list.add(gl::BindMeshes{vertices_.handle(), indices_.handle(), items_.handle()});
     std::uint32_t first_index = 0;
     std::int32_t first_vertex = 0;
@@ -127,6 +135,7 @@ void Overlay::record(const ImDrawData& data, gl::TargetHandle target, glm::uvec2
         for (const ImDrawCmd& command : draw->CmdBuffer) {
             const gl::Rect clip = scissor(command.ClipRect, size_px);
             if (command.UserCallback || clip.width <= 0 || clip.height <= 0) continue;
+            list.add(gl::BindTexture{0, texture_of(command.GetTexID()), sampler_});
             list.add(gl::SetScissor{clip});
             list.add(gl::DrawMeshes{first_index + command.IdxOffset, command.ElemCount,
                                     first_vertex + static_cast<std::int32_t>(command.VtxOffset), 0, 1});

@@ -10,6 +10,9 @@
 
 namespace gnomon::game {
 
+/// What ImGui's images are named by: textures of the device, of rgba8 or srgb8_a8.
+ImTextureID image_of(gl::TextureHandle texture);
+
 /// Draws Dear ImGui's lists through the device, so that panels look alike in a window, without one and in screenshots.
 class Overlay {
 public:

@@ -49,7 +49,25 @@ TEST(CommandLine, ABudgetIsANumberAboveNothing) {
     EXPECT_EQ(parse({}).value().shadow_budget, shadow::ShadowBudget{});
     for (const char* bad : {"0", "-1", "", "64M", "1e6", "99999999999999999999"})
         EXPECT_FALSE(parse({"--shadow-bytes", bad})) << bad;
-    for (const char* bad : {"0", "-1", "", "nan", "inf", "4ms", "1e9"}) EXPECT_FALSE(parse({"--shadow-ms", bad})) << bad;
+    for (const char* bad : {"0", "-1", "", "nan", "inf", "4ms", "1e9"})
+        EXPECT_FALSE(parse({"--shadow-ms", bad})) << bad;
+}
+
+TEST(CommandLine, TheTruthIsAPictureAndItsLightGoesWithItAlone) {
+    const CommandLine l = parse({"--truth", "t.png", "--truth-light", "sun"}).value();
+    EXPECT_EQ(l.truth, "t.png");
+    EXPECT_EQ(l.truth_light, "sun");
+    EXPECT_FALSE(parse({}).value().truth);
+    EXPECT_FALSE(parse({"--truth-light", "sun"}));
+    EXPECT_FALSE(parse({"--truth", ""}));
+}
+
+TEST(CommandLine, APresetIsOneOfThreeWords) {
+    EXPECT_EQ(parse({}).value().preset, nullptr);
+    for (const char* name : {"fast", "default", "high"})
+        EXPECT_EQ(parse({"--preset", name}).value().preset, find_preset(name)) << name;
+    for (const char* bad : {"", "FAST", "ultra"}) EXPECT_FALSE(parse({"--preset", bad})) << bad;
+    EXPECT_THAT(parse({"--list"}).value().print, HasSubstr("Presets of --preset"));
 }
 
 TEST(CommandLine, ProgramsAreKeptWhereItSaysElseForWindowsInTheUsersCache) {

@@ -76,10 +76,10 @@ Differing compared(const test::LoadedScene& scene, const PictureTruth& truth) {
 
 void expect_agreement(const Differing& differing) {
     const std::size_t pixels = std::size_t{kSize_px.x} * kSize_px.y;
-    EXPECT_LE(differing.surfaces, pixels / 20000);
+    EXPECT_EQ(differing.surfaces, 0u);
     EXPECT_EQ(differing.visibility, 0u);
-    EXPECT_LE(differing.scored, pixels / 20000);
-    EXPECT_LE(differing.ambiguous, pixels / 20000);
+    EXPECT_EQ(differing.scored, 0u);
+    EXPECT_EQ(differing.ambiguous, 0u);
     EXPECT_GT(differing.lit, pixels / 50);
     EXPECT_GT(differing.dark, pixels / 50);
     std::printf("differ: surfaces %zu, visibility %zu, scored %zu, ambiguous %zu\n", differing.surfaces,

@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "systems/report.h"
+
+/// What each light's shadow took, and how far off it may be, over the last frames.
+namespace gnomon::game {
+
+/// One frame of one light; no error: it has no shadow. No GPU time: it was not measured in that frame.
+struct LightSample {
+    std::optional<float> gpu_ms = {}, error_px = {};
+    float cpu_ms = 0.0f;
+};
+
+/// The last samples of a light, oldest first.
+class LightLine {
+public:
+    static constexpr std::size_t kFrames = 240;
+
+    explicit LightLine(std::string name) : name_(std::move(name)) {}
+    void add(const LightSample& sample) { samples_[count_++ % kFrames] = sample; }
+
+    const std::string& name() const { return name_; }
+    std::size_t size() const { return count_ < kFrames ? count_ : kFrames; }
+    /// 0 is the oldest that is kept.
+    const LightSample& operator[](std::size_t i) const {
+        return samples_[count_ < kFrames ? i : (count_ + i) % kFrames];
+    }
+    const LightSample& latest() const { return (*this)[size() - 1]; }
+
+    /// Of the samples that are kept.
+    std::optional<float> median_gpu_ms() const;
+
+private:
+    std::string name_;
+    std::array<LightSample, kFrames> samples_ = {};
+    std::size_t count_ = 0;
+};
+
+class LightGraph {
+public:
+    /// A line per light of the report; those of lights that are gone end.
+    void add(const FrameReport& report);
+    void clear() { lines_.clear(); }
+    const std::vector<LightLine>& lines() const { return lines_; }
+    /// Largest of all values that are kept; 0: there is none.
+    float most_ms() const;
+    float most_error_px() const;
+
+private:
+    std::vector<LightLine> lines_;
+};
+
+/// The middle one, of an even number the lower; empty of none.
+std::optional<float> median(std::vector<float> values);
+
+}  // namespace gnomon::game

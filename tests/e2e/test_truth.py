@@ -1,0 +1,129 @@
+"""The last frame against ray-traced truth, headless: --truth, beside the bench's own figures; and presets."""
+import json
+import os
+import subprocess
+import sys
+
+from game import GameTest, Picture, SMALL, TIMEOUT_S, glb_parts, main, write_glb
+
+AT = ("--size", SMALL, "--frames", "2", "--time", "3")
+# What both count. Each traces the truth by its own tree and its own test.
+COUNTS = ("scored_px", "wrong_px", "false_shadow_px", "false_light_px", "uncovered_px", "acne_px", "leak_px",
+          "ambiguous_px", "coverage_mismatch_px")
+
+# Share of pixels at which picture and ray may see different surfaces.
+SILHOUETTES = 0.0005
+# Of the one colour in the legend: a square as high as a line.
+LEGEND_PX = 13 * 13
+
+
+def pure(picture, channel):
+    """Pixels in which one channel is far above both others."""
+    rgb = zip(picture.rgba[0::4], picture.rgba[1::4], picture.rgba[2::4])
+    return sum(1 for p in rgb if 2 * p[channel] > 3 * max(p[:channel] + p[channel + 1:]) + 80)
+
+
+class Truth(GameTest):
+    bench = None
+
+    def judged(self, *args):
+        """(figures by light, picture with the errors over it)"""
+        file = self.path("truth_%d.png" % len(os.listdir(self.folder)))
+        stats = self.stats_of(*AT, "--truth", file, *args)
+        lights = {light["name"]: light for light in stats["truth"]["lights"]}
+        shadowed = [light["name"] for light in stats["frames"][-1]["lights"]]
+        self.assertEqual(list(lights), shadowed)
+        return lights, Picture(file)
+
+    def bench_figures(self, *args):
+        file = self.path("bench.json")
+        subprocess.run([self.bench, "accuracy", "--size", SMALL, "--time", "3", "--repeat", "0", "--json", file] +
+                       list(args), check=True, stdout=subprocess.DEVNULL, timeout=TIMEOUT_S)
+        with open(file, encoding="utf-8") as text:
+            return {light["name"]: light for light in json.load(text)["lights"]}
+
+    def test_the_figures_are_those_of_the_bench(self):
+        for settings in ((), ("--set", "filter=hard", "--set", "resolution=512")):
+            mine, _ = self.judged(*settings)
+            theirs = self.bench_figures(*settings)
+            self.assertEqual(sorted(mine), sorted(theirs))
+            for name, light in mine.items():
+                self.assertGreater(light["scored_px"], 1000, name)
+                for key in COUNTS:
+                    self.assertEqual(light[key], theirs[name][key], "%s of %s, %s" % (key, name, settings))
+                for key, value in light["edge"].items():
+                    self.assertAlmostEqual(value, theirs[name]["edge"][key], 6, "%s of %s" % (key, name))
+
+    def test_a_scene_without_casters_is_lit_as_it_should_be(self):
+        file = self.make_scene("courtyard.glb")
+        document, binary = glb_parts(file)
+        for node in document["nodes"]:
+            node.setdefault("extras", {})["castShadow"] = False
+        write_glb(file, document, binary)
+        figures, picture = self.judged("--scene", file)
+        for name, light in figures.items():
+            self.assertGreater(light["scored_px"], 1000, name)
+            self.assertEqual(light["false_light_px"] + light["uncovered_px"], 0, name)
+            # At a few pixels on silhouettes the picture shows a surface that faces away, and the ray meets another.
+            self.assertLess(light["wrong_px"], SILHOUETTES * light["scored_px"], name)
+            self.assertEqual(light["edge"]["places"], 0, name)
+        self.assertLessEqual(pure(picture, 2), LEGEND_PX)
+        plain, _ = self.judged()
+        self.assertGreater(sum(light["wrong_px"] for light in plain.values()), 0)
+        self.assertGreater(min(light["edge"]["places"] for light in plain.values()), 100)
+
+    def test_a_bias_that_is_wrong_shows_as_false_light_or_as_false_shadow(self):
+        fair, fair_picture = self.judged()
+        far, far_picture = self.judged("--set", "bias=5")
+        none, none_picture = self.judged("--set", "filter=hard", "--set", "bias=0")
+        for name in fair:
+            self.assertGreater(far[name]["false_light_px"], 20 * fair[name]["wrong_px"] + 100, name)
+            self.assertGreater(none[name]["false_shadow_px"], 20 * fair[name]["wrong_px"] + 100, name)
+            self.assertGreater(none[name]["acne_px"], 100, name)
+        self.assertGreater(pure(far_picture, 2), pure(fair_picture, 2) + 1000)
+        self.assertGreater(pure(none_picture, 0), pure(fair_picture, 0) + 1000)
+
+    def test_one_lights_errors_can_be_shown_alone(self):
+        wrong = ("--set", "bias=5")
+        _, worst = self.judged(*wrong)
+        pictures = [self.judged(*wrong, "--truth-light", name)[1] for name in ("sun", "lantern", "guard_lamp")]
+        for picture in pictures:
+            self.assertLess(pure(picture, 2), pure(worst, 2))
+            self.assertGreater(pure(picture, 2), 100)
+        self.assertNotEqual(pictures[0].rgba, pictures[1].rgba)
+
+    def test_the_screenshot_stays_without_errors_and_stats_without_truth_have_none(self):
+        for name, truth in (("with.png", ("--truth", self.path("t.png"))), ("without.png", ())):
+            self.run_game(*AT, "--screenshot", self.path(name), *truth)
+        self.assertEqual(Picture(self.path("with.png")).rgba, Picture(self.path("without.png")).rgba)
+        self.assertNotIn("truth", self.stats_of(*AT))
+
+    def test_what_cannot_be_is_one_clear_line(self):
+        self.assert_refused("--headless", "--truth", self.path("no", "folder.png"), mentions="cannot write")
+        self.assert_refused("--headless", "--truth", self.path("t.png"), "--truth-light", "moon", mentions="moon")
+        self.assert_refused("--headless", "--truth-light", "sun", mentions="--truth-light")
+
+
+class Presets(GameTest):
+    def wrong_and_bytes(self, *args):
+        stats = self.stats_of(*AT, "--truth", self.path("t.png"), *args)
+        return (sum(light["wrong_px"] for light in stats["truth"]["lights"]),
+                sum(light["bytes"] for light in stats["frames"][-1]["lights"]))
+
+    def test_high_is_right_where_fast_is_not_and_default_is_what_nothing_says(self):
+        fast, high = self.wrong_and_bytes("--preset", "fast"), self.wrong_and_bytes("--preset", "high")
+        default = self.wrong_and_bytes("--preset", "default")
+        self.assertEqual(default, self.wrong_and_bytes())
+        self.assertLess(high[0], default[0])
+        self.assertLess(2 * default[0], fast[0])
+        self.assertLess(default[1], high[1])
+
+    def test_a_setting_goes_before_the_preset_and_an_unknown_one_is_refused(self):
+        changed = self.wrong_and_bytes("--set", "resolution=256", "--preset", "high")
+        self.assertLess(changed[1], self.wrong_and_bytes("--preset", "high")[1] // 16)
+        self.assert_refused("--headless", "--preset", "ultra", mentions="ultra")
+
+
+if __name__ == "__main__":
+    Truth.bench = os.path.abspath(sys.argv.pop(3))
+    main()
