@@ -27,11 +27,14 @@ struct Counts {
     int pairs = 0, outside = 0, flattened = 0, unlisted = 0;
 };
 
-/// Whether a lamp's cone holds the point; beyond it a map has a border, which serves nobody.
-bool in_cone(const LightItem& light, const glm::dvec3& p) {
-    if (light.kind != LightKind::spot) return true;
-    const glm::dvec3 to_light = light.position_ws_m - p;
-    return glm::dot(to_light, light.rotation_ws[2]) >= glm::length(to_light) * std::cos(light.outer_cone_rad);
+/// How many texels around a receiver, along its map's finer side, a lamp's filter looks at (source.glsl): its picture of
+/// the source is the ellipse of a disk that is small beside its distance. A large one's inner side reaches farther.
+double lamp_reads_texel(const ShadowView& view, const glm::dvec3& p, double radius_m) {
+    const glm::dvec3 d = p - view.anchor_ws_m;
+    const double z_m = -glm::dot(d, view.axis_back);
+    const glm::dvec2 tangent = glm::dvec2(glm::dot(d, view.axis_u), glm::dot(d, view.axis_v)) / z_m;
+    const double stretch = std::sqrt(1.0 + glm::dot(tangent, tangent));
+    return stretch * radius_m * (1.0 / view.near_m - 1.0 / z_m) / std::min(view.texel_u, view.texel_v);
 }
 
 /// Receivers that are seen, and points of casters that hide some of the source from them: whether the view that serves
@@ -58,7 +61,7 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
             const InstanceItem &receiver = scene.instances[r], &caster = scene.instances[c];
             const glm::dvec3 p = random_in(random, receiver.bounds_ws), b = random_in(random, caster.bounds_ws);
             if (!receiver.visible || !receiver.receives || !caster.casts || !seen(scene.consumers[0], p) ||
-                !in_cone(light, p))
+                !reaches(light, p))
                 continue;
             const ShadowView* view = nullptr;
             for (const ShadowView& v : frame.views) {
@@ -77,7 +80,9 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
             if (!(share > 1e-3 && aside_m < radius_m) || (kind != LightKind::directional && share > 0.95)) continue;
             const glm::dvec3 q = in_map(*view, b), at = in_map(*view, p);
             const double texels = glm::length(glm::dvec2(q) - glm::dvec2(at)) * kMap_px;
-            if (texels > kMost_texel) continue;  // more than is read
+            const bool sun = kind == LightKind::directional;
+            const double read_texel = sun ? kMost_texel : std::min(kMost_texel, lamp_reads_texel(*view, p, kRadius_m));
+            if (texels > read_texel) continue;  // more than is read
             ++counts.pairs;
             counts.outside += !in_rectangle(q, 0.0);
             counts.flattened += q.z > 1.0 + 1e-6;
@@ -103,8 +108,7 @@ TEST(SourceFit, OfALampShowsWhateverHidesSomeOfIt) {
     RandomScene random(print_seed());
     const Counts counts = look(random, LightKind::spot, ShadowFilter::pcss, ShadowFit::tight);
     EXPECT_GT(counts.pairs, 100);
-    // A few in the corners of wide cones are missed, in one of twenty runs: docs/filters.md says so.
-    EXPECT_LE(counts.outside * 50, counts.pairs) << counts.outside << " of " << counts.pairs;
+    EXPECT_EQ(counts.outside, 0) << "of " << counts.pairs;
     EXPECT_EQ(counts.flattened, 0) << "of " << counts.pairs;
     EXPECT_EQ(counts.unlisted, 0) << "of " << counts.pairs;
 }
@@ -115,6 +119,14 @@ TEST(SourceFit, IsLeftOutForFiltersThatDoNotAsk) {
     EXPECT_GT(counts.pairs, 300);
     EXPECT_GT(counts.flattened, 0) << "what stands before the depth range is flattened onto it";
     EXPECT_GT(counts.outside, 0);
+    // Not every seed has a caster beside a lamp's beam: the same ones in every run.
+    Counts lamp;
+    for (std::uint64_t seed = 1; seed <= 20 && lamp.outside == 0; ++seed) {
+        RandomScene fixed(seed);
+        lamp = look(fixed, LightKind::spot, ShadowFilter::sharp_4x4, ShadowFit::tight);
+        EXPECT_GT(lamp.pairs, 100);
+    }
+    EXPECT_GT(lamp.outside, 0);
 }
 
 }  // namespace
