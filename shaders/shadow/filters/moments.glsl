@@ -2,6 +2,8 @@
 // Klein 2015). It has three places, one of them the receiver's; this finds the other two and what they weigh.
 // Prefiltered: SHADOW_MOMENTS.
 
+#include "shared/numerics.glsl"
+
 // Powers of s in [-1,1]. In 16 bits, settings.w = 1, they are stored in combinations that fill [0,1] and lose less by rounding
 // (the same paper).
 const float kRoot3 = 1.7320508;
@@ -46,9 +48,17 @@ vec2 roots(vec3 c) {
     return vec2(min(one, other), max(one, other));
 }
 
+// Nothing was drawn where all is stored at the far end, but for rounding: of the blur's weights, half a unit each of 31 of them
+// and of their sums, twice; or of 16 bits, half a step of the first and third number, twice. What lies so near to the far
+// end is told apart by none of them.
+const float kEmpty = 1.0 - 128.0 * kUnitRoundoff, kEmpty16 = 1.0 - 1.0 / 16384.0;
+bool shows_nothing(vec4 b, vec4 settings) { return b.x >= (settings.w > 0.0 ? kEmpty16 : kEmpty); }
+
 // x: how much of what is stored lies before the share, at least; y: where, on average; the share itself, if nothing does.
 vec2 moments_before(vec4 moments, float share, vec4 settings) {
-    vec4 b = mix(settings.w > 0.0 ? unpacked_moments(moments) : moments, kSpreadMoments, settings.z);
+    vec4 stored = settings.w > 0.0 ? unpacked_moments(moments) : moments;
+    if (shows_nothing(stored, settings)) return vec2(0.0, share);
+    vec4 b = mix(stored, kSpreadMoments, settings.z);
     float place = 2.0 * share - 1.0;
     vec3 c = kernel_at(place, b);
     float own = clamp(1.0 / (c.x + place * (c.y + place * c.z)), 0.0, 1.0);   // what the receiver's place weighs
