@@ -11,6 +11,7 @@
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/predicted_error.h"
+#include "systems/shadow/sets.h"
 #include "systems/shadow/view_casters.h"
 
 namespace gnomon::shadow {
@@ -150,6 +151,7 @@ private:
             fitted = fit_light(scene_, held, d_, next, frame_);
             if (!fitted || again == kMostSizes) break;
             if (!settle_size(light_, views(), held, sizes, spare_frames, demand())) break;
+            select_sets_again(scene_, d_, frame_);
         }
         next.map_px = follows_contract(light_, demand()) ? demand().resolution_px : 0;
         next.spare_frames = next.map_px == held.map_px ? spare_frames : 0;

@@ -238,6 +238,14 @@ math::Frustum seen_receivers(const SceneSnapshot& scene, const ConsumerItem& con
     return nothing;
 }
 
+PotentialSets sets_of(const SceneSnapshot& scene, const ShadowDemand& demand, ShadowFrame& frame) {
+    PotentialSets sets = Search(scene, demand, frame).run();
+    select_casters(scene, demand, sets, frame);
+    if (sets.casters.count == 0) sets.skip = Reason::no_caster;
+    if (sets.receivers.count == 0) sets.skip = Reason::no_visible_receiver;
+    return sets;
+}
+
 ShadowLayers layers_of_all(const SceneSnapshot& scene, const ShadowFrame& frame) {
     ShadowLayers layers = 0;
     for (const ShadowDemand& demand : frame.demands)
@@ -284,14 +292,17 @@ void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
         const LightTime time(frame, demand.light);
         PotentialSets sets;
         sets.skip = demand.skip;
-        if (demand.skip == Reason::none) {
-            sets = Search(scene, demand, frame).run();
-            select_casters(scene, demand, sets, frame);
-            if (sets.casters.count == 0) sets.skip = Reason::no_caster;
-            if (sets.receivers.count == 0) sets.skip = Reason::no_visible_receiver;
-        }
+        if (demand.skip == Reason::none) sets = sets_of(scene, demand, frame);
         frame.sets.push_back(sets);
     }
+}
+
+void select_sets_again(const SceneSnapshot& scene, std::uint32_t d, ShadowFrame& frame) {
+    const ShadowDemand& demand = frame.demands[d];
+    if (scene.lights[demand.light].kind != LightKind::point) return;
+    const Reason skip = frame.sets[d].skip;
+    frame.sets[d] = sets_of(scene, demand, frame);
+    frame.sets[d].skip = skip;
 }
 
 }  // namespace gnomon::shadow

@@ -14,6 +14,10 @@ namespace gnomon::shadow {
 /// the result is the same without, the time is not.
 void select_sets(const SceneSnapshot& scene, ShadowFrame& frame);
 
+/// The same for one light whose fits made its maps another size: what of a cube's neighbours a face looks at, for the
+/// filter's sake, is a share of its map. The sets of other kinds of light do not follow from their sizes, and stay.
+void select_sets_again(const SceneSnapshot& scene, std::uint32_t d, ShadowFrame& frame);
+
 /// Whether the light reaches any instance that the consumer may see, shadow or not: else it adds nothing to the picture.
 /// Conservative as the sets are.
 bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer);
