@@ -107,6 +107,9 @@ struct LightShadow {
     bool early_bail = false;          // filters of many taps: five first, the others only if those differ
     std::uint32_t resolution_px = 0;  // edge of one map or cube face; 0: chosen by the system
     float max_error_px = 1.0f;        // how far a shadow edge may be off on screen; > 0
+    /// How much farther off it may be because a map shows casters where they were, so that it need not be drawn anew
+    /// whenever one moves; 0: it always is. Needs BiasMode::automatic (docs/economy.md).
+    float refresh_error_px = 0.0f;
     BiasMode bias = BiasMode::automatic;
     float bias_m = 0.0f;      // of a BiasMode that takes it, >= 0; what is no such number counts as the default
     float bias_texel = 1.0f;  // the same

@@ -38,6 +38,13 @@ constexpr std::array kSettings{
                  .get = get_float<&S::max_error_px>,
                  .editor = kNumber,
                  .slider_most = kSliderError_px},
+    LightSetting{.key = "refresh_error_px",
+                 .values = "0 ... 100 (px)",
+                 .meaning = "how much farther off it may be instead of drawing again what moves; 0: not",
+                 .set = set_up_to<&S::refresh_error_px, 100>,
+                 .get = get_float<&S::refresh_error_px>,
+                 .editor = kNumber,
+                 .slider_most = kSliderError_px},
     LightSetting{.key = "bias",
                  .values = "automatic | constant | slope | normal_offset | receiver_plane | tutorial_constant | "
                            "tutorial_cosine | tutorial_tangent | 0 ... 1e6 (m)",

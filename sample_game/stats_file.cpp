@@ -17,6 +17,7 @@ void add_why(const Why& why, Json& json) {
     json["receivers"] = why.receivers;
     json["casters"] = why.casters;
     json["bytes_saved"] = why.bytes_saved;
+    json["stale_px"] = why.stale_px;
     json["saved_us"] = or_null(why.saved_us);
 }
 

@@ -34,6 +34,8 @@ const char* reason_code(Reason reason) {
             return "below_display_step";
         case Reason::content_unchanged:
             return "content_unchanged";
+        case Reason::refresh_held:
+            return "refresh_held";
         case Reason::resolution_clamped:
             return "resolution_clamped";
         case Reason::over_budget:

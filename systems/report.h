@@ -26,6 +26,7 @@ enum class Reason : std::uint8_t {
     no_caster,            // nothing can darken what is seen
     below_display_step,   // lit everywhere, it and others like it change no pixel by more than half a step
     content_unchanged,    // the map of an earlier frame still holds
+    refresh_held,         // it shows casters where they were: within refresh_error_px, or by a budget's turn
     resolution_clamped,   // the device's limit is below the wish
     over_budget,          // FrameSettings::shadow_budget does not hold it beside what is seen better
     budget_shrunk,        // the same leaves it less than it asks for
@@ -57,6 +58,7 @@ struct Why {
     std::uint32_t receivers = 0;    // that a camera sees and the light reaches, by their bounds
     std::uint32_t casters = 0;      // that may darken what is seen of those
     std::uint64_t bytes_saved = 0;  // of maps that were not made, or not written
+    double stale_px = 0.0;          // how much farther off edges are because maps show casters where they were
     /// Of a light: the most that it can add to a pixel, in 8 bit steps of the picture; empty: exposure is not known, or
     /// it was not asked for.
     std::optional<double> display_steps;

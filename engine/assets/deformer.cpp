@@ -116,6 +116,31 @@ math::Aabb posed_bounds(const Mesh& mesh, const MeshPose& pose) {
     return with_rounding(all);
 }
 
+/// Of a vertex p + t that joints take to B (p + t), afterwards to B' (p + t'): the way is B' (t' - t) + (B' - B)(p +
+/// t), a mean of what each of its joints alone would make of it, whose second part is largest at a corner.
+double farthest_bend_m(const Mesh& mesh, const MeshPose& before, const MeshPose& after) {
+    const Deformer& deformer = *mesh.deformer;
+    const math::Aabb morphed = morph_reach(deformer, before);
+    double morphed_m = 0.0;
+    for (std::size_t t = 0; t < deformer.targets.size(); ++t)
+        morphed_m += std::abs(weight_of(after, t) - weight_of(before, t)) *
+                     math::farthest_distance(deformer.targets[t].reach, glm::dvec3(0.0));
+    if (!deformer.has_skin()) return morphed_m;
+    double most_m = 0.0;
+    for (std::size_t j = 0; j < deformer.joint_bounds_ms.size(); ++j) {
+        const math::Aabb& box = deformer.joint_bounds_ms[j];
+        if (math::is_empty(box)) continue;
+        const glm::dmat4x3& to = after.joints[j];
+        const glm::dmat4x3 way = to - before.joints[j];
+        double moved_m = 0.0;
+        for (const glm::dvec3& corner : math::corners({box.min + morphed.min, box.max + morphed.max}))
+            moved_m = std::max(moved_m, glm::length(way * glm::dvec4(corner, 1.0)));
+        const double stretch = std::sqrt(glm::dot(to[0], to[0]) + glm::dot(to[1], to[1]) + glm::dot(to[2], to[2]));
+        most_m = std::max(most_m, moved_m + stretch * morphed_m);
+    }
+    return most_m * (1.0 + kRounding);
+}
+
 Mirroring mirroring(const Mesh& mesh, const MeshPose& pose) {
     const Deformer& deformer = *mesh.deformer;
     bool any = false, all = true;

@@ -48,6 +48,10 @@ void deform(const Mesh& mesh, const MeshPose& pose, std::vector<Vertex>& out);
 /// per joint: a point that follows several lies between where each of them alone would take it.
 math::Aabb posed_bounds(const Mesh& mesh, const MeshPose& pose);
 
+/// A bound on how far any vertex is from one pose to the other, those that no triangle has left out; at the cost of
+/// posed_bounds(). Both have as many joints.
+double farthest_bend_m(const Mesh& mesh, const MeshPose& before, const MeshPose& after);
+
 /// Whether the pose turns the mesh inside out, as a mirror does: every joint that a vertex follows does (all), or some.
 enum class Mirroring : std::uint8_t { none, some, all };
 Mirroring mirroring(const Mesh& mesh, const MeshPose& pose);

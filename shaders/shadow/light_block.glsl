@@ -5,7 +5,7 @@ struct ViewRecord {
     vec4 axis_u;            // xyz: world direction of the map's u; w: texel edge, metres (orthographic) or tangent
     vec4 axis_v;
     vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta (see bias.glsl)
-    vec4 numeric;           // x: rounding of depth, in depth units; y: metres of rounding per metre of |p|; z: alpha (see bias.glsl), or view distance from which a cascade fades; w: layer of the map, -1: there is none, since nothing can darken what the view serves
+    vec4 numeric;           // x: rounding of depth, in depth units; y: metres that a caster may have moved since the map was drawn; z: alpha (see bias.glsl), or view distance from which a cascade fades; w: layer of the map, -1: there is none, since nothing can darken what the view serves
     vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where it has faded, and the next cascade serves
 };
 layout(std140, binding = 1) uniform LightBlock {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "components/mesh_ref.h"
@@ -32,6 +33,13 @@ void take_joints(const ecs::Registry& registry, const Skin& skin, PoseItem& pose
 
 bool same_shape(const PoseItem& a, const PoseItem& b) {
     return a.skinned == b.skinned && a.joints == b.joints && a.weights == b.weights;
+}
+
+/// How far any vertex moved from one to the other. Infinite where the mesh follows joints in one of them alone.
+double bend_m(const assets::Mesh& mesh, const PoseItem& before, const PoseItem& after) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const bool alike = before.skinned == after.skinned && before.joints.size() == after.joints.size();
+    return alike ? assets::farthest_bend_m(mesh, before.pose(), after.pose()) : kInfinity;
 }
 
 /// What the entity's components make of the mesh.
@@ -102,6 +110,8 @@ void PoseExtractor::update(const ecs::Registry& registry, const assets::MeshLibr
         take_pose(registry, sources_[i].entity, mesh, scratch_);
         pose.origin_ws_m = scratch_.origin_ws_m;
         if (pose.version != 0 && same_shape(pose, scratch_)) continue;
+        if (pose.version == 0) pose.since = snapshot.version;
+        if (pose.version != 0) pose.bent_m += bend_m(mesh, pose, scratch_);
         pose.skinned = scratch_.skinned;
         pose.joints.swap(scratch_.joints);
         pose.weights.swap(scratch_.weights);

@@ -62,6 +62,9 @@ struct PoseItem {
     math::Aabb bounds_ms = {};              // holds every bent vertex
     assets::Mirroring mirroring = assets::Mirroring::none;
     std::uint64_t version = 0;  // grows whenever joints or weights changed
+    std::uint64_t since = 0;    // the version in which the mesh first had a pose
+    double bent_m = 0.0;  // sum, over all its versions, of the most that each moved any vertex by, in the space of
+                          // its instances: between two of them none moved by more than the difference
     assets::MeshPose pose() const { return {joints, weights}; }
 };
 

@@ -97,6 +97,16 @@ double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double view
     return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
 }
 
+double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
+    if (grant.none) return 0.0;
+    const ShadowFilter filter = granted(*load.light, load.wanted, grant).filter;
+    return load.pixels * mean_fetches(*load.light, filter) * kFetch_ns * factors.lighting;
+}
+
+double edge_harm(double rise_px) {
+    return std::isfinite(rise_px) ? kMostByEdges * rise_px / (rise_px + kHalfLost_px) : kMostByEdges;
+}
+
 Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
     const double weight = share_in_bounds(load.weight);
     if (grant.none) return {0, 0, weight};
@@ -108,14 +118,12 @@ Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& facto
     const double drawing =
         drawing_ns(given, given.resolution_px, load.views * share, static_cast<double>(load.triangles) * share,
                    static_cast<double>(load.draws) * share);
-    const double lookups = load.pixels * mean_fetches(*load.light, given.filter) * kFetch_ns;
-    const double ns =
-        drawing * share_in_bounds(load.activity) / given.refresh_frames * factors.drawing + lookups * factors.lighting;
+    const double ns = drawing * share_in_bounds(load.activity) / given.refresh_frames * factors.drawing +
+                      lookup_ns(load, grant, factors);
     constexpr double kMost_ns = 1.0e15;  // eleven days, so that sums stay in range
     cost.ns = static_cast<std::uint64_t>(ns < kMost_ns ? std::max(ns, 0.0) : kMost_ns);
-    const double rise = std::max(rise_px(load, given, grant), 0.0);
     if (is_less(*load.light, load.wanted, grant))
-        cost.harm = std::isfinite(rise) ? weight * kMostByEdges * rise / (rise + kHalfLost_px) : weight * kMostByEdges;
+        cost.harm = weight * edge_harm(std::max(rise_px(load, given, grant), 0.0));
     return cost;
 }
 

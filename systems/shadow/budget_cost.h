@@ -52,6 +52,12 @@ bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& gr
 
 Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors);
 
+/// Of that, in nanoseconds, what looking it up takes.
+double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors);
+
+/// Of a light's weight, what is lost by edges that are so much farther off than they might be.
+double edge_harm(double rise_px);
+
 /// Fetches of a lookup, on the average of its pixels.
 double mean_fetches(const LightItem& light, ShadowFilter filter);
 

@@ -211,6 +211,7 @@ void BudgetStage::grant(const LightLoad& load, const Grant& grant, ShadowDemand&
     const ShadowDemand given = granted(*load.light, load.wanted, grant);
     demand.over_budget = is_less(*load.light, load.wanted, grant);
     demand.refresh_frames = given.refresh_frames;
+    demand.weight = load.weight;
     if (given.filter != demand.filter && given.filter == kPlainFilter) {
         demand.filter = kPlainFilter;
         set_resolution(*load.light, demand.resolution_px, demand);
@@ -234,14 +235,37 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     const std::uint64_t fixed_bytes = collect(scene, gpu, maps, frame);
     if (limits.bytes != BudgetLimits::kNone) limits.bytes -= std::min(limits.bytes, fixed_bytes);
     settle_grants(loads_, limits, factors_, next.calm_frames, grants_, scratch_);
+    lookups_ns_ = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) {
         HeldLight& light = next.lights[held_[i]];
+        lookups_ns_ += lookup_ns(loads_[i], grants_[i], factors_);
         light.new_frames = light.grant == grants_[i] ? light.new_frames - std::min(light.new_frames, 1u) : kNewFrames;
         light.grant = grants_[i];
         grant(loads_[i], grants_[i], frame.demands[demands_[i]], frame.sets[demands_[i]]);
         outcomes_.push_back(outcome(loads_[i], grants_[i], factors_));
     }
     decided_factors_ = factors_;
+}
+
+void BudgetStage::spread_draws(const GpuScene& gpu, const SceneSnapshot& scene, ShadowFrame& frame) {
+    if (limits_.ns == BudgetLimits::kNone) return;
+    due_.clear();
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        const ShadowView& view = frame.views[v];
+        const ShadowSlot& slot = frame.slots[v];
+        if (!slot.texture || slot.reuse) continue;
+        const ShadowDemand& demand = frame.demands[view.demand];
+        LightLoad load;
+        count_draws(scene, gpu, frame, view, load);
+        const double ns =
+            drawing_ns(demand, slot.size_px, 1.0, static_cast<double>(load.triangles), static_cast<double>(load.draws));
+        const bool may_wait = std::isfinite(slot.if_held.error_px) && slot.waited_frames < kMostWait_frames;
+        const double harm = may_wait ? demand.weight * edge_harm(slot.if_held.error_px) : DueView::kMustNotWait;
+        due_.push_back({v, ns * factors_.drawing, harm, slot.content});
+    }
+    const double room_ns = std::max(static_cast<double>(limits_.ns) - lookups_ns_, 0.0);
+    const std::size_t waiting = choose_waiting(room_ns, due_);
+    for (std::size_t i = 0; i < waiting; ++i) keep_layer(frame.slots[due_[i].view], Hold::by_turn);
 }
 
 void BudgetStage::note_changes(const SceneSnapshot& scene, ShadowFrame& frame) const {

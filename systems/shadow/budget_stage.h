@@ -6,6 +6,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
 #include "systems/shadow/budget.h"
+#include "systems/shadow/draw_spread.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/types.h"
 
@@ -30,7 +31,10 @@ public:
     /// Lights for whose maps the device had no room a moment ago keep what they got, until `maps` tries again.
     void decide(const SceneSnapshot& scene, const GpuScene& gpu, const History& held, const MapStore& maps,
                 ShadowFrame& frame);
-    /// After MapStore::assign_slots(): how much of each light changes.
+    /// After MapStore::assign_slots(): has views wait where all that are due would take more than the budget leaves for
+    /// drawing in one frame.
+    void spread_draws(const GpuScene& gpu, const SceneSnapshot& scene, ShadowFrame& frame);
+    /// After that: how much of each light changes.
     void note_changes(const SceneSnapshot& scene, ShadowFrame& frame) const;
     /// Fills LightReport::budget.
     void report(FrameReport& report) const;
@@ -54,6 +58,8 @@ private:
     std::vector<std::size_t> held_;       // one per load: index into History::lights
     std::vector<BudgetReport> outcomes_;  // one per load
     BudgetScratch scratch_;
+    double lookups_ns_ = 0.0;  // of all loads, as granted
+    std::vector<DueView> due_;
 };
 
 }  // namespace gnomon::shadow

@@ -16,6 +16,10 @@ Reason why_left_out(const LightItem& light, const PotentialSets& sets, const Sha
     return why.receivers == 0 ? Reason::no_visible_receiver : Reason::no_caster;
 }
 
+Reason why_reused(const ShadowSlot& slot) {
+    return slot.hold == Hold::none ? Reason::content_unchanged : Reason::refresh_held;
+}
+
 /// Views [first, end) of the frame are the light's.
 void explain_views(const LightItem& light, const ShadowDemand& demand, const ShadowFrame& frame, std::size_t first,
                    std::size_t end, std::optional<double> view_us, FrameReport& report, LightReport& out) {
@@ -32,8 +36,9 @@ void explain_views(const LightItem& light, const ShadowDemand& demand, const Sha
         } else {
             view.why.receivers = frame.views[v].receivers;
             view.why.casters = frame.views[v].casters.count;
+            view.why.stale_px = frame.slots[v].stale.error_px;
             if (frame.slots[v].reuse) view.state = LightState::reused;
-            if (frame.slots[v].reuse) view.reason = Reason::content_unchanged;
+            if (frame.slots[v].reuse) view.reason = why_reused(frame.slots[v]);
             if (frame.views[v].lit) view.state = LightState::skipped;
             if (frame.views[v].lit) view.reason = Reason::no_caster;
         }
@@ -43,14 +48,17 @@ void explain_views(const LightItem& light, const ShadowDemand& demand, const Sha
     }
 }
 
-/// What the fit predicts, in a map of fewer texels than it planned.
+/// What the fit predicts, in a map of fewer texels than it planned, of casters as they were when it was drawn.
 double shown_error_px(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot) {
     const double texels = static_cast<double>(demand.resolution_px) / slot.size_px;
     const double own_px = edge_error_px(0.0, 0.0);  // the picture's
-    return texels > 1.0 ? (view.predicted_error_px - own_px) * texels + own_px : view.predicted_error_px;
+    const double drawn_px =
+        texels > 1.0 ? (view.predicted_error_px - own_px) * texels + own_px : view.predicted_error_px;
+    return drawn_px + slot.stale.error_px;
 }
 
-void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history,
+/// `held`: a view of its maps shows casters as they were.
+void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history, bool held,
                    LightReport& out) {
     out.reason = sets.skip;
     if (out.reason != Reason::none) {
@@ -66,7 +74,7 @@ void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const 
         out.reason = demand.note;
     } else if (out.views_drawn == 0) {
         out.state = LightState::reused;
-        out.reason = Reason::content_unchanged;
+        out.reason = held ? Reason::refresh_held : Reason::content_unchanged;
     } else {
         out.state = LightState::rendered;
     }
@@ -109,13 +117,16 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
             out.bytes = MapStore::bytes(*history);
         }
         while (end < frame.views.size() && frame.views[end].demand == i) ++end;
+        bool held = false;
         for (std::size_t v = first; v < end; ++v) {
             if (!frame.slots[v].texture || frame.views[v].lit) continue;
             ++out.views;
+            held = held || frame.slots[v].hold != Hold::none;
+            out.why.stale_px = std::max(out.why.stale_px, frame.slots[v].stale.error_px);
             out.predicted_error_px =
                 std::max(out.predicted_error_px, shown_error_px(frame.views[v], demand, frame.slots[v]));
         }
-        explain_state(sets, demand, history, out);
+        explain_state(sets, demand, history, held, out);
         out.keeps_max_error = out.views > 0 && history->failure == Reason::none && demand.refresh_frames == 1 &&
                               keeps_contract(out.predicted_error_px, wished_error_px(light.shadow));
         out.why.receivers = sets.receivers.count;

@@ -41,15 +41,6 @@ ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px
     return {of_still, s.value(), placement};
 }
 
-/// Whether a layer that shows casters as they were may go on doing so in this frame. Lights take turns.
-bool MapStore::may_wait(const ShadowFrame& frame, std::size_t v, const LightHistory& history) const {
-    const ShadowView& view = frame.views[v];
-    const std::uint32_t every = frame.demands[view.demand].refresh_frames;
-    const bool holds_any = history.content[view.layer] != 0;
-    return every > 1 && holds_any && history.placements[view.layer] == frame.slots[v].placement &&
-           (frame_ + view.demand + view.layer) % every != 0;
-}
-
 void MapStore::assign_views(const SceneSnapshot& scene, ShadowFrame& frame) {
     for (std::size_t v = 0; v < frame.views.size(); ++v) {
         const ShadowView& view = frame.views[v];
@@ -62,17 +53,16 @@ void MapStore::assign_views(const SceneSnapshot& scene, ShadowFrame& frame) {
         slot.triangles = history.triangles;
         slot.target = history.targets[view.layer];
         slot.size_px = history.desc.width;
-        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
         const ContentSignature signature =
-            content_signature(view, slot.size_px, scene, casters, light.shadow.caster_faces);
+            content_signature(view, slot.size_px, scene, casters_of(frame, view), light.shadow.caster_faces);
         slot.content = signature.all;
         slot.placement = signature.placement;
         slot.still_content = signature.still;
         slot.reuse = view.lit || (light.shadow.economy && history.content[view.layer] == slot.content);
-        slot.changed = !slot.reuse && history.content[view.layer] != 0;
-        if (slot.reuse || !light.shadow.economy || !may_wait(frame, v, history)) continue;
-        slot.content = history.content[view.layer];
-        slot.reuse = history.waits = true;
+        if (slot.reuse) continue;
+        slot.shown_content = history.content[view.layer];
+        slot.if_held = staleness_of(scene, frame, v, history);
+        if (view.layer < history.shown.size()) slot.waited_frames = history.shown[view.layer].waited_frames;
     }
 }
 
@@ -138,6 +128,9 @@ void MapStore::commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool
         LightHistory& history = entry(scene.lights[frame.demands[view.demand].light].entity);
         if (!slot.reuse) history.content[view.layer] = drawn ? slot.content : 0;
         if (!slot.reuse) history.placements[view.layer] = slot.placement;
+        if (!slot.reuse) note_shown(scene, frame, v, history);
+        if (view.layer < history.shown.size())
+            history.shown[view.layer].waited_frames = slot.hold == Hold::by_turn ? slot.waited_frames + 1 : 0;
         if (slot.still_use == StillUse::fill) history.still.layers[view.layer].content = drawn ? slot.still_content : 0;
         if (slot.convert) history.moments.content[view.layer] = drawn ? slot.moment_content : 0;
     }

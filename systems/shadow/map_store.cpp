@@ -80,6 +80,7 @@ void MapStore::release(LightHistory& history) {
     history.targets.clear();
     history.content.clear();
     history.placements.clear();
+    history.shown.clear();
     history.waits = false;
     history.texture = history.triangles = {};
 }
@@ -265,10 +266,15 @@ void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
     short_until_frame_ = frame_ + kRetryFrames;
 }
 
-void MapStore::assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
     frame.slots.assign(frame.views.size(), {});
     provide_maps(scene, frame);
     assign_views(scene, frame);
+    hold_views(scene, frame);
+}
+
+void MapStore::plan_draws(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    note_held(scene, frame);
     assign_moments(scene, frame);
     keep_still_apart(scene, gpu, frame);
     choose_routes(scene, frame);

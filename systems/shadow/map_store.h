@@ -7,6 +7,7 @@
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/map_desc.h"
+#include "systems/shadow/staleness.h"
 #include "systems/shadow/still_map.h"
 #include "systems/shadow/types.h"
 
@@ -35,6 +36,7 @@ struct LightHistory {
     gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
     std::vector<std::uint64_t> placements;  // per layer: ShadowSlot::placement of it
+    std::vector<ShownCasters> shown;        // per layer, of lights whose maps may be kept; else empty
     bool waits = false;                     // one of them shows casters as they were (Grant::refresh_frames)
     std::uint32_t wanted_px = 0;            // size asked for when the map was made
     Reason failure = Reason::none;          // why there is no map, or a smaller one
@@ -62,6 +64,8 @@ public:
     /// The most that maps may hold from now on, at any time; kNoLimit: anything. Within a limit a map that becomes
     /// larger may go before the new one stands, and what only saves time goes first.
     void set_limit(std::uint64_t bytes) { limit_ = bytes; }
+    /// Whether views may have to wait because a budget has others drawn: what they show is then remembered.
+    void let_take_turns(bool takes_turns) { takes_turns_ = takes_turns; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
     /// For kRetryFrames after the device had no room for a map: what all held then, since more is not to be had;
     /// kNoLimit otherwise.
@@ -75,7 +79,9 @@ public:
     /// sets[i].skip where a light gets no map. A light without LightShadow, or disabled, or that the budget leaves
     /// without shadow, loses its map at once; one that nobody sees for kHoldFrames later. A failed allocation is tried
     /// at half the edge, kHalvings times, then again after kRetryFrames; meanwhile the light is lit.
-    void assign_slots(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    void assign_slots(const SceneSnapshot& scene, ShadowFrame& frame);
+    /// After it: says how those that are not kept are drawn.
+    void plan_draws(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
     /// Remembers what the frame drew. `drawn` false forgets the layers (a failed submission).
     void commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn);
@@ -99,7 +105,13 @@ private:
     bool make_room(std::uint64_t bytes_more, LightHistory* replaced);
     void keep_or_release(ecs::Entity light, Reason skip);
     void provide_maps(const SceneSnapshot& scene, ShadowFrame& frame);
-    bool may_wait(const ShadowFrame& frame, std::size_t v, const LightHistory& history) const;
+    bool is_others_turn(const ShadowFrame& frame, std::size_t v) const;
+    void note_shown(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v, LightHistory& history) const;
+    Staleness staleness_of(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v,
+                           const LightHistory& history) const;
+    Hold hold_of(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v) const;
+    void hold_views(const SceneSnapshot& scene, ShadowFrame& frame) const;
+    void note_held(const SceneSnapshot& scene, ShadowFrame& frame);
     void assign_views(const SceneSnapshot& scene, ShadowFrame& frame);
     bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
     void assign_moments(const SceneSnapshot& scene, ShadowFrame& frame);
@@ -118,6 +130,7 @@ private:
     std::uint64_t frame_ = 0, limit_ = kNoLimit;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
     bool refused_ = false;  // in this frame
+    bool takes_turns_ = false;
 };
 
 /// Everything that decides a view's depth picture, as one number: matrices, size, casters in the order in which they

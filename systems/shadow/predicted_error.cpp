@@ -118,8 +118,10 @@ ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, st
         if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
         const double served_m = std::max({depth_m, consumer.near_m, view.seen_from_m});
         const double texel_m = texel_at(view, p_ws);
+        const double metre_px = kSteepestReceiver * pixels_per_metre(consumer, served_m);
         error.texel_m = std::max(error.texel_m, texel_m);
-        error.extent_px = std::max(error.extent_px, kSteepestReceiver * texel_m * pixels_per_metre(consumer, served_m));
+        error.extent_px = std::max(error.extent_px, texel_m * metre_px);
+        error.metre_px = std::max(error.metre_px, metre_px);
     }
     if (error.texel_m > 0.0) error.edge_px = edge_error_px(error.extent_px, reach_texel);
     return error;
@@ -131,6 +133,7 @@ void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> point
     view.texel_m = std::max(view.texel_m, error.texel_m);
     view.texel_extent_px = std::max(view.texel_extent_px, error.extent_px);
     view.predicted_error_px = std::max(view.predicted_error_px, error.edge_px);
+    view.metre_px = std::max(view.metre_px, error.metre_px);
 }
 
 }  // namespace gnomon::shadow

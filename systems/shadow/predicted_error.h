@@ -59,6 +59,7 @@ struct ViewError {
     double texel_m = 0.0;    // largest diagonal of a texel across the light, at a receiver
     double extent_px = 0.0;  // Lloyd's m, largest over the receivers
     double edge_px = 0.0;
+    double metre_px = 0.0;  // longest extent of a metre across the light on such a receiver
 };
 
 /// The bound over all receivers of a view, `points_ws` being corners of convex parts of what is seen of them; those
@@ -66,7 +67,7 @@ struct ViewError {
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                         double reach_texel);
 
-/// Raises what the view states of itself (texel_m, texel_extent_px, predicted_error_px) to that bound.
+/// Raises what the view states of itself (texel_m, texel_extent_px, predicted_error_px, metre_px) to that bound.
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view);
 

@@ -23,12 +23,15 @@ constexpr double kUnitRoundoff = 5.9604644775390625e-8;
 constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;
 /// Perspective depth rounds in proportion to itself (bias.glsl adds that), and by 2u of its constant part alpha.
 constexpr double kAlphaRounding = 2.0 * kUnitRoundoff;
-/// Metres of position rounding per metre of coordinate sum: subtraction, basis product, matrix row (8u), times 1.5 for
-/// the lateral part seen through the slope.
-constexpr double kPositionRounding = 12.0 * kUnitRoundoff;
 
 /// Of a view whose points are lit: light_block.glsl.
 constexpr float kNoLayer = -1.0f;
+
+/// The next float above, of what is above 0.
+float at_least(double number) {
+    const auto rounded = static_cast<float>(number);
+    return static_cast<double>(rounded) < number ? std::nextafter(rounded, INFINITY) : rounded;
+}
 
 glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
@@ -45,7 +48,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     // OpenGL 4.5, 2.3.5: a fixed-point value is one of the two nearest, so that it may be off by a whole step.
     const double depth_rounding = depth_format_row(demand.depth_format).step +
                                   (orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha));
-    record.numeric = {static_cast<float>(depth_rounding), static_cast<float>(kPositionRounding),
+    record.numeric = {static_cast<float>(depth_rounding), at_least(slot.stale.moved_m),
                       static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
                       view.lit ? kNoLayer : static_cast<float>(view.layer)};
     record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.fades_to_m);

@@ -112,8 +112,11 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     budget_.decide(scene, gpu, history_, maps_, frame_);
     provide_triangles(gpu);
     maps_.set_limit(budget_.limits().bytes);
-    maps_.assign_slots(scene, gpu, frame_);
+    maps_.let_take_turns(budget_.limits().ns != BudgetLimits::kNone);
+    maps_.assign_slots(scene, frame_);
+    budget_.spread_draws(gpu, scene, frame_);
     budget_.note_changes(scene, frame_);
+    maps_.plan_draws(scene, gpu, frame_);
     recorder_.prepare(scene, gpu, frame_);
     moments_.prepare(frame_);
     publish_lights(scene, samplers_, frame_);

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -54,6 +55,7 @@ struct ShadowDemand {
     std::uint32_t map_px = 0;          // of a budget, after the fit: edge of the map instead of resolution_px; 0: that
     std::uint32_t refresh_frames = 1;  // of a budget (Grant)
     bool over_budget = false;          // a budget gives it less than it asks for
+    double weight = 0.0;               // of a budget: what its shadow means to the picture, 0 to 1
 };
 
 /// Edge of the light's maps in this frame.
@@ -113,6 +115,7 @@ struct ShadowView {
     double texel_m = 0.0;       // largest diagonal of a texel across the light, at a receiver
     double texel_extent_px = 0.0;       // longest extent of a texel on screen: Lloyd's m (predicted_error.h)
     double predicted_error_px = 0.0;    // how far a shadow edge may be off on screen
+    double metre_px = 0.0;              // longest extent on screen of a metre across the light, on a receiver
     std::uint32_t consumer_mask = ~0u;  // who may look it up: consumer_bit() of each that sees receivers in it
     std::uint32_t receivers = 0;        // how many are seen in it
     bool held = false;   // meant to stay while cameras move: its casters are all that its map can show, so that the map
@@ -128,6 +131,19 @@ enum class StillUse : std::uint8_t {
     none,
     fill,  // still casters are drawn into the map and copied there, before the others are drawn
     copy   // they are copied back from there instead of being drawn
+};
+
+/// Why a view whose casters moved keeps the map that it has.
+enum class Hold : std::uint8_t {
+    none,
+    within_error,  // LightShadow::refresh_error_px
+    by_turn        // a budget: others are drawn in this frame (Grant::refresh_frames, draw_spread.h)
+};
+
+/// How far off shadows are in a map of casters as they were (staleness.h).
+struct Staleness {
+    double moved_m = 0.0;   // farthest that any point of a caster moved since
+    double error_px = 0.0;  // how much farther off a shadow edge may be on screen
 };
 
 /// Struct 5. Where the view lives, and whether last frame's content still holds.
@@ -151,7 +167,20 @@ struct ShadowSlot {
     bool reuse = false;
     bool convert = false;  // the moments have to be made anew
     bool changed = false;  // the layer shows other than what it should: it is drawn, or has to wait (Grant)
+    std::uint64_t shown_content = 0;  // signature of what the layer holds
+    Staleness if_held;                // what keeping that would mean; infinite: it cannot be told, or must not be
+    std::uint32_t waited_frames = 0;  // for how many it was kept by turns
+    Hold hold = Hold::none;           // it is kept,
+    Staleness stale;                  // and means this; else nothing
 };
+
+/// Keeps what the layer holds, for this frame.
+inline void keep_layer(ShadowSlot& slot, Hold why) {
+    slot.hold = why;
+    slot.content = slot.shown_content;
+    slot.stale = slot.if_held;
+    slot.reuse = true;
+}
 
 inline constexpr std::uint32_t kMaxViews = 8;  // kMaxViews in shaders/shadow/light_block.glsl
 static_assert(kMaxViews == kHeldViews);
@@ -277,6 +306,11 @@ struct ShadowFrame {
     FitScratch fit_scratch;
     std::vector<double> cpu_us;  // one per light: what the stages spent on it alone
 };
+
+/// Those of a view, still ones first.
+inline std::span<const std::uint32_t> casters_of(const ShadowFrame& frame, const ShadowView& view) {
+    return std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+}
 
 /// Takes all slots of a light whose maps cannot be made; its set says why.
 inline void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {

@@ -5,5 +5,8 @@ if(GNOMON_SAMPLE)
     caster_faces_gl_test.cpp
     masked_casters_gl_test.cpp
     moved_casters_gl_test.cpp
+    refresh_gl_test.cpp
+    budget_gl_test.cpp
+    ../economy/both_ways.cpp
     LIBRARIES gnomon_bench_parts)
 endif()

@@ -1,4 +1,4 @@
-gnomon_tests(NAME system_budget_refresh LABEL system SOURCES test_world.cpp budget_refresh_test.cpp)
+gnomon_tests(NAME system_budget_refresh LABEL system SOURCES test_world.cpp budget_refresh_test.cpp refresh_test.cpp)
 # 200 shadowed lights within a budget: the level of ./gnomon bench demand on the recording device.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME system_budget LABEL system SOURCES

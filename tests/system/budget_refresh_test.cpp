@@ -1,3 +1,7 @@
+#include <cmath>
+#include <map>
+#include <string>
+
 #include "tests/system/frame_fixture.h"
 
 /// A budget of time that leaves a light's views a slower pace: a light that has nothing else to give.
@@ -85,6 +89,74 @@ TEST_F(BudgetRefresh, WaitsForNothingThatMovesTheMapItself) {
         drawn += static_cast<int>(depth_passes().size());
     }
     EXPECT_EQ(drawn, 8) << "a map is looked up with the matrices that it was drawn with";
+}
+
+/// One thing moves that many lights' maps show: what is due at once.
+class BudgetSpread : public FrameTest {
+protected:
+    static constexpr int kLamps = 24, kRoom = 8;  // views that a frame has time for
+
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+        for (int i = 0; i < kLamps; ++i) {
+            const double turn = 0.25 * i;
+            const glm::dvec3 at_m(4.0 * std::cos(turn), 6.0 + 0.1 * i, 4.0 * std::sin(turn));
+            const ecs::Entity lamp = world.add_light(LightKind::spot, at_m, "lamp" + std::to_string(i));
+            world.registry.patch<LightShadow>(lamp, [](LightShadow& s) {
+                s.filter = ShadowFilter::hard;
+                s.resolution_px = 64;  // there is nothing to give but time
+            });
+        }
+        settings.shadow_budget.gpu_ms = 1.0e3f;
+        for (int i = 0; i < 90; ++i) step();
+        still_us = modelled_us();
+    }
+    void move_box() { world.move(stage.box, {0.001 * ++moves, 1, 0}); }
+    double modelled_us() const {
+        double sum_us = 0.0;
+        for (const LightReport& light : frame->report().lights) sum_us += light.budget ? light.budget->us : 0.0;
+        return sum_us;
+    }
+    /// What the model takes for one view: a pass, its texels, two draws at most and their triangles.
+    static constexpr double kView_us = 5.0 + 64.0 * 64.0 * 0.02e-3 + 2.0 + 0.1;
+    TestWorld::Stage stage;
+    double still_us = 0.0;
+    int moves = 0;
+};
+
+TEST_F(BudgetSpread, HasNoMoreDrawnInAFrameThanItHasTimeForOnceItIsKnownHowFarTheyAreOff) {
+    settings.shadow_budget.gpu_ms = static_cast<float>((still_us + kRoom * kView_us) * 1.0e-3);
+    move_box();
+    step();
+    ASSERT_EQ(depth_passes().size(), std::size_t{kLamps}) << "what stood still may have come from anywhere";
+    std::map<std::string, int> last_drawn;
+    int drawn = 0, held = 0;
+    for (int i = 1; i <= 60; ++i) {
+        move_box();
+        step();
+        EXPECT_LE(depth_passes().size(), std::size_t{kRoom + 1}) << "frame " << i;
+        drawn += static_cast<int>(depth_passes().size());
+        for (const LightReport& light : frame->report().lights) {
+            if (light.views == 0) continue;
+            if (light.views_drawn > 0) last_drawn[light.name] = i;
+            held += light.why.stale_px > 0.0 ? 1 : 0;
+            EXPECT_LE(i - last_drawn[light.name], 3) << light.name << " in frame " << i;
+            EXPECT_EQ(light.views_drawn == 0, light.why.stale_px > 0.0) << light.name;
+        }
+    }
+    EXPECT_GT(drawn, 60 * kRoom / 2);
+    EXPECT_GT(held, 60 * kLamps / 2);
+    for (int i = 0; i < 40; ++i) step();
+    for (const LightReport& light : frame->report().lights) EXPECT_EQ(light.why.stale_px, 0.0) << "all is up to date";
+}
+
+TEST_F(BudgetSpread, HasNobodyWaitWhereThereIsTime) {
+    for (int i = 0; i < 10; ++i) {
+        move_box();
+        step();
+        EXPECT_EQ(depth_passes().size(), std::size_t{kLamps});
+    }
 }
 
 }  // namespace

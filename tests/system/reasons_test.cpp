@@ -55,6 +55,7 @@ protected:
         std::function<void(LightShadow&)> setting = {};
         std::function<void()> change = {};  // of the world, or the device, before the frame
         int frames = 1;
+        std::function<void()> before_each = {};  // of the frames
     };
     static Scene of_spot(std::function<void(LightShadow&)> setting) { return {LightKind::spot, std::move(setting)}; }
     static Scene of_sun(std::function<void(LightShadow&)> setting) {
@@ -91,7 +92,10 @@ protected:
         lamp = shadowed(world, scene.kind);
         if (scene.setting) world.registry.patch<LightShadow>(lamp, scene.setting);
         if (scene.change) scene.change();
-        for (int i = 0; i < scene.frames; ++i) step();
+        for (int i = 0; i < scene.frames; ++i) {
+            if (scene.before_each) scene.before_each();
+            step();
+        }
         return light("lamp").reason;
     }
     void start_anew() {
@@ -122,6 +126,12 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
              world.registry.patch<Light>(lamp, [](Light& l) { l.intensity = 1.0e-3f; });
          })},
         {Reason::content_unchanged, {.frames = 2}},
+        {Reason::refresh_held,
+         {LightKind::spot,
+          [](LightShadow& s) { s.refresh_error_px = 100.0f; },
+          {},
+          3,
+          [this] { world.registry.patch<Transform>(stage.box, [](Transform& t) { t.translation_m.x += 0.001; }); }}},
         {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
         {Reason::over_budget, changed([this] { settings.shadow_budget.bytes = 1; })},
         {Reason::budget_shrunk,

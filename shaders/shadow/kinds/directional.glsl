@@ -24,7 +24,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     ViewRecord view = light.views[i];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
     vec3 n_map = vec3(dot(normal, view.axis_u.xyz), dot(normal, view.axis_v.xyz), dot(normal, view.axis_back.xyz));
-    float rounding_m = error_m + view.numeric.y * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
+    float rounding_m = error_m + view.numeric.y + kPositionRounding * (abs(position_la.x) + abs(position_la.y) + abs(position_la.z));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w), length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
 #ifdef SHADOW_DEPTHS

@@ -255,7 +255,7 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     vec3 normal = turned_back(normal_ws);
     mat3 map_axes = face_axes(position_la);
     vec3 axis_u = map_axes[0], axis_v = map_axes[1];
-    float rounding_m = error_m + view.numeric.y * length(position_la);
+    float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_la);
     // Near a seam some taps land on the neighbour, whose axes see the plane's other tangents: take all three.
     vec3 n_map = normal * map_axes;
     float z_m = largest(position_la);

@@ -20,7 +20,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     mat3 map_axes = mat3(view.axis_u.xyz, view.axis_v.xyz, view.axis_back.xyz);
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
-    float rounding_m = error_m + view.numeric.y * length(position_la);
+    float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_la);
 #ifdef SHADOW_DEPTHS
     rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
 #endif

@@ -139,6 +139,26 @@ TEST_F(BentMeshes, LieWithinTheirBoundsWhateverTheirJointsAndWeights) {
     EXPECT_GT(touching, 100u) << "bounds that are never close hold anything";
 }
 
+TEST_F(BentMeshes, MoveNoVertexFartherThanTheBoundOfTheirBend) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::size_t near_bound = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const Bent before = random_mesh(random, round % 4 != 0);
+        Bent after = before;
+        for (glm::dmat4x3& joint : after.joints)
+            if (random() % 2 == 0) joint += any_matrix(random) * uniform(random, 0.0, 1.0);
+        for (float& weight : after.weights) weight += static_cast<float>(uniform(random, -0.5, 0.5));
+        const double bound_m = farthest_bend_m(before.mesh, before.pose(), after.pose());
+        double most_m = 0.0;
+        for (const std::uint32_t v : before.mesh.indices)
+            most_m = std::max(most_m, glm::length(oracle(after, v) - oracle(before, v)));
+        ASSERT_LE(most_m, bound_m * (1.0 + 1e-12) + 1e-9) << "round " << round;
+        near_bound += bound_m > 0.0 && most_m > 0.3 * bound_m ? 1 : 0;
+        EXPECT_EQ(farthest_bend_m(before.mesh, before.pose(), before.pose()), 0.0);
+    }
+    EXPECT_GT(near_bound, 500u) << "a bound that is never close holds anything";
+}
+
 TEST_F(BentMeshes, HaveNormalsAcrossTheirBentPlanes) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::vector<Vertex> found;

@@ -31,6 +31,7 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .early_bail = true,
                     .resolution_px = 768,
                     .max_error_px = 0.3f,
+                    .refresh_error_px = 0.7f,
                     .bias = BiasMode::tutorial_cosine,
                     .bias_m = 0.0125f,
                     .bias_texel = 2.5f,
