@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path verdict_file() { return fs::path(GNOMON_SOURCE_DIR) / "tests/data/verdicts.txt"; }
+fs::path verdict_file() { return source_folder() / "tests/data/verdicts.txt"; }
 
 double process_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -19,7 +19,6 @@ double process_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; 
 
 bool is_picture(const std::string& verdict) { return verdict == kSeen || verdict == kNothing || verdict == kOutOfView; }
 
-fs::path data_folder() { return GNOMON_DATA_DIR; }
 
 std::vector<std::string> data_files() {
     std::vector<std::string> names;

@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/source_paths.h"
+
 /// The glTF files of the test data, which others wrote, and what must become of each.
 namespace gnomon::test {
 
@@ -21,7 +23,6 @@ inline constexpr const char* kOutOfView = "out_of_view";  // it places some, and
 
 bool is_picture(const std::string& verdict);
 
-std::filesystem::path data_folder();
 /// Names of all .gltf and .glb files, sorted; empty where the data is absent.
 std::vector<std::string> data_files();
 

@@ -7,6 +7,7 @@
 #include "engine/assets/gltf_loader.h"
 #include "sample_game/spawn.h"
 #include "tests/gl/traced_frame_fixture.h"
+#include "tests/source_paths.h"
 
 /// A caster that bends casts the shadow of the pose that it is in.
 namespace gnomon {
@@ -24,7 +25,7 @@ protected:
     }
     /// The scene over a ground, with one light and a camera that look down on it. False: there is no such file.
     bool open(const char* path, LightKind kind, std::optional<std::size_t> animation = {}) {
-        const auto file = std::filesystem::path(GNOMON_DATA_DIR) / path;
+        const auto file = test::data_folder() / path;
         if (!std::filesystem::exists(file)) return false;
         auto scene = assets::load_gltf(file);
         EXPECT_TRUE(scene) << to_line(scene.error());

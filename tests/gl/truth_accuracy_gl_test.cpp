@@ -2,6 +2,7 @@
 #include <ostream>
 
 #include "tests/gl/truth_scenes.h"
+#include "tests/source_paths.h"
 
 // What the project promises: on these scenes, with default settings, each light's shadows are right.
 namespace gnomon {
@@ -87,7 +88,7 @@ struct SceneFile {
 class TruthOfFiles : public TruthTest, public ::testing::WithParamInterface<SceneFile> {};
 
 TEST_P(TruthOfFiles, TheirSunShadowsAreRight) {
-    const auto file = std::filesystem::path(GNOMON_DATA_DIR) / GetParam().path;
+    const auto file = test::data_folder() / GetParam().path;
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no scene file " << GetParam().path << " in the data folder";
     bench::StageOptions options;
     options.scene = file;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tests/gl/truth_scenes.h"
+#include "tests/source_paths.h"
 
 // Shadow edges are where the prediction says they may be.
 namespace gnomon {
@@ -29,7 +30,7 @@ protected:
     static bench::StageOptions options_of(const Scene& scene, const char* resolution) {
         bench::StageOptions options;
         options.size_px = {640, 360};
-        if (scene.file) options.scene = std::filesystem::path(GNOMON_DATA_DIR) / scene.file;
+        if (scene.file) options.scene = test::data_folder() / scene.file;
         if (scene.camera) options.camera = scene.camera;
         // Where two maps are mixed, a shadow of one pixel's width is grey and has no edge.
         options.settings = {std::string("resolution=") + resolution, "filter=hard", "cascade_blend=0"};

@@ -11,6 +11,7 @@
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/types.h"
 #include "tests/gl/moment_maps.h"
+#include "tests/source_paths.h"
 
 namespace gnomon::shadow {
 void PrintTo(const FilterRow& row, std::ostream* out) { *out << row.name; }
@@ -27,7 +28,7 @@ constexpr double kNear_m = 1.0, kFar_m = 9.0, kHalf = 1.0;  // half: metres of t
 
 // The worked example of docs/adding_a_filter.md: a file and a row.
 std::string diamond_file() {
-    std::ifstream file(std::string(GNOMON_SOURCE_DIR) + "/tests/gl/diamond.glsl");
+    std::ifstream file(test::source_folder() / "tests/gl/diamond.glsl");
     std::stringstream text;
     text << file.rdbuf();
     return text.str();

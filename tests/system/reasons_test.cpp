@@ -8,6 +8,7 @@
 #include "components/shadow_caster.h"
 #include "systems/shadow/demand.h"
 #include "systems/shadow/fit.h"
+#include "tests/source_paths.h"
 #include "tests/system/frame_fixture.h"
 
 /// Every reason has a code of its own, a line in docs/economy.md, and a scene that gives it.
@@ -17,7 +18,7 @@ namespace {
 using Kind = gl::ResourceCall::Kind;
 
 std::string text_of(const std::string& file) {
-    std::ifstream in(std::string(GNOMON_SOURCE_DIR) + "/" + file);
+    std::ifstream in(test::source_folder() / file);
     std::ostringstream text;
     text << in.rdbuf();
     return text.str();

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/assets/gltf_limits.h"
+#include "tests/source_paths.h"
 #include "tests/unit/assets/bad_input.h"
 
 namespace gnomon::test {
@@ -67,7 +68,7 @@ std::set<std::string> rules_in(const std::filesystem::path& file) {
 }
 
 TEST(BadInputTable, HoldsEveryRuleOfTheLoaderAndNoOther) {
-    const std::filesystem::path root = GNOMON_SOURCE_DIR;
+    const std::filesystem::path root = test::source_folder();
     std::set<std::string> rules;
     for (const auto& entry : std::filesystem::directory_iterator(root / "engine/assets"))
         if (entry.path().extension() == ".cpp") rules.merge(rules_in(entry.path()));

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "bench/page_template.h"
+#include "tests/source_paths.h"
 #include "tests/unit/bench/made_up_sweep.h"
 
 namespace gnomon::bench {
@@ -65,7 +66,7 @@ TEST(SweepReport, CsvHasALinePerRowAndLightAndOneForARowThatFailed) {
 }
 
 TEST(SweepReport, ReadmeNamesEveryColumnOfTheCsvAndEveryKeyOfTheJson) {
-    std::ifstream file(std::string(GNOMON_SOURCE_DIR) + "/bench/README.md");
+    std::ifstream file(test::source_folder() / "bench/README.md");
     const std::string readme{std::istreambuf_iterator<char>(file), {}};
     for (const std::string& name : fields_of(lines_of(sweep_csv({}))[0]))
         EXPECT_THAT(readme, HasSubstr("`" + name + "`")) << name;

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "tests/oracle/reference_tracer.h"
+#include "tests/source_paths.h"
 #include "tests/unit/visibility/loaded_scene.h"
 
 /// The library's truth about a picture against the reference tracer's, which finds its triangles by another tree and
@@ -25,7 +26,7 @@ const std::filesystem::path kSponza = "sponza-crytek/Sponza.gltf", kFox = "fox-d
 std::unique_ptr<test::LoadedScene> load(const std::optional<std::filesystem::path>& name, double time_s,
                                         const glm::dvec3& offset_m = glm::dvec3(0.0)) {
     std::optional<std::filesystem::path> file;
-    if (name) file = std::filesystem::path(GNOMON_DATA_DIR) / *name;
+    if (name) file = test::data_folder() / *name;
     if (file && !std::filesystem::exists(*file)) return nullptr;
     auto scene = game::load_scene(file);
     EXPECT_TRUE(scene) << to_line(scene.error());

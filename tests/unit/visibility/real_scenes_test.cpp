@@ -5,6 +5,7 @@
 #include <optional>
 #include <random>
 
+#include "tests/source_paths.h"
 #include "tests/unit/visibility/loaded_scene.h"
 #include "tests/unit/visibility/query_scene.h"
 
@@ -59,7 +60,7 @@ struct AskedScene : test::LoadedScene {
 std::unique_ptr<AskedScene> load(const std::optional<std::filesystem::path>& name,
                                  const glm::dvec3& offset_m = glm::dvec3(0.0)) {
     std::optional<std::filesystem::path> file;
-    if (name) file = std::filesystem::path(GNOMON_DATA_DIR) / *name;
+    if (name) file = test::data_folder() / *name;
     if (file && !std::filesystem::exists(*file)) return nullptr;
     auto scene = game::load_scene(file);
     EXPECT_TRUE(scene) << to_line(scene.error());
