@@ -7,8 +7,10 @@
 #include <iostream>
 #include <random>
 
+#include "engine/math/frustum.h"
 #include "systems/shadow/demand.h"
 #include "systems/shadow/fit.h"
+#include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/sets.h"
 #include "tests/oracle/fit_oracle.h"
@@ -116,9 +118,17 @@ protected:
     /// Where the light's rays come from: a sun's eye if it has one.
     static LightItem source_of(const LightItem& light, const ShadowFrame& frame) {
         LightItem source = light;
-        if (!frame.demands[0].perspective_sun || frame.views.empty()) return source;
+        if (!frame.demands[0].perspective_sun) return source;
+        const IndexRange& seen = frame.sets[0].receiver_points;
+        if (frame.views.empty() && seen.count == 0) return source;
         source.kind = LightKind::point;
-        source.position_ws_m = frame.views[0].anchor_ws_m;
+        // Without a view, since nothing casts into it, the eye is still where the view would have had it.
+        source.position_ws_m =
+            frame.views.empty()
+                ? sun_eye(math::basis_from_back(light.rotation_ws[2]),
+                          std::span(frame.receiver_points_ws).subspan(seen.first, seen.count), light.shadow)
+                      .position_ws_m
+                : frame.views[0].anchor_ws_m;
         source.range_m = 0.0;
         return source;
     }
