@@ -27,6 +27,7 @@ enum class ShadowFilter : std::uint8_t {
     moments,
     pcss,
     pcss_moments,
+    exact,
     count
 };
 

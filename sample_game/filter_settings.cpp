@@ -230,6 +230,10 @@ std::string list_filters() {
         const LightShadow shadow{.filter = row.id};
         std::string name(row.name);
         name.resize(std::max(kNameWidth, name.size()), ' ');
+        if (!shadow::has_map(row)) {
+            text += "  " + name + "a ray for each pixel, no map\n";
+            continue;
+        }
         text += "  " + name + taps_text(row, shadow) + ", E " +
                 number_text(shadow::filter_demand(shadow, kUsualMap_px).widest_texel) + " texels, " +
                 sampler_text(row.reading) + "\n";

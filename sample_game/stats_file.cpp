@@ -91,7 +91,8 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
                    {"draws", draws},
                    {"clears", clears},
                    {"triangles", triangles},
-                   {"bytes", bytes}};
+                   {"bytes", bytes},
+                   {"ray_bytes", report.rays.bytes}};
     return {{"index", index},
             {"time_s", time_s},
             {"cpu_us", report.cpu_us},

@@ -32,6 +32,7 @@ public:
         return true;
     }
     gl::BufferHandle handle() const { return buffer_; }
+    std::uint64_t bytes() const { return size_; }
 
 private:
     gl::Device* device_;

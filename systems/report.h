@@ -105,6 +105,15 @@ struct LightReport {
     std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };
 
+/// What lights that ask by rays share (FilterStorage::none): trees over the casters, on the device and beside it. All
+/// 0: no light asks.
+struct RayReport {
+    std::uint64_t bytes = 0, host_bytes = 0;
+    std::uint64_t triangles = 0, instances = 0;
+    std::uint32_t meshes_written = 0;  // in this frame: those that bent
+    bool instances_written = false;    // in this frame: something moved
+};
+
 struct FrameReport {
     std::vector<LightReport> lights;  // one per LightItem, same order
     std::vector<ViewReport> views;    // of all lights, in their order
@@ -115,6 +124,7 @@ struct FrameReport {
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
     gl::Failure failure = gl::Failure::none;  // of what no picture can do without, or of the submission
+    RayReport rays;
     std::span<const ViewReport> views_of(const LightReport& light) const {
         return std::span(views).subspan(light.first_view, light.view_count);
     }
@@ -128,6 +138,7 @@ struct FrameReport {
         gpu_us.reset();
         shadow_gpu_us.reset();
         failure = gl::Failure::none;
+        rays = {};
     }
 };
 

@@ -34,6 +34,7 @@ std::uint32_t texel_bytes(Format format) {
         case Format::rg32ui:
             return 8;
         case Format::rgba32f:
+        case Format::rgba32ui:
             return 16;
     }
     return 0;
@@ -43,7 +44,7 @@ std::uint32_t transfer_bytes(Format format) { return is_depth(format) ? kDepthTr
 
 bool is_depth(Format format) { return format == Format::d16 || format == Format::d24 || format == Format::d32f; }
 
-bool is_integer(Format format) { return format == Format::rg32ui; }
+bool is_integer(Format format) { return format == Format::rg32ui || format == Format::rgba32ui; }
 
 std::uint32_t layer_count(const TextureDesc& desc) {
     return desc.kind == TextureKind::cube ? kCubeFaces : desc.kind == TextureKind::array ? desc.layers : 1;
@@ -90,6 +91,8 @@ const char* to_text(Format format) {
             return "rgba32f";
         case Format::rg32ui:
             return "rg32ui";
+        case Format::rgba32ui:
+            return "rgba32ui";
         case Format::d16:
             return "d16";
         case Format::d24:

@@ -27,7 +27,8 @@ enum class Format : std::uint8_t {
     rg32ui,
     d16,
     d24,
-    d32f
+    d32f,
+    rgba32ui
 };
 /// fixed: contents given at creation, never changed by lists. read_back: written by CopyBuffer alone, for read_buffer.
 enum class BufferUse : std::uint8_t { fixed, updated, read_back };

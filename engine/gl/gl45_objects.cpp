@@ -104,6 +104,8 @@ GlFormat gl_format(Format format) {
             return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
         case Format::rg32ui:
             return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
+        case Format::rgba32ui:
+            return {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT};
         case Format::d16:
             return {GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_FLOAT};
         case Format::d24:

@@ -11,7 +11,6 @@ constexpr int kBins = 16;
 /// What one more inner node costs a walk, in tests of a triangle. On Sponza 1 to 4 differ by less than the noise of
 /// ./gnomon bench queries; 3 takes a quarter less memory than 1.
 constexpr double kNodeCost = 3.0;
-constexpr std::uint32_t kMostSlots = 8;
 /// Below this depth halves are equal.
 constexpr int kMostUneven = static_cast<int>(kMostDepth) - 28;
 
@@ -48,10 +47,10 @@ struct Binning {
 
 class Builder {
 public:
-    explicit Builder(std::span<const Box> boxes) {
+    Builder(std::span<const Box> boxes, std::uint32_t most_slots) : most_slots_(most_slots) {
         parts_.reserve(boxes.size());
         for (const Box& box : boxes) parts_.push_back({box, static_cast<std::uint32_t>(parts_.size())});
-        bvh_.nodes.reserve(2 * boxes.size() / kMostSlots + 1);
+        bvh_.nodes.reserve(2 * boxes.size() / most_slots + 1);
     }
     Bvh take() {
         if (!parts_.empty()) make_node(0, static_cast<std::uint32_t>(parts_.size()), 0);
@@ -73,7 +72,7 @@ private:
         const Cut cut = count > 1 ? best_cut(first, end, centres) : Cut{};
         const double area = half_area(all);
         const bool pays = cut.axis >= 0 && cut.cost + kNodeCost * area < static_cast<double>(count) * area;
-        if (count <= kMostSlots && !pays) {
+        if (count <= most_slots_ && !pays) {
             bvh_.nodes[index].leaf = first * 16 + count;
         } else {
             const std::uint32_t middle =
@@ -148,11 +147,12 @@ private:
 
     std::vector<Part> parts_;
     Bvh bvh_;
+    std::uint32_t most_slots_;
 };
 
 }  // namespace
 
-Bvh build_bvh(std::span<const Box> boxes) { return Builder(boxes).take(); }
+Bvh build_bvh(std::span<const Box> boxes, std::uint32_t most_slots) { return Builder(boxes, most_slots).take(); }
 
 void refit_bvh(std::vector<BvhNode>& nodes, std::span<const Box> box_of_slot) {
     for (std::size_t n = nodes.size(); n-- > 0;) {

@@ -42,9 +42,13 @@ struct Bvh {
     std::vector<std::uint32_t> items;  // by slot
 };
 
-/// Over item i in boxes[i]. By the surface area heuristic over bins (Wald 2007). An empty box belongs to nobody's box.
-/// Equal input gives an equal tree. O(n log n). At most 2^28 boxes.
-Bvh build_bvh(std::span<const Box> boxes);
+/// Items of a leaf of triangles.
+inline constexpr std::uint32_t kMostSlots = 8;
+
+/// Over item i in boxes[i], at most `most_slots` (1 to 15) of which share a leaf. By the surface area heuristic over
+/// bins (Wald 2007). An empty box belongs to nobody's box. Equal input gives an equal tree. O(n log n). At most 2^28
+/// boxes.
+Bvh build_bvh(std::span<const Box> boxes, std::uint32_t most_slots = kMostSlots);
 
 /// All boxes anew, from those of the slots, when items moved; the shape stays. O(n).
 void refit_bvh(std::vector<BvhNode>& nodes, std::span<const Box> box_of_slot);

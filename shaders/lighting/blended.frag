@@ -19,20 +19,36 @@ layout(location = 0) out vec4 colour_out;
 #include "lighting/light_at.glsl"
 #include "lighting/brdf.glsl"
 #endif
+#ifdef SHADOW_RAYS
+#include "lighting/exact_place.glsl"
+flat in vec3 corner_ms;
+#endif
+
+#ifdef LIGHT_PASS
+float visible_share(vec3 geometric, uint triangle) {
+#ifdef SHADOW_RAYS
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
+    double distance_m = exact_distance(pixel, instances[fragment_item.x], corner_ms, triangle_normals[triangle].xyz, interpolated_m);
+    return shadow_visibility_at(place_seen_at(pixel, distance_m), uvec2(fragment_item.x, triangle));
+#else
+    return shadow_visibility(fragment_position_ca, geometric, kRebuiltRelative * length(fragment_position_ca));
+#endif
+}
+#endif
 
 void main() {
     vec4 colour = material_colour(fragment_uv);
     InstanceRecord instance = instances[fragment_item.x];
-    vec3 geometric = geometric_normal(instance, fragment_item.y + uint(gl_PrimitiveID), fragment_position_ca);
+    uint triangle = fragment_item.y + uint(gl_PrimitiveID);
+    vec3 geometric = geometric_normal(instance, triangle, fragment_position_ca);
     vec3 shading = shading_normal(fragment_normal, geometric);
 #ifdef LIGHT_PASS
     LightSample incoming = light_at(fragment_position_ca);
     vec3 added = vec3(0.0);
     if (incoming.reaches && dot(geometric, incoming.to_light) > 0.0) {
         float visible = 1.0;
-        if (takes_shadow(instance.low.w))
-            visible = shadow_visibility(fragment_position_ca, geometric,
-                                        kRebuiltRelative * length(fragment_position_ca));
+        if (takes_shadow(instance.low.w)) visible = visible_share(geometric, triangle);
         added = visible * incoming.radiance *
                 brdf_times_cosine(colour.rgb, material.metallic, material.roughness, shading,
                                   normalize(to_camera(fragment_position_ca)), incoming.to_light);

@@ -13,15 +13,27 @@ layout(location = 0) out vec4 colour_out;
 layout(location = 1) out vec4 normals_out;
 layout(location = 2) out vec4 material_out;
 layout(location = 3) out vec4 picture_out;
+#ifdef WRITE_PLACES   // for lights that are asked by rays: see surface_targets.glsl
+#include "lighting/exact_place.glsl"
+flat in vec3 corner_ms;
+layout(location = 4) out uvec4 place_out;
+#endif
 
 void main() {
     vec4 colour = material_colour(fragment_uv);
     if (cut_out(fragment_uv)) discard;
     InstanceRecord instance = instances[fragment_item.x];
-    vec3 geometric = geometric_normal(instance, fragment_item.y + uint(gl_PrimitiveID), fragment_position_ca);
+    uint triangle = fragment_item.y + uint(gl_PrimitiveID);
+    vec3 geometric = geometric_normal(instance, triangle, fragment_position_ca);
     vec3 shading = shading_normal(fragment_normal, geometric);
     colour_out = vec4(colour.rgb, 1.0);
     normals_out = vec4(octahedral_from_unit(shading), octahedral_from_unit(geometric));
     material_out = vec4(material.metallic, material.roughness, instance.low.w / 255.0, 0.0);
     picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
+#ifdef WRITE_PLACES
+    float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
+    double distance_m = exact_distance(ivec2(gl_FragCoord.xy), instance, corner_ms, triangle_normals[triangle].xyz, interpolated_m);
+    float high_m = float(distance_m), low_m = float(distance_m - double(high_m));
+    place_out = uvec4(floatBitsToUint(high_m), floatBitsToUint(low_m), fragment_item.x, triangle);
+#endif
 }

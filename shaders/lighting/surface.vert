@@ -9,6 +9,9 @@ out vec3 fragment_position_ca;
 out vec3 fragment_normal;
 out vec2 fragment_uv;
 flat out uvec2 fragment_item;
+#if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
+flat out vec3 corner_ms;   // of the triangle, for lighting/exact_place.glsl
+#endif
 
 void main() {
     InstanceRecord instance = instances[draw_item.x];
@@ -17,5 +20,8 @@ void main() {
     fragment_normal = normal_from_model(instance, normal_ms);
     fragment_uv = uv;
     fragment_item = draw_item;
+#if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
+    corner_ms = position_ms;
+#endif
     gl_Position = camera.clip_from_anchor * vec4(position_ca, 1.0);
 }

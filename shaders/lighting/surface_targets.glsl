@@ -1,11 +1,16 @@
 // The surface buffers as the light passes read them.
 #include "shared/view_distance.glsl"
+#include "shared/pixel_ray.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/numerics.glsl"
 layout(binding = 0) uniform sampler2D surface_depth;
 layout(binding = 1) uniform sampler2D surface_colour;
 layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
 layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255
+#ifdef SHADOW_RAYS
+#include "shared/exact_pixel_ray.glsl"
+layout(binding = 6) uniform usampler2D surface_places;     // bits of the distance along the view, high and low part; instance, triangle
+#endif
 
 struct Surface {
     bool exists;
@@ -17,15 +22,13 @@ struct Surface {
     float metallic, roughness;
     float shadow_layers;  // those it receives, as an integer
     float error_m;        // how far position_ca may be off the true surface
+#ifdef SHADOW_RAYS
+    dvec3 place_ca;       // the same exactly (lighting/exact_place.glsl)
+    uvec2 triangle;       // instance, and triangle of the common index buffer
+#endif
 };
 
-vec3 surface_position(ivec2 pixel, float depth) {
-    vec2 ndc = (vec2(pixel) + 0.5) / camera.unproject.zw * 2.0 - 1.0;
-    bool orthographic = camera.back.w > 0.5;
-    float z = view_distance(depth);
-    vec3 lateral = camera.right.xyz * (ndc.x * camera.right.w) + camera.up.xyz * (ndc.y * camera.up.w);
-    return orthographic ? lateral - camera.back.xyz * z : (lateral - camera.back.xyz) * z;
-}
+vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel, view_distance(depth)); }
 
 // Rebuilding rounds; and the rasteriser may have moved the triangle by half a sub-pixel step (2^-9 pixel).
 float surface_error_m(vec3 position_ca) {
@@ -50,5 +53,10 @@ Surface read_surface(ivec2 pixel) {
     s.roughness = m.g;
     s.shadow_layers = m.b * 255.0;
     s.error_m = surface_error_m(s.position_ca);
+#ifdef SHADOW_RAYS
+    uvec4 place = texelFetch(surface_places, pixel, 0);
+    s.place_ca = place_seen_at(pixel, double(uintBitsToFloat(place.x)) + double(uintBitsToFloat(place.y)));
+    s.triangle = place.zw;
+#endif
     return s;
 }

@@ -3,6 +3,7 @@
 #include "shared/numerics.glsl"
 #include "shared/instances.glsl"
 #include "shared/camera_block.glsl"
+#include "shadow/toward_light.glsl"
 
 // C++ twin: CasterTriangle in systems/extract/gpu_scene.h. `across`: the triangle beyond the edge that starts at a corner.
 struct CasterTriangle {
@@ -21,15 +22,6 @@ const int kPasses = 0, kBlocked = 1, kUnknown = 2;
 const int kMostSteps = 8;
 // Rounding of a difference, a cross product and a dot product, with their sums.
 const float kPlaneRounding = 12.0 * kUnitRoundoff;
-
-// From a point toward the light.
-vec3 toward_light(vec3 position_ca) {
-#ifdef LIGHT_DIRECTIONAL
-    return light.to_light.xyz;
-#else
-    return light.position.xyz - position_ca;
-#endif
-}
 
 vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
     return position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);

@@ -21,5 +21,6 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 seed_place;
     vec4 moments;              // of a prefiltered map, see its filter's file: x, y: exponents; z: least variance; w: 1 if stored in 16 bits
     vec4 moment_sampling;      // x: what is lit less counts as dark; y: most texels of a pixel's footprint; z: most taps along it
+    vec4 low;                  // xyz: low part of `position` (spot, point) or `to_light` (directional), for who asks in double
     ViewRecord views[kMaxViews];
 } light;

@@ -103,6 +103,7 @@ public:
     const MeshRange& mesh(std::uint32_t index) const { return meshes_[index]; }
     const SubmeshRange& submesh(std::uint32_t index) const { return submeshes_[index]; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
+    const assets::MeshLibrary& library() const { return *library_; }
     std::size_t mesh_count() const { return meshes_.size(); }
 
     gl::BufferHandle vertices() const { return vertices_; }

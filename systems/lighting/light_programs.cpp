@@ -31,7 +31,7 @@ const char* output_name(RowOutput output) {
 
 LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
-    for (const Entry& e : {surface_, blended_base_, luminance_, tonemap_}) device_.destroy(e.program);
+    for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_}) device_.destroy(e.program);
 }
 
 void LightPrograms::make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
@@ -82,6 +82,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
         if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
         if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
         if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
+        if (row.rays) defines.emplace_back("SHADOW_RAYS 1");
+        if (row.ray_masks) defines.emplace_back("RAY_MASKS 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
         if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
     }
@@ -99,12 +101,18 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
     return entry.program;
 }
 
-gl::ProgramHandle LightPrograms::needed(Entry& entry, const char* label, const char* vertex, const char* fragment) {
-    if (!entry.program) make(entry, label, vertex, fragment, {}, nullptr);
+gl::ProgramHandle LightPrograms::needed(Entry& entry, const char* label, const char* vertex, const char* fragment,
+                                        std::span<const std::string> defines) {
+    if (!entry.program) make(entry, label, vertex, fragment, defines, nullptr);
     return entry.program;
 }
 
-gl::ProgramHandle LightPrograms::surface() {
+gl::ProgramHandle LightPrograms::surface(bool places) {
+    if (places) {
+        const std::string define = "WRITE_PLACES 1";
+        return needed(surface_places_, "surface with places", "lighting/surface.vert", "lighting/surface.frag",
+                      {&define, 1});
+    }
     return needed(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag");
 }
 gl::ProgramHandle LightPrograms::blended_base() {

@@ -38,7 +38,8 @@ public:
     gl::ProgramHandle lookups(const shadow::ProgramRow& row, std::string_view fragment) {
         return find_or_make(row, RowOutput::lookups, fragment);
     }
-    gl::ProgramHandle surface();
+    /// `places`: writes also where exactly surfaces are, for rows that ask by rays.
+    gl::ProgramHandle surface(bool places = false);
     gl::ProgramHandle blended_base();
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
@@ -60,11 +61,12 @@ private:
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
     void make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
               std::span<const std::string> defines, const shadow::ProgramRow* row);
-    gl::ProgramHandle needed(Entry& entry, const char* label, const char* vertex, const char* fragment);
+    gl::ProgramHandle needed(Entry& entry, const char* label, const char* vertex, const char* fragment,
+                             std::span<const std::string> defines = {});
 
     gl::Device& device_;
     std::vector<RowEntry> rows_;
-    Entry surface_, blended_base_, luminance_, tonemap_;
+    Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
     std::uint64_t frame_ = 0;
     std::uint32_t rows_left_ = kNoLimit;
     gl::Failure failure_ = gl::Failure::none;

@@ -77,7 +77,10 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     exposure_offset_ = ambient_offset_ + aligned(sizeof(AmbientRecord), alignment);
     lights_offset_ = exposure_offset_ + aligned(sizeof(ExposureRecord), alignment);
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
-    if (!programs_.surface() || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
+    const auto asks = [](const shadow::LightingLight& light) { return light.row.rays; };
+    const bool wanted = std::any_of(inputs.lights.begin(), inputs.lights.end(), asks);
+    has_places_ = targets_.provide_places(wanted) && wanted && programs_.surface(true);
+    if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
                       uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * inputs.lights.size());
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
@@ -182,10 +185,11 @@ void LightingSystem::bind_material(const GpuScene& gpu, std::uint32_t material, 
 void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list) {
     list.add(gl::BeginGroup{"surfaces"});
     list.add(gl::BeginTimer{kSurfaceTimer});
-    list.add(gl::BeginPass{targets_.surface_target, viewport(), true, 0.0f, true, {}});
+    list.add(gl::BeginPass{
+        has_places_ ? targets_.places_target : targets_.surface_target, viewport(), true, 0.0f, true, {}});
     std::uint32_t bound = 0xffffffffu;
-    gl::PipelineState state{programs_.surface(), gl::CullMode::none, false, gl::DepthTest::greater, true, false,
-                            gl::Blend::off};
+    gl::PipelineState state{
+        programs_.surface(has_places_), gl::CullMode::none, false, gl::DepthTest::greater, true, false, gl::Blend::off};
     bool first = true;
     for (const SurfaceDraw& draw : draws_) {
         gl::PipelineState wanted = state;
@@ -211,64 +215,6 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
     list.add(gl::BindTexture{1, targets_.colour, point_sampler_});
     list.add(gl::BindTexture{2, targets_.normals, point_sampler_});
     list.add(gl::BindTexture{3, targets_.material, point_sampler_});
-}
-
-void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, const GpuScene& gpu,
-                                gl::CommandList& list) const {
-    list.add(
-        gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
-    if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
-    if (!light.triangles) return;
-    list.add(gl::BindTexture{5, light.triangles, {}});
-    list.add(gl::BindStorage{0, gpu.instances()});
-    list.add(gl::BindStorage{2, gpu.caster_triangles()});
-}
-
-/// The light's own row; where that cannot be had, one tap of its map; or the same light without its shadow.
-LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, RowOutput output) {
-    const shadow::PlainLookup& plain = light.plain;
-    const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
-    const bool may_wait = has_plain && output != RowOutput::visibility;  // that is asked for by itself
-    Reason lacks = Reason::filter_program_waits;
-    if (!may_wait || !programs_.must_wait(light.row, output)) {
-        const gl::ProgramHandle own = programs_.row(light.row, output);
-        if (own) return {own, light.map, light.triangles, light.sampler};
-        lacks = Reason::filter_program_failed;
-    }
-    const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
-    if (one_tap) return {one_tap, plain.map, {}, plain.sampler, lacks};
-    shadow::ProgramRow unshadowed = light.row;
-    unshadowed.filter_file = {};
-    return {programs_.row(unshadowed, output), {}, {}, {}, Reason::lighting_program_failed};
-}
-
-void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
-                                   const GpuScene& gpu, gl::CommandList& list, FrameReport& report) {
-    list.add(gl::BeginGroup{"lights"});
-    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-        const shadow::LightingLight& light = inputs.lights[i];
-        if (light.screen.width <= 0) continue;
-        const LightProgram used = light_program(light, RowOutput::picture);
-        if (used.lacks != Reason::none) {
-            const bool lit = used.lacks == Reason::lighting_program_failed;
-            report.lights[light.light].state = lit ? LightState::skipped : LightState::degraded;
-            report.lights[light.light].reason = used.lacks;
-        }
-        if (!used.program) continue;
-        list.add(gl::BeginGroup{scene.lights[light.light].name});
-        list.add(gl::BeginTimer{lighting_timer(light.light)});
-        list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
-        list.add(gl::SetScissor{light.screen});
-        list.add(gl::SetPipeline{
-            {used.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
-        bind_surface_textures(list);
-        bind_light(used, i, gpu, list);
-        list.add(gl::DrawTriangle{light.farthest_depth});
-        list.add(gl::EndPass{});
-        list.add(gl::EndTimer{lighting_timer(light.light)});
-        list.add(gl::EndGroup{});
-    }
-    list.add(gl::EndGroup{});
 }
 
 void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
@@ -365,7 +311,7 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
                                        gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
     const LightProgram used = light_program(inputs.lights[light], RowOutput::visibility);
-    if (!used.program || used.lacks == Reason::lighting_program_failed) return false;
+    if (!used.program || used.unshadowed) return false;
     constexpr float kNoSurface = -1.0f;
     list.add(gl::BeginGroup{"visibility"});
     list.add(gl::BeginPass{targets_.visibility_target, viewport(), false, 0.0f, true, {kNoSurface, 0.0f, 0.0f, 0.0f}});
@@ -381,7 +327,7 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
 
 bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list) {
     const shadow::LightingLight& item = lookups.inputs.lights[lookups.light];
-    if (item.row.filter_file.empty()) return true;
+    if (!item.map) return true;  // there is nothing to look up
     const gl::ProgramHandle program = programs_.lookups(item.row, lookups.fragment);
     if (!program) return false;
     list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});

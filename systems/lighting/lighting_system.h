@@ -108,7 +108,9 @@ private:
         gl::ProgramHandle program{};
         gl::TextureHandle map{}, triangles{};
         gl::SamplerHandle sampler{};
+        visibility::RayBuffers rays{};
         Reason lacks = Reason::none;  // why it is not the light's own row
+        bool unshadowed = false;
     };
     LightProgram light_program(const shadow::LightingLight& light, RowOutput output);
     gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
@@ -125,6 +127,7 @@ private:
     void record_finish(gl::CommandList& list);
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
+    void bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const;
     void bind_light(const LightProgram& program, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list) const;
     gl::Rect viewport() const;
 
@@ -134,6 +137,7 @@ private:
     DepthSampler depths_;
     ExposureMeter exposure_;
     GrowingBuffer items_, uniforms_;
+    bool has_places_ = false;  // of the last record(): surfaces say where exactly they are
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
     std::uint32_t light_stride_ = 0, lights_offset_ = 0, ambient_offset_ = 0, exposure_offset_ = 0;
     std::vector<std::uint32_t> visible_;

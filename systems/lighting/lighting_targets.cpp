@@ -53,7 +53,23 @@ bool LightingTargets::ensure_visibility() {
     return false;
 }
 
+bool LightingTargets::provide_places(bool wanted) {
+    if (wanted == static_cast<bool>(places_target)) return true;
+    const bool made = wanted && make(places, "surface places", gl::Format::rgba32ui, size_px_.x, size_px_.y) &&
+                      make(places_target, "surface places", {colour, normals, material, light_sum, places}, depth);
+    if (!made) release_places();
+    return made == wanted;
+}
+
+void LightingTargets::release_places() {
+    device_.destroy(places_target);
+    device_.destroy(places);
+    places_target = {};
+    places = {};
+}
+
 void LightingTargets::release() {
+    release_places();
     for (gl::TargetHandle* t :
          {&surface_target, &light_target, &luminance_target, &picture_target, &visibility_target}) {
         device_.destroy(*t);

@@ -22,14 +22,19 @@ public:
     bool resize(glm::uvec2 size_px);
     /// Made when first asked for: nobody pays for a visibility picture that nobody reads.
     bool ensure_visibility();
+    /// Beside the surfaces, where exactly they are: made when asked for, gone when not. False: there is no room.
+    bool provide_places(bool wanted);
     glm::uvec2 size_px() const { return size_px_; }
     gl::Failure failure() const { return failure_; }  // of the last creation
 
-    gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{};
-    gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{};
+    gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},
+        places{};
+    gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{},
+        places_target{};  // the surfaces, places included
 
 private:
     void release();
+    void release_places();
     bool make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width,
               std::uint32_t height, std::uint32_t mips = 1);
     bool make(gl::TargetHandle& target, const char* label, std::initializer_list<gl::TextureHandle> colours,

@@ -35,8 +35,8 @@ void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand
     set_cascades(shadow, cascade_count(shadow, demand.view_count), demand);
 }
 
-/// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large as
-/// the contract makes them.
+/// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
+/// as the contract makes them.
 bool leaves_count(const LightItem& light, const ShadowDemand& demand) {
     return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, demand) &&
            light.shadow.splits != CascadeSplits::manual && !demand.perspective_sun && demand.warp == 0.0f;
@@ -100,6 +100,13 @@ void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& de
     demand.view_count = cone_layers(demand.faces_eighths);
 }
 
+/// Nothing that is said of maps is of any account.
+void leave_out_map(ShadowDemand& demand) {
+    demand.view_count = demand.most_views = 0;
+    demand.perspective_sun = false;
+    demand.note = Reason::none;
+}
+
 }  // namespace
 
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,
@@ -155,6 +162,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
             if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
                 set_cascades(light.shadow, held_light->cascades, demand);
         }
+        if (!has_map(filter_row(demand.filter))) leave_out_map(demand);
         demands.push_back(demand);
     }
 }

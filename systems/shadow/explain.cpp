@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/shadow/contract.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/predicted_error.h"
 
 namespace gnomon::shadow {
@@ -57,9 +58,10 @@ double shown_error_px(const ShadowView& view, const ShadowDemand& demand, const 
     return drawn_px + slot.stale.error_px;
 }
 
-/// `held`: a view of its maps shows casters as they were.
-void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history, bool held,
-                   LightReport& out) {
+/// `drawn`: what the light looks up was made or changed in this frame. `held`: a view of its maps shows casters as they
+/// were.
+void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history, bool drawn,
+                   bool held, LightReport& out) {
     out.reason = sets.skip;
     if (out.reason != Reason::none) {
         out.state = LightState::skipped;
@@ -72,7 +74,7 @@ void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const 
     } else if (demand.note != Reason::none) {
         out.state = LightState::degraded;
         out.reason = demand.note;
-    } else if (out.views_drawn == 0) {
+    } else if (!drawn) {
         out.state = LightState::reused;
         out.reason = held ? Reason::refresh_held : Reason::content_unchanged;
     } else {
@@ -101,6 +103,7 @@ void explain_savings(const LightItem& light, const ShadowDemand& demand, std::op
 void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const MapStore& maps, const DrawTimes& times,
                     const DimLights& dim, FrameReport& report) {
     report.views.clear();
+    const bool trees_changed = report.rays.meshes_written > 0 || report.rays.instances_written;
     std::size_t first = 0, end = 0;
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i, first = end) {
         const LightItem& light = scene.lights[i];
@@ -126,9 +129,11 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
             out.predicted_error_px =
                 std::max(out.predicted_error_px, shown_error_px(frame.views[v], demand, frame.slots[v]));
         }
-        explain_state(sets, demand, history, held, out);
-        out.keeps_max_error = out.views > 0 && history->failure == Reason::none && demand.refresh_frames == 1 &&
-                              keeps_contract(out.predicted_error_px, wished_error_px(light.shadow));
+        const bool traced = !has_map(filter_row(demand.filter));
+        explain_state(sets, demand, history, traced ? trees_changed : out.views_drawn > 0, held, out);
+        out.keeps_max_error = (traced && sets.skip == Reason::none && demand.skip == Reason::none) ||
+                              (out.views > 0 && history->failure == Reason::none && demand.refresh_frames == 1 &&
+                               keeps_contract(out.predicted_error_px, wished_error_px(light.shadow)));
         out.why.receivers = sets.receivers.count;
         out.why.casters = sets.casters.count;
         out.why.display_steps = dim.steps(i);

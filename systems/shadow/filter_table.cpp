@@ -10,6 +10,11 @@ namespace gnomon::shadow {
 namespace {
 
 std::uint32_t one(const LightShadow&, bool) { return 1; }
+/// What a ray reads on an average way through a large scene, by 16 bytes (docs/exact.md, "Quality"): there is no most.
+std::uint32_t of_ray(const LightShadow&, bool) {
+    constexpr std::uint32_t kBoxes = 55, kTriangles = 32, kPerBox = 2, kPerTriangle = 3;
+    return kBoxes * kPerBox + kTriangles * kPerTriangle;
+}
 std::uint32_t of_grid(const LightShadow& shadow, bool) { return shadow.filter_size * shadow.filter_size; }
 /// A fetch takes 2x2 texels; a grid of n that slides over them touches n + 1.
 std::uint32_t of_pairs(const LightShadow& shadow, bool) {
@@ -102,6 +107,8 @@ constexpr FilterRow kRows[] = {
     {ShadowFilter::pcss, "pcss", "shadow/filters/pcss.glsl", of_search, 3.0f, FilterWidth::source, MapReading::depths,
      FilterStorage::depth, 2.5f, 0.75f},
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/pcss_moments.glsl", kFourMoments),
+    {ShadowFilter::exact, "exact", "shadow/filters/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
+     MapReading::compare_nearest, FilterStorage::none},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

@@ -17,8 +17,9 @@ enum class FilterWidth : std::uint8_t {
 };
 
 /// What a map holds for a filter: depth, or also which triangle each texel shows
-/// (shaders/shadow/caster_triangles.glsl), or also moments of distances, blurred (shaders/shadow/moments).
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments };
+/// (shaders/shadow/caster_triangles.glsl), or also moments of distances, blurred (shaders/shadow/moments). Or there is
+/// no map: rays ask the casters themselves (shaders/rays).
+enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, none };
 
 /// What its sampler returns: results of comparing, as they are or blended by hardware, what is stored, or blurred
 /// moments of it.
@@ -58,6 +59,8 @@ struct FilterRow {
     float texels_per_pixel = 1.5f;
     const MomentRow* moments = nullptr;  // of FilterStorage::moments
 };
+
+inline bool has_map(const FilterRow& row) { return row.storage != FilterStorage::none; }
 
 /// In the order of ShadowFilter.
 std::span<const FilterRow> filter_table();

@@ -8,6 +8,7 @@
 #include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
 #include "systems/shadow/depth_format.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/predicted_error.h"
@@ -240,6 +241,10 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
         HeldLight& next = frame.next_history.lights.emplace_back(last ? *last : none);
         next.light = light.entity;
         if (sets.skip != Reason::none) continue;
+        if (!has_map(filter_row(demand.filter))) {
+            if (sets.casters.count == 0) sets.skip = Reason::no_caster;
+            continue;
+        }
         const HeldLight before = next;
         const std::size_t first = frame.views.size();
         if (!LightFit(scene, d, frame).run(before, next)) {

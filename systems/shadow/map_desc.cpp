@@ -51,6 +51,7 @@ std::uint64_t map_bytes(const gl::TextureDesc& map, bool triangles, const gl::Te
 }
 
 std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand) {
+    if (!has_map(filter_row(demand.filter))) return 0;
     const gl::TextureDesc map = map_desc(light, demand);
     const MomentDescs moments = moments_of(map, demand);
     return map_bytes(map, filter_row(demand.filter).storage == FilterStorage::depth_and_triangle, moments.texture,

@@ -233,12 +233,14 @@ void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
 
 void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
     const auto light_of = [&](std::size_t d) -> const LightItem& { return scene.lights[frame.demands[d].light]; };
+    const auto wants_map = [&](std::size_t d) { return has_map(filter_row(frame.demands[d].filter)); };
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
         if (frame.demands[d].skip != Reason::none) continue;
         if (frame.sets[d].skip != Reason::none) {
             keep_or_release(light_of(d).entity, frame.sets[d].skip);
             continue;
         }
+        if (!wants_map(d)) continue;
         LightHistory& history = entry(light_of(d).entity);
         history.kept_frame = history.last_wanted_frame = frame_;
         history.waits = false;
@@ -254,7 +256,7 @@ void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
     if (limited) make_room(0, nullptr);
     for (int round = 0; round < (limited ? 2 : 1); ++round)
         for (std::size_t d = 0; d < frame.demands.size(); ++d) {
-            if (frame.demands[d].skip != Reason::none || frame.sets[d].skip != Reason::none) continue;
+            if (frame.demands[d].skip != Reason::none || frame.sets[d].skip != Reason::none || !wants_map(d)) continue;
             const LightTime time(frame, frame.demands[d].light);
             LightHistory& history = entry(light_of(d).entity);
             const bool first = !limited || map_bytes(light_of(d), frame.demands[d]) < bytes(history);

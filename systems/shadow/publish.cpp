@@ -94,9 +94,11 @@ glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer
 /// What every light has, map or not.
 LightRecord light_record(const LightItem& light, const ConsumerItem& fitted, const ConsumerItem& consumer) {
     LightRecord record;
-    record.position = with_w(light.position_ws_m - consumer.position_ws_m, light.range_m);
-    if (light.kind == LightKind::directional) record.position = view_distance(fitted, consumer);
+    const bool sun = light.kind == LightKind::directional;
+    const glm::dvec3 from_camera_m = light.position_ws_m - consumer.position_ws_m;
+    record.position = sun ? view_distance(fitted, consumer) : with_w(from_camera_m, light.range_m);
     record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
+    record.low = glm::vec4(math::split(sun ? light.rotation_ws[2] : from_camera_m).low, 0.0f);
     record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
     // KHR_lights_punctual's own guard against inner == outer.
@@ -236,7 +238,30 @@ float farthest_depth(const LightItem& light, const ConsumerItem& c) {
     return static_cast<float>(std::clamp(depth, 0.0, 1.0));
 }
 
-void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, ShadowFrame& frame) {
+namespace {
+
+/// Lights without a map, whose shadows are asked for by rays.
+void publish_rays(const SceneSnapshot& scene, const visibility::RayBuffers& rays, const ShadowFrame& frame,
+                  LightingInputs& inputs) {
+    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+        const ShadowDemand& demand = frame.demands[d];
+        const FilterRow& filter = filter_row(demand.filter);
+        if (has_map(filter) || demand.skip != Reason::none || frame.sets[d].skip != Reason::none) continue;
+        LightingLight& out = inputs.lights[demand.light];
+        const LightKindRow& kind = light_kind_row(scene.lights[demand.light].kind);
+        out.row = {.kind_define = kind.define,
+                   .kind_file = kind.file,
+                   .filter_file = filter.file,
+                   .rays = true,
+                   .ray_masks = static_cast<bool>(rays.masks)};
+        out.rays = rays;
+    }
+}
+
+}  // namespace
+
+void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
+                    ShadowFrame& frame) {
     const std::vector<ConsumerItem>& pictures = scene.pictures.empty() ? scene.consumers : scene.pictures;
     frame.inputs.resize(pictures.size());
     for (std::uint32_t c = 0; c < pictures.size(); ++c) {
@@ -284,6 +309,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, Sha
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }
+        publish_rays(scene, rays, frame, inputs);
     }
 }
 

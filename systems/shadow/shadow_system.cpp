@@ -12,7 +12,7 @@
 namespace gnomon::shadow {
 
 ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
-    : device_(device), maps_(device), recorder_(device), moments_(device), history_(held_fits) {}
+    : device_(device), maps_(device), recorder_(device), moments_(device), rays_(device), history_(held_fits) {}
 
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
@@ -60,6 +60,22 @@ void ShadowSystem::provide_triangles(GpuScene& gpu) {
             frame_.sets[d].skip = Reason::buffer_failed;
 }
 
+/// The same of lights that ask by rays. What they ask is kept as long as there is one, seen or not.
+void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
+    bool any = false, asked = false;
+    const auto asks = [&](std::size_t d) { return !has_map(filter_row(frame_.demands[d].filter)); };
+    const auto asks_now = [&](std::size_t d) { return asks(d) && frame_.sets[d].skip == Reason::none; };
+    for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
+        if (frame_.demands[d].skip != Reason::none) continue;
+        any = any || asks(d);
+        asked = asked || asks_now(d);
+    }
+    if (!any) rays_.release();
+    if (!asked || rays_.update(scene, gpu, list)) return;
+    for (std::size_t d = 0; d < frame_.demands.size(); ++d)
+        if (asks_now(d)) frame_.sets[d].skip = Reason::buffer_failed;
+}
+
 const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                                         FrameReport& report, const ShadowBudget& budget) {
     const auto start = std::chrono::steady_clock::now();
@@ -80,6 +96,8 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
         run_stages(scene, gpu, shadows, list, report);
     }
     report.still = stands_;
+    report.rays = rays_.report();
+    if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
     explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
     budget_.report(report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
@@ -111,6 +129,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     fit_views(scene, history_, frame_);
     budget_.decide(scene, gpu, history_, maps_, frame_);
     provide_triangles(gpu);
+    provide_rays(scene, gpu, list);
     maps_.set_limit(budget_.limits().bytes);
     maps_.let_take_turns(budget_.limits().ns != BudgetLimits::kNone);
     maps_.assign_slots(scene, frame_);
@@ -119,7 +138,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     maps_.plan_draws(scene, gpu, frame_);
     recorder_.prepare(scene, gpu, frame_);
     moments_.prepare(frame_);
-    publish_lights(scene, samplers_, frame_);
+    publish_lights(scene, samplers_, rays_.buffers(), frame_);
     recorder_.record(scene, gpu, frame_, list, report);
     moments_.record(scene, frame_, list);
 }
@@ -139,6 +158,7 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
 
 void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) {
     maps_.commit(scene, frame_, drawn);
+    if (!drawn) rays_.forget_uploads();
     may_stand_ = drawn && (stands_ || is_settled(scene));
     std::swap(history_, frame_.next_history);
 }

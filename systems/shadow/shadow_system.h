@@ -16,6 +16,7 @@
 #include "systems/shadow/record.h"
 #include "systems/shadow/still_frame.h"
 #include "systems/shadow/types.h"
+#include "systems/visibility/ray_scene.h"
 
 namespace gnomon::shadow {
 
@@ -43,6 +44,7 @@ public:
     /// The same for a budget's model; shown nothing, it stands as it is.
     CostClock& cost_clock() { return cost_clock_; }
 
+    const visibility::RayScene& rays() const { return rays_; }
     const MapStore& maps() const { return maps_; }
     const DimLights& dim_lights() const { return dim_lights_; }
     const History& held_fits() const { return history_; }
@@ -55,11 +57,13 @@ private:
     bool samplers_ready();
     bool moment_sampler_ready(const MomentDemand& demand);
     void provide_triangles(GpuScene& gpu);
+    void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
 
     gl::Device& device_;
     MapStore maps_;
     DepthRecorder recorder_;
     MomentRecorder moments_;
+    visibility::RayScene rays_;
     MapSamplers samplers_;
     DrawTimes draw_times_;
     DimLights dim_lights_;

@@ -20,6 +20,7 @@
 #include "systems/shadow/kinds/splits.h"
 #include "systems/shadow/marks.h"
 #include "systems/shadow/moments.h"
+#include "systems/visibility/ray_records.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
 /// nothing is changed after its stage.
@@ -208,9 +209,10 @@ struct LightRecord {
     glm::ivec4 seed_cell{0};
     glm::vec4 seed_place{0.0f};
     glm::vec4 moments{0.0f}, moment_sampling{0.0f};
+    glm::vec4 low{0.0f};
     ViewRecord views[kMaxViews];
 };
-static_assert(sizeof(LightRecord) == std::size_t{12} * 16 + kMaxViews * sizeof(ViewRecord));
+static_assert(sizeof(LightRecord) == std::size_t{13} * 16 + kMaxViews * sizeof(ViewRecord));
 
 /// Matches DepthViewBlock in shaders/shadow/depth/depth_view_block.glsl (std140).
 struct DepthViewRecord {
@@ -239,6 +241,8 @@ struct ProgramRow {
     bool manual_bias = false;  // any BiasMode but automatic
     bool triangles = false;    // reads which triangles texels show, and those triangles
     bool moments = false;      // reads a prefiltered map
+    bool rays = false;         // asks the casters' triangles by rays, of surfaces that say where exactly they are
+    bool ray_masks = false;    // some of those are masked
     bool footprint = false;    // of which it takes what a pixel covers, by mipmaps or anisotropy
     bool operator==(const ProgramRow&) const = default;
 };
@@ -256,6 +260,7 @@ struct LightingLight {
     ProgramRow row;
     gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
     gl::SamplerHandle sampler{};
+    visibility::RayBuffers rays{};  // {0} unless row.rays
     PlainLookup plain;
     gl::Rect screen{};  // pixels the light can reach; empty: none
     float farthest_depth = 0.0f;  // of the picture: surfaces that it can reach have larger ones, and the sky never has

@@ -68,6 +68,7 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
                 add(static_cast<float>(i) * -1.25f);
                 break;
             case Format::rg32ui:
+            case Format::rgba32ui:
                 add(0xffffffffu - static_cast<std::uint32_t>(i));
                 break;
             case Format::d16:

@@ -24,23 +24,31 @@ inline bool reads_moments(const shadow::FilterRow& filter) {
     return filter.storage == shadow::FilterStorage::moments;
 }
 
+/// Filters that read a map.
+inline std::vector<shadow::FilterRow> map_filters() {
+    std::vector<shadow::FilterRow> rows;
+    for (const shadow::FilterRow& row : shadow::filter_table())
+        if (shadow::has_map(row)) rows.push_back(row);
+    return rows;
+}
+
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns in perspective
-/// and warped.
+/// and warped; and of those that ask by rays, with and without masked casters.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
         rows.push_back({kind.define, {}, {}});
-        for (const shadow::FilterRow& filter : shadow::filter_table())
+        for (const shadow::FilterRow& filter : map_filters())
             for (const bool fades : {false, true})
                 if (!fades || kind.kind != LightKind::point)  // a cube has nothing to fade into
                     rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, fades, reads_depths(filter)});
-        for (const shadow::FilterRow& filter : shadow::filter_table())
+        for (const shadow::FilterRow& filter : map_filters())
             rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, false, reads_depths(filter), true});
     }
     const shadow::LightKindRow& sun = shadow::light_kind_row(LightKind::directional);
-    for (const shadow::FilterRow& filter : shadow::filter_table())
+    for (const shadow::FilterRow& filter : map_filters())
         rows.push_back({sun.define, shadow::kPerspectiveSunFile, filter.file, filter.reach_texel, false, reads_depths(filter)});
-    for (const shadow::FilterRow& filter : shadow::filter_table())
+    for (const shadow::FilterRow& filter : map_filters())
         for (const bool fades : {false, true})
             rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
     for (shadow::ProgramRow& row : rows)
@@ -55,6 +63,11 @@ inline std::vector<shadow::ProgramRow> all_rows() {
             rows.push_back(rows[i]);
             rows.back().footprint = true;
         }
+    for (const shadow::LightKindRow& kind : shadow::light_kind_table())
+        for (const shadow::FilterRow& filter : shadow::filter_table())
+            for (const bool masks : {false, true})
+                if (!shadow::has_map(filter))
+                    rows.push_back({.kind_define = kind.define, .kind_file = kind.file, .filter_file = filter.file, .rays = true, .ray_masks = masks});
     return rows;
 }
 
@@ -63,7 +76,7 @@ inline std::vector<shadow::ProgramRow> all_rows() {
 inline std::vector<shadow::ProgramRow> lookup_rows(std::string_view view) {
     std::vector<shadow::ProgramRow> kept, known;
     for (const shadow::ProgramRow& row : all_rows()) {
-        if (row.filter_file.empty()) continue;
+        if (row.filter_file.empty() || row.rays) continue;
         shadow::ProgramRow rest = row;
         rest.filter_file = {};
         rest.reach_texel = 0.0f;
@@ -87,6 +100,7 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             else programs.push_back({.label = "not expanded"});
         };
         add(lighting.surface());
+        add(lighting.surface(true));
         add(lighting.blended_base());
         add(lighting.luminance());
         add(lighting.tonemap());

@@ -62,7 +62,8 @@ Block light_block() {
                  {"LightBlock.seed_cell", offsetof(LightRecord, seed_cell)},
                  {"LightBlock.seed_place", offsetof(LightRecord, seed_place)},
                  {"LightBlock.moments", offsetof(LightRecord, moments)},
-                 {"LightBlock.moment_sampling", offsetof(LightRecord, moment_sampling)}}};
+                 {"LightBlock.moment_sampling", offsetof(LightRecord, moment_sampling)},
+                 {"LightBlock.low", offsetof(LightRecord, low)}}};
     for (Member& m : view_members()) block.members.push_back(std::move(m));
     return block;
 }

@@ -12,14 +12,16 @@ class ShaderRows : public GlTest {};
 
 TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto programs = all_programs();
-    const std::size_t kinds = shadow::light_kind_table().size(), filters = shadow::filter_table().size();
+    const std::size_t kinds = shadow::light_kind_table().size(), filters = map_filters().size();
     const auto rows_of = [&](std::size_t some) {  // all but cubes fade; perspective and warped suns
         return kinds * 2 * some + (kinds - 1) * some + 3 * some;
     };
     const auto prefiltered =
         static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
-    constexpr std::size_t kOutputs = 3, kCommon = 4, kDepth = 4, kCompute = 2, kBlur = 1, kSources = 3;
-    const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered);  // those by a pixel's footprint, too
+    constexpr std::size_t kMaskedOrNot = 2;
+    const std::size_t by_rays = kinds * kMaskedOrNot * (shadow::filter_table().size() - filters);
+    constexpr std::size_t kOutputs = 3, kCommon = 5, kDepth = 4, kCompute = 2, kBlur = 1, kSources = 3;
+    const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + by_rays;  // those by a pixel's footprint, too
     std::size_t views_programs = 1;  // lines
     for (const debug::ViewRow& view : debug::view_table()) {
         if (view.medium == debug::ViewMedium::flat) ++views_programs;

@@ -12,3 +12,10 @@ if(GNOMON_SAMPLE)
     truth_warp_gl_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()
+# What claims to have no wrong pixel.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_exact LABEL gl SOURCES
+    exact_scenes_gl_test.cpp
+    exact_worlds_gl_test.cpp
+    LIBRARIES gnomon_bench_parts)
+endif()

@@ -69,7 +69,7 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
     glBindBufferBase(GL_UNIFORM_BUFFER, kLightBinding, buffers.light);
     glBindTextureUnit(kMapUnit, gl::gl_name(device, light.map));
     glBindSampler(kMapUnit, gl::gl_name(device, light.sampler));
-    if (light.row.footprint || light.row.triangles) {
+    if (light.row.footprint || light.row.triangles || light.row.rays) {
         glNamedBufferSubData(buffers.camera, 0, sizeof inputs.camera, &inputs.camera);
         glBindBufferBase(GL_UNIFORM_BUFFER, kCameraBinding, buffers.camera);
     }
@@ -79,6 +79,13 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
         glBindSampler(kTrianglesUnit, 0);
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kInstances, gl::gl_name(device, scene.instances()));
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kCasterTriangles, gl::gl_name(device, scene.caster_triangles()));
+    }
+    if (light.row.rays) {
+        const visibility::RayBuffers& rays = light.rays;
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, gl::gl_name(device, scene.instances()));
+        GLuint binding = 3;
+        for (const gl::BufferHandle buffer : {rays.nodes, rays.triangles, rays.top, rays.instances, rays.masks})
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer ? gl::gl_name(device, buffer) : 0);
     }
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
@@ -110,7 +117,7 @@ int check(LightKind kind, const Case& wanted) {
     const shadow::LightingInputs& inputs = frame.inputs.front();
     const shadow::LightingLight& light = inputs.lights.front();
     // [shadows]
-    if (!drawn || !light.map) return fail("no depth map");
+    if (!drawn || !(light.map || light.row.rays)) return fail("no depth map");
     if (!(light.row.*wanted.needs)) return fail(std::string(wanted.name) + " does not ask for what it is here to show");
 
     const auto fragment = fragment_for(light.row, kFragment);
@@ -157,7 +164,8 @@ int main() {
          &shadow::ProgramRow::footprint},
         {"pcss",
          {.filter = ShadowFilter::pcss, .source_radius_m = 1.0f, .sun_radius_rad = 0.01f},
-         &shadow::ProgramRow::depths}};
+         &shadow::ProgramRow::depths},
+        {"exact", {.filter = ShadowFilter::exact}, &shadow::ProgramRow::rays}};
     int failed = 0;
     for (const Case& one : cases)
         for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})

@@ -54,7 +54,7 @@ SceneSnapshot stage_with(const std::vector<LightKind>& kinds, const LightShadow&
 Result<std::string> fragment_for(const shadow::ProgramRow& row, const char* main_text) {
     const bool shadowed = !row.filter_file.empty();
     std::string row_text;
-    if (row.footprint || row.triangles) row_text += "#include \"shared/camera_block.glsl\"\n";
+    if (row.footprint || row.triangles || row.rays) row_text += "#include \"shared/camera_block.glsl\"\n";
     for (const std::string_view file : {row.kind_file, row.filter_file})
         if (shadowed) row_text += "#include \"" + std::string(file) + "\"\n";
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
@@ -66,6 +66,8 @@ Result<std::string> fragment_for(const shadow::ProgramRow& row, const char* main
         defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
         if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
         if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
+        if (row.rays) defines.emplace_back("SHADOW_RAYS 1");
+        if (row.ray_masks) defines.emplace_back("RAY_MASKS 1");
         if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
         if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");

@@ -171,7 +171,7 @@ public:
         frame_.demands = {demand};
         frame_.views = views;
         frame_.slots.assign(views.size(), {.texture = {1}, .size_px = size_px});
-        shadow::publish_lights(scene_, {}, frame_);
+        shadow::publish_lights(scene_, {}, {}, frame_);
         return frame_.inputs[0].lights[0];
     }
 

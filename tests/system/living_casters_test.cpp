@@ -3,6 +3,7 @@
 #include "components/shadow_caster.h"
 #include "components/skin.h"
 #include "engine/assets/mesh_topology.h"
+#include "engine/rays/mesh_bvh.h"
 #include "tests/system/frame_fixture.h"
 
 /// Meshes that bend: once per pose, for all that draw them; and nothing of it for anybody else.
@@ -96,6 +97,26 @@ TEST_F(LivingCasters, AreBentOncePerPoseWhateverTheLightsAndViews) {
     EXPECT_THAT(vertices, SizeIs(library.meshes[kBending].vertices.size()));
     EXPECT_THAT(uploaded<glm::vec4>("triangle normals"), SizeIs(library.meshes[kBending].indices.size() / 3));
     EXPECT_THAT(uploaded<CasterTriangle>("caster triangles"), SizeIs(library.meshes[kBending].indices.size() / 3));
+}
+
+TEST_F(LivingCasters, InTheTreesThatRaysAskAreWrittenWhereTheyBentAlone) {
+    const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::exact; });
+    step();
+    EXPECT_EQ(frame->report().rays.triangles, 24u);
+    bend(0.5);
+    step();
+    EXPECT_EQ(frame->report().rays.meshes_written, 1u);
+    EXPECT_TRUE(frame->report().rays.instances_written) << "what is around it";
+    const auto triangles = uploaded<rays::BvhTriangle>("ray triangles");
+    ASSERT_THAT(triangles, SizeIs(library.meshes[kBending].indices.size() / 3));
+    const auto reaches = [](const rays::BvhTriangle& t) { return std::max({t.a.x, t.b.x, t.c.x}); };
+    float farthest_m = 0.0f;
+    for (const rays::BvhTriangle& triangle : triangles) farthest_m = std::max(farthest_m, reaches(triangle));
+    EXPECT_NEAR(farthest_m, 1.0, 1e-5) << "half a metre, and half a metre more";
+    step();
+    EXPECT_EQ(frame->report().rays.meshes_written, 0u);
+    EXPECT_THAT(uploads("ray triangles"), IsEmpty());
 }
 
 TEST_F(LivingCasters, StandStillForNothing) {

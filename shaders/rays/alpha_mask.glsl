@@ -1,0 +1,59 @@
+// Whether a masked material is there at a point of a triangle, at its texture's finest level, as the depth passes have it; the
+// float twin of engine/rays/alpha_mask.cpp. Textures of many materials at once: their alpha lies in one buffer, a byte each.
+// C++ twin: RayMask in systems/visibility/ray_records.h.
+layout(std430, binding = 7) readonly buffer RayMaskBuffer { uint ray_masks[]; };
+
+const uint kNoMaskTexture = 0xffffffffu;
+const uint kWrapRepeat = 0u, kWrapMirror = 1u;   // else clamped; assets::TextureWrap
+
+struct RayMask {
+    float cutoff, alpha;
+    uint texels;             // word of the first, four to a word; kNoMaskTexture: alpha alone decides
+    uint width, height;
+    uint wrap_u, wrap_v;
+    bool linear;
+};
+
+RayMask ray_mask(uint at) {
+    return RayMask(uintBitsToFloat(ray_masks[at]), uintBitsToFloat(ray_masks[at + 1u]), ray_masks[at + 2u],
+                   ray_masks[at + 3u], ray_masks[at + 4u], ray_masks[at + 5u], ray_masks[at + 6u], ray_masks[at + 7u] != 0u);
+}
+
+vec2 mask_uv(uint at) { return vec2(uintBitsToFloat(ray_masks[at]), uintBitsToFloat(ray_masks[at + 1u])); }
+
+// `texel` is a whole number.
+uint wrapped_texel(float texel, uint size, uint wrap) {
+    float edge = float(size);
+    if (wrap == kWrapRepeat) return uint(clamp(texel - edge * floor(texel / edge), 0.0, edge - 1.0));
+    if (wrap == kWrapMirror) {
+        float there_and_back = clamp(texel - 2.0 * edge * floor(texel / (2.0 * edge)), 0.0, 2.0 * edge - 1.0);
+        return uint(there_and_back < edge ? there_and_back : 2.0 * edge - 1.0 - there_and_back);
+    }
+    return uint(clamp(texel, 0.0, edge - 1.0));
+}
+
+float mask_alpha(RayMask mask, vec2 texel) {
+    uint x = wrapped_texel(texel.x, mask.width, mask.wrap_u), y = wrapped_texel(texel.y, mask.height, mask.wrap_v);
+    uint i = y * mask.width + x;
+    return float((ray_masks[mask.texels + (i >> 2u)] >> (8u * (i & 3u))) & 255u) / 255.0;
+}
+
+float sampled_alpha(RayMask mask, vec2 uv) {
+    vec2 at = uv * vec2(mask.width, mask.height);
+    if (any(isnan(at)) || any(isinf(at))) return 1.0;
+    vec2 first = mask.linear ? floor(at - 0.5) : floor(at);
+    vec2 part = mask.linear ? at - 0.5 - first : vec2(0.0);
+    vec2 above = vec2(mask_alpha(mask, first), mask_alpha(mask, first + vec2(1.0, 0.0)));
+    vec2 below = vec2(mask_alpha(mask, first + vec2(0.0, 1.0)), mask_alpha(mask, first + vec2(1.0)));
+    vec2 rows = mix(above, below, part.y);
+    return mix(rows.x, rows.y, part.x);
+}
+
+// `mask` and `uvs` as a RayTriangle has them.
+bool is_there(uint mask, uint uvs, vec3 weights) {
+    RayMask m = ray_mask(mask);
+    float alpha = m.alpha;
+    if (m.texels != kNoMaskTexture)
+        alpha *= sampled_alpha(m, weights.x * mask_uv(uvs) + weights.y * mask_uv(uvs + 2u) + weights.z * mask_uv(uvs + 4u));
+    return alpha >= m.cutoff;
+}

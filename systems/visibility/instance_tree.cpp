@@ -1,0 +1,130 @@
+#include "systems/visibility/instance_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <utility>
+
+#include "engine/math/projection.h"
+
+namespace gnomon::visibility {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-24;
+/// kBoxUnits of shaders/rays/box.glsl: the same roundings, carried into the mesh's space, and the inverse's own.
+constexpr double kBoxUnits = 48.0;
+/// Of a corner as shaders place it: its basis, three products, three sums.
+constexpr double kCornerUnits = 8.0;
+/// Where a basis has no inverse every box is met: farther than any coordinate, near enough for its square to be finite.
+constexpr float kEverywhere = 1.0e18f;
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// Largest sum of a row: what no axis of an image exceeds, per unit of the vector's largest.
+double norm(const glm::dmat3& m) { return largest(glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2])); }
+
+bool is_finite(const glm::dmat3& m) { return std::isfinite(norm(m)); }
+
+RayInstance record_of(const InstanceItem& item, const MeshTreePlace& mesh) {
+    RayInstance record;
+    record.first_node = mesh.first_node;
+    record.nodes = mesh.nodes;
+    record.first_slot = mesh.first_slot;
+    record.instance = item.gpu_slot;
+    record.layers = item.cast_layers;
+    const glm::dvec3 corner = glm::max(glm::abs(glm::dvec3(mesh.box.min)), glm::abs(glm::dvec3(mesh.box.max)));
+    record.reach_m = static_cast<float>(norm(item.basis) * largest(corner));
+    const glm::dmat3 inverse = glm::inverse(item.basis);
+    const double slack_per_m = kBoxUnits * kUnitRoundoff * norm(inverse);
+    if (!is_finite(inverse) || !(slack_per_m < static_cast<double>(kEverywhere))) {
+        record.slack_per_m = kEverywhere;
+        return record;
+    }
+    record.slack_per_m = static_cast<float>(slack_per_m);
+    record.to_model_x = glm::vec3(inverse[0]);
+    record.to_model_y = glm::vec3(inverse[1]);
+    record.to_model_z = glm::vec3(inverse[2]);
+    return record;
+}
+
+/// Around where shaders find the instance's corners: its translation is two floats there.
+rays::Box box_of(const InstanceItem& item, const RayInstance& record, const glm::dvec3& anchor_ws_m) {
+    constexpr double kTwoFloats = 0x1p-47;
+    const glm::dvec3 low = item.bounds_ws.min - anchor_ws_m, high = item.bounds_ws.max - anchor_ws_m;
+    const double size_m = std::max(largest(low), largest(high)) + static_cast<double>(record.reach_m);
+    const glm::dvec3 slack(kCornerUnits * kUnitRoundoff * size_m + kTwoFloats * largest(item.translation_ws_m));
+    return {glm::vec3(low - slack), glm::vec3(high + slack)};
+}
+
+double steps(const rays::BvhCost& cost) { return cost.nodes + cost.triangles; }
+
+}  // namespace
+
+void InstanceTree::update(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes, bool same) {
+    if (!same) list(scene, meshes);
+    place(scene, meshes);
+    if (same) rays::refit_bvh(nodes_, boxes_);
+    if (!same || steps(rays::cost_of(nodes_)) > kLooseGrowth * built_cost_) {
+        set_anchor(scene);
+        place(scene, meshes);
+        build();
+    }
+    head_.nodes = static_cast<std::uint32_t>(nodes_.size());
+    head_.reach_m = 0.0f;
+    if (nodes_.empty()) return;
+    const glm::vec3 reach = glm::max(glm::abs(nodes_[0].min), glm::abs(nodes_[0].max));
+    head_.reach_m = std::max({reach.x, reach.y, reach.z});
+}
+
+void InstanceTree::list(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
+    items_.clear();
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+        const InstanceItem& item = scene.instances[i];
+        const bool has_tree = item.mesh < meshes.size() && meshes[item.mesh].nodes > 0;
+        if (item.casts && has_tree && !math::is_empty(item.bounds_ws)) items_.push_back(i);
+    }
+}
+
+/// Amid the casters: a sum of two floats, so that shaders have it as it is.
+void InstanceTree::set_anchor(const SceneSnapshot& scene) {
+    math::Aabb all;
+    for (const std::uint32_t i : items_) all = math::merged(all, scene.instances[i].bounds_ws);
+    const math::TwoFloat3 anchor = math::split(items_.empty() ? glm::dvec3(0.0) : math::centre(all));
+    head_.anchor_high = anchor.high;
+    head_.anchor_low = anchor.low;
+    anchor_ws_m_ = glm::dvec3(anchor.high) + glm::dvec3(anchor.low);
+}
+
+/// Records and boxes, by slot.
+void InstanceTree::place(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
+    instances_.resize(items_.size());
+    boxes_.resize(items_.size());
+    for (std::size_t slot = 0; slot < items_.size(); ++slot) {
+        const InstanceItem& item = scene.instances[items_[slot]];
+        instances_[slot] = record_of(item, meshes[item.mesh]);
+        boxes_[slot] = box_of(item, instances_[slot], anchor_ws_m_);
+    }
+}
+
+void InstanceTree::build() {
+    rays::Bvh bvh = rays::build_bvh(boxes_, 1);
+    nodes_ = std::move(bvh.nodes);
+    const auto by_slot = [&bvh](auto& values) {
+        auto sorted = values;
+        for (std::size_t slot = 0; slot < values.size(); ++slot) sorted[slot] = values[bvh.items[slot]];
+        values = std::move(sorted);
+    };
+    by_slot(items_);
+    by_slot(instances_);
+    by_slot(boxes_);
+    built_cost_ = steps(rays::cost_of(nodes_));
+    ++builds_;
+}
+
+std::size_t InstanceTree::bytes() const {
+    return nodes_.capacity() * sizeof(rays::BvhNode) + instances_.capacity() * sizeof(RayInstance) +
+           items_.capacity() * sizeof(std::uint32_t) + boxes_.capacity() * sizeof(rays::Box);
+}
+
+}  // namespace gnomon::visibility

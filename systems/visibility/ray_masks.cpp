@@ -1,0 +1,72 @@
+#include "systems/visibility/ray_masks.h"
+
+#include <array>
+#include <bit>
+
+#include "systems/visibility/ray_records.h"
+
+namespace gnomon::visibility {
+namespace {
+
+constexpr std::uint32_t kWordsPerTriangle = 6;  // u and v of three corners
+constexpr std::size_t kTexelsPerWord = 4;
+
+}  // namespace
+
+rays::BvhTriangle RayMasks::placed(const rays::BvhTriangle& triangle, std::uint32_t mesh,
+                                   std::uint32_t first_triangle) {
+    rays::BvhTriangle placed = triangle;
+    placed.triangle += first_triangle;
+    if (triangle.mask == rays::kOpaque) return placed;
+    placed.mask = material(triangle.mask);
+    placed.spare = uvs_of(mesh) + kWordsPerTriangle * triangle.triangle;
+    return placed;
+}
+
+std::uint32_t RayMasks::material(std::uint32_t index) {
+    materials_.resize(library_->materials.size(), kUnset);
+    if (materials_[index] != kUnset) return materials_[index];
+    const assets::Material& material = library_->materials[index];
+    RayMask mask{.cutoff = material.alpha_cutoff, .alpha = material.base_colour.a};
+    const auto texture = static_cast<std::size_t>(material.base_colour_texture);
+    if (material.base_colour_texture >= 0 && texture < library_->textures.size()) {
+        const assets::Texture& t = library_->textures[texture];
+        mask.texels = texels_of(material.base_colour_texture);
+        mask.width = t.width;
+        mask.height = t.height;
+        mask.wrap_u = static_cast<std::uint32_t>(t.wrap_u);
+        mask.wrap_v = static_cast<std::uint32_t>(t.wrap_v);
+        mask.linear = t.linear_filter ? 1 : 0;
+    }
+    const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(RayMask) / sizeof(std::uint32_t)>>(mask);
+    materials_[index] = static_cast<std::uint32_t>(words_.size());
+    words_.insert(words_.end(), words.begin(), words.end());
+    return materials_[index];
+}
+
+/// kUnset, which is what shaders know as no texture, of one that holds too little.
+std::uint32_t RayMasks::texels_of(std::int32_t index) {
+    textures_.resize(library_->textures.size(), kUnset);
+    std::uint32_t& first = textures_[static_cast<std::size_t>(index)];
+    const assets::Texture& texture = library_->textures[static_cast<std::size_t>(index)];
+    const std::size_t texels = std::size_t{texture.width} * texture.height;
+    if (first != kUnset || texels == 0 || texture.rgba.size() < 4 * texels) return first;
+    first = static_cast<std::uint32_t>(words_.size());
+    words_.resize(words_.size() + (texels + kTexelsPerWord - 1) / kTexelsPerWord, 0);
+    for (std::size_t i = 0; i < texels; ++i)
+        words_[first + i / kTexelsPerWord] |= std::uint32_t{texture.rgba[4 * i + 3]} << (8 * (i % kTexelsPerWord));
+    return first;
+}
+
+std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
+    uvs_.resize(library_->meshes.size(), kUnset);
+    if (uvs_[index] != kUnset) return uvs_[index];
+    uvs_[index] = static_cast<std::uint32_t>(words_.size());
+    const assets::Mesh& mesh = library_->meshes[index];
+    for (const std::uint32_t corner : mesh.indices)
+        for (const float coordinate : {mesh.vertices[corner].uv.x, mesh.vertices[corner].uv.y})
+            words_.push_back(std::bit_cast<std::uint32_t>(coordinate));
+    return uvs_[index];
+}
+
+}  // namespace gnomon::visibility

@@ -1,0 +1,102 @@
+#include <cstdio>
+
+#include "tests/gl/truth_scenes.h"
+#include "tests/oracle/exactness.h"
+
+// filter=exact against rays in double: no pixel is wrong whose truth does not hang on the last digits.
+namespace gnomon {
+namespace {
+
+constexpr glm::uvec2 kSize_px{640, 360};
+// Of the scored pixels.
+constexpr double kMostAmbiguous = 0.001, kMostOtherSurface = 0.0005;
+
+class ExactScenes : public TruthTest {
+protected:
+    static bench::StageOptions exact(std::vector<std::string> settings = {"filter=exact"}) {
+        bench::StageOptions options;
+        options.size_px = kSize_px;
+        options.settings = std::move(settings);
+        return options;
+    }
+    struct Judged {
+        std::string name;
+        LightReport report;
+        oracle::Exactness found;
+    };
+    /// Every light of the stage's last frame, against its snapshot.
+    static std::vector<Judged> judge(bench::Stage& stage) {
+        const SceneSnapshot& scene = stage.frame().snapshot();
+        const ConsumerItem& camera = scene.consumers.front();
+        const oracle::ReferenceTracer tracer(scene, stage.library(), camera.position_ws_m);
+        const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+        std::vector<Judged> judged;
+        for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+            std::vector<float> measured;
+            EXPECT_TRUE(stage.frame().read_visibility(i, measured));
+            const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights[i], true);
+            judged.push_back({scene.lights[i].name, stage.frame().report().lights[i],
+                              oracle::exactness(tracer, hits, camera, truth, measured)});
+        }
+        return judged;
+    }
+    static void expect_exact(const std::vector<Judged>& judged) {
+        for (const auto& [name, report, found] : judged) {
+            SCOPED_TRACE(name);
+            const auto scored = static_cast<double>(found.scored);
+            std::printf("%s: %zu scored, %zu wrong, %zu ambiguous, %zu of another surface\n", name.c_str(),
+                        found.scored, found.wrong, found.ambiguous, found.other_surface);
+            EXPECT_EQ(report.state, LightState::rendered) << reason_code(report.reason);
+            EXPECT_EQ(report.texels + report.bytes + report.views_drawn, 0u) << "it has no map";
+            EXPECT_EQ(found.wrong, 0u) << "of " << found.scored;
+            EXPECT_LE(static_cast<double>(found.ambiguous), kMostAmbiguous * scored);
+            EXPECT_LE(static_cast<double>(found.other_surface), kMostOtherSurface * scored);
+            EXPECT_GT(found.lit, 1000u);
+            EXPECT_GT(found.dark, 1000u);
+        }
+    }
+};
+
+TEST_F(ExactScenes, TheCourtyardsThreeLightsAreTheTruthFromItsCameras) {
+    for (const char* camera : {"0", "1", "2"}) {
+        SCOPED_TRACE(camera);
+        auto options = exact();
+        options.camera = camera;
+        const auto stage = open(options);
+        ASSERT_TRUE(stage);
+        stage->run_frame();
+        const auto judged = judge(*stage);
+        ASSERT_EQ(judged.size(), 3u);
+        expect_exact(judged);
+        EXPECT_GT(stage->frame().report().rays.bytes, 0u);
+    }
+}
+
+TEST_F(ExactScenes, TheCourtyardIsTheTruthAHundredMillionMetresAway) {
+    auto options = exact();
+    options.offset_m = {1.0e8, -1.0e8, 0.5e8};
+    const auto stage = open(options);
+    ASSERT_TRUE(stage);
+    stage->run_frame();
+    expect_exact(judge(*stage));
+}
+
+TEST_F(ExactScenes, CastersThatMovedAreWhereTheyAreAndNotWhereTheyWere) {
+    const auto stage = open(exact());
+    ASSERT_TRUE(stage);
+    stage->run_frame();
+    stage->move_to(2.3);
+    stage->run_frame();
+    EXPECT_TRUE(stage->frame().report().rays.instances_written);
+    expect_exact(judge(*stage));
+}
+
+TEST_F(ExactScenes, WouldBeCaughtWithOneTapOfAMap) {
+    const auto stage = open(exact({"filter=hard"}));
+    ASSERT_TRUE(stage);
+    stage->run_frame();
+    for (const Judged& light : judge(*stage)) EXPECT_GT(light.found.wrong, 20u) << light.name;
+}
+
+}  // namespace
+}  // namespace gnomon

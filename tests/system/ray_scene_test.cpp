@@ -1,0 +1,199 @@
+#include <map>
+
+#include "components/shadow_caster.h"
+#include "systems/shadow/filter_table.h"
+#include "systems/visibility/ray_records.h"
+#include "tests/system/frame_fixture.h"
+
+/// What a light that asks by rays asks for, and that no other light pays for it.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+class RayScene : public FrameTest {
+protected:
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+    }
+    ecs::Entity add_light(LightKind kind, const std::string& name, ShadowFilter filter) {
+        const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
+        choose(light, filter);
+        return light;
+    }
+    void choose(ecs::Entity light, ShadowFilter filter) {
+        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
+            s.filter = filter;
+            s.resolution_px = 256;
+        });
+    }
+    std::vector<std::string> ray_labels() const {
+        std::vector<std::string> labels = map_labels(device, "ray ");
+        for (const std::string& places : map_labels(device, "surface places")) labels.push_back(places);
+        return labels;
+    }
+    /// Bytes that the last frame wrote into buffers whose label begins so.
+    std::uint64_t uploaded(const std::string& label) const {
+        std::uint64_t bytes = 0;
+        for (const gl::Command& c : frame->commands().commands) {
+            const auto* update = std::get_if<gl::UpdateBuffer>(&c);
+            if (update && device.buffer(update->buffer)->label.starts_with(label)) bytes += update->size;
+        }
+        return bytes;
+    }
+    std::vector<std::uint32_t> storage_bindings() const {
+        std::vector<std::uint32_t> found;
+        for (const gl::Command& c : frame->commands().commands)
+            if (const auto* s = std::get_if<gl::BindStorage>(&c)) found.push_back(s->binding);
+        return found;
+    }
+    std::vector<std::string> compiled() const {
+        std::vector<std::string> labels;
+        for (const gl::ResourceCall& call : device.resource_calls())
+            if (call.kind == gl::ResourceCall::Kind::create_program) labels.push_back(call.label);
+        return labels;
+    }
+    TestWorld::Stage stage;
+    static constexpr std::uint32_t kFirstRayBinding = 3;
+};
+
+TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
+    for (const shadow::FilterRow& row : shadow::filter_table())
+        if (shadow::has_map(row)) add_light(LightKind::spot, std::string(row.name), row.id);
+    const ecs::Entity off = add_light(LightKind::spot, "off", ShadowFilter::exact);
+    world.registry.patch<LightShadow>(off, [](LightShadow& s) { s.enabled = false; });
+    step();
+    EXPECT_THAT(ray_labels(), IsEmpty());
+    EXPECT_THAT(storage_bindings(), Each(::testing::Lt(kFirstRayBinding)));
+    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("exact"))));
+    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("places"))));
+    EXPECT_EQ(frame->report().rays.bytes + frame->report().rays.host_bytes, 0u);
+}
+
+TEST_F(RayScene, IsOneForAllLightsThatAskAndTheyHaveNoMap) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+    add_light(LightKind::directional, "sun", ShadowFilter::exact);
+    add_light(LightKind::point, "bulb", ShadowFilter::exact);
+    step();
+    EXPECT_THAT(map_labels(device, "shadow map"), IsEmpty());
+    EXPECT_THAT(depth_passes(), IsEmpty());
+    EXPECT_THAT(map_labels(device, "ray "), SizeIs(4)) << "trees, triangles, instances, the tree over them; no masks";
+    EXPECT_THAT(map_labels(device, "surface places"), SizeIs(2)) << "a texture and a target";
+    EXPECT_THAT(storage_bindings(), Contains(kFirstRayBinding));
+    for (const LightReport& light : frame->report().lights) {
+        EXPECT_EQ(light.state, LightState::rendered) << light.name;
+        EXPECT_EQ(light.texels + light.bytes + light.draws, 0u) << light.name;
+        EXPECT_TRUE(light.keeps_max_error) << light.name;
+        EXPECT_EQ(light.predicted_error_px, 0.0) << light.name;
+    }
+}
+
+TEST_F(RayScene, SaysItsBytes) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+    world.add_mesh(kMaskedBox, {1, 1, 1}, true);
+    step();
+    EXPECT_THAT(map_labels(device, "ray masks"), SizeIs(1));
+    std::map<std::string, std::uint64_t> sizes;
+    for (const gl::Command& c : frame->commands().commands)
+        if (const auto* s = std::get_if<gl::BindStorage>(&c); s && s->binding >= kFirstRayBinding)
+            sizes[device.buffer(s->buffer)->label] = device.buffer(s->buffer)->size;
+    EXPECT_THAT(sizes, SizeIs(5));
+    std::uint64_t held = 0;
+    for (const auto& [label, size] : sizes) held += size;
+    EXPECT_EQ(frame->report().rays.bytes, held);
+    EXPECT_EQ(frame->report().rays.instances, 2u) << "the plane does not cast";
+    EXPECT_EQ(frame->report().rays.triangles, 24u);
+}
+
+TEST_F(RayScene, IsWrittenOnlyWhereSomethingMoved) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+    step();
+    EXPECT_GT(uploaded("ray "), 0u);
+    step();
+    EXPECT_EQ(uploaded("ray "), 0u) << "a still frame";
+    EXPECT_EQ(light("lamp").state, LightState::reused);
+    world.move(stage.camera, {0.5, 4, 8});
+    step();
+    EXPECT_EQ(uploaded("ray "), 0u) << "the camera alone moved";
+    world.move(stage.box, {0.2, 1, 0});
+    step();
+    EXPECT_TRUE(frame->report().rays.instances_written);
+    EXPECT_EQ(frame->report().rays.meshes_written, 0u);
+    EXPECT_EQ(uploaded("ray tree of instances") + uploaded("ray instances"), uploaded("ray ")) << "no mesh";
+    step();
+    EXPECT_FALSE(frame->report().rays.instances_written);
+    const ecs::Entity second = world.add_mesh(kSolidBox, {2, 1, 0}, true);
+    step();
+    EXPECT_EQ(frame->report().rays.instances, 2u) << "a mesh that was in no tree";
+    EXPECT_EQ(frame->report().rays.triangles, 24u);
+    world.registry.remove<ShadowCaster>(second);
+    step();
+    EXPECT_EQ(frame->report().rays.instances, 1u);
+}
+
+TEST_F(RayScene, IsFreedWithTheLastLightThatAsks) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    const std::size_t map_objects = map_labels(device).size();
+    choose(lamp, ShadowFilter::exact);
+    step();
+    EXPECT_THAT(map_labels(device, "shadow map"), IsEmpty()) << "the map is of no use any more";
+    world.move(stage.camera, {0, -400, 8});
+    step();
+    EXPECT_THAT(map_labels(device, "ray "), SizeIs(4)) << "nobody sees it now, but it may be seen again";
+    world.move(stage.camera, {0, 4, 8});
+    choose(lamp, ShadowFilter::triangles);
+    step();
+    EXPECT_THAT(ray_labels(), IsEmpty());
+    EXPECT_EQ(map_labels(device).size(), map_objects);
+    EXPECT_EQ(frame->report().rays.bytes, 0u);
+}
+
+TEST_F(RayScene, WithoutRoomForItTheLightIsLitAndTriedAgain) {
+    for (const char* what : {"ray trees of meshes", "ray triangles", "ray tree of instances", "ray instances"}) {
+        SCOPED_TRACE(what);
+        device.fail_label(what, gl::Failure::out_of_memory);
+        const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+        step();
+        EXPECT_EQ(light("lamp").state, LightState::skipped);
+        EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+        device.stop_failing();
+        for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
+        EXPECT_EQ(light("lamp").state, LightState::rendered);
+        world.registry.destroy(lamp);
+        step();
+        EXPECT_THAT(ray_labels(), IsEmpty());
+    }
+}
+
+TEST_F(RayScene, WithoutRoomForPlacesTheLightIsLitAndSaysSo) {
+    device.fail_label("surface places", gl::Failure::out_of_memory);
+    add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+    step();
+    EXPECT_EQ(light("lamp").state, LightState::skipped);
+    EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+    device.stop_failing();
+    step();
+    EXPECT_NE(light("lamp").state, LightState::skipped);
+}
+
+TEST_F(RayScene, IsWrittenAgainAfterASubmissionThatFailed) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+    step();
+    world.move(stage.box, {0.2, 1, 0});
+    device.fail_from(device.calls(), gl::Failure::out_of_memory, true);
+    step();
+    device.stop_failing();
+    step();
+    EXPECT_GT(uploaded("ray tree of instances"), 0u);
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+}
+
+}  // namespace
+}  // namespace gnomon
