@@ -67,6 +67,8 @@ const char* name(Blend blend) {
             return "add";
         case Blend::alpha:
             return "alpha";
+        case Blend::largest:
+            return "largest";
     }
     return "?";
 }
@@ -123,6 +125,9 @@ struct Writer {
         return c.depth ? "DrawTriangle" + field("depth", *c.depth) : "DrawTriangle";
     }
     std::string operator()(const DrawLines& c) const { return "DrawLines" + field("vertex_count", c.vertex_count); }
+    std::string operator()(const DrawPulled& c) const {
+        return "DrawPulled" + field("first_vertex", c.first_vertex) + field("vertex_count", c.vertex_count);
+    }
     std::string operator()(const Dispatch& c) const {
         return "Dispatch" + field("program", c.program) + field("groups_x", c.groups_x) + field("groups_y", c.groups_y);
     }

@@ -23,7 +23,8 @@ struct Rect {
 
 enum class CullMode : std::uint8_t { none, back, front };
 enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal, less };
-enum class Blend : std::uint8_t { off, add, alpha };  // alpha: over, its own alpha channel becomes coverage
+/// alpha: over, its own alpha channel becomes coverage; largest: of each channel the larger value stays.
+enum class Blend : std::uint8_t { off, add, alpha, largest };
 
 struct PipelineState {
     ProgramHandle program{};
@@ -115,6 +116,12 @@ struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage
     bool operator==(const DrawLines&) const = default;
 };
 
+/// Triangles, no attributes: pulled from storage buffers. gl_VertexID runs from first_vertex.
+struct DrawPulled {
+    std::uint32_t first_vertex = 0, vertex_count = 0;  // vertex_count: whole triangles
+    bool operator==(const DrawPulled&) const = default;
+};
+
 /// Runs a compute program over groups_x times groups_y work groups. Allowed outside passes only, and forgets the
 /// pipeline. Later commands see what it wrote to storage buffers.
 struct Dispatch {
@@ -161,7 +168,7 @@ struct EndTimer {
 
 using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
                              BindUniforms, BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
-                             Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
+                             DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;

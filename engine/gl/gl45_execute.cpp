@@ -10,17 +10,7 @@ namespace gnomon::gl {
 
 namespace {
 
-constexpr GLuint kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kItemAttribute = 3;
-constexpr GLuint kVertexSlot = 0, kItemSlot = 1;
-constexpr GLuint kNormalOffset = 3 * sizeof(float), kUvOffset = 6 * sizeof(float);
 constexpr GLsizei kVertexBytes = 8 * sizeof(float), kItemBytes = 2 * sizeof(std::uint32_t);
-constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // cleared before each list: what lists may use
-
-GLint get_integer(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return value;
-}
 
 /// Everything that decides what a draw does and that lists do not set: other users of the context may have
 /// changed it since the last list.
@@ -91,6 +81,7 @@ void apply(const PipelineState& state, GLuint program) {
     glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
     set_enabled(GL_DEPTH_CLAMP, state.depth_clamp);
     set_enabled(GL_BLEND, state.blend != Blend::off);
+    glBlendEquation(state.blend == Blend::largest ? GL_MAX : GL_FUNC_ADD);
     if (state.blend == Blend::add) glBlendFunc(GL_ONE, GL_ONE);
     if (state.blend == Blend::alpha)
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
@@ -115,8 +106,8 @@ public:
         for (; open_groups_ > 0; --open_groups_) pop_group();
         reset_state(fixtures_);
         // A vertex array keeps deleted buffers alive.
-        glVertexArrayVertexBuffer(fixtures_.mesh_layout, kVertexSlot, 0, 0, kVertexBytes);
-        glVertexArrayVertexBuffer(fixtures_.mesh_layout, kItemSlot, 0, 0, kItemBytes);
+        glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kVertexSlot, 0, 0, kVertexBytes);
+        glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kItemSlot, 0, 0, kItemBytes);
         glVertexArrayElementBuffer(fixtures_.mesh_layout, 0);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         return failure_;
@@ -208,8 +199,8 @@ public:
             return note(Failure::invalid_value);
         }
         const GLuint layout = fixtures_.mesh_layout;
-        glVertexArrayVertexBuffer(layout, kVertexSlot, vertices->name, 0, kVertexBytes);
-        glVertexArrayVertexBuffer(layout, kItemSlot, items_->name, 0, kItemBytes);
+        glVertexArrayVertexBuffer(layout, GlFixtures::kVertexSlot, vertices->name, 0, kVertexBytes);
+        glVertexArrayVertexBuffer(layout, GlFixtures::kItemSlot, items_->name, 0, kItemBytes);
         glVertexArrayElementBuffer(layout, indices_->name);
     }
     void operator()(const DrawMeshes& c) {
@@ -234,6 +225,12 @@ public:
     }
     void operator()(const DrawLines& c) {
         if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));
+    }
+
+    void operator()(const DrawPulled& c) {
+        if (c.vertex_count % 3 != 0) return note(Failure::invalid_value);
+        if (!can_draw(fixtures_.empty_layout)) return;
+        glDrawArrays(GL_TRIANGLES, static_cast<GLint>(c.first_vertex), static_cast<GLsizei>(c.vertex_count));
     }
 
     void operator()(const Dispatch& c) {
@@ -358,36 +355,6 @@ private:
 };
 
 }  // namespace
-
-GlFixtures make_fixtures() {
-    GlFixtures fixtures;
-    glCreateVertexArrays(1, &fixtures.empty_layout);
-    glCreateVertexArrays(1, &fixtures.mesh_layout);
-    const GLuint layout = fixtures.mesh_layout;
-    glVertexArrayAttribFormat(layout, kPositionAttribute, 3, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribFormat(layout, kNormalAttribute, 3, GL_FLOAT, GL_FALSE, kNormalOffset);
-    glVertexArrayAttribFormat(layout, kUvAttribute, 2, GL_FLOAT, GL_FALSE, kUvOffset);
-    glVertexArrayAttribIFormat(layout, kItemAttribute, 2, GL_UNSIGNED_INT, 0);
-    for (const GLuint attribute : {kPositionAttribute, kNormalAttribute, kUvAttribute, kItemAttribute}) {
-        glEnableVertexArrayAttrib(layout, attribute);
-        glVertexArrayAttribBinding(layout, attribute, attribute == kItemAttribute ? kItemSlot : kVertexSlot);
-    }
-    glVertexArrayBindingDivisor(layout, kItemSlot, 1);
-    set_gl_label(GL_VERTEX_ARRAY, fixtures.mesh_layout, "mesh layout");
-    set_gl_label(GL_VERTEX_ARRAY, fixtures.empty_layout, "empty layout");
-    fixtures.texture_units = std::min(get_integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), kUsedTextureUnits);
-    fixtures.uniform_bindings = std::min(get_integer(GL_MAX_UNIFORM_BUFFER_BINDINGS), kUsedBindings);
-    fixtures.storage_bindings = std::min(get_integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS), kUsedBindings);
-    fixtures.group_depth = static_cast<std::size_t>(std::max(get_integer(GL_MAX_DEBUG_GROUP_STACK_DEPTH) - 1, 0));
-    fixtures.message_bytes = static_cast<std::size_t>(std::max(get_integer(GL_MAX_DEBUG_MESSAGE_LENGTH) - 1, 0));
-    fixtures.uniform_alignment = static_cast<std::uint32_t>(get_integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
-    return fixtures;
-}
-
-void delete_fixtures(const GlFixtures& fixtures) {
-    glDeleteVertexArrays(1, &fixtures.mesh_layout);
-    glDeleteVertexArrays(1, &fixtures.empty_layout);
-}
 
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, const GlFixtures& fixtures,
                 GlTimers& timers, GlReadbacks& readbacks) {

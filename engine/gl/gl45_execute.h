@@ -7,6 +7,7 @@ namespace gnomon::gl {
 
 /// Fixed objects and limits that lists are executed with. Private to the executor.
 struct GlFixtures {
+    static constexpr GLuint kVertexSlot = 0, kItemSlot = 1;                 // buffers of mesh_layout
     GLuint mesh_layout = 0;                                                 // vertex array of BindMeshes
     GLuint empty_layout = 0;                                                // vertex array of draws without attributes
     GLsizei texture_units = 0, uniform_bindings = 0, storage_bindings = 0;  // those that lists may use

@@ -108,6 +108,10 @@ public:
     }
     void operator()(const DrawTriangle&) { check_draw(); }
     void operator()(const DrawLines&) { check_draw(); }
+    void operator()(const DrawPulled& c) {
+        check_draw();
+        if (c.vertex_count % 3 != 0) find(Misuse::draw_out_of_range, "a part of a triangle");
+    }
 
     void operator()(const Dispatch& c) {
         if (in_pass_) find(Misuse::dispatch_inside_pass, "a pass is open");

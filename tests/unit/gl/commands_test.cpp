@@ -89,6 +89,8 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            DrawTriangle{0.0f},
                                            DrawTriangle{0.5f},
                                            DrawLines{6},
+                                           DrawPulled{0, 6},
+                                           DrawPulled{6, 6},
                                            Dispatch{{1}, 2, 3},
                                            Dispatch{{1}, 3, 2},
                                            CopyBuffer{{1}, {2}},
@@ -103,7 +105,8 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            SetPipeline{{.front_is_clockwise = true}},
                                            SetPipeline{{.depth_write = true}},
                                            SetPipeline{{.depth_clamp = true}},
-                                           SetPipeline{{.blend = Blend::alpha}}};
+                                           SetPipeline{{.blend = Blend::alpha}},
+                                           SetPipeline{{.blend = Blend::largest}}};
     for (std::size_t i = 0; i < commands.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) EXPECT_NE(to_text(commands[i]), to_text(commands[j]));
     }

@@ -67,6 +67,10 @@ TEST_F(RecordingMisuse, DrawsNeedAPipeline) {
     EXPECT_THAT(of({pass(), DrawTriangle{}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
     EXPECT_THAT(of({pass(), DrawLines{2}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
     EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawLines{2}, EndPass{}}), IsEmpty());
+    EXPECT_THAT(of({pass(), DrawPulled{0, 6}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
+    EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawPulled{6, 6}, EndPass{}}), IsEmpty());
+    EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawPulled{0, 4}, EndPass{}}),
+                ElementsAre(Misuse::draw_out_of_range));
 }
 
 TEST_F(RecordingMisuse, StateDoesNotReachTheNextList) {

@@ -1,0 +1,51 @@
+#include <algorithm>
+
+#include "engine/gl/gl45_execute.h"
+
+namespace gnomon::gl {
+namespace {
+
+constexpr GLuint kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kItemAttribute = 3;
+constexpr GLuint kNormalOffset = 3 * sizeof(float), kUvOffset = 6 * sizeof(float);
+constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // cleared before each list: what lists may use
+
+GLint get_integer(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+}  // namespace
+
+GlFixtures make_fixtures() {
+    GlFixtures fixtures;
+    glCreateVertexArrays(1, &fixtures.empty_layout);
+    glCreateVertexArrays(1, &fixtures.mesh_layout);
+    const GLuint layout = fixtures.mesh_layout;
+    glVertexArrayAttribFormat(layout, kPositionAttribute, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribFormat(layout, kNormalAttribute, 3, GL_FLOAT, GL_FALSE, kNormalOffset);
+    glVertexArrayAttribFormat(layout, kUvAttribute, 2, GL_FLOAT, GL_FALSE, kUvOffset);
+    glVertexArrayAttribIFormat(layout, kItemAttribute, 2, GL_UNSIGNED_INT, 0);
+    for (const GLuint attribute : {kPositionAttribute, kNormalAttribute, kUvAttribute, kItemAttribute}) {
+        glEnableVertexArrayAttrib(layout, attribute);
+        glVertexArrayAttribBinding(layout, attribute,
+                                   attribute == kItemAttribute ? GlFixtures::kItemSlot : GlFixtures::kVertexSlot);
+    }
+    glVertexArrayBindingDivisor(layout, GlFixtures::kItemSlot, 1);
+    set_gl_label(GL_VERTEX_ARRAY, fixtures.mesh_layout, "mesh layout");
+    set_gl_label(GL_VERTEX_ARRAY, fixtures.empty_layout, "empty layout");
+    fixtures.texture_units = std::min(get_integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), kUsedTextureUnits);
+    fixtures.uniform_bindings = std::min(get_integer(GL_MAX_UNIFORM_BUFFER_BINDINGS), kUsedBindings);
+    fixtures.storage_bindings = std::min(get_integer(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS), kUsedBindings);
+    fixtures.group_depth = static_cast<std::size_t>(std::max(get_integer(GL_MAX_DEBUG_GROUP_STACK_DEPTH) - 1, 0));
+    fixtures.message_bytes = static_cast<std::size_t>(std::max(get_integer(GL_MAX_DEBUG_MESSAGE_LENGTH) - 1, 0));
+    fixtures.uniform_alignment = static_cast<std::uint32_t>(get_integer(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
+    return fixtures;
+}
+
+void delete_fixtures(const GlFixtures& fixtures) {
+    glDeleteVertexArrays(1, &fixtures.mesh_layout);
+    glDeleteVertexArrays(1, &fixtures.empty_layout);
+}
+
+}  // namespace gnomon::gl
