@@ -277,6 +277,13 @@ bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {
     return snapshot.gpu_slot_count <= instance_capacity_;
 }
 
+GpuScene::MeshShape GpuScene::shape(std::uint32_t mesh) const {
+    const assets::Mesh& rest = library_->meshes[mesh];
+    const auto bent = std::find_if(bent_.begin(), bent_.end(), [&](const Bent& b) { return b.mesh == mesh; });
+    if (bent == bent_.end()) return {&rest.vertices, &rest.indices, 0};
+    return {&bent->vertices, &rest.indices, bent->version};
+}
+
 void GpuScene::forget_uploads() {
     upload_all_ = true;
     for (Bent& bent : bent_) bent.version = kUnknown;

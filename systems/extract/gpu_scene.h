@@ -105,6 +105,13 @@ public:
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
     const assets::MeshLibrary& library() const { return *library_; }
     std::size_t mesh_count() const { return meshes_.size(); }
+    /// A mesh's own lists, bent as the device has them once the recorded uploads are done.
+    struct MeshShape {
+        const std::vector<assets::Vertex>* vertices = nullptr;
+        const std::vector<std::uint32_t>* indices = nullptr;
+        std::uint64_t version = 0;  // of the pose; 0: at rest
+    };
+    MeshShape shape(std::uint32_t mesh) const;
 
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }

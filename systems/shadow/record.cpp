@@ -8,19 +8,11 @@
 #include "systems/extract/instance_order.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/depth_runs.h"
+#include "systems/shadow/drawn_views.h"
 #include "systems/shadow/light_time.h"
 
 namespace gnomon::shadow {
 namespace {
-
-/// Room for the uniforms of all faces of a cube, by face.
-constexpr std::size_t kFaces = 6;
-/// Of DrawItem::place, for the layer.
-constexpr std::uint32_t kLayerBits = 3;
-
-bool is_drawn(const ShadowFrame& frame, std::size_t view) {
-    return frame.slots[view].target && !frame.slots[view].reuse;
-}
 
 bool has_masked(const GpuScene& gpu, std::uint32_t mesh) {
     const auto& range = gpu.mesh(mesh);
@@ -32,22 +24,6 @@ bool has_masked(const GpuScene& gpu, std::uint32_t mesh) {
 
 gl::PipelineState depth_state(gl::ProgramHandle program) {
     return {program, gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off};
-}
-
-/// By mesh; those that wind the other way last, so that few draws hold all that cull alike; then by index.
-bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) {
-    const InstanceItem &first = scene.instances[a], &second = scene.instances[b];
-    if (first.mesh != second.mesh) return first.mesh < second.mesh;
-    return first.mirrored != second.mirrored ? second.mirrored : a < b;
-}
-
-std::span<const std::uint32_t> still_casters(const ShadowFrame& frame, const ShadowView& view) {
-    return std::span(frame.view_caster_items).subspan(view.casters.first, view.still_casters);
-}
-
-std::span<const std::uint32_t> moving_casters(const ShadowFrame& frame, const ShadowView& view) {
-    return std::span(frame.view_caster_items)
-        .subspan(view.casters.first + view.still_casters, view.casters.count - view.still_casters);
 }
 
 /// All that a view draws in this frame.
@@ -86,13 +62,14 @@ DepthRecorder::~DepthRecorder() {
 
 /// Index of a depth program. `automatic` has become one of the others by now.
 std::size_t DepthRecorder::which(const Way& way, bool masked) {
+    if (way.peel) return kPrograms - 1;
     const std::size_t route =
         way.route == CubeRoute::layered_vertex ? 1 : (way.route == CubeRoute::layered_geometry ? 2 : 0);
     return 4 * route + (way.triangles ? 2 : 0) + (masked ? 1 : 0);
 }
 
 DepthRecorder::Way DepthRecorder::way_of(const ShadowSlot& slot) {
-    return {slot.route, static_cast<bool>(slot.triangles)};
+    return {slot.route, static_cast<bool>(slot.triangles), static_cast<bool>(slot.second), false};
 }
 
 bool DepthRecorder::program(const Way& way, bool masked) {
@@ -103,13 +80,14 @@ bool DepthRecorder::program(const Way& way, bool masked) {
     std::string label = masked ? "depth masked" : "depth opaque";
     if (masked) defines.emplace_back("MASKED 1");
     if (way.triangles) defines.emplace_back("TRIANGLES 1");
-    if (way.triangles) label += ", triangles";
+    if (way.triangles) label += way.peel ? ", peeled" : ", triangles";
     if (way.route != CubeRoute::six_passes) defines.emplace_back("LAYERED 1");
     if (way.route == CubeRoute::layered_vertex) defines.emplace_back("LAYER_BY_VERTEX 1");
     const bool geometry = way.route == CubeRoute::layered_geometry;
     if (way.route != CubeRoute::six_passes) label += geometry ? ", layer by geometry" : ", layer by vertex";
     const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
-    const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
+    const auto fragment =
+        gl::expand_shader(shader_files(), way.peel ? "shadow/exact/peel.frag" : "shadow/depth/depth.frag", defines);
     const auto layer = gl::expand_shader(shader_files(), "shadow/depth/layer.geom", defines);
     if (vertex && fragment && layer)
         programs_[i] =
@@ -125,8 +103,9 @@ Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, con
     bool masked = false;
     for (const std::uint32_t i : casters) {
         if (scene.instances[i].gpu_slot >= gpu.capacity()) return Reason::buffer_failed;
-        masked = masked || has_masked(gpu, scene.instances[i].mesh);
+        masked = masked || (!way.sheets && has_masked(gpu, scene.instances[i].mesh));
     }
+    if (way.sheets && !program({way.route, true, true, true}, false)) return Reason::depth_program_failed;
     return program(way, false) && (!masked || program(way, true)) ? Reason::none : Reason::depth_program_failed;
 }
 
@@ -174,6 +153,7 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
 gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                               const InstanceItem& item) const {
     gl::PipelineState state = depth_state(programs_[which(way_, false)]);
+    if (way_.sheets) return state;
     const CasterFaces faces = light.shadow.caster_faces;
     const bool outside =
         view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
@@ -188,6 +168,9 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::
                              std::uint32_t first_item, std::uint32_t count, std::uint32_t items_per_draw,
                              gl::CommandList& list, LightReport& report) {
     for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
+        const std::uint32_t item = first_item;
+        first_item += items_per_draw;
+        if (run.mask && way_.sheets) return;
         if (run.mask) {
             list.add(gl::BindTexture{0, run.mask->texture, run.mask->sampler});
             list.add(gl::BindUniforms{2, gpu.material_uniforms(), run.mask->uniform_offset, sizeof(MaterialRecord)});
@@ -195,114 +178,10 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::
         const gl::PipelineState state = run.mask ? depth_state(programs_[which(way_, true)]) : opaque;
         if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
         pipeline_ = state;
-        list.add(gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(mesh).base_vertex, first_item, count});
-        first_item += items_per_draw;
+        list.add(gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(mesh).base_vertex, item, count});
         ++report.draws;
         report.triangles += std::uint64_t{run.index_count} / 3 * count;
     });
-}
-
-void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
-    const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
-    const DepthViewRecord record{view.clip_from_anchor, glm::vec4(anchor.high, 0.0f), glm::vec4(anchor.low, 0.0f)};
-    std::memcpy(view_scratch_.data() + at, &record, sizeof record);
-}
-
-/// The casters of one view's group.
-DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
-    const std::size_t first = caster_scratch_.size();
-    caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
-    const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].mirrored; };
-    if (std::any_of(casters.begin(), casters.end(), mirrored))
-        std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
-                  [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });
-    layer_scratch_.resize(caster_scratch_.size(), 0);
-    return {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(casters.size())}, 0};
-}
-
-/// Of one group the casters of all views, by mesh: one draw per mesh draws it into every face.
-DepthRecorder::Group DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame,
-                                                  const Pass& pass, bool moving) {
-    pair_scratch_.clear();
-    for (std::size_t v = pass.first; v < pass.end; ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        for (const std::uint32_t i : moving ? moving_casters(frame, view) : still_casters(frame, view))
-            pair_scratch_.emplace_back(i, view.layer);
-    }
-    std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
-        return a.first != b.first ? drawn_before(scene, a.first, b.first) : a.second < b.second;
-    });
-    const IndexRange range{static_cast<std::uint32_t>(caster_scratch_.size()),
-                           static_cast<std::uint32_t>(pair_scratch_.size())};
-    for (const auto& [item, layer] : pair_scratch_) {
-        caster_scratch_.push_back(item);
-        layer_scratch_.push_back(layer);
-    }
-    return {range, 0};
-}
-
-/// The items of a group whose casters are known, in the order in which draw() takes them.
-void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group) {
-    group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
-    const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
-    const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
-        item_scratch_.push_back({scene.instances[casters[i]].gpu_slot,
-                                 layer_scratch_[group.casters.first + i] | first_triangle << kLayerBits});
-    };
-    if (!triangles) {
-        for (std::uint32_t i = 0; i < casters.size(); ++i) append(i, 0);
-        return;
-    }
-    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
-        for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
-            for (std::uint32_t i = first; i < first + count; ++i) append(i, run.first_index / 3);
-        });
-    });
-}
-
-/// The matrices of a pass's views: of a layered one by face.
-void DepthRecorder::gather_uniforms(const ShadowFrame& frame, Pass& pass) {
-    const std::size_t at = view_scratch_.size();
-    pass.uniform_offset = static_cast<std::uint32_t>(at);
-    const std::size_t records = pass.layered ? kFaces : 1;
-    view_scratch_.resize(
-        at + aligned(static_cast<std::uint32_t>(records * sizeof(DepthViewRecord)), device_.info().uniform_alignment));
-    pass.views = 0;
-    for (std::size_t v = pass.first; v < pass.end; ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        append_uniforms(view, at + (pass.layered ? view.layer * sizeof(DepthViewRecord) : 0));
-        ++pass.views;
-    }
-}
-
-/// What this frame draws, pass by pass.
-void DepthRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame) {
-    passes_.clear();
-    layer_scratch_.clear();
-    caster_scratch_.clear();
-    item_scratch_.clear();
-    view_scratch_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowSlot& slot = frame.slots[v];
-        Pass pass{v, v + 1, static_cast<bool>(slot.whole), 1, 0, {}, {}};
-        while (pass.layered && pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand)
-            ++pass.end;
-        gather_uniforms(frame, pass);
-        if (pass.layered) {
-            pass.still = gather_layers(scene, frame, pass, false);
-            pass.moving = gather_layers(scene, frame, pass, true);
-        } else {
-            if (slot.still_use != StillUse::copy) pass.still = gather_view(scene, still_casters(frame, frame.views[v]));
-            pass.moving = gather_view(scene, moving_casters(frame, frame.views[v]));
-        }
-        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.still);
-        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.moving);
-        passes_.push_back(pass);
-        v = pass.end - 1;
-    }
 }
 
 /// Opens the pass on cleared faces, or on those of still casters alone. A layered clear would clear every face, so it
@@ -328,8 +207,13 @@ void DepthRecorder::begin(const SceneSnapshot& scene, const GpuScene& gpu, const
 void DepthRecorder::begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
                                gl::CommandList& list) const {
     const ShadowSlot& slot = frame.slots[pass.first];
-    const auto size = static_cast<std::int32_t>(slot.size_px);
-    list.add(gl::BeginPass{pass.layered ? slot.whole : slot.target, {0, 0, size, size}, clear, 0.0f, false, {}});
+    begin_pass_into(pass.layered ? slot.whole : slot.target, gpu, frame, pass, clear, list);
+}
+
+void DepthRecorder::begin_pass_into(gl::TargetHandle target, const GpuScene& gpu, const ShadowFrame& frame,
+                                    const Pass& pass, bool clear, gl::CommandList& list) const {
+    const auto size = static_cast<std::int32_t>(frame.slots[pass.first].size_px);
+    list.add(gl::BeginPass{target, {0, 0, size, size}, clear, 0.0f, false, {}});
     const std::size_t records = pass.layered ? kFaces : 1;
     list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
@@ -338,10 +222,10 @@ void DepthRecorder::begin_pass(const GpuScene& gpu, const ShadowFrame& frame, co
 }
 
 void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-                         const Group& group, gl::CommandList& list, LightReport& report) {
+                         const Way& way, const Group& group, gl::CommandList& list, LightReport& report) {
     const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
     const ShadowView& view = frame.views[pass.first];
-    way_ = way_of(frame.slots[pass.first]);
+    way_ = way;
     std::uint32_t next_item = group.first_item;
     const LightItem& light = scene.lights[frame.demands[view.demand].light];
     const auto state_of = [&](std::uint32_t i) { return opaque_state(gpu, view, light, scene.instances[casters[i]]); };
@@ -360,6 +244,20 @@ void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const 
     });
 }
 
+/// The same once more, without what the first map shows.
+void DepthRecorder::peel(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+                         gl::CommandList& list, LightReport& report) {
+    const ShadowSlot& slot = frame.slots[pass.first];
+    pipeline_ = {};
+    begin_pass_into(slot.second_target, gpu, frame, pass, true, list);
+    list.add(gl::BindTexture{0, slot.triangles, {}});
+    const Way way{slot.route, true, true, true};
+    draw(scene, gpu, frame, pass, way, pass.still, list, report);
+    draw(scene, gpu, frame, pass, way, pass.moving, list, report);
+    list.add(gl::BindTexture{0, {}, {}});
+    list.add(gl::EndPass{});
+}
+
 void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                            FrameReport& report) {
     gather(scene, gpu, frame);
@@ -373,14 +271,16 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, Shad
         const ShadowSlot& slot = frame.slots[pass.first];
         pipeline_ = {};
         begin(scene, gpu, frame, pass, list);
-        draw(scene, gpu, frame, pass, pass.still, list, light_report);
+        const Way way = way_of(slot);
+        draw(scene, gpu, frame, pass, way, pass.still, list, light_report);
         if (slot.still_use == StillUse::fill) {
             list.add(gl::EndPass{});
             copy_layer(slot, frame.views[pass.first].layer, false, list);
             begin_pass(gpu, frame, pass, false, list);
         }
-        draw(scene, gpu, frame, pass, pass.moving, list, light_report);
+        draw(scene, gpu, frame, pass, way, pass.moving, list, light_report);
         list.add(gl::EndPass{});
+        if (way.sheets) peel(scene, gpu, frame, pass, list, light_report);
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
         if (slot.still_use != StillUse::copy) light_report.clears += pass.views;

@@ -38,6 +38,8 @@ private:
     struct Way {
         CubeRoute route = CubeRoute::six_passes;
         bool triangles = false;  // writes which triangle each texel shows
+        bool sheets = false;     // of no masked caster, and of both faces
+        bool peel = false;       // of the triangles behind those
     };
     /// Casters that stand still, or those that move: never in one draw.
     struct Group {
@@ -68,8 +70,12 @@ private:
                gl::CommandList& list) const;
     void begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
                     gl::CommandList& list) const;
+    void begin_pass_into(gl::TargetHandle target, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+                         bool clear, gl::CommandList& list) const;
     void draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-              const Group& group, gl::CommandList& list, LightReport& report);
+              const Way& way, const Group& group, gl::CommandList& list, LightReport& report);
+    void peel(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+              gl::CommandList& list, LightReport& report);
     gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                    const InstanceItem& item) const;
     void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t first_item,
@@ -77,7 +83,7 @@ private:
 
     gl::Device& device_;
     static constexpr std::size_t kPrograms =
-        12;  // three ways to choose the layer, opaque and masked, depth alone or triangles, too
+        13;  // three ways to choose the layer, opaque and masked, depth alone or triangles, too; and what peels
     gl::ProgramHandle programs_[kPrograms]{};
     Retry retries_[kPrograms];
     std::uint64_t frame_ = 0;

@@ -151,7 +151,11 @@ struct Staleness {
 struct ShadowSlot {
     gl::TextureHandle texture{};
     gl::TextureHandle triangles{};     // FilterStorage::depth_and_triangle: what each texel shows; else {0}
-    gl::TextureHandle moments{};       // FilterStorage::moments: what the depths become; else {0}
+    gl::TextureHandle second{};        // FilterStorage::sheets: depths of the next triangles behind; else {0}
+    gl::TargetHandle second_target{};  // this view's layer of it
+    gl::TextureHandle bounds{};        // and where sheets end, and how far they depart from their depths
+    gl::TargetHandle bounds_target{};
+    gl::TextureHandle moments{};  // FilterStorage::moments: what the depths become; else {0}
     gl::TargetHandle moment_target{};  // this view's layer of it
     gl::TextureHandle scratch{};       // between the two passes of its blur; {0} if there is one pass alone
     gl::TargetHandle scratch_target{};

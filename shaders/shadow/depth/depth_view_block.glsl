@@ -9,7 +9,7 @@ layout(std140, binding = 0) uniform DepthViewsBlock { DepthView depth_views[6]; 
 #else
 layout(std140, binding = 0) uniform DepthViewBlock {
     mat4 clip_from_anchor;
-    vec4 anchor_high;   // xyz
-    vec4 anchor_low;    // xyz
+    vec4 anchor_high;   // xyz; w: texels along an edge of the map (shadow/exact)
+    vec4 anchor_low;    // xyz; w: layer of the map
 } depth_view;
 #endif

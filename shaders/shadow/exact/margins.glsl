@@ -1,0 +1,18 @@
+// Margins of sheets; docs/exact.md derives them. C++ twins: systems/shadow/exact/sheet_margins.h.
+// SHEETS_WITHOUT_MARGINS: none of them, to show in tests that they are needed.
+#include "shared/numerics.glsl"
+#ifdef SHEETS_WITHOUT_MARGINS
+const float kRoundings = 0.0;
+const float kTexelHalf = 0.5;
+const float kDepartureFactor = 1.0;
+#else
+const float kRoundings = 1.0;         // share of all that follows from rounding
+const float kTexelHalf = 0.516;       // half of a texel, and how far off a receiver's place may be, in texels
+const float kDepartureFactor = 1.13;
+#endif
+const float kPlacedUnits = 6.0;       // of 2^-24: a vertex, before it is projected
+const float kProjectedUnits = 4.0;    // and a row of the projection
+const float kSplitUnits = 3.5527137e-15;   // of a position given as two floats, 2^-48
+const float kMostMoved_texel = 0.05;  // by rounding, across the map
+const float kStoredUnits = 8.0;       // a depth as it is interpolated, stored and compared
+const float kUnknownDeparture = 1e6;

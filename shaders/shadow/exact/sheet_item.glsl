@@ -1,0 +1,52 @@
+// What passes over sheets pull: a triangle or an edge, as it is projected, and how far rounding may have taken it.
+// C++ twin: SheetItem in systems/shadow/exact/sheet_items.h.
+#include "shared/instances.glsl"
+#include "shadow/depth/depth_view_block.glsl"
+#include "shadow/exact/margins.glsl"
+struct SheetItem {
+    uint instance, a, b, c;   // vertices of the common buffer
+};
+layout(std430, binding = 1) readonly buffer VertexBuffer { float scene_vertices[]; };   // eight each, position first
+layout(std430, binding = 2) readonly buffer SheetItemBuffer { SheetItem sheet_items[]; };
+
+struct Corner {
+    vec4 place;   // in clip space, as depth.vert has it
+    vec4 error;   // of each coordinate
+};
+
+mat4 absolute(mat4 m) { return mat4(abs(m[0]), abs(m[1]), abs(m[2]), abs(m[3])); }
+
+Corner corner_of(InstanceRecord instance, uint vertex) {
+    vec3 position_ms = vec3(scene_vertices[8u * vertex], scene_vertices[8u * vertex + 1u], scene_vertices[8u * vertex + 2u]);
+    vec3 position_as = position_from_anchor(instance, position_ms, depth_view.anchor_high.xyz, depth_view.anchor_low.xyz);
+    precise vec4 place = depth_view.clip_from_anchor * vec4(position_as, 1.0);
+    vec3 high = vec3(instance.basis_x.w, instance.basis_y.w, instance.basis_z.w), size_ms = abs(position_ms);
+    vec3 local = abs(instance.basis_x.xyz) * size_ms.x + abs(instance.basis_y.xyz) * size_ms.y + abs(instance.basis_z.xyz) * size_ms.z;
+    vec3 offset = abs((high - depth_view.anchor_high.xyz) + (instance.low.xyz - depth_view.anchor_low.xyz));
+    vec3 error_m = kPlacedUnits * kUnitRoundoff * (local + offset) + kSplitUnits * (abs(high) + abs(depth_view.anchor_high.xyz));
+    vec4 summed = vec4(error_m + kProjectedUnits * kUnitRoundoff * abs(position_as), kProjectedUnits * kUnitRoundoff);
+    return Corner(place, kRoundings * (absolute(depth_view.clip_from_anchor) * summed));
+}
+
+float map_size() { return depth_view.anchor_high.w; }
+
+// In texels; for w > 0 alone.
+vec2 in_texels(vec4 place) { return (place.xy / place.w * 0.5 + 0.5) * map_size(); }
+
+// How far from there it may be.
+float moved_texel(vec4 place, vec4 error) {
+    vec2 ndc = abs(place.xy / place.w);
+    return (max(error.x, error.y) + max(ndc.x, ndc.y) * error.w) / place.w * 0.5 * map_size();
+}
+
+// Beyond its own rounding before the light.
+bool is_before_light(Corner c) { return c.place.w > 16.0 * c.error.w && c.place.w > 0.0; }
+
+// A corner of a quad's two triangles: (-1, -1) to (1, 1).
+vec2 quad_corner(int vertex) {
+    int corner = vertex % 6;
+    return vec2(corner == 1 || corner == 3 || corner == 4 ? 1.0 : -1.0, corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0);
+}
+
+vec4 at_texel(vec2 texel) { return vec4(texel / map_size() * 2.0 - 1.0, 0.5, 1.0); }
+vec4 nowhere() { return vec4(2.0, 2.0, 0.5, 1.0); }

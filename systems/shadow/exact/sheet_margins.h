@@ -1,0 +1,25 @@
+#pragma once
+
+/// Margins of sheets, as docs/exact.md derives them. The same numbers are in shaders/shadow/exact/margins.glsl; the
+/// test SheetMargins.AreTheSameInShaders holds them together.
+namespace gnomon::shadow {
+
+/// Units of 2^-24 by which a vertex may be off before it is projected: its basis (1), three products, two sums, the
+/// translation's difference and its sum (2), of the sizes of what is added.
+inline constexpr double kPlacedUnits = 6.0;
+/// And by a row of the projection: four products and three sums of the sizes of what is added.
+inline constexpr double kProjectedUnits = 4.0;
+/// Of a position given as two floats, relative: 2^-48.
+inline constexpr double kSplitUnits = 3.552713678800501e-15;
+/// How far float's rounding may move a sheet across the map, in texels, beside the rasteriser's 2^-8.
+inline constexpr double kMostMoved_texel = 0.05;
+/// Half of a texel, and what the receiver's place (0.008), vertices and the rasteriser (2^-8) may be off, over half a
+/// texel; the rest is for interpolated depth.
+inline constexpr double kDepartureFactor = 1.13;
+/// Shortest height, as the map shows it, of facets that are not drawn. A rasteriser moves corners by up to 2^-8 of a
+/// texel, and may take the slope of what is narrower from what is left of differences: its depths may be anything.
+inline constexpr double kLeastAltitude_texel = 1.0 / 64.0;
+/// Of depth in [0, 1], for facets that are not drawn.
+inline constexpr double kFlatRounding = 6.0e-7;
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,153 @@
+#include "systems/shadow/exact/sheet_recorder.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "engine/math/projection.h"
+#include "shaders/embedded.h"
+#include "systems/frame_timers.h"
+#include "systems/shadow/drawn_views.h"
+#include "systems/shadow/light_time.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Corners of a quad's two triangles.
+constexpr std::uint32_t kQuadVertices = 6;
+/// Nothing ends there: behind all that depth can be.
+constexpr float kNoContour = -1.0f;
+
+bool is_bounded(const ShadowFrame& frame, std::size_t view) {
+    return is_drawn(frame, view) && frame.slots[view].bounds_target;
+}
+
+}  // namespace
+
+SheetRecorder::SheetRecorder(gl::Device& device, bool with_margins)
+    : device_(device),
+      with_margins_(with_margins),
+      items_(device, "shadow sheet items"),
+      view_records_(device, "shadow sheet views") {}
+
+SheetRecorder::~SheetRecorder() {
+    for (const Program& p : programs_) device_.destroy(p.program);
+}
+
+bool SheetRecorder::program(Kind kind) {
+    Program& made = programs_[static_cast<std::size_t>(kind)];
+    if (made.program) return true;
+    if (!made.retry.due(frame_)) return false;
+    const bool contours = kind == Kind::contours;
+    std::vector<std::string> defines;
+    if (kind == Kind::masked) defines.emplace_back("MASKED 1");
+    if (!with_margins_) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
+    const char* const name = contours ? "shadow/exact/contours" : "shadow/exact/triangles";
+    const auto vertex = gl::expand_shader(shader_files(), std::string(name) + ".vert", defines);
+    const auto fragment = gl::expand_shader(shader_files(), std::string(name) + ".frag", defines);
+    const char* const label = contours ? "sheet contours" : (kind == Kind::masked ? "sheet masks" : "sheet departures");
+    if (vertex && fragment) made.program = device_.create_program({label, vertex.value(), fragment.value()}).handle;
+    if (!made.program) made.retry.failed(frame_);
+    return static_cast<bool>(made.program);
+}
+
+bool SheetRecorder::programs_ready(const View& view) {
+    bool ready = true;
+    for (std::size_t kind = 0; kind < std::size(programs_); ++kind)
+        ready = (view.count[kind] == 0 || program(static_cast<Kind>(kind))) && ready;
+    return ready;
+}
+
+SheetRecorder::View SheetRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
+                                          std::size_t v) {
+    const ShadowView& view = frame.views[v];
+    view_scratch_.clear();
+    for (const std::uint32_t i : std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count)) {
+        const InstanceItem& item = scene.instances[i];
+        gatherer_.append(gpu, surfaces_.of(gpu, item.mesh), item, view, frame.slots[v].size_px, view_scratch_);
+    }
+    View found;
+    found.view = v;
+    const std::vector<SheetItem>* const kinds[] = {&view_scratch_.triangles, &view_scratch_.contours,
+                                                   &view_scratch_.masked};
+    for (std::size_t kind = 0; kind < std::size(kinds); ++kind) {
+        found.first[kind] = static_cast<std::uint32_t>(item_scratch_.size());
+        found.count[kind] = static_cast<std::uint32_t>(kinds[kind]->size());
+        item_scratch_.insert(item_scratch_.end(), kinds[kind]->begin(), kinds[kind]->end());
+    }
+    return found;
+}
+
+void SheetRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    ++frame_;
+    views_.clear();
+    item_scratch_.clear();
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (!is_bounded(frame, v)) continue;
+        const LightTime time(frame, frame.demands[frame.views[v].demand].light);
+        const View view = gather(scene, gpu, frame, v);
+        if (programs_ready(view))
+            views_.push_back(view);
+        else
+            drop_light(frame, frame.views[v].demand, Reason::depth_program_failed);
+    }
+    if (views_.empty()) return;
+    const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
+    if (items_.reserve(std::max<std::size_t>(item_scratch_.size(), 1) * sizeof(SheetItem)) &&
+        view_records_.reserve(views_.size() * stride))
+        return;
+    for (const View& view : views_) drop_light(frame, frame.views[view.view].demand, Reason::buffer_failed);
+    views_.clear();
+}
+
+void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
+                                const View& drawn, std::uint32_t offset, gl::CommandList& list) {
+    const ShadowView& view = frame.views[drawn.view];
+    const ShadowSlot& slot = frame.slots[drawn.view];
+    const ShadowDemand& demand = frame.demands[view.demand];
+    const auto size = static_cast<std::int32_t>(slot.size_px);
+    const SheetFloor floor = sheet_floor(view, slot.size_px);
+    const float cleared = with_margins_ ? floor.cleared : static_cast<float>(floor.departure);
+    list.add(gl::BeginGroup{"sheets " + scene.lights[demand.light].name + ' ' + std::to_string(view.layer)});
+    list.add(gl::BeginTimer{shadow_timer(demand.light)});
+    list.add(
+        gl::BeginPass{slot.bounds_target, {0, 0, size, size}, false, 0.0f, true, {kNoContour, cleared, 0.0f, 0.0f}});
+    list.add(gl::BindUniforms{0, view_records_.handle(), offset, sizeof(DepthViewRecord)});
+    list.add(gl::BindStorage{0, gpu.instances()});
+    list.add(gl::BindStorage{1, gpu.vertices()});
+    list.add(gl::BindStorage{2, items_.handle()});
+    for (std::size_t kind = 0; kind < std::size(programs_); ++kind) {
+        if (drawn.count[kind] == 0) continue;
+        gl::PipelineState state{.program = programs_[kind].program};
+        state.blend = gl::Blend::largest;
+        list.add(gl::SetPipeline{state});
+        list.add(gl::DrawPulled{drawn.first[kind] * kQuadVertices, drawn.count[kind] * kQuadVertices});
+    }
+    list.add(gl::EndPass{});
+    list.add(gl::EndTimer{shadow_timer(demand.light)});
+    list.add(gl::EndGroup{});
+}
+
+void SheetRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list) {
+    // What another recorder dropped meanwhile is not drawn.
+    std::erase_if(views_, [&](const View& view) { return !is_bounded(frame, view.view); });
+    if (views_.empty()) return;
+    const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
+    record_scratch_.assign(views_.size() * stride, std::byte{});
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        const ShadowView& view = frame.views[views_[i].view];
+        const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
+        const DepthViewRecord record{view.clip_from_anchor,
+                                     glm::vec4(anchor.high, static_cast<float>(frame.slots[views_[i].view].size_px)),
+                                     glm::vec4(anchor.low, static_cast<float>(view.layer))};
+        std::memcpy(record_scratch_.data() + i * stride, &record, sizeof record);
+    }
+    if (!item_scratch_.empty()) list.update(items_.handle(), 0, std::span<const SheetItem>(item_scratch_));
+    list.update(view_records_.handle(), 0, std::span<const std::byte>(record_scratch_));
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        const LightTime time(frame, frame.demands[frame.views[views_[i].view].demand].light);
+        record_view(scene, gpu, frame, views_[i], static_cast<std::uint32_t>(i) * stride, list);
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,66 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/gl/device.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/growing_buffer.h"
+#include "systems/retry.h"
+#include "systems/shadow/exact/caster_surfaces.h"
+#include "systems/shadow/exact/sheet_items.h"
+#include "systems/shadow/types.h"
+
+namespace gnomon::shadow {
+
+/// For views with ShadowSlot::bounds the last of their passes: per texel the nearest place where a sheet may end, and
+/// by how much a sheet may depart from its depth in the texel's middle (docs/exact.md). The first two, nearest and
+/// second depths, are the DepthRecorder's. Programs, surfaces and buffers are made when first called for.
+class SheetRecorder {
+public:
+    /// `with_margins` false: none at all, to show in tests that they are needed.
+    explicit SheetRecorder(gl::Device& device, bool with_margins = true);
+    ~SheetRecorder();
+    SheetRecorder(const SheetRecorder&) = delete;
+    SheetRecorder& operator=(const SheetRecorder&) = delete;
+
+    /// Finds what views that are not reused draw, and makes room for it. A light that cannot have it loses its slots,
+    /// its sets[i].skip says why. Call before record(), once the meshes are bent (GpuScene::update).
+    void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list);
+
+    /// Of the surfaces, on the CPU.
+    std::size_t surface_bytes() const { return surfaces_.bytes(); }
+
+private:
+    enum class Kind : std::uint8_t { triangles, contours, masked, count };
+    struct View {
+        std::size_t view = 0;
+        std::uint32_t first[3] = {}, count[3] = {};  // items, by kind
+    };
+    struct Program {
+        gl::ProgramHandle program{};
+        Retry retry;
+    };
+    bool program(Kind kind);
+    bool programs_ready(const View& view);
+    View gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::size_t view);
+    void record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const View& view,
+                     std::uint32_t offset, gl::CommandList& list);
+
+    gl::Device& device_;
+    bool with_margins_;
+    CasterSurfaces surfaces_;
+    SheetGatherer gatherer_;
+    GrowingBuffer items_, view_records_;
+    Program programs_[static_cast<std::size_t>(Kind::count)];
+    std::uint64_t frame_ = 0;
+    // One frame's; storage is reused.
+    std::vector<View> views_;
+    std::vector<SheetItem> item_scratch_;
+    SheetItems view_scratch_;
+    std::vector<std::byte> record_scratch_;
+};
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,7 @@
+# What decides a pixel's shadow exactly.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_sheets LABEL gl SOURCES
+    sheets_gl_test.cpp
+    sheets_of_scenes_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_oracle)
+endif()
