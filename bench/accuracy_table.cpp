@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 
 #include "bench/accuracy.h"
+#include "bench/formatted.h"
 
 namespace gnomon::bench {
 namespace {
@@ -10,51 +9,41 @@ namespace {
 constexpr double kPercent = 100.0;
 constexpr double kUsPerMs = 1000.0;
 constexpr double kBytesPerMb = 1.0e6;
-constexpr std::size_t kLineLength = 512;
-
-[[gnu::format(printf, 2, 3)]] void append(std::string& text, const char* format, ...) {
-    char line[kLineLength];
-    std::va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    text += line;
-}
 
 void append_light(const LightAccuracy& light, std::string& text) {
     const oracle::Metrics& m = light.metrics;
     const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
     const oracle::FarErrors& far = light.far;
-    append(
-        text,
+    text += formatted(
         "%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6zu %6zu %6zu %6zu %6.2f %6.2f %6.2f %5zu %5zu %6zu %6zu %7.2f",
         light.report.name.c_str(), m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
         percent(m.acne), percent(m.leak), far.false_shadow, far.false_light, far.crease_shadow, far.crease_light,
         m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, m.ambiguous, m.uncovered, m.coverage_mismatch,
         light.report.predicted_error_px);
-    append(text, " %10llu %8.2f", static_cast<unsigned long long>(light.report.texels),
-           static_cast<double>(light.report.bytes) / kBytesPerMb);
+    text += formatted(" %10llu %8.2f", static_cast<unsigned long long>(light.report.texels),
+                      static_cast<double>(light.report.bytes) / kBytesPerMb);
     if (light.gpu_us.count == 0)
-        append(text, " %24s", "not measured");
+        text += formatted(" %24s", "not measured");
     else
-        append(text, " %8.2f (%6.2f-%6.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
-               light.gpu_us.max / kUsPerMs);
-    append(text, "  %s%s%s\n", to_text(light.report.state), light.report.reason == Reason::none ? "" : ": ",
-           light.report.reason == Reason::none ? "" : reason_code(light.report.reason));
+        text += formatted(" %8.2f (%6.2f-%6.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
+                          light.gpu_us.max / kUsPerMs);
+    text += formatted("  %s%s%s\n", to_text(light.report.state), light.report.reason == Reason::none ? "" : ": ",
+                      light.report.reason == Reason::none ? "" : reason_code(light.report.reason));
 }
 
 void append_soft(const Accuracy& accuracy, std::string& text) {
     const auto is_soft = [](const LightAccuracy& light) { return light.soft.has_value(); };
     if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), is_soft)) return;
-    append(text, "\n%-18s %8s %8s %8s %8s %8s %8s %8s %7s %6s %20s\n", "soft light", "source", "error%", "umbra",
-           "leak%", "lit", "loss%", "penumbra", "error%", "widths", "ratio (10-90 %)");
+    text += formatted("\n%-18s %8s %8s %8s %8s %8s %8s %8s %7s %6s %20s\n", "soft light", "source", "error%", "umbra",
+                      "leak%", "lit", "loss%", "penumbra", "error%", "widths", "ratio (10-90 %)");
     for (const LightAccuracy& light : accuracy.lights) {
         if (!light.soft) continue;
         const oracle::SoftMetrics& m = light.soft->metrics;
-        append(text, "%-18.18s %8.4f %8.4f %8zu %8.4f %8zu %8.4f %8zu %7.3f %6zu %6.3f (%5.3f-%5.3f)\n",
-               light.report.name.c_str(), light.soft->source, kPercent * m.mean_error, m.umbra, kPercent * m.umbra_leak,
-               m.lit, kPercent * m.lit_loss, m.penumbra, kPercent * m.penumbra_error, m.widths.places,
-               m.widths.median_ratio, m.widths.p10_ratio, m.widths.p90_ratio);
+        text +=
+            formatted("%-18.18s %8.4f %8.4f %8zu %8.4f %8zu %8.4f %8zu %7.3f %6zu %6.3f (%5.3f-%5.3f)\n",
+                      light.report.name.c_str(), light.soft->source, kPercent * m.mean_error, m.umbra,
+                      kPercent * m.umbra_leak, m.lit, kPercent * m.lit_loss, m.penumbra, kPercent * m.penumbra_error,
+                      m.widths.places, m.widths.median_ratio, m.widths.p10_ratio, m.widths.p90_ratio);
     }
     text +=
         "\nsource: radius in metres, or the tangent of a sun's. error: mean difference from the fraction of the source "
@@ -69,13 +58,14 @@ void append_soft(const Accuracy& accuracy, std::string& text) {
 
 std::string accuracy_table(const Accuracy& accuracy) {
     std::string text;
-    append(text, "scene   %s\ndevice  %s\npicture %u x %u\n\n", accuracy.scene.c_str(), accuracy.device.c_str(),
-           accuracy.size_px.x, accuracy.size_px.y);
-    append(text, "%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %6s %6s %6s %5s %5s %6s %6s %7s %10s %8s %24s  %s\n",
-           "light", "pixels", "wrong%", "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr",
-           "edge", "p95", "max", "lost", "ambig", "uncov", "cover", "predict", "texels", "MB", "ms (min-max)", "state");
+    text += formatted("scene   %s\ndevice  %s\npicture %u x %u\n\n", accuracy.scene.c_str(), accuracy.device.c_str(),
+                      accuracy.size_px.x, accuracy.size_px.y);
+    text += formatted(
+        "%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %6s %6s %6s %5s %5s %6s %6s %7s %10s %8s %24s  %s\n", "light",
+        "pixels", "wrong%", "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr", "edge",
+        "p95", "max", "lost", "ambig", "uncov", "cover", "predict", "texels", "MB", "ms (min-max)", "state");
     for (const LightAccuracy& light : accuracy.lights) append_light(light, text);
-    for (const std::string& name : accuracy.unshadowed) append(text, "%-18.18s has no shadow\n", name.c_str());
+    for (const std::string& name : accuracy.unshadowed) text += formatted("%-18.18s has no shadow\n", name.c_str());
     text +=
         "\npixels: surfaces the light reaches and faces; every % is of them. acne, leak: wrong more than 2 px from "
         "any\n"
@@ -89,16 +79,16 @@ std::string accuracy_table(const Accuracy& accuracy) {
     append_soft(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
-            append(text,
-                   "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "
-                   "truth_ambiguous %zu, unexplained %zu.\n",
-                   light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster,
-                   e.truth_ambiguous, e.unexplained);
+            text += formatted(
+                "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "
+                "truth_ambiguous %zu, unexplained %zu.\n",
+                light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster, e.truth_ambiguous,
+                e.unexplained);
     for (const LightAccuracy& light : accuracy.lights)
         if (light.redrawn_differs > 0)
-            append(text, "%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),
-                   light.redrawn_differs);
-    if (accuracy.gl_complaints > 0) append(text, "OpenGL complained %u times.\n", accuracy.gl_complaints);
+            text += formatted("%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),
+                              light.redrawn_differs);
+    if (accuracy.gl_complaints > 0) text += formatted("OpenGL complained %u times.\n", accuracy.gl_complaints);
     return text;
 }
 

@@ -35,14 +35,14 @@ bool holds(const glm::dvec3& at, double margin) {
            at.z <= 1.0;
 }
 
-/// How far a point has faded out of a cascade that holds it, 0 to 1: shaders/shadow/kinds/directional.glsl.
+/// How far a point has faded out of a cascade that holds it, 0 to 1: what a map holds beyond its slice it serves up to
+/// its border, unless it serves by distance.
 double faded(const ShadowView& view, const glm::dvec3& at, double distance_m, double margin, double blend) {
     if (!(blend > 0.0)) return 0.0;
-    const double band_m = view.fades_to_m - view.fades_from_m;
-    const double share = band_m > 0.0 ? std::clamp((distance_m - view.fades_from_m) / band_m, 0.0, 1.0) : 1.0;
+    const double share = faded_by_distance(view.fades_from_m, view.fades_to_m, distance_m);
     if (view.seen_to_m > 0.0) return share;
     const glm::dvec3 inside = glm::min(at, 1.0 - at);
-    return std::min(share, 1.0 - std::min({inside.x - margin, inside.y - margin, inside.z}) / blend);
+    return std::min(share, faded_near_border(std::min({inside.x - margin, inside.y - margin, inside.z}), blend));
 }
 
 double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
@@ -61,16 +61,25 @@ oracle::TexelThere lit() {
     return texel;
 }
 
+/// How many texels aside the offset along the normal takes a lookup: shaders/shadow/bias.glsl.
+double moved_texel(const ShadowView& view, const shadow::ShadowDemand& demand, const shadow::TexelSides& sides,
+                   const glm::dvec3& p_ws, const glm::dvec3& normal, double filter_texel) {
+    const double along_m =
+        filter_texel * (std::abs(glm::dot(normal, sides.u_m)) + std::abs(glm::dot(normal, sides.v_m)));
+    const glm::dvec3 moved = glm::abs(in_map(view, p_ws + normal * along_m) - in_map(view, p_ws));
+    return std::max(moved.x, moved.y) * demand.resolution_px;
+}
+
 /// The texel around the point, under a filter of that half-width, without an error.
-oracle::TexelThere texel_there(const ShadowView& view, const glm::dvec3& p_ws, const glm::dvec3& normal,
-                               double filter_texel) {
+oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowDemand& demand, const glm::dvec3& p_ws,
+                               const glm::dvec3& normal, double filter_texel) {
     const shadow::TexelSides sides = shadow::texel_sides(view, p_ws);
     oracle::TexelThere texel{
         .u_m = sides.u_m, .v_m = sides.v_m, .filter_texel = filter_texel, .reach_texel = filter_texel};
+    texel.depth_m = shadow::told_apart_m(view, demand.depth_format, p_ws);
     const double cosine = glm::dot(to_light(view, p_ws), normal);
     if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
-        const double u = std::abs(glm::dot(normal, view.axis_u)), v = std::abs(glm::dot(normal, view.axis_v));
-        texel.reach_texel += filter_texel * (u + v) * std::max(u, v);
+        texel.reach_texel += moved_texel(view, demand, sides, p_ws, normal, filter_texel);
     }
     return texel;
 }
@@ -126,7 +135,7 @@ oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_r
     const glm::dvec3 p_ws = consumer.position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);
     if (!view) return lit();
-    oracle::TexelThere texel = texel_there(*view, p_ws, normal, reach_texel(*view));
+    oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, reach_texel(*view));
     texel.u_m *= telling;
     texel.v_m *= telling;
     texel.error_px =
@@ -139,7 +148,7 @@ oracle::TexelThere EdgeBounds::promised(std::uint32_t light, const glm::dvec3& p
     const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);
     if (!view) return lit();
-    oracle::TexelThere texel = texel_there(*view, p_ws, normal, edge_texel(*view));
+    oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, edge_texel(*view));
     texel.u_m *= wished;
     texel.v_m *= wished;
     texel.error_px = shadow::allowed_error_px(wished * shadow::wished_error_px(scene_.lights[light].shadow),

@@ -114,4 +114,12 @@ std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, c
 
 double steep_tangent() { return glsl::compare::directional::Kind::kSteepTangent; }
 
+double faded_by_distance(double start_m, double end_m, double distance_m) {
+    return glsl::compare::directional::Kind{}.share_between(start_m, end_m, distance_m);
+}
+
+double faded_near_border(double nearest, double blend) {
+    return glsl::compare::directional::Kind{}.share_near_border(nearest, blend);
+}
+
 }  // namespace gnomon::bench

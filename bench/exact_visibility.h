@@ -62,4 +62,9 @@ std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, c
 /// The shaders' own: receivers of a larger tangent toward the light are moved along their normal.
 double steep_tangent();
 
+/// The shaders' own: how far a point has faded out of its cascade, 0 to 1: by its distance along the view, and where
+/// the border of the map is `nearest` away, in parts of the map.
+double faded_by_distance(double start_m, double end_m, double distance_m);
+double faded_near_border(double nearest, double blend);
+
 }  // namespace gnomon::bench

@@ -1,23 +1,12 @@
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 
 #include "bench/filter_rows.h"
+#include "bench/formatted.h"
 
 namespace gnomon::bench {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr std::size_t kLineLength = 512;
-
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-    char line[kLineLength];
-    std::va_list arguments;
-    va_start(arguments, format);
-    std::vsnprintf(line, sizeof line, format, arguments);
-    va_end(arguments);
-    return line;
-}
 
 std::string joined(const std::vector<std::string>& words, const char* between = ", ") {
     std::string all;
@@ -25,10 +14,10 @@ std::string joined(const std::vector<std::string>& words, const char* between = 
     return all;
 }
 
-std::string ratio(const Spread& spread) { return spread.count == 0 ? "-" : text("%.2f", spread.median); }
-std::string count(const Figure& number) { return number ? text("%.0f", *number) : std::string("-"); }
+std::string ratio(const Spread& spread) { return spread.count == 0 ? "-" : formatted("%.2f", spread.median); }
+std::string count(const Figure& number) { return number ? formatted("%.0f", *number) : std::string("-"); }
 std::string percent(const std::optional<double>& share) {
-    return share ? text("%.3f", kPercent * *share) : std::string("-");
+    return share ? formatted("%.3f", kPercent * *share) : std::string("-");
 }
 
 std::string size_name(std::uint32_t resolution_px) {
@@ -74,7 +63,8 @@ std::string markdown_of(const FilterRows& rows, std::size_t resolution) {
         table += "| `" + rows.variants[v].name + "`";
         for (const std::string& cell :
              {each_light(lights, [](const RowFigures& f) { return count(f.taps); }),
-              each_light(lights, [](const RowFigures& f) { return text("%.0f", f.bytes.value_or(0.0) / kBytesPerMb); }),
+              each_light(lights,
+                         [](const RowFigures& f) { return formatted("%.0f", f.bytes.value_or(0.0) / kBytesPerMb); }),
               each_light(lights, [](const RowFigures& f) { return ratio(f.gpu_ratio); }),
               each_light(lights, [](const RowFigures& f) { return ratio(f.kept_ratio); }),
               each_light(lights, [](const RowFigures& f) { return percent(f.wrong); }),
@@ -96,8 +86,8 @@ std::string fronts_of(const FilterRows& rows, std::size_t resolution, std::size_
             for (std::size_t v = 0; v < front.size(); ++v)
                 if (truth == RowTruth::disk || rows.figures[resolution][v][light].wrong)
                     (front[v] ? best : beaten).push_back(rows.variants[v].name);
-            lines += text("  %s, maps %s: on the front ", truth == RowTruth::point ? "point" : "disk",
-                          cost == RowCost::drawn ? "drawn anew" : "kept") +
+            lines += formatted("  %s, maps %s: on the front ", truth == RowTruth::point ? "point" : "disk",
+                               cost == RowCost::drawn ? "drawn anew" : "kept") +
                      joined(best) + "\n    beaten " + joined(beaten) + "\n";
         }
     return lines;
@@ -111,20 +101,21 @@ std::string never_line(const FilterRows& rows) {
 }  // namespace
 
 std::string filter_rows_table(const FilterRows& rows) {
-    std::string table = text("scene   %s\ndevice  %s\npicture %u x %u\n\n%-24s %5s %6s %-18s %7s %8s %9s %8s %9s %9s\n",
-                             rows.scene.c_str(), rows.device.c_str(), rows.size_px.x, rows.size_px.y, "filter", "taps",
-                             "size", "light", "MB", "x drawn", "x kept", "wrong%", "blur%", "disk%");
+    std::string table =
+        formatted("scene   %s\ndevice  %s\npicture %u x %u\n\n%-24s %5s %6s %-18s %7s %8s %9s %8s %9s %9s\n",
+                  rows.scene.c_str(), rows.device.c_str(), rows.size_px.x, rows.size_px.y, "filter", "taps", "size",
+                  "light", "MB", "x drawn", "x kept", "wrong%", "blur%", "disk%");
     constexpr double kBytesPerMb = 1.0e6;
     for (std::size_t r = 0; r < rows.resolutions_px.size(); ++r)
         for (std::size_t v = 0; v < rows.variants.size(); ++v)
             for (std::size_t l = 0; l < rows.lights.size(); ++l) {
                 const RowFigures& f = rows.figures[r][v][l];
                 const std::uint32_t size_px = rows.resolutions_px[r];
-                table += text("%-24s %5s %6s %-18.18s %7.2f %8s %9s %8s %9s %9s\n", rows.variants[v].name.c_str(),
-                              count(f.taps).c_str(), size_px == 0 ? "own" : std::to_string(size_px).c_str(),
-                              rows.lights[l].c_str(), f.bytes.value_or(0.0) / kBytesPerMb, ratio(f.gpu_ratio).c_str(),
-                              ratio(f.kept_ratio).c_str(), percent(f.wrong).c_str(), percent(f.mean_error).c_str(),
-                              percent(f.disk_error).c_str());
+                table += formatted("%-24s %5s %6s %-18.18s %7.2f %8s %9s %8s %9s %9s\n", rows.variants[v].name.c_str(),
+                                   count(f.taps).c_str(), size_px == 0 ? "own" : std::to_string(size_px).c_str(),
+                                   rows.lights[l].c_str(), f.bytes.value_or(0.0) / kBytesPerMb,
+                                   ratio(f.gpu_ratio).c_str(), ratio(f.kept_ratio).c_str(), percent(f.wrong).c_str(),
+                                   percent(f.mean_error).c_str(), percent(f.disk_error).c_str());
             }
     table +=
         "\nx drawn, x kept: time of the depth and lighting pass over that of `hard` at the same size, medians of "

@@ -1,10 +1,12 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <span>
 
 #include "bench/accuracy.h"
+#include "bench/audit_command.h"
 #include "bench/culling.h"
 #include "bench/demand.h"
 #include "bench/drawings.h"
@@ -16,6 +18,7 @@
 #include "bench/queries.h"
 #include "bench/redraws.h"
 #include "bench/set_shares.h"
+#include "bench/size_and_place.h"
 #include "bench/stability.h"
 #include "bench/stage.h"
 #include "bench/sweep_command.h"
@@ -25,8 +28,7 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr int kBadInput = 2;
-constexpr std::uint64_t kMaxSizePx = 16384;  // what OpenGL 4.5 guarantees for pictures
+constexpr int kNotSound = 1, kBadInput = 2;
 constexpr glm::uvec2 kQuickSize_px{640, 360};
 constexpr std::uint32_t kMaxRepeats = 100000;
 constexpr std::uint32_t kMostLights = 100000;
@@ -43,7 +45,7 @@ struct Arguments {
     DemandOptions demand;
     QueriesOptions queries;
     std::string sweep, sweep_rows;
-    bool quick = false;
+    bool quick = false, audit = false;
     std::string out = "gnomon_sweep";
     bool rounds_given = false, repeat_given = false, size_given = false;
 };
@@ -53,34 +55,10 @@ int fail(const Error& error) {
     return kBadInput;
 }
 
-std::optional<glm::uvec2> parse_size(const std::string& text) {
-    const auto cross = text.find('x');
-    if (cross == std::string::npos) return std::nullopt;
-    const auto width = game::read_count(text.substr(0, cross)), height = game::read_count(text.substr(cross + 1));
-    if (!width || !height || *width == 0 || *height == 0 || *width > kMaxSizePx || *height > kMaxSizePx)
-        return std::nullopt;
-    return glm::uvec2(*width, *height);
-}
-
-std::optional<glm::dvec3> parse_offset(const std::string& text) {
-    glm::dvec3 value(0.0);
-    if (text.empty()) return value;
-    std::size_t start = 0;
-    for (int i = 0; i < 3; ++i) {
-        const std::size_t end = i < 2 ? text.find(',', start) : text.size();
-        if (end == std::string::npos) return std::nullopt;
-        const auto number = game::read_number(text.substr(start, end - start));
-        if (!number) return std::nullopt;
-        value[i] = *number;
-        start = end + 1;
-    }
-    return value;
-}
-
 std::optional<Error> complete(Arguments& arguments) {
     if (arguments.quick) arguments.sweep = "quick";
-    if (arguments.scenes.size() > 1 && arguments.sweep.empty())
-        return Error{"several scenes are for accuracy --sweep alone", "", "", "scene"};
+    if (arguments.scenes.size() > 1 && arguments.sweep.empty() && !arguments.audit)
+        return Error{"several scenes are for accuracy --sweep and audit alone", "", "", "scene"};
     if (!arguments.scenes.empty()) arguments.stage.scene = arguments.scenes.front();
     if (!arguments.camera.empty()) arguments.stage.camera = arguments.camera;
     for (const auto& [text, size_px] : {std::pair(&arguments.size, &arguments.stage.size_px),
@@ -147,6 +125,17 @@ int run_accuracy(const Arguments& arguments) {
     if (!arguments.pictures.empty())
         if (auto error = write_heat_pictures(accuracy.value(), arguments.pictures)) return fail(*error);
     return 0;
+}
+
+int run_audits(const Arguments& arguments) {
+    AuditCommand command;
+    command.stage = arguments.stage;
+    command.scenes.assign(arguments.scenes.begin(), arguments.scenes.end());
+    command.on_audit = [](const Audit& audit) { std::fputs(audit_table(audit).c_str(), stdout); };
+    const auto audits = run_audit(command);
+    if (!audits) return fail(audits.error());
+    if (auto error = put_out(arguments, audit_summary(audits.value()), audit_json(audits.value()))) return fail(*error);
+    return std::all_of(audits.value().begin(), audits.value().end(), is_sound) ? 0 : kNotSound;
 }
 
 int run_frame(const Arguments& arguments) {
@@ -258,7 +247,7 @@ void add_demand(CLI::App& command, Arguments& arguments) {
                        "page whose text between <!-- demand --> and <!-- end of demand --> is replaced");
 }
 
-void add_common(CLI::App& command, Arguments& arguments) {
+void add_scene(CLI::App& command, Arguments& arguments) {
     command.add_option("--scene", arguments.scenes, "glTF or GLB (default: the built-in scene)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
@@ -266,10 +255,14 @@ void add_common(CLI::App& command, Arguments& arguments) {
         ->allow_extra_args(false);
     command.add_option("--time", arguments.stage.time_s, "scene time in seconds")->capture_default_str();
     command.add_option("--offset", arguments.offset, "X,Y,Z metres by which the whole scene is moved");
+    command.add_option("--json", arguments.json, "write all figures to this file");
+}
+
+void add_common(CLI::App& command, Arguments& arguments) {
+    add_scene(command, arguments);
     command.add_option("--repeat", arguments.repeat, "frames that are timed")
         ->check(CLI::Range(0u, kMaxRepeats))
         ->capture_default_str();
-    command.add_option("--json", arguments.json, "write all figures to this file");
 }
 
 void add_accuracy(CLI::App& command, Arguments& arguments) {
@@ -300,6 +293,9 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     CLI::App* accuracy = app.add_subcommand("accuracy", "shadows of each light against ray-traced truth");
     add_accuracy(*accuracy, arguments);
+    CLI::App* audit = app.add_subcommand(
+        "audit", "the truth itself: rays asked in two ways, and the triangles that they and the picture show");
+    add_scene(*audit, arguments);
     CLI::App* frame = app.add_subcommand("frame", "frame times with and without shadows");
     add_common(*frame, arguments);
     frame->add_option("--rounds", arguments.rounds, "rounds of --repeat frames each")
@@ -359,7 +355,9 @@ int run(int argc, char** argv) {
     arguments.rounds_given = accuracy->count("--rounds") > 0;
     arguments.repeat_given = accuracy->count("--repeat") > 0;
     arguments.size_given = accuracy->count("--size") > 0;
+    arguments.audit = audit->parsed();
     if (auto error = complete(arguments)) return fail(*error);
+    if (*audit) return run_audits(arguments);
     if (*culling) {
         run_culling(arguments.filter);
         return 0;

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "bench/formatted.h"
 #include "bench/spread.h"
 #include "sample_game/scene_source.h"
 #include "systems/extract/extract.h"
@@ -39,13 +40,6 @@ double cpu_seconds_of(const auto& work) {
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-template <class... Values>
-std::string line(const char* format, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof text, format, values...);
-    return text;
-}
-
 /// The scene without a GPU, and what is asked of it.
 class QueryBench {
 public:
@@ -57,8 +51,8 @@ public:
 
     std::string table() {
         std::string text = trees();
-        text += line("million queries per second, %u places, %u threads: median [least most] of %u\n", options_.places,
-                     options_.threads, options_.repeat);
+        text += formatted("million queries per second, %u places, %u threads: median [least most] of %u\n",
+                          options_.places, options_.threads, options_.repeat);
         text += "light                places           lit   one batch             per core              256 a batch\n";
         for (const LightItem& light : lights())
             for (const auto& [name, places] :
@@ -89,10 +83,10 @@ private:
         }
         const Spread build = spread_of(builds_ms), refit = spread_of(refits_ms);
         std::string text =
-            line("%zu trees of %zu triangles, %zu bytes (%.1f a triangle)\n", built.trees, built.triangles, built.bytes,
-                 static_cast<double>(built.bytes) / static_cast<double>(built.triangles));
-        text += line("built in %.1f ms [%.1f %.1f]", build.median, build.min, build.max);
-        text += line(", %u refitted in %.3f ms [%.3f %.3f]\n", refitted, refit.median, refit.min, refit.max);
+            formatted("%zu trees of %zu triangles, %zu bytes (%.1f a triangle)\n", built.trees, built.triangles,
+                      built.bytes, static_cast<double>(built.bytes) / static_cast<double>(built.triangles));
+        text += formatted("built in %.1f ms [%.1f %.1f]", build.median, build.min, build.max);
+        text += formatted(", %u refitted in %.3f ms [%.3f %.3f]\n", refitted, refit.median, refit.min, refit.max);
         return text;
     }
 
@@ -183,10 +177,10 @@ private:
         const Rates small = rates(light, places, 1, kSmallBatch);
         double lit = 0.0;
         for (const float answer : answers_) lit += static_cast<double>(answer);
-        std::string text =
-            line("%-20.20s %-12s %5.1f %%", light.name.c_str(), name, 100.0 * lit / static_cast<double>(places.size()));
+        std::string text = formatted("%-20.20s %-12s %5.1f %%", light.name.c_str(), name,
+                                     100.0 * lit / static_cast<double>(places.size()));
         for (const Spread& spread : {whole.clock, whole.core, small.core})
-            text += line("  %6.2f [%5.2f %5.2f]", spread.median, spread.min, spread.max);
+            text += formatted("  %6.2f [%5.2f %5.2f]", spread.median, spread.min, spread.max);
         return text + "\n";
     }
 

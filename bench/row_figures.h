@@ -16,7 +16,7 @@ struct RowFigures {
     Figure scored_px, wrong, false_shadow, false_light, acne, leak, mean_error;
     Figure edge_places, edge_lost, edge_p50_px, edge_p95_px, edge_p99_px, edge_max_px;
     /// What the fit states, and how many places are farther off than is predicted there, by the reason.
-    Figure predicted_px, sub_texel_caster, truth_ambiguous, unexplained;
+    Figure predicted_px, sub_texel_caster, truth_ambiguous, other_bias, unexplained;
     /// Against the truth about disk_source().
     Figure disk_error, umbra_leak, lit_loss, penumbra_error, width_ratio;
     /// Of the depth and lighting pass: every view drawn in every frame, and with kept maps; a median per round. Ratios

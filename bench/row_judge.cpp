@@ -42,7 +42,11 @@ void judge_edges(Stage& stage, const TracedTruths& truths, const TracedLight& li
         [&](const glm::dvec3& point, const glm::dvec3& normal) { return bounds.at(light.index, point, normal); });
     figures.sub_texel_caster = static_cast<double>(exceptions.sub_texel_caster);
     figures.truth_ambiguous = static_cast<double>(exceptions.truth_ambiguous);
-    figures.unexplained = static_cast<double>(exceptions.unexplained);
+    // What is predicted rests on the bias.
+    const bool own_bias = scene.lights[light.index].shadow.bias == BiasMode::automatic;
+    const auto others = static_cast<double>(exceptions.unexplained);
+    figures.other_bias = own_bias ? 0.0 : others;
+    figures.unexplained = own_bias ? others : 0.0;
 }
 
 oracle::EdgeDisplacement judge_by_point(const TracedTruths& truths, const TracedLight& light,

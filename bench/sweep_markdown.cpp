@@ -74,10 +74,10 @@ std::string fronts(const SceneSweep& sweep, const std::string& light) {
 /// Places that are farther off than predicted, over all rows of a light.
 std::string bounds(const SceneSweep& sweep) {
     std::string text =
-        "| light | rows | places | farther off than predicted: sub_texel_caster | truth_ambiguous | unexplained | rows "
-        "with unexplained ones |\n|---|---|---|---|---|---|---|\n";
+        "| light | rows | places | farther off than predicted: sub_texel_caster | truth_ambiguous | other_bias | "
+        "unexplained | rows with unexplained ones |\n|---|---|---|---|---|---|---|---|\n";
     for (const std::string& name : lights_of(sweep)) {
-        double rows = 0.0, places = 0.0, sub_texel = 0.0, ambiguous = 0.0, unexplained = 0.0;
+        double rows = 0.0, places = 0.0, sub_texel = 0.0, ambiguous = 0.0, bias = 0.0, unexplained = 0.0;
         std::string which;
         for (std::size_t row = 0; row < sweep.plan.size(); ++row) {
             const LightRow* light = find_row(sweep, row, name);
@@ -87,11 +87,12 @@ std::string bounds(const SceneSweep& sweep) {
             places += f.edge_places.value_or(0.0);
             sub_texel += f.sub_texel_caster.value_or(0.0);
             ambiguous += f.truth_ambiguous.value_or(0.0);
+            bias += f.other_bias.value_or(0.0);
             unexplained += *f.unexplained;
             if (*f.unexplained > 0.0) which += (which.empty() ? "`" : ", `") + sweep.plan[row].name + "`";
         }
         text += "| " + name;
-        for (const double count : {rows, places, sub_texel, ambiguous, unexplained})
+        for (const double count : {rows, places, sub_texel, ambiguous, bias, unexplained})
             text += " | " + std::to_string(static_cast<std::uint64_t>(count));
         text += " | " + (which.empty() ? std::string("none") : which) + " |\n";
     }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "systems/extract/volumes.h"
+#include "systems/shadow/depth_format.h"
 #include "systems/shadow/kinds/warp.h"
 
 namespace gnomon::shadow {
@@ -82,6 +83,15 @@ TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
         return view.axis_u * step.x + view.axis_v * step.y;
     };
     return {side({view.texel_u, 0.0}), side({0.0, view.texel_v})};
+}
+
+double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
+    constexpr double kSteps = 2.0;
+    const double depth = kSteps * depth_format_row(format).step;
+    if (orthographic(view)) return depth * (view.far_m - view.near_m);
+    // alpha + beta / z: z becomes z / (1 + part), by as much of the whole way as the ray does.
+    const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth_beta);
+    return glm::length(p_ws - view.anchor_ws_m) * part / (1.0 + part);
 }
 
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,

@@ -19,10 +19,11 @@
 ///
 /// Exceptions, by name, and no others:
 /// - `sub_texel_caster`: the shadow, or the light beside it, is thinner than a texel there, or its caster is nearer to
-///   the receiver than the receiver's own rise over the texel: a map may miss such a thing altogether.
+///   the receiver than the receiver's own rise over the texel, or than the depth format tells apart there
+///   (told_apart_m): a map may miss such a thing altogether.
 /// - `truth_ambiguous`: which surface is seen, or whether the light reaches it, hangs on less than the rasteriser's
 ///   snapping or the last digits of the position.
-/// Assumed: the bias is Gnomon's own, not LightShadow::bias; depth is stored as float.
+/// Assumed: the bias is Gnomon's own, not LightShadow::bias.
 namespace gnomon::shadow {
 
 /// A texel's sides across the light at a point, metres.
@@ -30,6 +31,11 @@ struct TexelSides {
     glm::dvec3 u_m{0.0}, v_m{0.0};
 };
 TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws);
+
+/// How far a caster has to stand before a surface at p_ws, along the ray, so that fixed-point depths tell it from the
+/// surface: two steps of the format, one that what is stored may be off by and one by which the bias makes up for it. 0
+/// of floats, whose steps are a share of the distance. Of a warped map, at its anchor.
+double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws);
 
 /// Longest extent of one texel on screen, in pixels, on a plane through p_ws with unit normal `normal` (Lloyd et al.
 /// 2006 call it m): the texel's diagonals, carried along the light's ray onto the plane and from there into the

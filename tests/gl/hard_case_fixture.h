@@ -35,6 +35,7 @@ protected:
         EXPECT_TRUE(frame_->read_visibility(light, values));
         return values;
     }
+    Frame& frame() { return *frame_; }
     const SceneSnapshot& scene() const { return frame_->snapshot(); }
     const FrameReport& report() const { return frame_->report(); }
 

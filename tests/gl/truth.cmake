@@ -1,7 +1,11 @@
 # The real pipeline against the ray tracer, through the bench's own measurement.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_truth LABEL gl SOURCES
+    audit_gl_test.cpp
+    error_gate_gl_test.cpp
+    recorded_errors.cpp
     soft_shadows_gl_test.cpp
+    sweep_bounds_gl_test.cpp
     sweep_gl_test.cpp
     truth_accuracy_gl_test.cpp
     truth_contract_gl_test.cpp
@@ -10,7 +14,7 @@ if(GNOMON_SAMPLE)
     truth_planes_gl_test.cpp
     truth_source_gl_test.cpp
     truth_warp_gl_test.cpp
-    LIBRARIES gnomon_bench_parts)
+    LIBRARIES gnomon_bench_parts gnomon_hard_cases)
 endif()
 # What claims to have no wrong pixel.
 if(GNOMON_SAMPLE)

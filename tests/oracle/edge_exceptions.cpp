@@ -8,8 +8,9 @@ namespace gnomon::oracle {
 namespace {
 
 constexpr double kStepPx = 0.25;
-/// Rays over a footprint: this many to each side of its middle, along each of its sides.
-constexpr int kRaysToEachSide = 2;
+/// Between rays over a footprint, along each of its sides: what is thinner can still lie before a texel's middle, and
+/// be all that the map knows of its surroundings.
+constexpr double kRayStepTexel = 0.25;
 /// Vertices snap to this part of a texel, or pixel (rasterisers with 8 sub-texel bits).
 constexpr double kRasterSnap = 1.0 / 256.0;
 
@@ -82,10 +83,11 @@ private:
         const TexelThere texel = texel_at_(middle, n);
         Footprint f{middle, texel.u_m, texel.v_m, n, to_light(middle)};
         const double rise_m = (std::abs(glm::dot(f.u_m, n)) + std::abs(glm::dot(f.v_m, n))) / glm::dot(f.ray, n);
-        const double least_m = dark ? 2.0 * (texel.filter_texel + kRasterSnap) * rise_m : 0.0;
-        const double step_texel = texel.reach_texel / kRaysToEachSide;
-        for (int i = -kRaysToEachSide; i <= kRaysToEachSide; ++i)
-            for (int j = -kRaysToEachSide; j <= kRaysToEachSide; ++j)
+        const double least_m = dark ? 2.0 * (texel.filter_texel + kRasterSnap) * rise_m + texel.depth_m : 0.0;
+        const int to_each_side = static_cast<int>(std::ceil(texel.reach_texel / kRayStepTexel));
+        const double step_texel = texel.reach_texel / std::max(to_each_side, 1);
+        for (int i = -to_each_side; i <= to_each_side; ++i)
+            for (int j = -to_each_side; j <= to_each_side; ++j)
                 if (tracer_.blocked(f.at(i * step_texel, j * step_texel), hits_.triangle[pixel], light_, least_m) !=
                     dark)
                     return false;

@@ -13,9 +13,10 @@ namespace gnomon::oracle {
 /// The texel that decides a surface point.
 struct TexelThere {
     glm::dvec3 u_m{0.0}, v_m{0.0};  // its sides, across the light
-    double filter_texel = 0.5;      // the filter's half-width E
+    double filter_texel = 0.5;  // the filter's half-width E
     double reach_texel = 0.5;  // half-width of what decides a pixel: E, and the offset along the normal if there is one
     double error_px = 0.0;     // how far a shadow edge may be off there
+    double depth_m = 0.0;      // along the ray: casters nearer to the surface cannot be told from it by their depths
 };
 /// For a point relative to the tracer's origin, on a surface with that unit normal.
 using TexelAt = std::function<TexelThere(const glm::dvec3& point_rel_m, const glm::dvec3& normal)>;
@@ -35,8 +36,9 @@ inline constexpr std::size_t kSampleEvery = 64;
 /// A map knows the light at texel centres only, so it shows an edge for certain only between a texel's footprint that
 /// lies wholly in shadow and one that lies wholly in light. `sub_texel_caster` therefore asks rays: across the true
 /// edge, to the bound's distance, on the plane that is seen there and its continuation, is there a place around which
-/// the whole footprint is blocked, by casters that stand off the plane by more than its own rise over the footprint
-/// (nearer ones cannot be told from the plane); and on the other side one around which nothing is?
+/// the whole footprint is blocked, by casters that stand off the plane by more than its own rise over the footprint and
+/// the steps of the map's depth format (nearer ones cannot be told from the plane); and on the other side one around
+/// which nothing is?
 EdgeExceptions edge_exceptions(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
                                const LightItem& light, const LightTruth& truth, const EdgeDisplacement& edge,
                                const TexelAt& texel_at);

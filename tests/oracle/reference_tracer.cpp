@@ -66,8 +66,10 @@ ReferenceTracer::~ReferenceTracer() = default;
 
 std::size_t ReferenceTracer::triangle_count() const { return world_->traced.triangles().size(); }
 
-std::uint32_t ReferenceTracer::instance_of(std::uint32_t triangle) const {
-    return world_->traced.triangles()[triangle].instance;
+PlacedTriangle ReferenceTracer::source_of(std::uint32_t triangle) const {
+    if (triangle == kNoTriangle) return {};
+    const WorldTriangle& found = world_->traced.triangles()[triangle];
+    return {found.instance, found.first_index / 3};
 }
 
 PrimaryHits ReferenceTracer::trace_primary(const ConsumerItem& consumer) const {
@@ -125,17 +127,17 @@ bool ReferenceTracer::sees_plane(const ConsumerItem& consumer, const glm::dvec2&
     return world.on_plane(point, triangle);
 }
 
-bool ReferenceTracer::blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
-                              double least_m) const {
+std::uint32_t ReferenceTracer::blocker(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
+                                       double least_m) const {
     const bool parallel = light.kind == LightKind::directional;
     const glm::dvec3 to_light =
         parallel ? light.rotation_ws[2] : light.position_ws_m - world_->traced.origin_ws_m() - point_rel_m;
     const double distance_m = glm::length(to_light);
-    if (!(parallel || distance_m > least_m)) return false;
+    if (!(parallel || distance_m > least_m)) return kNoTriangle;
     const glm::dvec3 start = point_rel_m + to_light * (least_m / distance_m);
     const glm::dvec3 rest = parallel ? to_light : to_light * (1.0 - least_m / distance_m);
     return world_->traced.occluder(make_ray(start, rest), parallel ? kInfinity : 1.0, triangle, kNoTriangle,
-                                   light.shadow.layers) != kNoTriangle;
+                                   light.shadow.layers);
 }
 
 std::vector<std::uint8_t> ReferenceTracer::ambiguous(const PrimaryHits& hits, const LightItem& light) const {

@@ -14,6 +14,14 @@ namespace gnomon::oracle {
 
 inline constexpr std::uint32_t kNoTriangle = std::numeric_limits<std::uint32_t>::max();
 
+/// A triangle of a scene, by what it is of.
+struct PlacedTriangle {
+    std::uint32_t instance = kNoTriangle;  // index into the snapshot's; kNoTriangle: there is none
+    std::uint32_t triangle = kNoTriangle;  // of its mesh: its corners are indices[3 * triangle] and the next two
+    bool exists() const { return instance != kNoTriangle; }
+    bool operator==(const PlacedTriangle&) const = default;
+};
+
 /// The surface seen at each pixel centre, rows bottom to top.
 struct PrimaryHits {
     glm::uvec2 size_px{0, 0};
@@ -72,16 +80,20 @@ public:
     /// rays to it that pass, of those that leave the surface. Casters and receivers as in trace_light.
     SoftTruth trace_source(const PrimaryHits& hits, const LightItem& light, const SourceSampling& sampling) const;
 
-    /// Whether a caster lies between the light and a point on the plane of `triangle`, inside of it or beyond its
-    /// borders, at least `least_m` from the point. Range and cone aside.
-    bool blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light, double least_m) const;
+    /// A caster's triangle between the light and a point on the plane of `triangle`, inside of it or beyond its
+    /// borders, at least `least_m` from the point, or kNoTriangle. Range and cone aside.
+    std::uint32_t blocker(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light,
+                          double least_m) const;
+    bool blocked(const glm::dvec3& point_rel_m, std::uint32_t triangle, const LightItem& light, double least_m) const {
+        return blocker(point_rel_m, triangle, light, least_m) != kNoTriangle;
+    }
 
     /// Whether what is seen at that place of the picture lies on the plane of `triangle`.
     bool sees_plane(const ConsumerItem& consumer, const glm::dvec2& at_px, std::uint32_t triangle) const;
 
     std::size_t triangle_count() const;
-    /// Index into the snapshot's instances of a triangle number.
-    std::uint32_t instance_of(std::uint32_t triangle) const;
+    /// What a triangle number means to others; of kNoTriangle: nothing.
+    PlacedTriangle source_of(std::uint32_t triangle) const;
 
 private:
     struct World;

@@ -69,17 +69,21 @@ int cascade_at(float distance_m) {
 
 #ifdef SHADOW_FADES
 // 0 up to the last part of a cascade's slice, then rising to 1 where that ends.
-float share_at(int i, float distance_m) {
-    float start_m = light.views[i].numeric.z, end_m = light.views[i].anchor_from_camera.w;
+float share_between(float start_m, float end_m, float distance_m) {
     return end_m > start_m ? clamp((distance_m - start_m) / (end_m - start_m), 0.0, 1.0) : 1.0;
 }
 
-// The same toward the border of its map.
+// The same toward the border of its map, which is `nearest` away, in parts of the map.
+float share_near_border(float nearest, float blend) { return clamp(1.0 - nearest / blend, 0.0, 1.0); }
+
+float share_at(int i, float distance_m) {
+    return share_between(light.views[i].numeric.z, light.views[i].anchor_from_camera.w, distance_m);
+}
+
 float share_toward_border(ShadowPoint point) {
     vec3 inside = min(point.map, 1.0 - point.map);
     vec2 reads = point.reads_texel * point.texel_uv;
-    float nearest = min(min(inside.x - reads.x, inside.y - reads.y), inside.z);
-    return clamp(1.0 - nearest / light.bias.y, 0.0, 1.0);
+    return share_near_border(min(min(inside.x - reads.x, inside.y - reads.y), inside.z), light.bias.y);
 }
 #endif
 

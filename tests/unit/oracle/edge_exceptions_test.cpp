@@ -41,12 +41,13 @@ struct Floor : AnalyticScene {
         places = metrics.edge.places;
         const glm::dmat3& axes = light.rotation_ws;
         const auto texel_at = [&](const glm::dvec3&, const glm::dvec3&) {
-            return TexelThere{axes[0] * texel_m, axes[1] * texel_m, 0.5, 0.5, error_px};
+            return TexelThere{axes[0] * texel_m, axes[1] * texel_m, 0.5, reach_texel, error_px, depth_m};
         };
         return edge_exceptions(tracer, hits, camera, light, truth, metrics.edge, texel_at);
     }
 
     LightItem light;
+    double reach_texel = 0.5, depth_m = 0.0;  // of what judges
     std::size_t places = 0;
 };
 
@@ -94,6 +95,30 @@ TEST(EdgeExceptions, ACasterNearerThanTheSlopeOfItsReceiverOverATexelIsBelowATex
         const EdgeExceptions e = floor.judge(4, 0.2, 2.0);
         EXPECT_EQ(e.unexplained == 0, above_m < 0.1);
         EXPECT_GT(e.beyond(), 100u);
+    }
+}
+
+TEST(EdgeExceptions, ACasterNearerThanTheDepthsThatAMapTellsApartIsBelowATexel) {
+    for (const double told_apart_m : {0.9, 1.1}) {
+        Floor floor(kOverhead);
+        floor.plate(-2.0, 2.0, 1.0);
+        floor.depth_m = told_apart_m;
+        const EdgeExceptions e = floor.judge(3, 0.1, 1.5);
+        EXPECT_EQ(e.unexplained == 0, told_apart_m > 1.0);
+        EXPECT_GT(e.beyond(), 100u);
+    }
+}
+
+TEST(EdgeExceptions, ASlitThatAWideFilterSeesBetweenTwoOfItsWidthsIsFound) {
+    for (const double slit_m : {0.0, 0.04}) {
+        Floor floor(kOverhead);
+        floor.reach_texel = 4.0;
+        floor.plate(-2.0, 1.48, 3.0);
+        floor.plate(1.48 + slit_m, 2.0, 3.0);
+        // Right of the slit no footprint of 0.8 m lies within the plate, left of it all are farther off than the bound.
+        const EdgeExceptions e = floor.judge(6, 0.1, 5.5);
+        EXPECT_GT(e.unexplained, 50u) << "the left edge";
+        EXPECT_EQ(e.sub_texel_caster > 50, slit_m > 0.0) << "the right edge";
     }
 }
 

@@ -185,7 +185,7 @@ TEST(ReferenceTracer, PrimaryRaysLookThroughMaskedTexelsAndBlendedSurfaces) {
     scene.place(scene.add_square(1), {0.0, 1.0, 0.0}, glm::dmat3({4, 0, 0}, {0, 0, -4}, {0, 4, 0}));
     const auto seen_instance = [&] {
         const ReferenceTracer tracer = scene.tracer();
-        return tracer.instance_of(tracer.trace_primary(scene.view_from_above(1, 1.0)).triangle[0]);
+        return tracer.source_of(tracer.trace_primary(scene.view_from_above(1, 1.0)).triangle[0]).instance;
     };
     EXPECT_EQ(seen_instance(), 0u);
     scene.library.materials[1].base_colour.a = 0.6f;

@@ -132,6 +132,27 @@ INSTANTIATE_TEST_SUITE_P(EachKind, PredictedError,
                          ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                          [](const auto& param) { return std::string(light_kind_row(param.param).name); });
 
+TEST(ToldApart, IsTheWayThatTwoStepsOfTheFormatTake) {
+    ShadowView flat;
+    flat.near_m = 3.0;
+    flat.far_m = 23.0;
+    EXPECT_EQ(told_apart_m(flat, DepthFormat::d32f, {}), 0.0);
+    EXPECT_DOUBLE_EQ(told_apart_m(flat, DepthFormat::d16, {}), 2.0 * 20.0 / 65535.0);
+
+    ShadowView lamp;
+    lamp.projection = ViewProjection::perspective;
+    lamp.anchor_ws_m = {1.0, 2.0, 3.0};
+    lamp.depth_beta = 0.01;
+    for (const double z_m : {0.5, 5.0, 500.0}) {
+        const glm::dvec3 p = lamp.anchor_ws_m + glm::dvec3(0.4 * z_m, -0.3 * z_m, -z_m);
+        const double way = glm::length(p - lamp.anchor_ws_m);
+        const double caster_z_m = z_m * (1.0 - told_apart_m(lamp, DepthFormat::d16, p) / way);
+        EXPECT_GT(caster_z_m, 0.0) << "it is before the light";
+        EXPECT_NEAR(lamp.depth_beta / caster_z_m - lamp.depth_beta / z_m, 2.0 / 65535.0, 1e-15) << z_m;
+        EXPECT_EQ(told_apart_m(lamp, DepthFormat::d32f, p), 0.0);
+    }
+}
+
 TEST(EdgeError, IsTheTexelsShareAndThePixels) {
     EXPECT_DOUBLE_EQ(edge_error_px(0.0, 0.5), 1.0);
     EXPECT_DOUBLE_EQ(edge_error_px(3.0, 0.5), 4.0);

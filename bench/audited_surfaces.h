@@ -1,0 +1,47 @@
+#pragma once
+#include <array>
+#include <map>
+#include <vector>
+
+#include "systems/visibility/caster_trees.h"
+#include "tests/oracle/reference_tracer.h"
+
+/// Where the triangles of an audit lie.
+namespace gnomon::bench {
+
+/// As the tracer has them: in double, bent meshes too. Both must outlive this.
+class TrueSurfaces {
+public:
+    TrueSurfaces(const SceneSnapshot& scene, const assets::MeshLibrary& library) : scene_(scene), library_(library) {}
+
+    /// Whether each corner of `a` lies nearer to the plane of `b` than oracle::kJitter of its distance from the camera.
+    /// False where one of them is no triangle.
+    bool in_one_plane(const oracle::PlacedTriangle& a, const oracle::PlacedTriangle& b);
+
+private:
+    std::array<glm::dvec3, 3> corners_ws_m(const oracle::PlacedTriangle& triangle);
+
+    const SceneSnapshot& scene_;
+    const assets::MeshLibrary& library_;
+    std::map<std::uint32_t, std::vector<glm::dvec3>> positions_;  // by mesh
+};
+
+/// As visibility queries have them: the corners of a mesh that bends are rounded to float, once. A place on the
+/// tracer's surface may lie below that by as much, and would be in its shadow.
+class AskedSurfaces {
+public:
+    /// `trees` must be up to date with the scene. Both must outlive this.
+    AskedSurfaces(const SceneSnapshot& scene, const visibility::CasterTrees& trees) : scene_(scene), trees_(trees) {}
+
+    /// The place on the plane that queries have for that triangle: of meshes at rest the same.
+    glm::dvec3 on_surface(const oracle::PlacedTriangle& triangle, const glm::dvec3& point_ws_m);
+
+private:
+    const std::vector<std::uint32_t>& slots_of(std::uint32_t mesh);
+
+    const SceneSnapshot& scene_;
+    const visibility::CasterTrees& trees_;
+    std::map<std::uint32_t, std::vector<std::uint32_t>> slots_;  // by mesh that bends: of each triangle in its tree
+};
+
+}  // namespace gnomon::bench

@@ -1,0 +1,17 @@
+#pragma once
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gl/device.h"
+#include "systems/frame.h"
+#include "tests/oracle/reference_tracer.h"
+
+namespace gnomon::bench {
+
+/// Which triangle the last picture of `frame` shows at each pixel, rows bottom to top: its own surface pass over again,
+/// command by command, with a shader that writes numbers. `library` must be the frame's, its device `device`.
+/// Errors: "bench.surfaces" if there is no picture, the device cannot, or a pixel's depth is not that of the picture.
+Result<std::vector<oracle::PlacedTriangle>> drawn_triangles(gl::Device& device, const Frame& frame,
+                                                            const assets::MeshLibrary& library);
+
+}  // namespace gnomon::bench
