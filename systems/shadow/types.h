@@ -173,10 +173,10 @@ struct ShadowSlot {
     bool convert = false;  // the moments have to be made anew
     bool changed = false;  // the layer shows other than what it should: it is drawn, or has to wait (Grant)
     std::uint64_t shown_content = 0;  // signature of what the layer holds
-    Staleness if_held;                // what keeping that would mean; infinite: it cannot be told, or must not be
+    Staleness if_held{};              // what keeping that would mean; infinite: it cannot be told, or must not be
     std::uint32_t waited_frames = 0;  // for how many it was kept by turns
     Hold hold = Hold::none;           // it is kept,
-    Staleness stale;                  // and means this; else nothing
+    Staleness stale{};                // and means this; else nothing
 };
 
 /// Keeps what the layer holds, for this frame.

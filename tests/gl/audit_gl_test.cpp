@@ -5,6 +5,7 @@
 #include "bench/audit_command.h"
 #include "tests/gl/hard_case_fixture.h"
 #include "tests/gl/truth_scenes.h"
+#include "tests/source_paths.h"
 
 // The judge judged: what tells truth from error is asked in two ways, and what it sees is what is drawn.
 namespace gnomon {
@@ -74,7 +75,7 @@ TEST_F(AuditOfTruth, BothWaysSayTheSameOfTheBuiltInScenesAndSeeWhatIsDrawn) {
 }
 
 TEST_F(AuditOfTruth, BothWaysSayTheSameOfSponzaAndSeeWhatIsDrawn) {
-    const auto file = std::filesystem::path(GNOMON_DATA_DIR) / "sponza-crytek/Sponza.gltf";
+    const auto file = test::data_folder() / "sponza-crytek/Sponza.gltf";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
     // In a smaller picture more pixels lie within the rasteriser's snapping of an edge between its triangles.
     const std::vector<bench::Audit> all = audits({1280, 720}, {file});

@@ -9,6 +9,7 @@
 #include "components/shadow_caster.h"
 #include "tests/gl/recorded_errors.h"
 #include "tests/gl/truth_scenes.h"
+#include "tests/source_paths.h"
 
 // The regression gate: a small fixed sweep, whose wrong pixels are counted and may not become more than were recorded.
 // Only one software device counts the same everywhere, to the pixel. Times are never gated.
@@ -31,7 +32,7 @@ constexpr std::string_view kRows[] = {bench::kDefaultsRow, "fit=tight", "fit=sta
                                       "evsm4_3",           "moments_3", "resolution=1024"};
 
 std::filesystem::path record_file() {
-    return std::filesystem::path(GNOMON_SOURCE_DIR) / "tests/gl/recorded_errors.txt";
+    return test::source_folder() / "tests/gl/recorded_errors.txt";
 }
 
 std::vector<bench::SweepRow> gated_rows() {

@@ -104,7 +104,9 @@ TEST_P(ExactWorlds, MaskedCastersCutTheirShadowsOut) {
         SCOPED_TRACE(linear ? "linear" : "nearest");
         start_anew();
         add_material({.name = "matt", .metallic = 0.0f, .double_sided = true});
-        assets::Texture leaves{.name = "leaves", .width = kTexels, .height = kTexels};
+        assets::Texture leaves;
+        leaves.name = "leaves";
+        leaves.width = leaves.height = kTexels;
         for (std::uint32_t i = 0; i < kTexels * kTexels; ++i)
             leaves.rgba.insert(leaves.rgba.end(), {90, 160, 60, static_cast<std::uint8_t>(random() % 256)});
         leaves.wrap_u = linear ? assets::TextureWrap::repeat : assets::TextureWrap::clamp;

@@ -107,7 +107,7 @@ protected:
         depths.prepare(scene, gpu, frame);
         sheets.prepare(scene, gpu, frame);
         EXPECT_EQ(frame.sets[0].skip, Reason::none);
-        shadow::publish_lights(scene, {}, frame);
+        shadow::publish_lights(scene, {}, {}, frame);
         depths.record(scene, gpu, frame, list, report);
         sheets.record(scene, gpu, frame, list);
         run(list);

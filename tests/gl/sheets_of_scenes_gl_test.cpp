@@ -10,6 +10,7 @@
 #include "systems/transform/transform_system.h"
 #include "tests/gl/sheets_fixture.h"
 #include "tests/oracle/reference_tracer.h"
+#include "tests/source_paths.h"
 
 /// What sheets leave for rays in pictures of the built-in scene and of Sponza, and that they are right about the rest:
 /// one map over all of the scene, without cascades.
@@ -29,7 +30,7 @@ struct LoadedScene {
 
 std::unique_ptr<LoadedScene> load(const std::optional<std::filesystem::path>& name) {
     std::optional<std::filesystem::path> file;
-    if (name) file = std::filesystem::path(GNOMON_DATA_DIR) / *name;
+    if (name) file = test::data_folder() / *name;
     if (file && !std::filesystem::exists(*file)) return nullptr;
     auto scene = game::load_scene(file);
     EXPECT_TRUE(scene);
