@@ -51,7 +51,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
     // Sizes: two 64-byte instances; one 8-byte draw item, then two; a depth view padded to the alignment;
     // camera, ambient and exposure each padded, then one light record.
     constexpr std::uint32_t kInstances = 2 * 64, kDepthItems = 8, kView = kAlign, kItems = 2 * 8;
-    constexpr std::uint32_t kLight = 12 * 16 + 8 * 144, kUniforms = 3 * kAlign + kLight;
+    constexpr std::uint32_t kLight = 13 * 16 + 8 * 144, kUniforms = 3 * kAlign + kLight;
     constexpr std::uint32_t kBoxFirst = 6, kBoxCount = 36, kPlaneCount = 6;
     const PipelineState depth_state{program("depth opaque"), CullMode::none, false, DepthTest::greater, true, true, Blend::off};
     const PipelineState surface{program("surface"), CullMode::back, false, DepthTest::greater, true, false, Blend::off};
