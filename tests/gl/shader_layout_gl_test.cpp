@@ -5,10 +5,12 @@
 #include <map>
 #include <optional>
 
+#include "engine/rays/mesh_bvh.h"
 #include "systems/debug/depth_tiles.h"
 #include "systems/debug/shown_scale.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/lighting/lighting_system.h"
+#include "systems/visibility/ray_records.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/program_sources.h"
 
@@ -87,9 +89,13 @@ Block depth_tiles_block() {
 std::vector<Block> expected_blocks() {
     using lighting::AmbientRecord;
     using lighting::ExposureRecord;
+    using rays::BvhNode;
+    using rays::BvhTriangle;
     using shadow::CameraRecord;
     using shadow::DepthViewRecord;
     using shadow::MomentRecord;
+    using visibility::RayInstance;
+    using visibility::RayTop;
     return {
         light_block(),
         depth_tiles_block(),
@@ -165,6 +171,49 @@ std::vector<Block> expected_blocks() {
           {"caster_triangles[0].c", offsetof(CasterTriangle, corners[2].position_ms)},
           {"caster_triangles[0].across_ca", offsetof(CasterTriangle, corners[2].across)}}},
         {GL_SHADER_STORAGE_BLOCK,
+         "RayNodeBuffer",
+         3,
+         sizeof(BvhNode),
+         {{"ray_nodes[0].low", offsetof(BvhNode, min)},
+          {"ray_nodes[0].skip", offsetof(BvhNode, skip)},
+          {"ray_nodes[0].high", offsetof(BvhNode, max)},
+          {"ray_nodes[0].leaf", offsetof(BvhNode, leaf)}}},
+        {GL_SHADER_STORAGE_BLOCK,
+         "RayTriangleBuffer",
+         4,
+         sizeof(BvhTriangle),
+         {{"ray_triangles[0].a", offsetof(BvhTriangle, a)},
+          {"ray_triangles[0].triangle", offsetof(BvhTriangle, triangle)},
+          {"ray_triangles[0].b", offsetof(BvhTriangle, b)},
+          {"ray_triangles[0].mask", offsetof(BvhTriangle, mask)},
+          {"ray_triangles[0].c", offsetof(BvhTriangle, c)},
+          {"ray_triangles[0].uvs", offsetof(BvhTriangle, spare)}}},
+        {GL_SHADER_STORAGE_BLOCK,
+         "RayTopBuffer",
+         5,
+         sizeof(BvhNode),
+         {{"RayTopBuffer.anchor_high", offsetof(RayTop, anchor_high)},
+          {"RayTopBuffer.nodes", offsetof(RayTop, nodes)},
+          {"RayTopBuffer.anchor_low", offsetof(RayTop, anchor_low)},
+          {"RayTopBuffer.reach_m", offsetof(RayTop, reach_m)},
+          {"RayTopBuffer.node[0].low", sizeof(RayTop) + offsetof(BvhNode, min)},
+          {"RayTopBuffer.node[0].leaf", sizeof(RayTop) + offsetof(BvhNode, leaf)}}},
+        {GL_SHADER_STORAGE_BLOCK,
+         "RayInstanceBuffer",
+         6,
+         sizeof(RayInstance),
+         {{"ray_instances[0].to_model_x", offsetof(RayInstance, to_model_x)},
+          {"ray_instances[0].first_node", offsetof(RayInstance, first_node)},
+          {"ray_instances[0].to_model_y", offsetof(RayInstance, to_model_y)},
+          {"ray_instances[0].nodes", offsetof(RayInstance, nodes)},
+          {"ray_instances[0].to_model_z", offsetof(RayInstance, to_model_z)},
+          {"ray_instances[0].first_slot", offsetof(RayInstance, first_slot)},
+          {"ray_instances[0].slack_per_m", offsetof(RayInstance, slack_per_m)},
+          {"ray_instances[0].reach_m", offsetof(RayInstance, reach_m)},
+          {"ray_instances[0].instance", offsetof(RayInstance, instance)},
+          {"ray_instances[0].layers", offsetof(RayInstance, layers)}}},
+        {GL_SHADER_STORAGE_BLOCK, "RayMaskBuffer", 7, sizeof(std::uint32_t), {{"ray_masks[0]", 0}}},
+        {GL_SHADER_STORAGE_BLOCK,
          "LineBuffer",
          0,
          sizeof(debug::LineVertex),
@@ -235,7 +284,7 @@ void expect_block(const LinkedProgram& program, const Block& block) {
     const GLenum variables = uniform ? GL_UNIFORM : GL_BUFFER_VARIABLE;
     for (const Member& member : block.members) {
         EXPECT_EQ(program.property(variables, member.name, GL_OFFSET), static_cast<GLint>(member.offset)) << member.name;
-        if (uniform) continue;
+        if (uniform || member.name.find('[') == std::string::npos) continue;
         // An array of vectors tells its stride itself, an array of structs through its members.
         const GLenum stride = member.name.back() == ']' ? GL_ARRAY_STRIDE : GL_TOP_LEVEL_ARRAY_STRIDE;
         EXPECT_EQ(program.property(variables, member.name, stride), static_cast<GLint>(block.size)) << member.name;
