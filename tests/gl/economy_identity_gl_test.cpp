@@ -61,7 +61,7 @@ protected:
                     visibilities[p.way].push_back(visibility_of(p.inputs, i));
             });
             differing += difference();
-            if (!mislead && frame % kTruthEvery == 0) compare_unshadowed_with_rays();
+            if (!mislead) compare_unshadowed_with_rays();
             for (const LightReport& light : both->report(Way::kThrifty).lights) thrifty_views += light.views_drawn;
             for (const LightReport& light : both->report(Way::kLavish).lights) lavish_views += light.views_drawn;
         }
@@ -100,7 +100,6 @@ protected:
         }
     }
 
-    static constexpr int kTruthEvery = 5;
     const assets::MeshLibrary library = test_library();
     ChangingWorld world{script_seed(), filters_of_run()};
     std::unique_ptr<BothWays> both;

@@ -3,7 +3,7 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
   add_test(NAME Package.AStrangerBuildsAgainstTheInstalledCopy
     COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
             -DWORK=${CMAKE_CURRENT_BINARY_DIR}/install_consumer -DCOMPILER=${CMAKE_CXX_COMPILER}
-            -DLAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
+            -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/build_and_run.cmake)
   set_tests_properties(Package.AStrangerBuildsAgainstTheInstalledCopy PROPERTIES LABELS e2e TIMEOUT 600)
 endif()

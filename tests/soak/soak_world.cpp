@@ -102,8 +102,14 @@ void SoakWorld::churn() {
 
 void SoakWorld::use_everything(const std::function<void()>& run_frame) {
     world_.move(camera_, {0, 6, 10});
-    casters_.push_back(world_.add_mesh(kMixedBox, {0, 1, 0}, true));
+    casters_.push_back(world_.add_mesh(kSolidBox, {0, 1, 0}, true));
     casters_.push_back(world_.add_mesh(kBlendedBox, {2, 1, 0}, true));
+    use_every_light(run_frame);
+    casters_.push_back(world_.add_mesh(kMixedBox, {-2, 1, 0}, true));
+    use_every_light(run_frame);  // rays that may meet a mask have programs of their own
+}
+
+void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
             add_light(kind.kind, filter.id);

@@ -44,7 +44,8 @@ protected:
         return row;
     }
 
-    std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) / "gnomon_sweep_journal.jsonl";
+    std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) /
+        (std::string("gnomon_sweep_journal_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".jsonl");
 };
 
 TEST_F(SweepJournalTest, WhatWasFoundIsThereAgainToTheLastFigure) {
