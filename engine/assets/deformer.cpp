@@ -78,15 +78,14 @@ void measure(Deformer& deformer, const Mesh& mesh) {
     }
     if (!deformer.has_skin()) return;
     deformer.joint_bounds_ms.clear();
-    for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        if (!shown[v]) continue;
+    for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
         for (std::uint32_t i = deformer.first_influence[v]; i < deformer.first_influence[v + 1]; ++i) {
+            // Vertices that no triangle has are bent as well: their joints count, their places do not.
             const std::uint32_t joint = deformer.influences[i].joint;
             if (joint >= deformer.joint_bounds_ms.size()) deformer.joint_bounds_ms.resize(joint + std::size_t{1});
             math::Aabb& box = deformer.joint_bounds_ms[joint];
-            box = math::extended(box, glm::dvec3(mesh.vertices[v].position_ms));
+            if (shown[v]) box = math::extended(box, glm::dvec3(mesh.vertices[v].position_ms));
         }
-    }
 }
 
 void deform(const Mesh& mesh, const MeshPose& pose, std::vector<Vertex>& out) {

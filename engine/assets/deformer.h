@@ -26,7 +26,7 @@ struct Deformer {
     std::vector<std::uint32_t> first_influence;  // per vertex, and one more; none at all: no vertex follows a joint
     std::vector<Influence> influences;
     std::vector<Target> targets;
-    std::vector<math::Aabb> joint_bounds_ms;  // per joint: the vertices at rest that follow it; empty: nobody does
+    std::vector<math::Aabb> joint_bounds_ms;  // up to the last joint of a vertex: those at rest that triangles have
 
     bool has_skin() const { return !first_influence.empty(); }
 };

@@ -43,6 +43,15 @@ std::vector<BadInput> skin_and_animation_inputs() {
         {"JointBeyondTheSkin", "skin.joint_out_of_range", "/nodes/0/skin", skin([&](GltfBuilder& b) {
              attribute(b, "JOINTS_0") = b.add_accessor<std::uint8_t>({0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
          })},
+        {"JointBeyondTheSkinOfAVertexWithoutTriangle", "skin.joint_out_of_range", "/nodes/0/skin",
+         skin([&](GltfBuilder& b) {
+             attribute(b, "POSITION") = b.add_accessor<float>({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5}, "VEC3");
+             attribute(b, "JOINTS_0") =
+                 b.add_accessor<std::uint8_t>({0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 0, 0, 0}, "VEC4");
+             attribute(b, "WEIGHTS_0") =
+                 b.add_accessor<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+             b.doc["meshes"][0]["primitives"][0]["indices"] = b.add_accessor<std::uint16_t>({0, 1, 2}, "SCALAR");
+         })},
         {"BindMatricesOfVectors", "skin.inverse_bind_type", "/skins/0/inverseBindMatrices",
          skin([](GltfBuilder& b) { b.doc["skins"][0]["inverseBindMatrices"] = 0; })},
         {"FewerBindMatricesThanJoints", "skin.inverse_bind_count", "/skins/0/inverseBindMatrices",
