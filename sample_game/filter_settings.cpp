@@ -230,8 +230,8 @@ std::string list_filters() {
         const LightShadow shadow{.filter = row.id};
         std::string name(row.name);
         name.resize(std::max(kNameWidth, name.size()), ' ');
-        if (!shadow::has_map(row)) {
-            text += "  " + name + "a ray for each pixel, no map\n";
+        if (shadow::asks_rays(row)) {
+            text += "  " + name + "a ray for each pixel of which its map is not certain\n";
             continue;
         }
         text += "  " + name + taps_text(row, shadow) + ", E " +

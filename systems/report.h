@@ -105,7 +105,7 @@ struct LightReport {
     std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };
 
-/// What lights that ask by rays share (FilterStorage::none): trees over the casters, on the device and beside it. All
+/// What lights that ask by rays share (FilterStorage::sheets): trees over the casters, on the device and beside it. All
 /// 0: no light asks.
 struct RayReport {
     std::uint64_t bytes = 0, host_bytes = 0;

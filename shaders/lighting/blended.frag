@@ -30,7 +30,7 @@ float visible_share(vec3 geometric, uint triangle) {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
     double distance_m = exact_distance(pixel, instances[fragment_item.x], corner_ms, triangle_normals[triangle].xyz, interpolated_m);
-    return shadow_visibility_at(place_seen_at(pixel, distance_m), uvec2(fragment_item.x, triangle));
+    return shadow_visibility_at(place_seen_at(pixel, distance_m), geometric, uvec2(fragment_item.x, triangle));
 #else
     return shadow_visibility(fragment_position_ca, geometric, kRebuiltRelative * length(fragment_position_ca));
 #endif

@@ -3,7 +3,8 @@
 // SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one,
 // SHADOW_MOMENTS if it reads a prefiltered map, SHADOW_FOOTPRINT if that has mipmaps or anisotropy (then row.glsl brings
 // CameraBlock), SHADOW_TRIANGLES if it reads which triangles texels show (then CameraBlock and InstanceBuffer), SHADOW_RAYS if it
-// asks the casters' triangles by rays (then those as well, and RAY_MASKS if some casters are masked).
+// asks the casters' triangles by rays (then those as well, RAY_MASKS if some casters are masked, and SHADOW_SHEETS if a map says where
+// rays are needed).
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface
@@ -54,12 +55,12 @@ float filtered(ShadowPoint point, vec3 normal, float error_m) {
 
 #ifdef SHADOW_RAYS
 // Of a place that is exactly on a triangle of an instance.
-float shadow_visibility_at(dvec3 position_ca, uvec2 receiver) { return shadow_traced(position_ca, 0.0, receiver); }
+float shadow_visibility_at(dvec3 position_ca, vec3 normal, uvec2 receiver) { return shadow_traced(position_ca, normal, 0.0, receiver); }
 #endif
 
 float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
 #ifdef SHADOW_RAYS
-    return shadow_traced(dvec3(position_ca), error_m, kNoReceiver);
+    return shadow_traced(dvec3(position_ca), normal, error_m, kNoReceiver);
 #elif defined(SHADOWED)
     float reach_texel = shadow_bias_texel();
     float visible = 1.0, share = 1.0;

@@ -82,6 +82,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
         if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
         if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
         if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
+        if (row.sheets) defines.emplace_back("SHADOW_SHEETS 1");
         if (row.rays) defines.emplace_back("SHADOW_RAYS 1");
         if (row.ray_masks) defines.emplace_back("RAY_MASKS 1");
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");

@@ -328,13 +328,16 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
 bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list) {
     const shadow::LightingLight& item = lookups.inputs.lights[lookups.light];
     if (!item.map) return true;  // there is nothing to look up
-    const gl::ProgramHandle program = programs_.lookups(item.row, lookups.fragment);
+    // Of a light that asks by rays: how its map by itself would be.
+    const bool rays = item.row.rays;
+    const gl::ProgramHandle program = programs_.lookups(rays ? item.plain.row : item.row, lookups.fragment);
     if (!program) return false;
     list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});
     list.add(gl::SetScissor{lookups.area});
     list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::alpha}});
     bind_surface_textures(list);
-    bind_light({program, item.map, item.triangles, item.sampler}, lookups.light, gpu, list);
+    bind_light({program, item.map, item.triangles, {}, {}, rays ? item.plain.sampler : item.sampler}, lookups.light, gpu,
+               list);
     list.add(gl::BindUniforms{5, lookups.block, 0, lookups.block_size});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});

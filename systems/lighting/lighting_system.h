@@ -106,7 +106,7 @@ private:
     /// What evaluates a light, and what it reads.
     struct LightProgram {
         gl::ProgramHandle program{};
-        gl::TextureHandle map{}, triangles{};
+        gl::TextureHandle map{}, triangles{}, second{}, bounds{};
         gl::SamplerHandle sampler{};
         visibility::RayBuffers rays{};
         Reason lacks = Reason::none;  // why it is not the light's own row

@@ -17,6 +17,8 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
     list.add(
         gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
     if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
+    if (light.second) list.add(gl::BindTexture{7, light.second, {}});
+    if (light.bounds) list.add(gl::BindTexture{8, light.bounds, {}});
     if (light.rays.nodes) bind_rays(light.rays, gpu, list);
     if (!light.triangles) return;
     list.add(gl::BindTexture{5, light.triangles, {}});
@@ -34,15 +36,15 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
     if (!has_surfaces) lacks = Reason::buffer_failed;
     if (has_surfaces && (!may_wait || !programs_.must_wait(light.row, output))) {
         const gl::ProgramHandle own = programs_.row(light.row, output);
-        if (own) return {own, light.map, light.triangles, light.sampler, light.rays};
+        if (own) return {own, light.map, light.triangles, light.second, light.bounds, light.sampler, light.rays};
         lacks = Reason::filter_program_failed;
     }
     const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
-    if (one_tap) return {one_tap, plain.map, {}, plain.sampler, {}, lacks};
+    if (one_tap) return {one_tap, plain.map, {}, {}, {}, plain.sampler, {}, lacks};
     shadow::ProgramRow unshadowed = light.row;
     unshadowed.filter_file = {};
     if (has_surfaces) lacks = Reason::lighting_program_failed;
-    return {programs_.row(unshadowed, output), {}, {}, {}, {}, lacks, true};
+    return {programs_.row(unshadowed, output), {}, {}, {}, {}, {}, {}, lacks, true};
 }
 
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,

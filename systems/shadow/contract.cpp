@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "systems/shadow/filter_demand.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/predicted_error.h"
 
 namespace gnomon::shadow {
@@ -24,7 +25,8 @@ double wished_error_px(const LightShadow& shadow) {
 
 bool follows_contract(const LightItem& light, const ShadowDemand& demand) {
     const bool stable = light.kind == LightKind::directional && light.shadow.fit == ShadowFit::stable;
-    return light.shadow.resolution_px == 0 && !stable && !needs_distances(demand.filtering);
+    return light.shadow.resolution_px == 0 && !stable && !needs_distances(demand.filtering) &&
+           !asks_rays(filter_row(demand.filter));  // which err by nothing
 }
 
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,

@@ -32,7 +32,9 @@ void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand
     if (depths_failed && shadow.splits == CascadeSplits::sampled) demand.note = Reason::depths_unread;
     if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
     if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
-    set_cascades(shadow, cascade_count(shadow, demand.view_count), demand);
+    // A finer map only saves rays: of itself a light asks for one.
+    const bool one = shadow.cascades == 0 && asks_rays(filter_row(demand.filter));
+    set_cascades(shadow, one ? 1 : cascade_count(shadow, demand.view_count), demand);
 }
 
 /// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
@@ -102,9 +104,20 @@ void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& de
 
 /// Nothing that is said of maps is of any account.
 void leave_out_map(ShadowDemand& demand) {
+    demand.traced = true;
     demand.view_count = demand.most_views = 0;
     demand.perspective_sun = false;
     demand.note = Reason::none;
+}
+
+/// Rays follow the sun, and what its maps are certain of has to as well: no eye, no warp. What they store is compared
+/// to the last digit, and drawn from all sides; whatever else is said of them is of no account.
+void decide_sheets(ShadowDemand& demand) {
+    demand.asks_rays = true;
+    if (demand.perspective_sun) return leave_out_map(demand);
+    demand.depth_format = DepthFormat::d32f;
+    demand.warp = demand.cascade_blend = 0.0f;
+    if (demand.note == Reason::warp_unsupported) demand.note = Reason::none;
 }
 
 }  // namespace
@@ -162,7 +175,7 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
             if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
                 set_cascades(light.shadow, held_light->cascades, demand);
         }
-        if (!has_map(filter_row(demand.filter))) leave_out_map(demand);
+        if (asks_rays(filter_row(demand.filter))) decide_sheets(demand);
         demands.push_back(demand);
     }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "systems/shadow/contract.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/predicted_error.h"
 
 namespace gnomon::shadow {
@@ -120,6 +119,7 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
             out.bytes = MapStore::bytes(*history);
         }
         while (end < frame.views.size() && frame.views[end].demand == i) ++end;
+        const bool exact = demand.asks_rays && report.rays.bytes > 0;
         bool held = false;
         for (std::size_t v = first; v < end; ++v) {
             if (!frame.slots[v].texture || frame.views[v].lit) continue;
@@ -129,9 +129,9 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
             out.predicted_error_px =
                 std::max(out.predicted_error_px, shown_error_px(frame.views[v], demand, frame.slots[v]));
         }
-        const bool traced = !has_map(filter_row(demand.filter));
-        explain_state(sets, demand, history, traced ? trees_changed : out.views_drawn > 0, held, out);
-        out.keeps_max_error = (traced && sets.skip == Reason::none && demand.skip == Reason::none) ||
+        if (exact) out.predicted_error_px = 0.0;
+        explain_state(sets, demand, history, out.views_drawn > 0 || (exact && trees_changed), held, out);
+        out.keeps_max_error = (exact && sets.skip == Reason::none && demand.skip == Reason::none) ||
                               (out.views > 0 && history->failure == Reason::none && demand.refresh_frames == 1 &&
                                keeps_contract(out.predicted_error_px, wished_error_px(light.shadow)));
         out.why.receivers = sets.receivers.count;

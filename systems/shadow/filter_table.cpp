@@ -107,8 +107,8 @@ constexpr FilterRow kRows[] = {
     {ShadowFilter::pcss, "pcss", "shadow/filters/pcss.glsl", of_search, 3.0f, FilterWidth::source, MapReading::depths,
      FilterStorage::depth, 2.5f, 0.75f},
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/pcss_moments.glsl", kFourMoments),
-    {ShadowFilter::exact, "exact", "shadow/filters/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
-     MapReading::compare_nearest, FilterStorage::none},
+    {ShadowFilter::exact, "exact", "shadow/filters/exact.glsl", of_ray, 0.5f, FilterWidth::fixed, MapReading::depths,
+     FilterStorage::sheets},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

@@ -17,9 +17,10 @@ enum class FilterWidth : std::uint8_t {
 };
 
 /// What a map holds for a filter: depth, or also which triangle each texel shows
-/// (shaders/shadow/caster_triangles.glsl), or also moments of distances, blurred (shaders/shadow/moments). Or there is
-/// no map: rays ask the casters themselves (shaders/rays).
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, none };
+/// (shaders/shadow/caster_triangles.glsl), or also moments of distances, blurred (shaders/shadow/moments), or also what
+/// tells of which pixels it is certain (shaders/shadow/exact); rays ask the casters themselves (shaders/rays) about the
+/// others, or about all where the light has no such map.
+enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, sheets };
 
 /// What its sampler returns: results of comparing, as they are or blended by hardware, what is stored, or blurred
 /// moments of it.
@@ -60,7 +61,7 @@ struct FilterRow {
     const MomentRow* moments = nullptr;  // of FilterStorage::moments
 };
 
-inline bool has_map(const FilterRow& row) { return row.storage != FilterStorage::none; }
+inline bool asks_rays(const FilterRow& row) { return row.storage == FilterStorage::sheets; }
 
 /// In the order of ShadowFilter.
 std::span<const FilterRow> filter_table();

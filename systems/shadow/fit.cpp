@@ -241,7 +241,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
         HeldLight& next = frame.next_history.lights.emplace_back(last ? *last : none);
         next.light = light.entity;
         if (sets.skip != Reason::none) continue;
-        if (!has_map(filter_row(demand.filter))) {
+        if (!has_map(demand)) {
             if (sets.casters.count == 0) sets.skip = Reason::no_caster;
             continue;
         }

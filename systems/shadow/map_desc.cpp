@@ -4,7 +4,6 @@
 #include <bit>
 
 #include "systems/shadow/depth_format.h"
-#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/moment_recorder.h"
 
@@ -41,21 +40,36 @@ MomentDescs moments_of(const gl::TextureDesc& map, const ShadowDemand& demand) {
     return moments;
 }
 
-std::uint64_t map_bytes(const gl::TextureDesc& map, bool triangles, const gl::TextureDesc& moments,
+SheetDescs sheets_of(const gl::TextureDesc& map) {
+    const auto beside = [&](gl::Format format, std::uint32_t layers) {
+        gl::TextureDesc desc = without_label(map);
+        desc.kind = gl::TextureKind::array;
+        desc.format = format;
+        desc.layers = layers;
+        return desc;
+    };
+    const std::uint32_t views = gl::layer_count(map);
+    return {beside(kTriangleFormat, 1), beside(map.format, views), beside(gl::Format::rg32f, views)};
+}
+
+std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch) {
     std::uint64_t bytes = gl::byte_size(map);
-    if (triangles) bytes += gl::byte_size(triangles_of(map));
+    if (storage == FilterStorage::depth_and_triangle) bytes += gl::byte_size(triangles_of(map));
+    if (storage == FilterStorage::sheets) {
+        const SheetDescs sheets = sheets_of(map);
+        bytes += gl::byte_size(sheets.triangles) + gl::byte_size(sheets.second) + gl::byte_size(sheets.bounds);
+    }
     if (moments.width > 0) bytes += gl::byte_size(moments);
     if (scratch.width > 0) bytes += gl::byte_size(scratch);
     return bytes;
 }
 
 std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand) {
-    if (!has_map(filter_row(demand.filter))) return 0;
+    if (!has_map(demand)) return 0;
     const gl::TextureDesc map = map_desc(light, demand);
     const MomentDescs moments = moments_of(map, demand);
-    return map_bytes(map, filter_row(demand.filter).storage == FilterStorage::depth_and_triangle, moments.texture,
-                     moments.scratch);
+    return map_bytes(map, filter_row(demand.filter).storage, moments.texture, moments.scratch);
 }
 
 }  // namespace gnomon::shadow

@@ -3,6 +3,7 @@
 
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/types.h"
 
 /// Which textures a light's demand asks for. None has a label: those are for what is made, and a longer one takes
@@ -26,9 +27,18 @@ struct MomentDescs {
 };
 MomentDescs moments_of(const gl::TextureDesc& map, const ShadowDemand& demand);
 
-/// Of all of them; of `moments` and `scratch` those with a width.
-std::uint64_t map_bytes(const gl::TextureDesc& map, bool triangles, const gl::TextureDesc& moments,
+/// What else a map of FilterStorage::sheets has (docs/exact.md): what each texel shows, until the next triangles behind
+/// are drawn, view by view in one layer; and, per view, those triangles' depths, and where sheets end and how far they
+/// depart.
+struct SheetDescs {
+    gl::TextureDesc triangles, second, bounds;
+};
+SheetDescs sheets_of(const gl::TextureDesc& map);
+
+/// Of all that a map for this storage has; of `moments` and `scratch` those with a width.
+std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch);
+/// 0: it has no map.
 std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand);
 
 }  // namespace gnomon::shadow

@@ -74,9 +74,10 @@ Staleness MapStore::staleness_of(const SceneSnapshot& scene, const ShadowFrame& 
                                  const LightHistory& history) const {
     const ShadowView& view = frame.views[v];
     const ShadowSlot& slot = frame.slots[v];
+    const bool certain = static_cast<bool>(slot.second);  // what sheets say would no longer be
     const bool economy = scene.lights[frame.demands[view.demand].light].shadow.economy;
     const bool shows_it = slot.shown_content != 0 && history.placements[view.layer] == slot.placement;
-    if (!economy || !shows_it || view.layer >= history.shown.size()) return kUnknownStaleness;
+    if (certain || !economy || !shows_it || view.layer >= history.shown.size()) return kUnknownStaleness;
     return staleness(scene, view, history.shown[view.layer], slot.still_content, casters_of(frame, view));
 }
 

@@ -48,9 +48,16 @@ void MapStore::assign_views(const SceneSnapshot& scene, ShadowFrame& frame) {
         const LightTime time(frame, frame.demands[view.demand].light);
         const LightItem& light = scene.lights[frame.demands[view.demand].light];
         LightHistory& history = entry(light.entity);
+        if (!history.texture) continue;  // rays do without
         ShadowSlot& slot = frame.slots[v];
         slot.texture = history.texture;
         slot.triangles = history.triangles;
+        if (history.storage == FilterStorage::sheets) {
+            slot.second = history.sheets.second;
+            slot.second_target = history.sheets.second_targets[view.layer];
+            slot.bounds = history.sheets.bounds;
+            slot.bounds_target = history.sheets.bounds_targets[view.layer];
+        }
         slot.target = history.targets[view.layer];
         slot.size_px = history.desc.width;
         const ContentSignature signature =
@@ -106,6 +113,8 @@ void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
             faces += drawn(end) ? 1 : 0;
             apart = apart || frame.slots[end].still_use != StillUse::none;
         }
+        // A map of sheets is peeled face by face.
+        apart = apart || static_cast<bool>(frame.slots[first].second);
         if (frame.views[first].projection != ViewProjection::cube_face || faces == 0 || apart) continue;
         const LightItem& light = scene.lights[frame.demands[frame.views[first].demand].light];
         const CubeRoute route = cube_route(light.shadow.cube_route, device_.info(), faces);

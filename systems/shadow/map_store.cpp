@@ -13,15 +13,16 @@ bool is_same_store(const MomentMap& a, const MomentDescs& b) {
     return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
 }
 
-bool wants_triangles(const ShadowDemand& demand) {
-    return filter_row(demand.filter).storage == FilterStorage::depth_and_triangle;
+bool has_triangles(FilterStorage storage) {
+    return storage == FilterStorage::depth_and_triangle || storage == FilterStorage::sheets;
 }
 
 }  // namespace
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
-    if (map.triangles) target.colours.push_back({map.triangles, layer});
+    const bool shared = map.storage == FilterStorage::sheets;
+    if (map.triangles) target.colours.push_back({map.triangles, shared ? 0 : layer});
     return target;
 }
 
@@ -38,9 +39,8 @@ const LightHistory* MapStore::find(ecs::Entity light) const {
 
 std::uint64_t MapStore::bytes(const LightHistory& history) {
     if (!history.texture) return 0;
-    const bool triangles = static_cast<bool>(history.triangles);
     const std::uint64_t still = history.still.texture ? still_bytes(history) : 0;
-    return map_bytes(history.desc, triangles, history.moments.desc, history.moments.scratch_desc) + still;
+    return map_bytes(history.desc, history.storage, history.moments.desc, history.moments.scratch_desc) + still;
 }
 
 std::uint64_t MapStore::bytes() const {
@@ -69,6 +69,7 @@ void MapStore::release(LightHistory& history) {
     device_.destroy(history.whole);
     device_.destroy(history.texture);
     device_.destroy(history.triangles);
+    release_sheets(history.sheets);
     for (const gl::TargetHandle target : history.moments.targets) device_.destroy(target);
     device_.destroy(history.moments.scratch_target);
     device_.destroy(history.moments.texture);
@@ -118,18 +119,46 @@ Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) con
     return moments.scratch_target ? Reason::none : Reason::target_incomplete;
 }
 
+Reason MapStore::make_sheets(LightHistory& map) const {
+    SheetDescs descs = sheets_of(map.desc);
+    descs.second.label = map.desc.label + ", second";
+    descs.bounds.label = map.desc.label + ", bounds";
+    SheetMap& sheets = map.sheets;
+    sheets.second = device_.create_texture(descs.second, {}).handle;
+    if (sheets.second) sheets.bounds = device_.create_texture(descs.bounds, {}).handle;
+    if (!sheets.bounds) return Reason::map_allocation_failed;
+    for (std::int32_t layer = 0; layer < static_cast<std::int32_t>(gl::layer_count(map.desc)); ++layer) {
+        const auto second = device_.create_target({descs.second.label, {}, {sheets.second, layer}});
+        if (second) sheets.second_targets.push_back(second.handle);
+        const auto bounds = device_.create_target({descs.bounds.label, {{sheets.bounds, layer}}, {}});
+        if (bounds) sheets.bounds_targets.push_back(bounds.handle);
+        if (!second || !bounds) return Reason::target_incomplete;
+    }
+    return Reason::none;
+}
+
+void MapStore::release_sheets(SheetMap& sheets) const {
+    for (const auto* targets : {&sheets.second_targets, &sheets.bounds_targets})
+        for (const gl::TargetHandle target : *targets) device_.destroy(target);
+    device_.destroy(sheets.second);
+    device_.destroy(sheets.bounds);
+    sheets = {};
+}
+
 Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history) {
-    const bool triangles = wants_triangles(demand);
     LightHistory made;
     made.desc = desc;
+    made.storage = filter_row(demand.filter).storage;
     made.texture = device_.create_texture(desc, {}).handle;
-    gl::TextureDesc shown = triangles_of(desc);
+    const bool triangles = has_triangles(made.storage), sheets = made.storage == FilterStorage::sheets;
+    gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
     Reason reason = Reason::none;
     if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
     if (reason == Reason::none && !make_targets(made)) reason = Reason::target_incomplete;
     if (reason == Reason::none) reason = make_moments(demand, made);
+    if (reason == Reason::none && sheets) reason = make_sheets(made);
     if (reason != Reason::none) {
         release(made);
         return reason;
@@ -138,7 +167,9 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
     release(history);
     history.desc = desc;
     history.texture = made.texture;
+    history.storage = made.storage;
     history.triangles = made.triangles;
+    history.sheets = std::move(made.sheets);
     history.moments = std::move(made.moments);
     history.targets = std::move(made.targets);
     history.content.assign(history.targets.size(), 0);
@@ -148,10 +179,10 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
 
 bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
     gl::TextureDesc desc = map_desc(light, demand);
-    const bool triangles = wants_triangles(demand);
+    const FilterStorage storage = filter_row(demand.filter).storage;
     const gl::TextureDesc& held = history.desc;
     if (history.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
-                             static_cast<bool>(history.triangles) == triangles &&
+                             history.storage == storage &&
                              is_same_store(history.moments, moments_of(held, demand)))) {
         // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
         release(history);
@@ -170,7 +201,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
         if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // as good
         const MomentDescs moments = moments_of(desc, demand);
-        const bool has_room = make_room(map_bytes(desc, triangles, moments.texture, moments.scratch), &history);
+        const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
         const Reason reason = has_room ? try_create(desc, demand, history) : Reason::map_allocation_failed;
         refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
         if (reason == Reason::none) {
@@ -233,7 +264,7 @@ void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
 
 void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
     const auto light_of = [&](std::size_t d) -> const LightItem& { return scene.lights[frame.demands[d].light]; };
-    const auto wants_map = [&](std::size_t d) { return has_map(filter_row(frame.demands[d].filter)); };
+    const auto wants_map = [&](std::size_t d) { return has_map(frame.demands[d]); };
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
         if (frame.demands[d].skip != Reason::none) continue;
         if (frame.sets[d].skip != Reason::none) {
@@ -261,7 +292,8 @@ void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
             LightHistory& history = entry(light_of(d).entity);
             const bool first = !limited || map_bytes(light_of(d), frame.demands[d]) < bytes(history);
             if (first != (round == 0)) continue;
-            if (!ensure_map(light_of(d), frame.demands[d], history)) frame.sets[d].skip = history.failure;
+            if (ensure_map(light_of(d), frame.demands[d], history)) continue;
+            drop_light(frame, static_cast<std::uint32_t>(d), history.failure);
         }
     if (!std::exchange(refused_, false)) return;
     available_ = bytes();

@@ -23,13 +23,21 @@ struct MomentMap {
     std::vector<std::uint64_t> content;  // per layer, as LightHistory::content
 };
 
+/// Beside a depth map of FilterStorage::sheets (SheetDescs). What each texel shows is LightHistory::triangles.
+struct SheetMap {
+    gl::TextureHandle second{}, bounds{};  // {0}: there is none
+    std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
+};
+
 /// What of one light outlives a frame: its map, the targets of its layers, what each layer last held, and when an
 /// allocation may be tried again.
 struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    gl::TextureHandle triangles{};          // beside it for a filter of FilterStorage::depth_and_triangle; else {0}
+    FilterStorage storage = FilterStorage::depth;  // what it was made for
+    gl::TextureHandle triangles{};          // beside it for a filter that reads or peels triangles; else {0}
+    SheetMap sheets;                        // beside it for a filter of FilterStorage::sheets
     MomentMap moments;                      // beside it for a filter of FilterStorage::moments
     StillMap still;                         // beside it while some of its casters move and others do not
     std::vector<gl::TargetHandle> targets;  // one per layer
@@ -123,6 +131,8 @@ private:
     Reason try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history);
     bool make_targets(LightHistory& map) const;
     Reason make_moments(const ShadowDemand& demand, LightHistory& map) const;
+    Reason make_sheets(LightHistory& map) const;
+    void release_sheets(SheetMap& sheets) const;
 
     gl::Device& device_;
     std::vector<LightHistory> lights_;

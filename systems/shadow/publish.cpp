@@ -70,6 +70,9 @@ void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const Shad
     out.row = out.plain.row;
     out.map = out.plain.map;
     out.sampler = out.plain.sampler;
+    out.second = slot.second;
+    out.bounds = slot.bounds;
+    if (demand.asks_rays) return;  // by itself its map is good for no more
     const bool moments = filter.storage == FilterStorage::moments;
     if (moments && !slot.moments) return;  // they could not be made
     out.row.filter_file = filter.file;
@@ -240,21 +243,35 @@ float farthest_depth(const LightItem& light, const ConsumerItem& c) {
 
 namespace {
 
-/// Lights without a map, whose shadows are asked for by rays.
-void publish_rays(const SceneSnapshot& scene, const visibility::RayBuffers& rays, const ShadowFrame& frame,
-                  LightingInputs& inputs) {
+/// Whether all that is seen of the light's receivers is drawn into its maps, too.
+bool receivers_cast(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t d) {
+    const IndexRange range = frame.sets[d].receivers;
+    const auto receivers = std::span(frame.receiver_items).subspan(range.first, range.count);
+    const LightItem& light = scene.lights[frame.demands[d].light];
+    return std::all_of(receivers.begin(), receivers.end(),
+                       [&](std::uint32_t i) { return casts_under(light, scene.instances[i]); });
+}
+
+/// Lights whose shadows are asked for by rays: with their maps, where they have any, for pixels of which those are not
+/// certain. A picture of another camera than those that maps are fitted to may show what is not in them.
+void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
+                  const ShadowFrame& frame, LightingInputs& inputs) {
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
         const ShadowDemand& demand = frame.demands[d];
-        const FilterRow& filter = filter_row(demand.filter);
-        if (has_map(filter) || demand.skip != Reason::none || frame.sets[d].skip != Reason::none) continue;
+        if (!demand.asks_rays || demand.skip != Reason::none || frame.sets[d].skip != Reason::none || !rays.nodes)
+            continue;
         LightingLight& out = inputs.lights[demand.light];
         const LightKindRow& kind = light_kind_row(scene.lights[demand.light].kind);
         out.row = {.kind_define = kind.define,
                    .kind_file = kind.file,
-                   .filter_file = filter.file,
+                   .filter_file = filter_row(demand.filter).file,
                    .rays = true,
                    .ray_masks = static_cast<bool>(rays.masks)};
         out.rays = rays;
+        out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
+        if (!out.row.sheets) out.map = out.second = out.bounds = {};
+        out.sampler = samplers.of(MapReading::depths);
+        out.record.filtering = {out.row.sheets && receivers_cast(scene, frame, d) ? 1 : 0, 0, 0, 0};
     }
 }
 
@@ -309,7 +326,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }
-        publish_rays(scene, rays, frame, inputs);
+        publish_rays(scene, samplers, rays, frame, inputs);
     }
 }
 

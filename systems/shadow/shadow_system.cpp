@@ -12,7 +12,7 @@
 namespace gnomon::shadow {
 
 ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
-    : device_(device), maps_(device), recorder_(device), moments_(device), rays_(device), history_(held_fits) {}
+    : device_(device), maps_(device), recorder_(device), sheets_(device), moments_(device), rays_(device), history_(held_fits) {}
 
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
@@ -63,7 +63,7 @@ void ShadowSystem::provide_triangles(GpuScene& gpu) {
 /// The same of lights that ask by rays. What they ask is kept as long as there is one, seen or not.
 void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     bool any = false, asked = false;
-    const auto asks = [&](std::size_t d) { return !has_map(filter_row(frame_.demands[d].filter)); };
+    const auto asks = [&](std::size_t d) { return frame_.demands[d].asks_rays; };
     const auto asks_now = [&](std::size_t d) { return asks(d) && frame_.sets[d].skip == Reason::none; };
     for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
         if (frame_.demands[d].skip != Reason::none) continue;
@@ -72,8 +72,12 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
     }
     if (!any) rays_.release();
     if (!asked || rays_.update(scene, gpu, list)) return;
-    for (std::size_t d = 0; d < frame_.demands.size(); ++d)
-        if (asks_now(d)) frame_.sets[d].skip = Reason::buffer_failed;
+    for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
+        if (!asks_now(d)) continue;
+        // A map that there is is looked up once: PlainLookup.
+        ShadowDemand& demand = frame_.demands[d];
+        (demand.traced ? frame_.sets[d].skip : demand.note) = Reason::buffer_failed;
+    }
 }
 
 const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
@@ -137,9 +141,11 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     budget_.note_changes(scene, frame_);
     maps_.plan_draws(scene, gpu, frame_);
     recorder_.prepare(scene, gpu, frame_);
+    sheets_.prepare(scene, gpu, frame_);
     moments_.prepare(frame_);
     publish_lights(scene, samplers_, rays_.buffers(), frame_);
     recorder_.record(scene, gpu, frame_, list, report);
+    sheets_.record(scene, gpu, frame_, list, report);
     moments_.record(scene, frame_, list);
 }
 
@@ -148,9 +154,11 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
 /// which says so itself.
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     const auto settled = [&](const PotentialSets& sets, const ShadowDemand& demand) {
-        const bool lacks = sets.skip == Reason::depth_program_failed || sets.skip == Reason::buffer_failed ||
-                           sets.skip == Reason::sampler_failed || demand.note == Reason::filter_program_failed;
-        return !lacks && (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
+        const auto is_tried_again = [](Reason reason) {
+            return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||
+                   reason == Reason::sampler_failed || reason == Reason::filter_program_failed;
+        };
+        return !is_tried_again(sets.skip) && !is_tried_again(demand.note) && (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
     };
     return history_ == frame_.next_history &&
            std::equal(frame_.sets.begin(), frame_.sets.end(), frame_.demands.begin(), frame_.demands.end(), settled);

@@ -10,6 +10,7 @@
 #include "systems/shadow/cost_clock.h"
 #include "systems/shadow/dim_lights.h"
 #include "systems/shadow/draw_times.h"
+#include "systems/shadow/exact/sheet_recorder.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/moment_recorder.h"
 #include "systems/shadow/publish.h"
@@ -62,6 +63,7 @@ private:
     gl::Device& device_;
     MapStore maps_;
     DepthRecorder recorder_;
+    SheetRecorder sheets_;
     MomentRecorder moments_;
     visibility::RayScene rays_;
     MapSamplers samplers_;

@@ -57,7 +57,7 @@ void MapStore::keep_still_apart(const SceneSnapshot& scene, const GpuScene& gpu,
         const ShadowView& view = frame.views[v];
         ShadowSlot& slot = frame.slots[v];
         const bool both = view.still_casters > 0 && view.still_casters < view.casters.count;
-        if (!both || !slot.texture || slot.reuse) continue;
+        if (!both || !slot.texture || slot.reuse || slot.second) continue;
         const ShadowDemand& demand = frame.demands[view.demand];
         const LightItem& light = scene.lights[demand.light];
         if (!light.shadow.economy) continue;

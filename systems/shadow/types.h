@@ -55,9 +55,14 @@ struct ShadowDemand {
     double near_m = 0.0, far_m = 0.0;  // asked for, from the light or a sun's eye; 0: fitted
     std::uint32_t map_px = 0;          // of a budget, after the fit: edge of the map instead of resolution_px; 0: that
     std::uint32_t refresh_frames = 1;  // of a budget (Grant)
+    bool asks_rays = false;            // FilterStorage::sheets: about pixels of which its map, if any, is not certain
+    bool traced = false;               // and about all: it is to have no map
     bool over_budget = false;          // a budget gives it less than it asks for
     double weight = 0.0;               // of a budget: what its shadow means to the picture, 0 to 1
 };
+
+/// Whether it looks a map up, if it gets a shadow at all.
+inline bool has_map(const ShadowDemand& demand) { return !demand.traced; }
 
 /// Edge of the light's maps in this frame.
 inline std::uint32_t map_edge_px(const ShadowDemand& demand) {
@@ -150,7 +155,8 @@ struct Staleness {
 /// Struct 5. Where the view lives, and whether last frame's content still holds.
 struct ShadowSlot {
     gl::TextureHandle texture{};
-    gl::TextureHandle triangles{};     // FilterStorage::depth_and_triangle: what each texel shows; else {0}
+    gl::TextureHandle triangles{};     // what each texel shows: FilterStorage::depth_and_triangle; of ::sheets one
+                                       // layer that all views draw into, one after the other; else {0}
     gl::TextureHandle second{};        // FilterStorage::sheets: depths of the next triangles behind; else {0}
     gl::TargetHandle second_target{};  // this view's layer of it
     gl::TextureHandle bounds{};        // and where sheets end, and how far they depart from their depths
@@ -244,6 +250,7 @@ struct ProgramRow {
     bool depths = false;       // reads depths from the map, where other filters read results of comparing with it
     bool manual_bias = false;  // any BiasMode but automatic
     bool triangles = false;    // reads which triangles texels show, and those triangles
+    bool sheets = false;       // reads next depths and bounds: rays are for what those leave uncertain
     bool moments = false;      // reads a prefiltered map
     bool rays = false;         // asks the casters' triangles by rays, of surfaces that say where exactly they are
     bool ray_masks = false;    // some of those are masked
@@ -263,6 +270,7 @@ struct LightingLight {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
     ProgramRow row;
     gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
+    gl::TextureHandle second{}, bounds{};  // {0} unless row.sheets
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
     PlainLookup plain;
@@ -321,9 +329,9 @@ inline std::span<const std::uint32_t> casters_of(const ShadowFrame& frame, const
     return std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
 }
 
-/// Takes all slots of a light whose maps cannot be made; its set says why.
+/// Takes all slots of a light whose maps cannot be made; its set says why, or its demand, if rays do without.
 inline void drop_light(ShadowFrame& frame, std::uint32_t demand, Reason reason) {
-    frame.sets[demand].skip = reason;
+    (frame.demands[demand].asks_rays ? frame.demands[demand].note : frame.sets[demand].skip) = reason;
     for (std::size_t v = 0; v < frame.views.size(); ++v)
         if (frame.views[v].demand == demand) frame.slots[v] = {};
 }

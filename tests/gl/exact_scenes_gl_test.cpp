@@ -47,7 +47,7 @@ protected:
             std::printf("%s: %zu scored, %zu wrong, %zu ambiguous, %zu of another surface\n", name.c_str(),
                         found.scored, found.wrong, found.ambiguous, found.other_surface);
             EXPECT_EQ(report.state, LightState::rendered) << reason_code(report.reason);
-            EXPECT_EQ(report.texels + report.bytes + report.views_drawn, 0u) << "it has no map";
+            EXPECT_GT(report.views_drawn, 0u);
             EXPECT_EQ(found.wrong, 0u) << "of " << found.scored;
             EXPECT_LE(static_cast<double>(found.ambiguous), kMostAmbiguous * scored);
             EXPECT_LE(static_cast<double>(found.other_surface), kMostOtherSurface * scored);

@@ -24,16 +24,16 @@ inline bool reads_moments(const shadow::FilterRow& filter) {
     return filter.storage == shadow::FilterStorage::moments;
 }
 
-/// Filters that read a map.
+/// Filters that read a map, and nothing else.
 inline std::vector<shadow::FilterRow> map_filters() {
     std::vector<shadow::FilterRow> rows;
     for (const shadow::FilterRow& row : shadow::filter_table())
-        if (shadow::has_map(row)) rows.push_back(row);
+        if (!shadow::asks_rays(row)) rows.push_back(row);
     return rows;
 }
 
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns in perspective
-/// and warped; and of those that ask by rays, with and without masked casters.
+/// and warped; and of those that ask by rays, with and without masked casters and maps.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
@@ -66,8 +66,9 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table())
             for (const bool masks : {false, true})
-                if (!shadow::has_map(filter))
-                    rows.push_back({.kind_define = kind.define, .kind_file = kind.file, .filter_file = filter.file, .rays = true, .ray_masks = masks});
+                for (const bool sheets : {false, true})
+                    if (shadow::asks_rays(filter))
+                        rows.push_back({.kind_define = kind.define, .kind_file = kind.file, .filter_file = filter.file, .depths = sheets, .sheets = sheets, .rays = true, .ray_masks = masks});
     return rows;
 }
 

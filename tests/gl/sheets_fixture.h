@@ -70,19 +70,20 @@ protected:
         frame.views = std::move(views);
         const bool cube = light.kind == LightKind::point;
         const auto layers = static_cast<std::uint32_t>(frame.views.size());
-        const auto texture = [&](const char* label, gl::Format format, bool as_cube) {
+        const auto texture = [&](const char* label, gl::Format format, bool as_cube, std::uint32_t count) {
             return device()
                 .create_texture({.label = label,
                                  .kind = as_cube ? gl::TextureKind::cube : gl::TextureKind::array,
                                  .format = format,
                                  .width = size_px,
                                  .height = size_px,
-                                 .layers = as_cube ? 1u : layers},
+                                 .layers = as_cube ? 1u : count},
                                 {})
                 .handle;
         };
-        drawn.maps = {texture("depths", gl::Format::d32f, cube), texture("triangles", gl::Format::rg32ui, false),
-                      texture("second", gl::Format::d32f, false), texture("bounds", gl::Format::rg32f, false)};
+        drawn.maps = {
+            texture("depths", gl::Format::d32f, cube, layers), texture("triangles", gl::Format::rg32ui, false, 1),
+            texture("second", gl::Format::d32f, false, layers), texture("bounds", gl::Format::rg32f, false, layers)};
         for (std::uint32_t v = 0; v < layers; ++v) {
             shadow::ShadowView& view = frame.views[v];
             view.casters = {0, static_cast<std::uint32_t>(frame.view_caster_items.size())};
@@ -94,7 +95,7 @@ protected:
             slot.second = drawn.maps.second;
             slot.bounds = drawn.maps.bounds;
             slot.target =
-                device().create_target({"first", {{drawn.maps.triangles, layer}}, {drawn.maps.depths, layer}}).handle;
+                device().create_target({"first", {{drawn.maps.triangles, 0}}, {drawn.maps.depths, layer}}).handle;
             slot.second_target = device().create_target({"second", {}, {drawn.maps.second, layer}}).handle;
             slot.bounds_target = device().create_target({"bounds", {{drawn.maps.bounds, layer}}, {}}).handle;
             slot.size_px = size_px;
@@ -109,7 +110,7 @@ protected:
         EXPECT_EQ(frame.sets[0].skip, Reason::none);
         shadow::publish_lights(scene, {}, {}, frame);
         depths.record(scene, gpu, frame, list, report);
-        sheets.record(scene, gpu, frame, list);
+        sheets.record(scene, gpu, frame, list, report);
         run(list);
         return drawn;
     }

@@ -65,7 +65,7 @@ protected:
 
 TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
     for (const shadow::FilterRow& row : shadow::filter_table())
-        if (shadow::has_map(row)) add_light(LightKind::spot, std::string(row.name), row.id);
+        if (!shadow::asks_rays(row)) add_light(LightKind::spot, std::string(row.name), row.id);
     const ecs::Entity off = add_light(LightKind::spot, "off", ShadowFilter::exact);
     world.registry.patch<LightShadow>(off, [](LightShadow& s) { s.enabled = false; });
     step();
@@ -73,22 +73,23 @@ TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
     EXPECT_THAT(storage_bindings(), Each(::testing::Lt(kFirstRayBinding)));
     EXPECT_THAT(compiled(), Not(Contains(HasSubstr("exact"))));
     EXPECT_THAT(compiled(), Not(Contains(HasSubstr("places"))));
+    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("sheet"))));
+    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("peeled"))));
+    EXPECT_THAT(map_labels(device, ", second"), IsEmpty());
+    EXPECT_THAT(map_labels(device, ", bounds"), IsEmpty());
     EXPECT_EQ(frame->report().rays.bytes + frame->report().rays.host_bytes, 0u);
 }
 
-TEST_F(RayScene, IsOneForAllLightsThatAskAndTheyHaveNoMap) {
+TEST_F(RayScene, IsOneForAllLightsThatAsk) {
     add_light(LightKind::spot, "lamp", ShadowFilter::exact);
     add_light(LightKind::directional, "sun", ShadowFilter::exact);
     add_light(LightKind::point, "bulb", ShadowFilter::exact);
     step();
-    EXPECT_THAT(map_labels(device, "shadow map"), IsEmpty());
-    EXPECT_THAT(depth_passes(), IsEmpty());
     EXPECT_THAT(map_labels(device, "ray "), SizeIs(4)) << "trees, triangles, instances, the tree over them; no masks";
     EXPECT_THAT(map_labels(device, "surface places"), SizeIs(2)) << "a texture and a target";
     EXPECT_THAT(storage_bindings(), Contains(kFirstRayBinding));
     for (const LightReport& light : frame->report().lights) {
         EXPECT_EQ(light.state, LightState::rendered) << light.name;
-        EXPECT_EQ(light.texels + light.bytes + light.draws, 0u) << light.name;
         EXPECT_TRUE(light.keeps_max_error) << light.name;
         EXPECT_EQ(light.predicted_error_px, 0.0) << light.name;
     }
@@ -143,7 +144,6 @@ TEST_F(RayScene, IsFreedWithTheLastLightThatAsks) {
     const std::size_t map_objects = map_labels(device).size();
     choose(lamp, ShadowFilter::exact);
     step();
-    EXPECT_THAT(map_labels(device, "shadow map"), IsEmpty()) << "the map is of no use any more";
     world.move(stage.camera, {0, -400, 8});
     step();
     EXPECT_THAT(map_labels(device, "ray "), SizeIs(4)) << "nobody sees it now, but it may be seen again";
@@ -155,32 +155,35 @@ TEST_F(RayScene, IsFreedWithTheLastLightThatAsks) {
     EXPECT_EQ(frame->report().rays.bytes, 0u);
 }
 
-TEST_F(RayScene, WithoutRoomForItTheLightIsLitAndTriedAgain) {
+TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceAndItIsTriedAgain) {
     for (const char* what : {"ray trees of meshes", "ray triangles", "ray tree of instances", "ray instances"}) {
         SCOPED_TRACE(what);
         device.fail_label(what, gl::Failure::out_of_memory);
         const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::exact);
         step();
-        EXPECT_EQ(light("lamp").state, LightState::skipped);
+        EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+        EXPECT_GT(light("lamp").predicted_error_px, 0.0) << "as a map by itself has";
+        EXPECT_THAT(compiled(), Contains(HasSubstr("filters/hard")));
         device.stop_failing();
         for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
         EXPECT_EQ(light("lamp").state, LightState::rendered);
+        EXPECT_EQ(light("lamp").predicted_error_px, 0.0);
         world.registry.destroy(lamp);
         step();
         EXPECT_THAT(ray_labels(), IsEmpty());
     }
 }
 
-TEST_F(RayScene, WithoutRoomForPlacesTheLightIsLitAndSaysSo) {
+TEST_F(RayScene, WithoutRoomForPlacesTheMapIsLookedUpOnceAndThatIsSaid) {
     device.fail_label("surface places", gl::Failure::out_of_memory);
     add_light(LightKind::spot, "lamp", ShadowFilter::exact);
     step();
-    EXPECT_EQ(light("lamp").state, LightState::skipped);
+    EXPECT_EQ(light("lamp").state, LightState::degraded);
     EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
     device.stop_failing();
     step();
-    EXPECT_NE(light("lamp").state, LightState::skipped);
+    EXPECT_EQ(light("lamp").state, LightState::reused);
 }
 
 TEST_F(RayScene, IsWrittenAgainAfterASubmissionThatFailed) {

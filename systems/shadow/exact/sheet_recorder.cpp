@@ -101,7 +101,7 @@ void SheetRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
 }
 
 void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                                const View& drawn, std::uint32_t offset, gl::CommandList& list) {
+                                const View& drawn, std::uint32_t offset, gl::CommandList& list, LightReport& report) {
     const ShadowView& view = frame.views[drawn.view];
     const ShadowSlot& slot = frame.slots[drawn.view];
     const ShadowDemand& demand = frame.demands[view.demand];
@@ -122,13 +122,16 @@ void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu,
         state.blend = gl::Blend::largest;
         list.add(gl::SetPipeline{state});
         list.add(gl::DrawPulled{drawn.first[kind] * kQuadVertices, drawn.count[kind] * kQuadVertices});
+        ++report.draws;
+        report.triangles += 2 * std::uint64_t{drawn.count[kind]};
     }
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{shadow_timer(demand.light)});
     list.add(gl::EndGroup{});
 }
 
-void SheetRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list) {
+void SheetRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
+                           FrameReport& report) {
     // What another recorder dropped meanwhile is not drawn.
     std::erase_if(views_, [&](const View& view) { return !is_bounded(frame, view.view); });
     if (views_.empty()) return;
@@ -145,8 +148,9 @@ void SheetRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, Shad
     if (!item_scratch_.empty()) list.update(items_.handle(), 0, std::span<const SheetItem>(item_scratch_));
     list.update(view_records_.handle(), 0, std::span<const std::byte>(record_scratch_));
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        const LightTime time(frame, frame.demands[frame.views[views_[i].view].demand].light);
-        record_view(scene, gpu, frame, views_[i], static_cast<std::uint32_t>(i) * stride, list);
+        const std::uint32_t light = frame.demands[frame.views[views_[i].view].demand].light;
+        const LightTime time(frame, light);
+        record_view(scene, gpu, frame, views_[i], static_cast<std::uint32_t>(i) * stride, list, report.lights[light]);
     }
 }
 

@@ -28,7 +28,9 @@ public:
     /// Finds what views that are not reused draw, and makes room for it. A light that cannot have it loses its slots,
     /// its sets[i].skip says why. Call before record(), once the meshes are bent (GpuScene::update).
     void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
-    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list);
+    /// Draws are counted in the report.
+    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
+                FrameReport& report);
 
     /// Of the surfaces, on the CPU.
     std::size_t surface_bytes() const { return surfaces_.bytes(); }
@@ -47,7 +49,7 @@ private:
     bool programs_ready(const View& view);
     View gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::size_t view);
     void record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const View& view,
-                     std::uint32_t offset, gl::CommandList& list);
+                     std::uint32_t offset, gl::CommandList& list, LightReport& report);
 
     gl::Device& device_;
     bool with_margins_;

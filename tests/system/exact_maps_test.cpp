@@ -1,0 +1,159 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "systems/shadow/map_desc.h"
+#include "tests/system/frame_fixture.h"
+#include "tests/system/passes.h"
+
+// Maps of filter=exact, which say where rays are needed: what they hold, when they are drawn, and what happens without.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::SizeIs;
+
+constexpr std::uint32_t kSize_px = 256;
+/// Two depths, where sheets end and how far they depart; and, in one layer, which triangle is shown.
+constexpr std::uint64_t kTexelBytes = 4 + 4 + 8, kTriangleBytes = 8;
+
+class ExactMaps : public FrameTest {
+protected:
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+    }
+    ecs::Entity add_light(LightKind kind, const std::string& name) {
+        const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
+        set(light, [](LightShadow&) {});
+        return light;
+    }
+    template <class Change>
+    void set(ecs::Entity light, Change change) {
+        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
+            s.filter = ShadowFilter::exact;
+            s.resolution_px = kSize_px;
+            change(s);
+        });
+    }
+    /// Labels of the targets of the last frame's passes that begin so.
+    std::vector<std::string> drawn(const std::string& kind = "shadow map") const {
+        std::vector<std::string> labels;
+        for (const Pass& pass : passes_of(frame->commands(), device)) {
+            const std::string& label = device.target(pass.begin.target)->label;
+            if (label.starts_with(kind)) labels.push_back(label);
+        }
+        return labels;
+    }
+    std::vector<std::string> compiled() const {
+        std::vector<std::string> labels;
+        for (const gl::ResourceCall& call : device.resource_calls())
+            if (call.kind == gl::ResourceCall::Kind::create_program) labels.push_back(call.label);
+        return labels;
+    }
+    TestWorld::Stage stage;
+};
+
+TEST_F(ExactMaps, AreDrawnNearestNextAndBounds) {
+    add_light(LightKind::spot, "lamp");
+    step();
+    EXPECT_THAT(drawn(), ElementsAre("shadow map lamp", "shadow map lamp, second", "shadow map lamp, bounds"));
+    EXPECT_EQ(light("lamp").bytes, kSize_px * kSize_px * (kTexelBytes + kTriangleBytes));
+    EXPECT_EQ(light("lamp").texels, kSize_px * kSize_px);
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+    EXPECT_EQ(light("lamp").predicted_error_px, 0.0);
+    EXPECT_TRUE(light("lamp").keeps_max_error);
+}
+
+TEST_F(ExactMaps, ShareOneLayerOfTrianglesAmongAllViews) {
+    add_light(LightKind::point, "bulb");
+    step();
+    EXPECT_EQ(light("bulb").bytes, kSize_px * kSize_px * (6 * kTexelBytes + kTriangleBytes));
+    ASSERT_GT(light("bulb").views_drawn, 1u);
+    EXPECT_EQ(drawn().size(), 3 * std::size_t{light("bulb").views_drawn});
+}
+
+TEST_F(ExactMaps, OfAStillSceneAreKeptWhereverTheCameraStands) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
+    set(lamp, [](LightShadow& s) { s.fit = ShadowFit::stable; });
+    step();
+    step();
+    EXPECT_THAT(drawn(), IsEmpty());
+    EXPECT_EQ(light("lamp").state, LightState::reused);
+    world.move(stage.camera, {0.01, 4, 8});
+    step();
+    EXPECT_THAT(drawn(), IsEmpty());
+}
+
+TEST_F(ExactMaps, AreDrawnAnewWhereACasterMovedEvenWhereOthersMayWait) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
+    set(lamp, [](LightShadow& s) { s.refresh_error_px = 1000.0f; });
+    step();
+    world.move(stage.box, {0.001, 1, 0});
+    step();
+    EXPECT_THAT(drawn(), SizeIs(3)) << "of casters as they were nothing is certain";
+}
+
+TEST_F(ExactMaps, AreOneOfASunUnlessItSaysOtherwise) {
+    const ecs::Entity sun = add_light(LightKind::directional, "sun");
+    step();
+    EXPECT_EQ(light("sun").texels, kSize_px * kSize_px);
+    set(sun, [](LightShadow& s) { s.cascades = 3; });
+    step();
+    EXPECT_EQ(light("sun").texels, 3 * kSize_px * kSize_px);
+}
+
+TEST_F(ExactMaps, AreNotMadeForASunSeenFromAnEye) {
+    const ecs::Entity sun = add_light(LightKind::directional, "sun");
+    set(sun, [](LightShadow& s) {
+        s.projection = LightProjection::perspective;
+        s.eye_distance_m = 50.0f;
+    });
+    step();
+    EXPECT_THAT(drawn(), IsEmpty());
+    EXPECT_EQ(light("sun").bytes, 0u);
+    EXPECT_EQ(light("sun").state, LightState::rendered);
+    EXPECT_TRUE(light("sun").keeps_max_error) << "rays alone";
+    EXPECT_THAT(map_labels(device, "ray "), Not(IsEmpty()));
+}
+
+TEST_F(ExactMaps, AreDoneWithoutWhereThereIsNoRoom) {
+    for (const char* what : {"shadow map lamp", "shadow map lamp, triangles", "shadow map lamp, second",
+                             "shadow map lamp, bounds"}) {
+        SCOPED_TRACE(what);
+        device.fail_label(what, gl::Failure::out_of_memory);
+        const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
+        step();
+        EXPECT_THAT(drawn(), IsEmpty());
+        EXPECT_EQ(light("lamp").state, LightState::degraded);
+        EXPECT_EQ(light("lamp").reason, Reason::map_allocation_failed);
+        EXPECT_TRUE(light("lamp").keeps_max_error) << "rays do without";
+        EXPECT_THAT(compiled(), Contains(HasSubstr("exact")));
+        device.stop_failing();
+        for (std::uint64_t i = 0; i < shadow::MapStore::kRetryFrames; ++i) step();
+        EXPECT_THAT(drawn(), SizeIs(3));
+        EXPECT_EQ(light("lamp").state, LightState::rendered);
+        world.registry.destroy(lamp);
+        step();
+        EXPECT_THAT(map_labels(device), IsEmpty());
+    }
+}
+
+TEST_F(ExactMaps, AreDoneWithoutWhereTheirProgramsFail) {
+    device.fail_label("sheet contours", gl::Failure::compile_failed);
+    add_light(LightKind::spot, "lamp");
+    step();
+    EXPECT_THAT(drawn(), IsEmpty());
+    EXPECT_EQ(light("lamp").state, LightState::degraded);
+    EXPECT_EQ(light("lamp").reason, Reason::depth_program_failed);
+    EXPECT_TRUE(light("lamp").keeps_max_error);
+    device.stop_failing();
+    for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
+    EXPECT_THAT(drawn(), SizeIs(3));
+}
+
+}  // namespace
+}  // namespace gnomon
