@@ -19,8 +19,8 @@ constexpr double kFramesPerSecond = 60.0;
 
 /// What was typed, before it is understood.
 struct Typed {
-    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms, stats,
-        screenshot, visibility, truth, truth_light, program_cache, preset, debug;
+    std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms,
+        shadow_rays, stats, screenshot, visibility, truth, truth_light, program_cache, preset, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -43,6 +43,8 @@ void declare(CLI::App& app, Typed& typed) {
     app.add_option("--shadow-bytes", typed.shadow_bytes, "N: bytes that all shadow maps may hold (default: any)");
     app.add_option("--shadow-ms", typed.shadow_ms,
                    "X: milliseconds of the GPU that shadows may take in a frame (default: any)");
+    app.add_option("--shadow-rays", typed.shadow_rays,
+                   "N: rays that pixels of exact lights may ask in a frame (default: any)");
     app.add_option("--stats", typed.stats, "F.json: per frame and light times, counts, report");
     app.add_option("--screenshot", typed.screenshot, "F.png: the last frame");
     app.add_option("--visibility", typed.visibility,
@@ -116,6 +118,11 @@ std::optional<Error> read_numbers(const Typed& typed, const CLI::App& app, Comma
         if (!ms || !(*ms > 0.0 && *ms <= kMaxBudget_ms))
             return wrong("--shadow-ms: '" + typed.shadow_ms + "' is not a number of milliseconds above 0, at most 1e6");
         line.shadow_budget.gpu_ms = static_cast<float>(*ms);
+    }
+    if (app.count("--shadow-rays") > 0) {
+        line.shadow_budget.rays = read_count(typed.shadow_rays).value_or(0);
+        if (line.shadow_budget.rays == 0)
+            return wrong("--shadow-rays: '" + typed.shadow_rays + "' is not a number of rays above 0");
     }
     return std::nullopt;
 }

@@ -31,6 +31,12 @@ public:
         size_ = size;
         return true;
     }
+    /// Frees it; the next reserve() makes it anew.
+    void release() {
+        device_->destroy(buffer_);
+        buffer_ = {};
+        size_ = 0;
+    }
     gl::BufferHandle handle() const { return buffer_; }
     std::uint64_t bytes() const { return size_; }
 

@@ -40,6 +40,10 @@ const char* reason_code(Reason reason) {
             return "resolution_clamped";
         case Reason::over_budget:
             return "over_budget";
+        case Reason::ray_budget:
+            return "ray_budget";
+        case Reason::rays_cheaper:
+            return "rays_cheaper";
         case Reason::budget_shrunk:
             return "budget_shrunk";
         case Reason::map_shrunk:

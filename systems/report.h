@@ -30,6 +30,8 @@ enum class Reason : std::uint8_t {
     resolution_clamped,   // the device's limit is below the wish
     over_budget,          // FrameSettings::shadow_budget does not hold it beside what is seen better
     budget_shrunk,        // the same leaves it less than it asks for
+    ray_budget,           // the same has no rays left for an exact light: it has a filtered map instead
+    rays_cheaper,         // of an exact light that moves: rays for all its pixels cost less than its map
     map_shrunk,           // the wished size could not be allocated, a smaller one could
     map_allocation_failed,
     target_incomplete,

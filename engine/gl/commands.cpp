@@ -85,7 +85,7 @@ struct Writer {
         }
         return text;
     }
-    std::string operator()(const EndPass&) const { return "EndPass"; }
+    std::string operator()(const EndPass& c) const { return c.wrote_storage ? "EndPass storage" : "EndPass"; }
     std::string operator()(const SetScissor& c) const {
         return c.rect.width == 0 ? std::string{"SetScissor off"} : "SetScissor" + field("rect", c.rect);
     }

@@ -58,6 +58,7 @@ struct BeginPass {
     bool operator==(const BeginPass&) const = default;
 };
 struct EndPass {
+    bool wrote_storage = false;  // its shaders wrote to storage buffers, which later commands are to see
     bool operator==(const EndPass&) const = default;
 };
 

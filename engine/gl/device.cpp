@@ -24,6 +24,7 @@ std::uint32_t texel_bytes(Format format) {
         case Format::rg16:
         case Format::rg16f:
         case Format::r32f:
+        case Format::r32ui:
         case Format::d24:
         case Format::d32f:
             return 4;
@@ -44,7 +45,7 @@ std::uint32_t transfer_bytes(Format format) { return is_depth(format) ? kDepthTr
 
 bool is_depth(Format format) { return format == Format::d16 || format == Format::d24 || format == Format::d32f; }
 
-bool is_integer(Format format) { return format == Format::rg32ui || format == Format::rgba32ui; }
+bool is_integer(Format format) { return format == Format::r32ui || format == Format::rg32ui || format == Format::rgba32ui; }
 
 std::uint32_t layer_count(const TextureDesc& desc) {
     return desc.kind == TextureKind::cube ? kCubeFaces : desc.kind == TextureKind::array ? desc.layers : 1;
@@ -89,6 +90,8 @@ const char* to_text(Format format) {
             return "rg32f";
         case Format::rgba32f:
             return "rgba32f";
+        case Format::r32ui:
+            return "r32ui";
         case Format::rg32ui:
             return "rg32ui";
         case Format::rgba32ui:

@@ -24,6 +24,7 @@ enum class Format : std::uint8_t {
     r32f,
     rg32f,
     rgba32f,
+    r32ui,
     rg32ui,
     d16,
     d24,

@@ -138,9 +138,10 @@ public:
         set_scissor({});
         clear(c, target == nullptr ? GlTarget{0, 0, 0, 1} : *target);
     }
-    void operator()(const EndPass&) {
+    void operator()(const EndPass& c) {
         if (!in_pass_) note(Failure::invalid_value);
         in_pass_ = drawable_ = false;
+        if (c.wrote_storage) glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     }
 
     void operator()(const SetScissor& c) {

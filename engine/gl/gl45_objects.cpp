@@ -102,6 +102,8 @@ GlFormat gl_format(Format format) {
             return {GL_RG32F, GL_RG, GL_FLOAT};
         case Format::rgba32f:
             return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+        case Format::r32ui:
+            return {GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT};
         case Format::rg32ui:
             return {GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT};
         case Format::rgba32ui:

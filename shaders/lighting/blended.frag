@@ -48,7 +48,7 @@ void main() {
     vec3 added = vec3(0.0);
     if (incoming.reaches && dot(geometric, incoming.to_light) > 0.0) {
         float visible = 1.0;
-        if (takes_shadow(instance.low.w)) visible = visible_share(geometric, triangle);
+        if (takes_shadow(received_layers(instance))) visible = visible_share(geometric, triangle);
         added = visible * incoming.radiance *
                 brdf_times_cosine(colour.rgb, material.metallic, material.roughness, shading,
                                   normalize(to_camera(fragment_position_ca)), incoming.to_light);

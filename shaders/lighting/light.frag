@@ -4,6 +4,9 @@
 #include "shadow/light_block.glsl"
 #include "shadow/visibility.glsl"
 #include "shadow/layers.glsl"
+#ifdef SHADOW_FOUND
+#include "lighting/answers.glsl"
+#endif
 #include "lighting/light_at.glsl"
 #include "lighting/visible_surface.glsl"
 #include "lighting/brdf.glsl"

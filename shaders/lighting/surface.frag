@@ -28,7 +28,7 @@ void main() {
     vec3 shading = shading_normal(fragment_normal, geometric);
     colour_out = vec4(colour.rgb, 1.0);
     normals_out = vec4(octahedral_from_unit(shading), octahedral_from_unit(geometric));
-    material_out = vec4(material.metallic, material.roughness, instance.low.w / 255.0, 0.0);
+    material_out = vec4(material.metallic, material.roughness, received_layers(instance) / 255.0, 0.0);
     picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
 #ifdef WRITE_PLACES
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);

@@ -15,7 +15,7 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces; or a point's: the quaternion cube_turn()
     ivec4 options;             // x: views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view distance; w: bit per layer that a view has
     vec4 bias;                 // x: metres, z: texels of a manual bias; y: share of a cascade that fades
-    ivec4 filtering;           // x: texels along a grid's edge, or of who asks by rays: 1 if all receivers are casters of its maps; y: taps; z: 1 to bail early; w: 1 if seeds come from the world
+    ivec4 filtering;           // x: texels along a grid's edge; y: taps; z: 1 to bail early; w: 1 if seeds come from the world
     vec4 spread;               // see shadow/spread.glsl
     ivec4 seed_cell;           // see shadow/filters/seed.glsl
     vec4 seed_place;

@@ -3,9 +3,13 @@ struct InstanceRecord {
     vec4 basis_x;   // xyz: image of the model's x axis; w: high part of the translation's x
     vec4 basis_y;
     vec4 basis_z;
-    vec4 low;       // xyz: low part of the translation; w: a bit per layer whose shadows it receives, 0 to 255
+    vec4 low;       // xyz: low part of the translation; w: a bit per layer whose shadows it receives, and times 256 one per layer in which it casts
 };
 layout(std430, binding = 0) readonly buffer InstanceBuffer { InstanceRecord instances[]; };
+
+// A bit per layer, 0 to 255.
+float received_layers(InstanceRecord instance) { return instance.low.w - 256.0 * floor(instance.low.w / 256.0); }
+uint cast_layers(InstanceRecord instance) { return uint(instance.low.w) >> 8; }
 
 // Position relative to an anchor given as two floats. `precise` keeps the compiler from folding the
 // differences of the high parts away; they are exact near the anchor (Sterbenz 1974).

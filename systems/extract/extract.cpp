@@ -255,7 +255,8 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
                             was->gpu_slot == item.gpu_slot && was->basis == item.basis &&
                             was->translation_ws_m == item.translation_ws_m;
         item.version = placed ? was->version : snapshot.version;
-        const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers;
+        const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers &&
+                          was->casts == item.casts && was->cast_layers == item.cast_layers;
         // One that touch_moved() had already moved when it gave up equals itself, but is not on the device.
         if (!same || was->version == snapshot.version) snapshot.changed_instances.push_back(i);
     }

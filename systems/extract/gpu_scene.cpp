@@ -55,8 +55,9 @@ InstanceRecord instance_record(const InstanceItem& item) {
     column(0, r.basis_x_high_x);
     column(1, r.basis_y_high_y);
     column(2, r.basis_z_high_z);
-    for (int i = 0; i < 3; ++i) r.low_receives[i] = t.low[i];
-    r.low_receives[3] = item.receives ? static_cast<float>(item.receive_layers) : 0.0f;
+    for (int i = 0; i < 3; ++i) r.low_layers[i] = t.low[i];
+    const int received = item.receives ? item.receive_layers : 0, cast = item.casts ? item.cast_layers : 0;
+    r.low_layers[3] = static_cast<float>(received + 256 * cast);
     return r;
 }
 

@@ -18,7 +18,7 @@ namespace gnomon {
 /// w components hold the high part of the translation; `low` its low part and the layers it receives shadows of.
 struct InstanceRecord {
     float basis_x_high_x[4], basis_y_high_y[4], basis_z_high_z[4];
-    float low_receives[4];
+    float low_layers[4];
 };
 static_assert(sizeof(InstanceRecord) == 64);
 

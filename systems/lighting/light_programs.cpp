@@ -23,6 +23,10 @@ const char* output_name(RowOutput output) {
             return "blended light";
         case RowOutput::lookups:
             return "lookups";
+        case RowOutput::verdicts:
+            return "verdicts";
+        case RowOutput::rays:
+            return "rays";
     }
     return "light";
 }
@@ -53,7 +57,10 @@ void LightPrograms::make(Entry& entry, const std::string& label, std::string_vie
 LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ProgramRow& wanted, RowOutput output,
                                                     std::string_view fragment) {
     shadow::ProgramRow row = wanted;
-    if (row.filter_file.empty()) row = {row.kind_define, {}, {}};  // unshadowed is one program per kind
+    const bool reads_answers = row.sheets && (output == RowOutput::picture || output == RowOutput::visibility);
+    if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
+    row.sheets = wanted.sheets && output != RowOutput::rays;
+    if (output == RowOutput::rays) row.depths = false;
     const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
         return e.output == output && e.fragment == fragment && e.row == row;
     });
@@ -88,14 +95,20 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
         if (row.fades) defines.emplace_back("SHADOW_FADES 1");
         if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
     }
+    if (row.filter_file.empty() && row.sheets) defines.emplace_back("SHADOW_FOUND 1");
     if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
     if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-                              (row.manual_bias ? " manual bias" : "");
+                              (row.manual_bias ? " manual bias" : "") +
+                              (row.filter_file.empty() && row.sheets ? "as found" : "");
     if (output == RowOutput::blended)
         make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
+    else if (output == RowOutput::verdicts)
+        make(entry, label, "shared/fullscreen.vert", "lighting/verdicts.frag", defines, &row);
+    else if (output == RowOutput::rays)
+        make(entry, label, "lighting/rays.vert", "lighting/rays.frag", defines, &row);
     else
         make(entry, label, "shared/fullscreen.vert", fragment.empty() ? "lighting/light.frag" : fragment, defines,
              &row);

@@ -11,7 +11,8 @@
 namespace gnomon::lighting {
 
 /// What a program of a row writes; lookups: what a debug view shows of them.
-enum class RowOutput : std::uint8_t { picture, visibility, blended, lookups };
+/// verdicts: what maps of sheets are certain of; rays: what rays find of the others (RayList).
+enum class RowOutput : std::uint8_t { picture, visibility, blended, lookups, verdicts, rays };
 
 /// Programs of the lighting system, made when first called for; one per (row, output, debug view). Owns them.
 /// One that could not be made is tried again after Retry::kFrames; one that no picture can do without, whenever it is

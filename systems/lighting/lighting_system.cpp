@@ -45,6 +45,7 @@ LightingSystem::LightingSystem(gl::Device& device)
     : device_(device),
       programs_(device),
       targets_(device),
+      ray_list_(device),
       depths_(device),
       exposure_(device),
       items_(device, "surface draw items"),
@@ -79,6 +80,9 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
     const auto asks = [](const shadow::LightingLight& light) { return light.row.rays; };
     const bool wanted = std::any_of(inputs.lights.begin(), inputs.lights.end(), asks);
+    const auto lists = [](const shadow::LightingLight& light) { return light.row.sheets; };
+    ray_list_.provide(std::any_of(inputs.lights.begin(), inputs.lights.end(), lists), targets_.size_px(),
+                      targets_.depth);
     has_places_ = targets_.provide_places(wanted) && wanted && programs_.surface(true);
     if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
@@ -314,13 +318,16 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
     if (!used.program || used.unshadowed) return false;
     constexpr float kNoSurface = -1.0f;
     list.add(gl::BeginGroup{"visibility"});
+    if (used.verdicts_program) record_rays(used, light, {}, {}, gpu, list);
     list.add(gl::BeginPass{targets_.visibility_target, viewport(), false, 0.0f, true, {kNoSurface, 0.0f, 0.0f, 0.0f}});
     list.add(
         gl::SetPipeline{{used.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     bind_surface_textures(list);
     bind_light(used, light, gpu, list);
+    if (used.verdicts_program) ray_list_.bind_answers(list);
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
+    if (used.verdicts_program) ray_list_.unbind_answers(list);
     list.add(gl::EndGroup{});
     return true;
 }
@@ -336,8 +343,7 @@ bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu,
     list.add(gl::SetScissor{lookups.area});
     list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::alpha}});
     bind_surface_textures(list);
-    bind_light({program, item.map, item.triangles, {}, {}, rays ? item.plain.sampler : item.sampler}, lookups.light, gpu,
-               list);
+    bind_light({program, item.map, item.triangles, rays ? item.plain.sampler : item.sampler}, lookups.light, gpu, list);
     list.add(gl::BindUniforms{5, lookups.block, 0, lookups.block_size});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});

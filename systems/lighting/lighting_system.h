@@ -13,6 +13,7 @@
 #include "systems/lighting/exposure_meter.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/lighting_targets.h"
+#include "systems/lighting/ray_list.h"
 #include "systems/report.h"
 #include "systems/shadow/types.h"
 
@@ -106,10 +107,12 @@ private:
     /// What evaluates a light, and what it reads.
     struct LightProgram {
         gl::ProgramHandle program{};
-        gl::TextureHandle map{}, triangles{}, second{}, bounds{};
+        gl::TextureHandle map{}, triangles{};
         gl::SamplerHandle sampler{};
         visibility::RayBuffers rays{};
-        Reason lacks = Reason::none;  // why it is not the light's own row
+        gl::TextureHandle second{}, bounds{};                  // of a map of sheets
+        gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` itself asks the rays
+        Reason lacks = Reason::none;                           // why it is not the light's own row
         bool unshadowed = false;
     };
     LightProgram light_program(const shadow::LightingLight& light, RowOutput output);
@@ -129,11 +132,14 @@ private:
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
     void bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const;
     void bind_light(const LightProgram& program, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list) const;
+    void record_rays(const LightProgram& light, std::uint32_t index, const gl::Rect& area, std::optional<float> depth,
+                     const GpuScene& gpu, gl::CommandList& list) const;
     gl::Rect viewport() const;
 
     gl::Device& device_;
     LightPrograms programs_;
     LightingTargets targets_;
+    RayList ray_list_;
     DepthSampler depths_;
     ExposureMeter exposure_;
     GrowingBuffer items_, uniforms_;

@@ -32,19 +32,39 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
     const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
     const bool may_wait = has_plain && output != RowOutput::visibility;  // that is asked for by itself
     Reason lacks = Reason::filter_program_waits;
-    const bool has_surfaces = !light.row.rays || has_places_;
+    const bool lists = light.row.sheets && output != RowOutput::blended;
+    const bool has_surfaces = !light.row.rays || (has_places_ && (!lists || ray_list_));
     if (!has_surfaces) lacks = Reason::buffer_failed;
     if (has_surfaces && (!may_wait || !programs_.must_wait(light.row, output))) {
         const gl::ProgramHandle own = programs_.row(light.row, output);
-        if (own) return {own, light.map, light.triangles, light.second, light.bounds, light.sampler, light.rays};
+        LightProgram used{own, light.map, light.triangles, light.sampler, light.rays, light.second, light.bounds};
+        if (lists) used.verdicts_program = programs_.row(light.row, RowOutput::verdicts);
+        if (lists) used.rays_program = programs_.row(light.row, RowOutput::rays);
+        if (own && (!lists || (used.verdicts_program && used.rays_program))) return used;
         lacks = Reason::filter_program_failed;
     }
     const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
-    if (one_tap) return {one_tap, plain.map, {}, {}, {}, plain.sampler, {}, lacks};
+    if (one_tap) return {.program = one_tap, .map = plain.map, .sampler = plain.sampler, .lacks = lacks};
     shadow::ProgramRow unshadowed = light.row;
     unshadowed.filter_file = {};
+    unshadowed.sheets = false;
     if (has_surfaces) lacks = Reason::lighting_program_failed;
-    return {programs_.row(unshadowed, output), {}, {}, {}, {}, {}, {}, lacks, true};
+    return {.program = programs_.row(unshadowed, output), .lacks = lacks, .unshadowed = true};
+}
+
+/// Before the pass of a light whose map is certain of some of its pixels: which those are, and rays for the others, in
+/// that area of the picture; of surfaces before that depth alone, if it is given.
+void LightingSystem::record_rays(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
+                                 std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
+    const gl::DepthTest test = depth ? gl::DepthTest::less : gl::DepthTest::off;
+    ray_list_.begin_verdicts(list);
+    list.add(gl::SetScissor{area});
+    list.add(gl::SetPipeline{{light.verdicts_program, gl::CullMode::none, false, test, false, false, gl::Blend::off}});
+    bind_surface_textures(list);
+    bind_light(light, index, gpu, list);
+    list.add(gl::DrawTriangle{depth});
+    ray_list_.end_verdicts(list);
+    ray_list_.record_rays(light.rays_program, list);
 }
 
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
@@ -61,14 +81,17 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
+        if (used.verdicts_program) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);
         list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
         list.add(gl::SetScissor{light.screen});
         list.add(gl::SetPipeline{
             {used.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
         bind_surface_textures(list);
         bind_light(used, i, gpu, list);
+        if (used.verdicts_program) ray_list_.bind_answers(list);
         list.add(gl::DrawTriangle{light.farthest_depth});
         list.add(gl::EndPass{});
+        if (used.verdicts_program) ray_list_.unbind_answers(list);
         list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});
     }

@@ -64,6 +64,7 @@ ShadowDemand granted(const LightItem& light, const ShadowDemand& wanted, const G
     ShadowDemand demand = wanted;
     if (grant.none) return demand;
     if (grant.plain) demand.filter = kPlainFilter;
+    demand.asks_rays = demand.asks_rays && !grant.plain;
     if (has_cascades(light, wanted)) {
         demand.view_count = std::clamp(grant.most_views, 1u, wanted.view_count);
         demand.most_views = std::min(wanted.most_views, std::max(grant.most_views, 1u));

@@ -84,13 +84,27 @@ LightShadow with_own_source(const LightItem& light) {
     return shadow;
 }
 
+/// A map of sheets costs as it is drawn and cleared, layer by layer, and saves rays: a cube's six are worth half the
+/// edge (docs/exact.md, "What it costs").
+float texels_per_pixel(const LightItem& light, const ShadowDemand& demand) {
+    constexpr float kOfAFace = 0.5f;
+    const FilterRow& row = filter_row(demand.filter);
+    const bool faces = asks_rays(row) && light_kind_row(light.kind).texture == gl::TextureKind::cube;
+    return row.texels_per_pixel * (faces ? kOfAFace : 1.0f);
+}
+
+/// What errs by nothing is no larger for a smaller error.
+float wished_resolution_px(const LightItem& light, const ShadowDemand& demand) {
+    return asks_rays(filter_row(demand.filter)) ? 0.0f : light.shadow.max_error_px;
+}
+
 /// As large as the picture asks for, or as the fits found to be enough (contract.h).
 void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, std::uint32_t held_px,
                        ShadowDemand& demand) {
     const std::uint32_t asked_px = light.shadow.resolution_px;
     demand.most_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
-                                  : automatic_resolution(viewport_px, filter_row(demand.filter).texels_per_pixel,
-                                                         light.shadow.max_error_px, limit_px);
+                                  : automatic_resolution(viewport_px, texels_per_pixel(light, demand),
+                                                         wished_resolution_px(light, demand), limit_px);
     if (asked_px > 0 && demand.most_px != asked_px) demand.note = Reason::resolution_clamped;
     set_resolution(light, demand.most_px, demand);
     if (held_px > 0 && held_px < demand.most_px && follows_contract(light, demand))
@@ -149,34 +163,38 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand&
     if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
 
+ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint32_t i,
+                       ShadowFilter filter) {
+    glm::uvec2 viewport_px{1, 1};
+    for (const ConsumerItem& consumer : scene.consumers) viewport_px = glm::max(viewport_px, consumer.viewport_px);
+    const LightItem& light = scene.lights[i];
+    ShadowDemand demand;
+    demand.light = i;
+    demand.filter = filter;
+    demand.depth_format = light.shadow.depth_format;
+    const LightKindRow& kind = light_kind_row(light.kind);
+    demand.view_count = kind.layers;
+    const std::uint32_t limit_px = kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
+    const HeldLight* held_light = find(held, light.entity, i);
+    decide_resolution(light, viewport_px, limit_px, held_light ? held_light->map_px : 0, demand);
+    decide_projection(light, scene.sampled_depths.failed, demand);
+    if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
+    if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
+    if (leaves_count(light, demand)) {
+        demand.most_views = demand.view_count;
+        if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
+            set_cascades(light.shadow, held_light->cascades, demand);
+    }
+    if (asks_rays(filter_row(demand.filter))) decide_sheets(demand);
+    return demand;
+}
+
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,
                    std::vector<ShadowDemand>& demands) {
     demands.clear();
-    glm::uvec2 viewport_px{1, 1};
-    for (const ConsumerItem& consumer : scene.consumers) viewport_px = glm::max(viewport_px, consumer.viewport_px);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        const LightItem& light = scene.lights[i];
-        ShadowDemand demand;
-        demand.light = i;
-        demand.skip = wanted(light, shadows);
-        demand.filter = light.shadow.filter;
-        demand.depth_format = light.shadow.depth_format;
-        const LightKindRow& kind = light_kind_row(light.kind);
-        demand.view_count = kind.layers;
-        const std::uint32_t limit_px =
-            kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
-        const HeldLight* held_light = find(held, light.entity, i);
-        decide_resolution(light, viewport_px, limit_px, held_light ? held_light->map_px : 0, demand);
-        decide_projection(light, scene.sampled_depths.failed, demand);
-        if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
-        if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
-        if (leaves_count(light, demand)) {
-            demand.most_views = demand.view_count;
-            if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
-                set_cascades(light.shadow, held_light->cascades, demand);
-        }
-        if (asks_rays(filter_row(demand.filter))) decide_sheets(demand);
-        demands.push_back(demand);
+        demands.push_back(demand_of(scene, device, held, i, scene.lights[i].shadow.filter));
+        demands.back().skip = wanted(scene.lights[i], shadows);
     }
 }
 

@@ -19,6 +19,10 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand&
 /// Sets how many cascades a sun has, and whether they fade into each other.
 void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& demand);
 
+/// What the light of that index deserves with that filter, if it deserves anything.
+ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
+                       std::uint32_t light, ShadowFilter filter);
+
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
 /// `shadows` false treats every light as disabled. `held`: what the fits left last frame.
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,

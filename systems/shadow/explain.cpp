@@ -39,6 +39,8 @@ void explain_views(const LightItem& light, const ShadowDemand& demand, const Sha
             view.why.stale_px = frame.slots[v].stale.error_px;
             if (frame.slots[v].reuse) view.state = LightState::reused;
             if (frame.slots[v].reuse) view.reason = why_reused(frame.slots[v]);
+            if (!frame.slots[v].texture) view.state = LightState::skipped;  // rays do without
+            if (!frame.slots[v].texture) view.reason = demand.left_to_rays ? Reason::rays_cheaper : demand.note;
             if (frame.views[v].lit) view.state = LightState::skipped;
             if (frame.views[v].lit) view.reason = Reason::no_caster;
         }
@@ -73,6 +75,9 @@ void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const 
     } else if (demand.note != Reason::none) {
         out.state = LightState::degraded;
         out.reason = demand.note;
+    } else if (demand.left_to_rays) {
+        out.state = LightState::rendered;
+        out.reason = Reason::rays_cheaper;
     } else if (!drawn) {
         out.state = LightState::reused;
         out.reason = held ? Reason::refresh_held : Reason::content_unchanged;

@@ -108,7 +108,7 @@ constexpr FilterRow kRows[] = {
      FilterStorage::depth, 2.5f, 0.75f},
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/pcss_moments.glsl", kFourMoments),
     {ShadowFilter::exact, "exact", "shadow/filters/exact.glsl", of_ray, 0.5f, FilterWidth::fixed, MapReading::depths,
-     FilterStorage::sheets},
+     FilterStorage::sheets, 0.0f, 0.75f},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

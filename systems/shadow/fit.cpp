@@ -240,6 +240,7 @@ void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& fra
         const HeldLight* last = find(held, light.entity, frame.next_history.lights.size());
         HeldLight& next = frame.next_history.lights.emplace_back(last ? *last : none);
         next.light = light.entity;
+        next.gave_way = demand.gives_way;
         if (sets.skip != Reason::none) continue;
         if (!has_map(demand)) {
             if (sets.casters.count == 0) sets.skip = Reason::no_caster;

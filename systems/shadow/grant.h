@@ -8,6 +8,7 @@ namespace gnomon::shadow {
 struct ShadowBudget {
     std::uint64_t bytes = 0;  // all that lights hold: maps, triangles, moments, copies
     float gpu_ms = 0.0f;      // of a frame: drawing maps, and looking them up
+    std::uint64_t rays = 0;  // that pixels of exact lights may ask in a frame, as they are predicted (exact/ray_load.h)
     bool operator==(const ShadowBudget&) const = default;
 };
 

@@ -74,6 +74,7 @@ struct HeldLight {
     std::uint32_t spare_frames = 0;  // for how many frames half of it seems to have done
     std::uint32_t cascades = 0;      // that its contract chose; 0: none yet, or it leaves no choice
     std::uint32_t moves = 0;         // in how many frames its maps moved since another number was tried
+    bool gave_way = false;           // ShadowDemand::gives_way
     Grant grant;                     // what a budget left it; BudgetStage's, as all that follows
     float activity = 0.0f;           // share of its views that changed per frame, of late
     std::uint32_t new_frames = 0;    // in so many frames from now its views change because its grant did

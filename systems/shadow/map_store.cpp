@@ -182,8 +182,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     const FilterStorage storage = filter_row(demand.filter).storage;
     const gl::TextureDesc& held = history.desc;
     if (history.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
-                             history.storage == storage &&
-                             is_same_store(history.moments, moments_of(held, demand)))) {
+                             history.storage == storage && is_same_store(history.moments, moments_of(held, demand)))) {
         // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
         release(history);
         history.wanted_px = 0;

@@ -25,7 +25,7 @@ struct MomentMap {
 
 /// Beside a depth map of FilterStorage::sheets (SheetDescs). What each texel shows is LightHistory::triangles.
 struct SheetMap {
-    gl::TextureHandle second{}, bounds{};  // {0}: there is none
+    gl::TextureHandle second{}, bounds{};                          // {0}: there is none
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 
@@ -36,12 +36,13 @@ struct LightHistory {
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
     FilterStorage storage = FilterStorage::depth;  // what it was made for
-    gl::TextureHandle triangles{};          // beside it for a filter that reads or peels triangles; else {0}
-    SheetMap sheets;                        // beside it for a filter of FilterStorage::sheets
-    MomentMap moments;                      // beside it for a filter of FilterStorage::moments
-    StillMap still;                         // beside it while some of its casters move and others do not
-    std::vector<gl::TargetHandle> targets;  // one per layer
-    gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
+    gl::TextureHandle triangles{};                 // beside it for a filter that reads or peels triangles; else {0}
+    SheetMap sheets;                               // beside it for a filter of FilterStorage::sheets
+    MomentMap moments;                             // beside it for a filter of FilterStorage::moments
+    StillMap still;                                // beside it while some of its casters move and others do not
+    std::vector<gl::TargetHandle> targets;         // one per layer
+    gl::TargetHandle whole{};                      // all layers at once; made when first drawn that way
+    std::uint64_t wanted_content = 0;       // of all layers in the last frame, of lights that may do without a map
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
     std::vector<std::uint64_t> placements;  // per layer: ShadowSlot::placement of it
     std::vector<ShownCasters> shown;        // per layer, of lights whose maps may be kept; else empty
@@ -88,7 +89,10 @@ public:
     /// without shadow, loses its map at once; one that nobody sees for kHoldFrames later. A failed allocation is tried
     /// at half the edge, kHalvings times, then again after kRetryFrames; meanwhile the light is lit.
     void assign_slots(const SceneSnapshot& scene, ShadowFrame& frame);
-    /// After it: says how those that are not kept are drawn.
+    /// After it: takes the slots of lights whose maps would be drawn anew, and probably in the next frame again, for
+    /// more than rays for all their pixels cost (ShadowDemand::left_to_rays).
+    void leave_to_rays(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    /// After that: says how those that are not kept are drawn.
     void plan_draws(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
 
     /// Remembers what the frame drew. `drawn` false forgets the layers (a failed submission).

@@ -243,15 +243,6 @@ float farthest_depth(const LightItem& light, const ConsumerItem& c) {
 
 namespace {
 
-/// Whether all that is seen of the light's receivers is drawn into its maps, too.
-bool receivers_cast(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t d) {
-    const IndexRange range = frame.sets[d].receivers;
-    const auto receivers = std::span(frame.receiver_items).subspan(range.first, range.count);
-    const LightItem& light = scene.lights[frame.demands[d].light];
-    return std::all_of(receivers.begin(), receivers.end(),
-                       [&](std::uint32_t i) { return casts_under(light, scene.instances[i]); });
-}
-
 /// Lights whose shadows are asked for by rays: with their maps, where they have any, for pixels of which those are not
 /// certain. A picture of another camera than those that maps are fitted to may show what is not in them.
 void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
@@ -271,7 +262,6 @@ void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {};
         out.sampler = samplers.of(MapReading::depths);
-        out.record.filtering = {out.row.sheets && receivers_cast(scene, frame, d) ? 1 : 0, 0, 0, 0};
     }
 }
 

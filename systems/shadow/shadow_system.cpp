@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "systems/shadow/demand.h"
+#include "systems/shadow/exact/ray_load.h"
 #include "systems/shadow/explain.h"
 #include "systems/shadow/fit.h"
 #include "systems/shadow/sets.h"
@@ -12,7 +13,13 @@
 namespace gnomon::shadow {
 
 ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
-    : device_(device), maps_(device), recorder_(device), sheets_(device), moments_(device), rays_(device), history_(held_fits) {}
+    : device_(device),
+      maps_(device),
+      recorder_(device),
+      sheets_(device),
+      moments_(device),
+      rays_(device),
+      history_(held_fits) {}
 
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
@@ -71,6 +78,7 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
         asked = asked || asks_now(d);
     }
     if (!any) rays_.release();
+    if (!any) sheets_.release();
     if (!asked || rays_.update(scene, gpu, list)) return;
     for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
         if (!asks_now(d)) continue;
@@ -89,6 +97,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     const bool others_move = motion_.update(scene);
     const bool unchanged = still_.unchanged(scene, shadows, budget) && !others_move;
     if (others_move) frame_.moving = motion_.moving();
+    most_rays_ = budget.rays;
     BudgetLimits limits = limits_of(budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
     const bool shared_out = !budget_.is_moved_by(limits, cost_clock_.factors());
@@ -122,6 +131,7 @@ void ShadowSystem::stand_still() {
 void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report) {
     decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
+    limit_rays(scene, device_.info(), history_, most_rays_, frame_.demands);
     budget_.apply(scene, history_, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });
@@ -137,6 +147,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     maps_.set_limit(budget_.limits().bytes);
     maps_.let_take_turns(budget_.limits().ns != BudgetLimits::kNone);
     maps_.assign_slots(scene, frame_);
+    maps_.leave_to_rays(scene, gpu, frame_);
     budget_.spread_draws(gpu, scene, frame_);
     budget_.note_changes(scene, frame_);
     maps_.plan_draws(scene, gpu, frame_);
@@ -158,7 +169,8 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
             return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||
                    reason == Reason::sampler_failed || reason == Reason::filter_program_failed;
         };
-        return !is_tried_again(sets.skip) && !is_tried_again(demand.note) && (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
+        return !is_tried_again(sets.skip) && !is_tried_again(demand.note) && !demand.left_to_rays &&
+               (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
     };
     return history_ == frame_.next_history &&
            std::equal(frame_.sets.begin(), frame_.sets.end(), frame_.demands.begin(), frame_.demands.end(), settled);

@@ -70,6 +70,7 @@ private:
     DrawTimes draw_times_;
     DimLights dim_lights_;
     BudgetStage budget_;
+    std::uint64_t most_rays_ = 0;
     CostClock cost_clock_;
     ShadowFrame frame_;
     History history_;

@@ -57,6 +57,8 @@ struct ShadowDemand {
     std::uint32_t refresh_frames = 1;  // of a budget (Grant)
     bool asks_rays = false;            // FilterStorage::sheets: about pixels of which its map, if any, is not certain
     bool traced = false;               // and about all: it is to have no map
+    bool gives_way = false;            // others' rays leave it none: it has another filter than its own
+    bool left_to_rays = false;         // its map is not worth drawing in this frame
     bool over_budget = false;          // a budget gives it less than it asks for
     double weight = 0.0;               // of a budget: what its shadow means to the picture, 0 to 1
 };
@@ -161,7 +163,7 @@ struct ShadowSlot {
     gl::TargetHandle second_target{};  // this view's layer of it
     gl::TextureHandle bounds{};        // and where sheets end, and how far they depart from their depths
     gl::TargetHandle bounds_target{};
-    gl::TextureHandle moments{};  // FilterStorage::moments: what the depths become; else {0}
+    gl::TextureHandle moments{};       // FilterStorage::moments: what the depths become; else {0}
     gl::TargetHandle moment_target{};  // this view's layer of it
     gl::TextureHandle scratch{};       // between the two passes of its blur; {0} if there is one pass alone
     gl::TargetHandle scratch_target{};
@@ -176,8 +178,8 @@ struct ShadowSlot {
     StillUse still_use = StillUse::none;
     gl::TextureHandle still{}, still_triangles{};  // where those are kept, if used; {0} where the map has none
     bool reuse = false;
-    bool convert = false;  // the moments have to be made anew
-    bool changed = false;  // the layer shows other than what it should: it is drawn, or has to wait (Grant)
+    bool convert = false;             // the moments have to be made anew
+    bool changed = false;             // the layer shows other than what it should: it is drawn, or has to wait (Grant)
     std::uint64_t shown_content = 0;  // signature of what the layer holds
     Staleness if_held{};              // what keeping that would mean; infinite: it cannot be told, or must not be
     std::uint32_t waited_frames = 0;  // for how many it was kept by turns
@@ -274,7 +276,7 @@ struct LightingLight {
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
     PlainLookup plain;
-    gl::Rect screen{};  // pixels the light can reach; empty: none
+    gl::Rect screen{};            // pixels the light can reach; empty: none
     float farthest_depth = 0.0f;  // of the picture: surfaces that it can reach have larger ones, and the sky never has
     LightRecord record;
 };

@@ -41,7 +41,7 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
     std::size_t channels = 4;
     for (const Format two : {Format::rg16, Format::rg16f, Format::rg32f, Format::rg32ui})
         if (format == two) channels = 2;
-    if (format == Format::r8 || format == Format::r16f || format == Format::r32f || gl::is_depth(format)) channels = 1;
+    if (format == Format::r8 || format == Format::r16f || format == Format::r32f || format == Format::r32ui || gl::is_depth(format)) channels = 1;
     for (std::size_t i = 0; i < texels * channels; ++i) {
         const auto small = static_cast<std::uint16_t>(i % 251);
         switch (format) {
@@ -67,6 +67,7 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
             case Format::rgba32f:
                 add(static_cast<float>(i) * -1.25f);
                 break;
+            case Format::r32ui:
             case Format::rg32ui:
             case Format::rgba32ui:
                 add(0xffffffffu - static_cast<std::uint32_t>(i));
@@ -195,6 +196,7 @@ constexpr std::array kFormatNames = {std::pair{"r8", Format::r8},
                                      std::pair{"rgba32f", Format::rgba32f},
                                      std::pair{"r32f", Format::r32f},
                                      std::pair{"rg32f", Format::rg32f},
+                                     std::pair{"r32ui", Format::r32ui},
                                      std::pair{"rg32ui", Format::rg32ui},
                                      std::pair{"d16", Format::d16},
                                      std::pair{"d24", Format::d24},

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -105,10 +106,16 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         add(lighting.blended_base());
         add(lighting.luminance());
         add(lighting.tonemap());
-        for (const shadow::ProgramRow& row : all_rows())
-            for (const auto output :
-                 {lighting::RowOutput::picture, lighting::RowOutput::visibility, lighting::RowOutput::blended})
-                add(lighting.row(row, output));
+        // Rows with sheets share programs.
+        std::set<std::uint32_t> shared;
+        for (const shadow::ProgramRow& row : all_rows()) {
+            using enum lighting::RowOutput;
+            for (const auto output : {picture, visibility, blended, verdicts, rays}) {
+                if (!row.sheets && (output == verdicts || output == rays)) continue;
+                const gl::ProgramHandle program = lighting.row(row, output);
+                if (!row.sheets || shared.insert(program.id).second) add(program);
+            }
+        }
         for (const debug::ViewRow& view : debug::view_table())
             if (view.medium == debug::ViewMedium::lookups)
                 for (const shadow::ProgramRow& row : lookup_rows(view.name)) add(lighting.lookups(row, view.fragment));

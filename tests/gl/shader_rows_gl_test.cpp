@@ -19,7 +19,10 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto prefiltered =
         static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
     constexpr std::size_t kMaskedOrNot = 2;
+    // By rays alone: as every row. With sheets: what is found is read by one program of a kind to an output; blended
+    // surfaces, verdicts and rays have their own, masked or not.
     const std::size_t by_rays = kinds * kMaskedOrNot * (shadow::filter_table().size() - filters);
+    const std::size_t with_sheets = 2 * kinds + 3 * by_rays;
     constexpr std::size_t kOutputs = 3, kCommon = 5, kDepth = 4, kCompute = 2, kBlur = 1, kSources = 3;
     const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + by_rays;  // those by a pixel's footprint, too
     std::size_t views_programs = 1;  // lines
@@ -29,7 +32,7 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
         EXPECT_GT(lookup_rows(view.name).size(), kinds);  // perspective and warped suns
         views_programs += lookup_rows(view.name).size();
     }
-    ASSERT_EQ(programs.size(), rows * kOutputs + kCommon + kDepth + kCompute + kBlur + kSources * prefiltered +
+    ASSERT_EQ(programs.size(), rows * kOutputs + with_sheets + kCommon + kDepth + kCompute + kBlur + kSources * prefiltered +
                                    views_programs);
     std::set<std::string> sources;
     for (const gl::ProgramDesc& desc : programs) {
@@ -53,8 +56,8 @@ TEST_F(ShaderRows, ARowWhoseFilterIsMissingIsRefusedAndTheOthersStay) {
     lighting::LightPrograms programs(device());
     shadow::ProgramRow row = all_rows().back();
     row.filter_file = "shadow/filters/none_such.glsl";
-    EXPECT_FALSE(programs.row(row, lighting::RowOutput::picture));
-    EXPECT_TRUE(programs.row(all_rows().back(), lighting::RowOutput::picture));
+    EXPECT_FALSE(programs.row(row, lighting::RowOutput::blended));
+    EXPECT_TRUE(programs.row(all_rows().back(), lighting::RowOutput::blended));
 }
 
 }  // namespace

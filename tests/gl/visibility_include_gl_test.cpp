@@ -363,7 +363,8 @@ TEST_P(FewestFetches, AreTheMeanOfASquareOfHardwareTapsATexelApart) {
 
 std::vector<shadow::FilterRow> map_filters() {
     std::vector<shadow::FilterRow> rows;
-    std::copy_if(shadow::filter_table().begin(), shadow::filter_table().end(), std::back_inserter(rows), shadow::has_map);
+    std::copy_if(shadow::filter_table().begin(), shadow::filter_table().end(), std::back_inserter(rows),
+                 [](const shadow::FilterRow& row) { return !shadow::asks_rays(row); });
     return rows;
 }
 

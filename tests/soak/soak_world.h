@@ -27,6 +27,7 @@ public:
     static constexpr std::size_t kMostLights = 6, kMostCasters = 24;
 
 private:
+    void leave_to_rays(const std::function<void()>& run_frame);
     void use_every_light(const std::function<void()>& run_frame);
     double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
     bool chance(double share) { return number(0.0, 1.0) < share; }

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "systems/shadow/exact/ray_load.h"
 #include "systems/shadow/map_desc.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"
@@ -140,6 +141,65 @@ TEST_F(ExactMaps, AreDoneWithoutWhereThereIsNoRoom) {
         step();
         EXPECT_THAT(map_labels(device), IsEmpty());
     }
+}
+
+/// 64 x 36 pixels against 2048 x 2048 texels.
+TEST_F(ExactMaps, ThatChangeAndCostMoreThanRaysForAllPixelsAreLeftToThem) {
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
+    set(lamp, [](LightShadow& s) { s.resolution_px = 2048; });
+    step();
+    EXPECT_THAT(drawn(), SizeIs(3)) << "nothing is known to move";
+    for (int i = 1; i <= 3; ++i) {
+        world.move(stage.box, {0.1 * i, 1, 0});
+        step();
+        EXPECT_THAT(drawn(), IsEmpty());
+        EXPECT_EQ(light("lamp").state, LightState::rendered);
+        EXPECT_EQ(light("lamp").reason, Reason::rays_cheaper);
+        EXPECT_EQ(frame->report().views_of(light("lamp"))[0].reason, Reason::rays_cheaper);
+        EXPECT_TRUE(light("lamp").keeps_max_error);
+    }
+    step();
+    EXPECT_THAT(drawn(), SizeIs(3)) << "it stands";
+    EXPECT_EQ(light("lamp").reason, Reason::none);
+    step();
+    EXPECT_THAT(drawn(), IsEmpty());
+    EXPECT_EQ(light("lamp").state, LightState::reused);
+    // Few texels are worth it.
+    set(lamp, [](LightShadow& s) { s.resolution_px = 16; });
+    step();
+    world.move(stage.box, {0.0, 1, 0});
+    step();
+    EXPECT_THAT(drawn(), SizeIs(3));
+}
+
+TEST_F(ExactMaps, GiveWayToFilteredOnesByWhatTheyMeanAndComeBackWithRoomToSpare) {
+    add_light(LightKind::spot, "bright");
+    const ecs::Entity dim = add_light(LightKind::spot, "dim");
+    world.registry.patch<Light>(dim, [](Light& l) { l.intensity *= 0.5f; });
+    step();
+    const auto pixels = [&] { return shadow::asking_pixels(frame->snapshot(), frame->snapshot().lights[0]); };
+    ASSERT_GT(pixels(), 100.0);
+    const double each = pixels() * shadow::kUncertainShare;
+    settings.shadow_budget.rays = static_cast<std::uint64_t>(1.9 * each);
+    step();
+    EXPECT_EQ(light("bright").reason, Reason::content_unchanged);
+    EXPECT_EQ(light("dim").state, LightState::degraded);
+    EXPECT_EQ(light("dim").reason, Reason::ray_budget);
+    EXPECT_GT(light("dim").predicted_error_px, 0.0);
+    EXPECT_THAT(drawn("shadow map dim"), ElementsAre("shadow map dim")) << "as triangles have it";
+    settings.shadow_budget.rays = static_cast<std::uint64_t>(2.1 * each);
+    step();
+    EXPECT_EQ(light("dim").reason, Reason::ray_budget) << "there is room, but not a quarter more";
+    settings.shadow_budget.rays = static_cast<std::uint64_t>(2.3 * each);
+    step();
+    EXPECT_EQ(light("dim").state, LightState::rendered);
+    EXPECT_EQ(light("dim").reason, Reason::none);
+    settings.shadow_budget.rays = 1;
+    step();
+    EXPECT_EQ(light("bright").reason, Reason::ray_budget);
+    EXPECT_EQ(light("dim").reason, Reason::ray_budget);
+    step();
+    EXPECT_THAT(map_labels(device, "ray "), IsEmpty()) << "nobody asks";
 }
 
 TEST_F(ExactMaps, AreDoneWithoutWhereTheirProgramsFail) {

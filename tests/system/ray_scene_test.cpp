@@ -35,7 +35,8 @@ protected:
     }
     std::vector<std::string> ray_labels() const {
         std::vector<std::string> labels = map_labels(device, "ray ");
-        for (const std::string& places : map_labels(device, "surface places")) labels.push_back(places);
+        for (const char* other : {"surface places", "verdicts of maps", "answers of rays", "pixels for rays"})
+            for (const std::string& label : map_labels(device, other)) labels.push_back(label);
         return labels;
     }
     /// Bytes that the last frame wrote into buffers whose label begins so.

@@ -15,4 +15,5 @@ const float kProjectedUnits = 4.0;    // and a row of the projection
 const float kSplitUnits = 3.5527137e-15;   // of a position given as two floats, 2^-48
 const float kMostMoved_texel = 0.05;  // by rounding, across the map
 const float kStoredUnits = 8.0;       // a depth as it is interpolated, stored and compared
+const float kFloorTangent = 4.0;      // between normal and light, up to which no facet is drawn (SheetFloor)
 const float kUnknownDeparture = 1e6;

@@ -74,6 +74,22 @@ bool is_in_the_open(ShadowPoint point, SheetPlace place) { return point.covered 
 float first_depth(ShadowPoint point, SheetPlace place) { return texelFetch(shadow_map, place.texel, 0).x; }
 #endif
 
+// By how much facets that are not drawn may depart from a depth, FlatFacets; the map of a sun is cleared to that.
+float sheet_floor(ShadowPoint point, float depth) {
+#ifdef LIGHT_DIRECTIONAL
+    return 0.0;
+#else
+#ifdef LIGHT_POINT
+    ViewRecord view = light.views[0];
+#else
+    ViewRecord view = light.views[point.view];
+#endif
+    // Along a walk 1/z changes by no more than this share of itself in half a texel.
+    float share = 0.5 * kFloorTangent * max(view.axis_u.w, view.axis_v.w);
+    return kDepartureFactor * share * (1.0 + 2.0 * share) * (depth - view.numeric.z);
+#endif
+}
+
 // `receiver_casts`: the receiver's own surface is among the casters of the map; else the nearest of those, too, may not lie
 // before it.
 int sheet_verdict(ShadowPoint point, vec3 position_ca, float error_m, bool receiver_casts) {
@@ -82,7 +98,9 @@ int sheet_verdict(ShadowPoint point, vec3 position_ca, float error_m, bool recei
     if (!place.is_known) return kUncertain;
     float first = first_depth(point, place), second = texelFetch(sheet_second, place.texel, 0).x;
     vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
-    float contour = bounds.x, off = bounds.y + place.error + kRoundings * kStoredUnits * kUnitRoundoff * max(first, place.depth);
+    float nearest = max(first, place.depth);
+    float contour = bounds.x;
+    float off = max(bounds.y, sheet_floor(point, nearest)) + place.error + kRoundings * kStoredUnits * kUnitRoundoff * nearest;
     if (first - off > max(place.depth, contour)) return kCertainlyDark;
     return place.depth - off > max(receiver_casts ? second : first, contour) ? kCertainlyLit : kUncertain;
 }

@@ -6,31 +6,21 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "systems/shadow/exact/clip_rounding.h"
 #include "systems/shadow/exact/sheet_margins.h"
 
 namespace gnomon::shadow {
 namespace {
 
-constexpr double kUnitRoundoff = 5.9604644775390625e-8;  // of float, 2^-24
 constexpr double kDoubleRoundoff = 1.1102230246251565e-16;
 /// Of a facet's normal, rounded to float, with the products and sums of its test; and the same of places in double.
 constexpr double kFacingUnits = 4.0, kPlaceUnits = 16.0;
-/// Tangent between normal and light up to which a facet is not drawn (SheetFloor).
-constexpr double kFloorTangent = 4.0;
-
 bool is_parallel(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
-bool is_plain(const ShadowView& view) { return is_parallel(view) && view.warp == glm::dvec2(0.0); }
 
 /// Turns normals of planes as `m` turns points, but for a factor; needs no inverse.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
-
-glm::dvec3 absolute(const glm::dmat3& m, const glm::dvec3& v) {
-    return glm::abs(m[0]) * v.x + glm::abs(m[1]) * v.y + glm::abs(m[2]) * v.z;
-}
-
-glm::dvec3 row(const glm::mat4& m, int r) { return {m[0][r], m[1][r], m[2][r]}; }
 
 /// On which side of a facet's plane the light is, times a factor common to all facets of an instance.
 class FacingTest {
@@ -65,31 +55,6 @@ private:
     double scale_ = 1.0, rounding_ = 0.0;
 };
 
-/// Whether what float does to the instance's vertices stays within what flat facets are given (kFlatRounding).
-bool is_placed_finely(const CasterSurface& surface, const InstanceItem& item, const ShadowView& view,
-                      std::uint32_t size_px) {
-    const glm::dvec3 local = absolute(item.basis, surface.reach_ms);
-    const glm::dvec3 reach = local + glm::abs(item.translation_ws_m - view.anchor_ws_m);
-    const double split = kSplitUnits * glm::length(item.translation_ws_m) + kSplitUnits * glm::length(view.anchor_ws_m);
-    const glm::dvec3 error = (kPlacedUnits + kProjectedUnits) * kUnitRoundoff * reach + split;
-    const auto of_row = [&](int r) {
-        return glm::dot(glm::abs(row(view.clip_from_anchor, r)), error) +
-               kProjectedUnits * kUnitRoundoff * std::abs(static_cast<double>(view.clip_from_anchor[3][r]));
-    };
-    const double across_texel = std::max(of_row(0), of_row(1)) * 0.5 * size_px;
-    return across_texel <= kMostMoved_texel && of_row(2) <= kFlatRounding;
-}
-
-/// Of a length in the model at least so much is left in the map, in texels, of facets that the light meets no more
-/// obliquely than flat ones: the smallest singular value is no less than the determinant over the squares of the
-/// others.
-double least_texels_per_ms(const InstanceItem& item, double texel_m) {
-    const glm::dmat3& m = item.basis;
-    const double squares = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
-    const double stretch = std::abs(glm::determinant(m)) / squares;
-    return stretch / (texel_m * std::sqrt(1.0 + kFloorTangent * kFloorTangent));
-}
-
 bool is_contour(const assets::SurfaceEdges::Fold& fold, const std::vector<std::int8_t>& facing) {
     const int other = fold.same_way ? -facing[fold.second] : facing[fold.second];
     return facing[fold.first] * other <= 0;
@@ -97,50 +62,62 @@ bool is_contour(const assets::SurfaceEdges::Fold& fold, const std::vector<std::i
 
 }  // namespace
 
-SheetFloor sheet_floor(const ShadowView& view, std::uint32_t size_px) {
-    if (!is_plain(view)) return {};
-    const double texel_m = 2.0 / (size_px * std::min(glm::length(row(view.clip_from_anchor, 0)),
-                                                     glm::length(row(view.clip_from_anchor, 1))));
-    const double departure = 0.5 * kFloorTangent * texel_m * glm::length(row(view.clip_from_anchor, 2));
-    return {departure, static_cast<float>(kDepartureFactor * departure + kFlatRounding)};
+/// In clip space, widened by what float may do to it and by what quads are widened by; but for `behind` each bit is one
+/// side of the map.
+void SheetGatherer::place(const std::vector<assets::Vertex>& vertices, const CasterSurface& surface,
+                          const InstanceItem& item, const ShadowView& view, std::uint32_t size_px) {
+    const glm::dmat4 clip_from_anchor(view.clip_from_anchor);
+    glm::dmat4 anchor_from_model(item.basis);
+    anchor_from_model[3] = glm::dvec4(item.translation_ws_m - view.anchor_ws_m, 1.0);
+    const glm::dmat4 clip_from_model = clip_from_anchor * anchor_from_model;
+    const ClipRounding rounding(surface, item, view);
+    const double beyond = 1.0 + kQuadReach_texel * 2.0 / size_px, w_slack = rounding.of_row(3);
+    const glm::dvec2 slack(rounding.of_row(0) + beyond * w_slack, rounding.of_row(1) + beyond * w_slack);
+    placed_.resize(vertices.size());
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const glm::dvec4 c = clip_from_model * glm::dvec4(glm::dvec3(vertices[v].position_ms), 1.0);
+        const double reach = beyond * c.w;
+        const bool bits[] = {c.x > reach + slack.x, -c.x > reach + slack.x, c.y > reach + slack.y,
+                             -c.y > reach + slack.y, c.w < -w_slack};
+        placed_[v] = {c.w, 0};
+        for (unsigned bit = 0; bit < std::size(bits); ++bit)
+            placed_[v].beyond = static_cast<std::uint8_t>(placed_[v].beyond | (bits[bit] ? 1u << bit : 0u));
+    }
 }
 
 void SheetGatherer::append(const GpuScene& gpu, const CasterSurface& surface, const InstanceItem& item,
                            const ShadowView& view, std::uint32_t size_px, SheetItems& items) {
-    const auto& indices = *gpu.shape(item.mesh).indices;
+    const GpuScene::MeshShape shape = gpu.shape(item.mesh);
+    const auto& indices = *shape.indices;
     const auto base = static_cast<std::uint32_t>(gpu.mesh(item.mesh).base_vertex);
-    const auto triangle = [&](std::uint32_t t) {
-        return SheetItem{item.gpu_slot, base + indices[std::size_t{3} * t], base + indices[std::size_t{3} * t + 1],
-                         base + indices[std::size_t{3} * t + 2]};
+    place(*shape.vertices, surface, item, view, size_px);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<SheetItem>& to) {
+        if ((placed_[a].beyond & placed_[b].beyond & placed_[c].beyond) == 0)
+            to.push_back({item.gpu_slot, base + a, base + b, base + c});
+    };
+    const auto add_triangle = [&](std::uint32_t t, std::vector<SheetItem>& to) {
+        add(indices[std::size_t{3} * t], indices[std::size_t{3} * t + 1], indices[std::size_t{3} * t + 2], to);
+    };
+    const auto farthest_m = [&](std::uint32_t t) {
+        const auto distance = [&](std::size_t corner) {
+            return placed_[indices[std::size_t{3} * t + corner]].distance_m;
+        };
+        return std::max({distance(0), distance(1), distance(2)});
     };
     const FacingTest test(item, view);
-    const SheetFloor floor = sheet_floor(view, size_px);
-    const bool skips = floor.departure > 0.0 && is_placed_finely(surface, item, view, size_px);
-    // Half a texel along u and v, and what depth changes by per metre along the light.
-    const glm::dvec2 half_texel_m(1.0 / (size_px * glm::length(row(view.clip_from_anchor, 0))),
-                                  1.0 / (size_px * glm::length(row(view.clip_from_anchor, 1))));
-    const double least_texels = least_texels_per_ms(item, 2.0 * std::max(half_texel_m.x, half_texel_m.y));
-    const double depth_per_m = glm::length(row(view.clip_from_anchor, 2));
+    const FlatFacets is_flat(surface, item, view, size_px);
     facing_.resize(surface.facets.size());
     for (const std::uint32_t t : surface.opaque) {
+        const CasterSurface::Facet& facet = surface.facets[t];
         double error = 0.0;
-        const double side = test(surface.facets[t], error);
+        const double side = test(facet, error);
         facing_[t] = side > error ? 1 : (side < -error ? -1 : 0);
-        const bool is_wide = static_cast<double>(surface.facets[t].altitude_ms) * least_texels >= kLeastAltitude_texel;
-        if (skips && is_wide && facing_[t] != 0) {
-            const glm::dvec3 n = glm::abs(test.in_view(surface.facets[t]));
-            const double across = n.x * half_texel_m.x + n.y * half_texel_m.y;
-            if (across * depth_per_m * (1.0 + kFacingUnits * kUnitRoundoff) < floor.departure * n.z) continue;
-        }
-        items.triangles.push_back(triangle(t));
+        if (!is_flat(facet, test.in_view(facet), side, error, farthest_m(t))) add_triangle(t, items.triangles);
     }
-    const auto edge = [&](std::uint32_t a, std::uint32_t b) {
-        items.contours.push_back({item.gpu_slot, base + a, base + b, base + a});
-    };
-    for (const auto& border : surface.edges.borders) edge(border.a, border.b);
+    for (const auto& border : surface.edges.borders) add(border.a, border.b, border.a, items.contours);
     for (const auto& fold : surface.edges.folds)
-        if (is_contour(fold, facing_)) edge(fold.a, fold.b);
-    for (const std::uint32_t t : surface.masked) items.masked.push_back(triangle(t));
+        if (is_contour(fold, facing_)) add(fold.a, fold.b, fold.a, items.contours);
+    for (const std::uint32_t t : surface.masked) add_triangle(t, items.masked);
 }
 
 }  // namespace gnomon::shadow

@@ -5,6 +5,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/exact/caster_surfaces.h"
+#include "systems/shadow/exact/flat_facets.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::shadow {
@@ -30,24 +31,23 @@ struct SheetItems {
     }
 };
 
-/// By how much a surface may depart from its depth at a texel's middle within that texel without being drawn: what the
-/// map of departures is cleared to, as depth. Orthographic maps have one, for planes that the light meets at atan 4
-/// from their normal: steeper ones are few. In a perspective view what is far would bear what is near departs by: 0.
-struct SheetFloor {
-    double departure = 0.0;  // of such a plane, without margins
-    float cleared = 0.0f;    // with them
-};
-SheetFloor sheet_floor(const ShadowView& view, std::uint32_t size_px);
-
-/// Appends what the instance of that surface brings to the view. A facet seen so nearly edge-on that double's and
-/// float's rounding could turn it has its edges among the contours whatever is beside it.
+/// Appends what the instance of that surface brings to the view's map, but for what lies beside it. A facet seen so
+/// nearly edge-on that double's and float's rounding could turn it has its edges among the contours whatever is beside
+/// it.
 class SheetGatherer {
 public:
     void append(const GpuScene& gpu, const CasterSurface& surface, const InstanceItem& item, const ShadowView& view,
                 std::uint32_t size_px, SheetItems& items);
 
 private:
+    struct Placed {
+        double distance_m = 0.0;  // along the view (perspective)
+        std::uint8_t beyond = 0;  // a bit per side of the map beyond which it lies, and one for behind the light
+    };
+    void place(const std::vector<assets::Vertex>& vertices, const CasterSurface& surface, const InstanceItem& item,
+               const ShadowView& view, std::uint32_t size_px);
     std::vector<std::int8_t> facing_;  // per facet: 1 toward the light, -1 away, 0 not known
+    std::vector<Placed> placed_;       // per vertex of the mesh
 };
 
 }  // namespace gnomon::shadow

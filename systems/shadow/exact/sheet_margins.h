@@ -4,6 +4,8 @@
 /// test SheetMargins.AreTheSameInShaders holds them together.
 namespace gnomon::shadow {
 
+inline constexpr double kUnitRoundoff = 5.9604644775390625e-8;  // of float, 2^-24
+
 /// Units of 2^-24 by which a vertex may be off before it is projected: its basis (1), three products, two sums, the
 /// translation's difference and its sum (2), of the sizes of what is added.
 inline constexpr double kPlacedUnits = 6.0;
@@ -19,6 +21,11 @@ inline constexpr double kDepartureFactor = 1.13;
 /// Shortest height, as the map shows it, of facets that are not drawn. A rasteriser moves corners by up to 2^-8 of a
 /// texel, and may take the slope of what is narrower from what is left of differences: its depths may be anything.
 inline constexpr double kLeastAltitude_texel = 1.0 / 64.0;
+/// How far quads over triangles and edges reach beyond them: no less than half a diagonal of a texel and its slack
+/// (triangles.vert, contours.vert).
+inline constexpr double kQuadReach_texel = 2.0;
+/// Tangent between normal and light up to which a facet is not drawn (SheetFloor).
+inline constexpr double kFloorTangent = 4.0;
 /// Of depth in [0, 1], for facets that are not drawn.
 inline constexpr double kFlatRounding = 6.0e-7;
 

@@ -34,6 +34,12 @@ SheetRecorder::~SheetRecorder() {
     for (const Program& p : programs_) device_.destroy(p.program);
 }
 
+void SheetRecorder::release() {
+    items_.release();
+    view_records_.release();
+    surfaces_.clear();
+}
+
 bool SheetRecorder::program(Kind kind) {
     Program& made = programs_[static_cast<std::size_t>(kind)];
     if (made.program) return true;

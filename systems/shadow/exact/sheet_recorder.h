@@ -32,6 +32,9 @@ public:
     void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
                 FrameReport& report);
 
+    /// No light has such views any more: frees all but programs.
+    void release();
+
     /// Of the surfaces, on the CPU.
     std::size_t surface_bytes() const { return surfaces_.bytes(); }
 

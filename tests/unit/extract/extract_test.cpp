@@ -149,8 +149,8 @@ TEST_F(ExtractTest, OnlyWhatMapsShowAgesAnInstanceAndOnlyWhatItsRecordHoldsIsUpl
     };
     auto& registry = world.registry;
     const std::vector<Edit> edits = {
-        {[&] { registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.enabled = false; }); }, false, false},
-        {[&] { registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.layers = 0x02; }); }, false, false},
+        {[&] { registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.enabled = false; }); }, false, true},
+        {[&] { registry.patch<ShadowCaster>(stage.box, [](ShadowCaster& c) { c.layers = 0x02; }); }, false, true},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.visible = false; }); }, false, false},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.shadow_layers = 0x04; }); }, false, true},
         {[&] { registry.patch<MeshRef>(stage.box, [](MeshRef& m) { m.receives_shadow = false; }); }, false, true},

@@ -1,0 +1,11 @@
+// What was found of a pixel: by its light's map, or by a ray.
+layout(binding = 5) uniform usampler2D verdicts;   // lighting/verdicts.frag
+layout(binding = 7) uniform sampler2D answers;     // of the rays, in the order of their list
+#include "lighting/listed.glsl"
+
+float found_visibility(ivec2 pixel) {
+    uint verdict = texelFetch(verdicts, pixel, 0).x;
+    int place = int(max(verdict, kListed) - kListed), width = textureSize(answers, 0).x;
+    float answer = texelFetch(answers, ivec2(place % width, place / width), 0).x;
+    return verdict < kListed ? 1.0 - float(verdict) : answer;
+}

@@ -1,0 +1,29 @@
+// One light over its screen rectangle: what its map is certain of, pixel by pixel; all others are listed for rays. Those would
+// cost their neighbours as much if they were asked at once: pixels go in step.
+#include "lighting/surface_targets.glsl"
+#include "row.glsl"
+#include "shadow/light_block.glsl"
+#include "shadow/layers.glsl"
+#include "lighting/light_at.glsl"
+#include "lighting/listed.glsl"
+#include "lighting/ray_list.glsl"
+layout(location = 0) out uint verdict_out;
+
+int certainty_of(Surface surface) {
+    LightSample incoming = light_at(surface.position_ca);
+    if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return kCertainlyDark;
+    if (!takes_shadow(surface.shadow_layers)) return kCertainlyLit;
+    return certainty(surface.place_ca, surface.geometric_normal, 0.0, surface.triangle);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    Surface surface = read_surface(pixel);
+    if (!surface.exists) discard;
+    int found = certainty_of(surface);
+    verdict_out = uint(found);
+    if (found != kUncertain) return;
+    uint place = atomicAdd(ray_count, 1u);
+    ray_pixels[place] = uint(pixel.x) | uint(pixel.y) << 16;
+    verdict_out = kListed + place;
+}

@@ -1,0 +1,99 @@
+#include "systems/lighting/ray_list.h"
+
+#include <array>
+#include <span>
+
+namespace gnomon::lighting {
+namespace {
+
+/// In shaders/lighting/ray_list.glsl.
+constexpr std::uint32_t kBinding = 1;
+/// In shaders/lighting/answers.glsl.
+constexpr std::uint32_t kVerdictUnit = 5, kAnswerUnit = 7;
+constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+/// Two triangles.
+constexpr std::uint32_t kQuadVertices = 6;
+
+}  // namespace
+
+RayList::RayList(gl::Device& device) : device_(device) {}
+
+void RayList::release() {
+    for (gl::TargetHandle* target : {&verdict_target_, &answer_target_}) {
+        device_.destroy(*target);
+        *target = {};
+    }
+    for (gl::TextureHandle* texture : {&verdicts_, &answers_}) {
+        device_.destroy(*texture);
+        *texture = {};
+    }
+    device_.destroy(pixels_);
+    pixels_ = {};
+}
+
+bool RayList::make(glm::uvec2 size_px, gl::TextureHandle depth) {
+    size_px_ = size_px;
+    depth_ = depth;
+    const auto texture = [&](const char* label, gl::Format format) {
+        return device_.create_texture({label, gl::TextureKind::flat, format, size_px.x, size_px.y}, {}).handle;
+    };
+    const std::uint64_t words = 1 + std::uint64_t{size_px.x} * size_px.y;
+    verdicts_ = texture("verdicts of maps", gl::Format::r32ui);
+    if (verdicts_) answers_ = texture("answers of rays", gl::Format::r8);
+    if (answers_)
+        pixels_ = device_.create_buffer({"pixels for rays", words * kWord, gl::BufferUse::updated}, {}).handle;
+    if (!pixels_) return false;
+    verdict_target_ = device_.create_target({"verdicts of maps", {{verdicts_}}, {depth}}).handle;
+    if (verdict_target_) answer_target_ = device_.create_target({"answers of rays", {{answers_}}, {}}).handle;
+    return static_cast<bool>(answer_target_);
+}
+
+bool RayList::provide(bool wanted, glm::uvec2 size_px, gl::TextureHandle depth) {
+    if (wanted && answer_target_ && size_px == size_px_ && depth == depth_) return true;
+    release();
+    if (!wanted) return true;
+    if (!retry_.due(++asked_)) return false;
+    if (make(size_px, depth)) return true;
+    release();
+    retry_.failed(asked_);
+    return false;
+}
+
+gl::Rect RayList::viewport() const {
+    return {0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
+}
+
+void RayList::begin_verdicts(gl::CommandList& list) const {
+    static constexpr std::array<std::uint32_t, 1> kNone{};
+    list.update(pixels_, 0, std::span<const std::uint32_t>(kNone));
+    list.add(gl::BindStorage{kBinding, pixels_});
+    list.add(gl::BeginPass{verdict_target_, viewport(), false, 0.0f, false, {}});
+}
+
+void RayList::end_verdicts(gl::CommandList& list) const { list.add(gl::EndPass{.wrote_storage = true}); }
+
+void RayList::record_rays(gl::ProgramHandle program, gl::CommandList& list) const {
+    list.add(gl::BeginPass{answer_target_, viewport(), false, 0.0f, false, {}});
+    list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    list.add(gl::DrawPulled{0, kQuadVertices});
+    list.add(gl::EndPass{});
+}
+
+void RayList::bind_answers(gl::CommandList& list) const {
+    list.add(gl::BindTexture{kVerdictUnit, verdicts_, {}});
+    list.add(gl::BindTexture{kAnswerUnit, answers_, {}});
+}
+
+void RayList::unbind_answers(gl::CommandList& list) const {
+    list.add(gl::BindTexture{kVerdictUnit, {}, {}});
+    list.add(gl::BindTexture{kAnswerUnit, {}, {}});
+}
+
+std::uint64_t RayList::bytes() const {
+    const std::uint64_t pixels = std::uint64_t{size_px_.x} * size_px_.y;
+    return answer_target_
+               ? pixels * (gl::texel_bytes(gl::Format::r32ui) + gl::texel_bytes(gl::Format::r8)) + (1 + pixels) * kWord
+               : 0;
+}
+
+}  // namespace gnomon::lighting
