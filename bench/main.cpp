@@ -248,7 +248,7 @@ void add_demand(CLI::App& command, Arguments& arguments) {
 }
 
 void add_scene(CLI::App& command, Arguments& arguments) {
-    command.add_option("--scene", arguments.scenes, "glTF or GLB (default: the built-in scene)");
+    command.add_option("--scene", arguments.scenes, "glTF or GLB, or valley (default: the built-in courtyard)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every LightShadow, as the game's --set")

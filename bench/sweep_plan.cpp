@@ -26,8 +26,8 @@ std::vector<Value> fits() { return {of("fit=tight", kSun), of("fit=stable", kSun
 
 std::vector<Value> cascades(SweepSize size) {
     std::vector<Value> values;
-    for (const char* count : {"1", "2", "3", "6", "8"})
-        if (size == SweepSize::full || *count == '1' || *count == '8')
+    for (const char* count : {"1", "2", "3", "4", "6", "8"})
+        if (size == SweepSize::full || *count == '1' || *count == '4' || *count == '8')
             values.push_back(of(std::string("cascades=") + count, kSun));
     return values;
 }

@@ -9,10 +9,10 @@ namespace gnomon::game {
 namespace {
 
 constexpr std::array kFast{"filter=hardware_2x2", "resolution=1024", "cascades=2"};
-constexpr std::array kHigh{"resolution=2048", "cascades=4"};
+constexpr std::array kHigh{"filter=exact"};
 const std::array kPresets{Preset{"fast", "one tap of small maps, two of them for a sun", kFast},
                           Preset{"default", "sizes that keep max_error_px, exact edges", {}},
-                          Preset{"high", "large maps with exact edges, four of them for a sun", kHigh}};
+                          Preset{"high", "a ray from every pixel, no maps", kHigh}};
 
 std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
 

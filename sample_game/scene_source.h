@@ -9,7 +9,11 @@
 
 namespace gnomon::game {
 
-/// `file`, or the built-in courtyard if there is none: it is made in memory and takes the same loader.
+/// What stands for a file's name and means the built-in scene of kilometres; no file without a suffix is a glTF.
+inline constexpr const char* kValleyScene = "valley";
+
+/// `file`, or the built-in courtyard if there is none, or the valley by its name: these are made in memory and take the
+/// same loader.
 /// Errors: those of assets::load_gltf.
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file);
 

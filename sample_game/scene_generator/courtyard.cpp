@@ -1,23 +1,11 @@
 #include "sample_game/scene_generator/courtyard.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
-#include <glm/mat3x3.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "sample_game/scene_generator/courtyard_kit.h"
 #include "sample_game/scene_generator/textures.h"
 
 namespace gnomon::game {
-
-glm::dquat facing(const glm::dvec3& forward) {
-    const glm::dvec3 back = -glm::normalize(forward);
-    const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), back));
-    return glm::normalize(glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back)));
-}
-
-glm::dquat turned(double degrees) { return glm::angleAxis(glm::radians(degrees), glm::dvec3(0.0, 1.0, 0.0)); }
 
 Materials add_materials(GlbBuilder& glb) {
     const std::uint32_t paving = glb.add_texture("paving", paving_texture_png());

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sample_game/scene_generator/courtyard_kit.h"
+#include "sample_game/scene_generator/tree_crown.h"
 
 namespace gnomon::game {
 namespace {
@@ -12,8 +13,7 @@ namespace {
 constexpr double kSunk_m = 0.1;
 
 void add_tree(const Kit& kit) {
-    constexpr int kCards = 72;
-    constexpr double kGoldenAngle = 2.399963229728653, kCrown = 1.35, kCard = 0.95, kCrownHeight = 3.1;
+    constexpr double kGoldenAngle = 2.399963229728653;
     const std::array<glm::dvec2, 6> trunk{
         glm::dvec2(0.0, -kSunk_m), {0.26, -kSunk_m}, {0.17, 0.25}, {0.13, 1.6}, {0.07, 2.9}, {0.0, 2.95}};
     Shape bark = make_lathe(trunk, 12, LatheNormals::smooth);
@@ -21,16 +21,7 @@ void add_tree(const Kit& kit) {
         const double angle = kGoldenAngle * i, y = 1.5 + 0.2 * i;
         append(bark, make_bar({0.0, y, 0.0}, {0.9 * std::cos(angle), y + 0.7, 0.9 * std::sin(angle)}, 0.035, 6));
     }
-    Shape crown;
-    for (int i = 0; i < kCards; ++i) {  // cards on a Fibonacci sphere, each turned its own way
-        const double height = 1.0 - 2.0 * (i + 0.5) / kCards, ring = std::sqrt(1.0 - height * height);
-        const double angle = kGoldenAngle * i, shell = kCrown * (0.55 + 0.45 * (i % 3) / 2.0);
-        const glm::dvec3 centre(shell * ring * std::cos(angle), kCrownHeight + 0.8 * shell * height,
-                                shell * ring * std::sin(angle));
-        const glm::dvec3 right(std::cos(1.7 * angle), 0.25 * std::sin(angle), std::sin(1.7 * angle));
-        const glm::dvec3 up(0.35 * std::cos(2.3 * angle), 1.0, 0.35 * std::sin(2.3 * angle));
-        append(crown, make_card(centre, kCard * glm::normalize(right), kCard * glm::normalize(up)));
-    }
+    const Shape crown = make_tree_crown({.radius_m = 1.35, .card_m = 0.95, .height_m = 3.1, .cards = 72});
     const glm::dvec3 at(-6.3, 0.0, -2.6);
     kit.place("tree_trunk", bark, kit.materials.bark, at);
     kit.place("tree_crown", crown, kit.materials.leaves, at);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "sample_game/scene_generator/courtyard.h"
+#include "sample_game/scene_generator/facing.h"
 #include "sample_game/scene_generator/glb_builder.h"
 
 /// What the parts of the courtyard share.
@@ -41,11 +42,6 @@ struct Kit {
             {.name = name, .translation_m = at, .rotation = rotation, .extras = {{"motion", std::move(motion)}}});
     }
 };
-
-/// The rotation that turns -Z to `forward` (any length) with +Y as close to up as can be. `forward` is not vertical.
-glm::dquat facing(const glm::dvec3& forward);
-/// About +Y, counter-clockwise seen from above.
-glm::dquat turned(double degrees);
 
 Materials add_materials(GlbBuilder& glb);
 void add_architecture(const Kit& kit);  // ground, walls, arcade, stairs, fence

@@ -48,8 +48,9 @@ BudgetUse use_of(std::span<const LightLoad> loads, std::span<const Grant> grants
 BudgetUse take_away(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
                     std::span<Grant> grants, BudgetScratch& scratch);
 
-/// How long nothing is given back after any light was given less or more: two fifths of a second at 60 Hz.
-inline constexpr std::uint32_t kCalmFrames = 24;
+/// How long nothing is given back after any light was given less or more: a third of a second at 60 Hz, so that what is
+/// shared out anew, and once more when the new maps have said what they cost, is settled within a second.
+inline constexpr std::uint32_t kCalmFrames = 20;
 /// What is given back has to leave so much of a budget free, so that a small change does not take it away again.
 inline constexpr double kRoomAfter = 0.9;
 /// Where one light is given more and another less, the picture has to gain so much more than it loses.

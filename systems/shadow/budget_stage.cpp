@@ -133,7 +133,12 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     load.light = &scene.lights[fitted.light];
     load.wanted = wanted_[d];
     // The fit may have found another count of cascades to be enough.
-    if (next.grant.most_views >= load.wanted.view_count) load.wanted.view_count = fitted.view_count;
+    if (next.grant.most_views >= load.wanted.view_count && fitted.view_count != load.wanted.view_count) {
+        const std::uint32_t most_px =
+            edge_for_count_px(load.wanted.most_px, load.wanted.view_count, fitted.view_count);
+        load.wanted.view_count = fitted.view_count;
+        set_most(*load.light, most_px, 0, load.wanted);
+    }
     load.key = key_of(*load.light);
     load.activity = load.light->shadow.economy ? static_cast<double>(next.activity) : 1.0;
     double extent_px = 0.0;

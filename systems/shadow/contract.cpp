@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "systems/shadow/filter_demand.h"
 #include "systems/shadow/filter_table.h"
@@ -13,6 +14,8 @@ namespace {
 /// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way. A
 /// number of cascades stays until it takes twice the texels of another.
 constexpr std::uint32_t kPatience = 2;
+/// How much less another number's product of maps and error has to be: sqrt(2).
+constexpr double kCountPatience = 1.4142135623730951;
 
 /// What of a predicted error is the texels' share.
 double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0.0, 0.0); }
@@ -41,17 +44,34 @@ std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicte
 
 bool keeps_contract(double predicted_px, double wished_px) { return of_texels_px(predicted_px) <= wished_px; }
 
-std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, std::uint32_t least,
-                                double wished_px) {
-    const auto all = static_cast<std::uint32_t>(trials.size());
+std::uint32_t shared_edge_px(std::uint32_t edge_px, std::uint32_t count) {
+    const double edge = edge_px * std::sqrt(static_cast<double>(kMostCounted) / count);
+    return std::max(static_cast<std::uint32_t>(edge) / kLeastMap_px * kLeastMap_px, kLeastMap_px);
+}
+
+std::uint32_t edge_for_count_px(std::uint32_t edge_px, std::uint32_t of, std::uint32_t count) {
+    if (count == of) return edge_px;
+    // Of sizes that differ by kLeastMap_px no two are shared into one: fewer maps than kMostCounted only stretch them.
+    std::uint32_t all_px = kLeastMap_px;
+    while (shared_edge_px(all_px + kLeastMap_px, of) <= edge_px) all_px += kLeastMap_px;
+    const std::uint32_t shared_px = shared_edge_px(all_px, count);
+    return count > of ? std::min(shared_px, edge_px) : shared_px;
+}
+
+std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px) {
     const std::uint64_t most = trials.back().texels;
-    const auto keeps = [&](std::uint32_t count) { return keeps_contract(trials[count - 1].predicted_px, wished_px); };
-    for (std::uint32_t count = least; count <= all; ++count) {
-        const CascadeTrial& trial = trials[count - 1];
-        if (keeps(count) && trial.may_grow && trial.texels <= most) return count;
-        if (count == held && keeps(count) && trial.texels < kPatience * most) return count;
+    for (const CascadeTrial& trial : trials) {
+        if (!keeps_contract(trial.predicted_px, wished_px)) continue;
+        if (trial.texels <= most || (trial.count == held && trial.texels < kPatience * most)) return trial.count;
     }
-    return all;
+    const auto product = [&](const CascadeTrial& trial) {
+        const double product_px = trial.count * of_texels_px(trial.predicted_px);
+        if (!(product_px >= 0.0)) return std::numeric_limits<double>::infinity();
+        return trial.count == held ? product_px / kCountPatience : product_px;
+    };
+    return std::min_element(trials.begin(), trials.end(), [&](const CascadeTrial& a, const CascadeTrial& b) {
+               return product(a) < product(b);
+           })->count;
 }
 
 double allowed_error_px(double wished_px, double cosine) {

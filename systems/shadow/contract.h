@@ -11,8 +11,8 @@
 /// map's edge grows. So the views of a fit, with maps of any size, tell which size keeps the light's word: coverage
 /// and distance decide, through what a texel is on the screen. Sizes are held: more texels are given at once, fewer
 /// only after half of them has done for a second, so that a walking camera seldom makes new maps. So is the number of a
-/// sun's cascades: more are chosen where the word is broken or maps have to grow, fewer only in every kMovesToCount-th
-/// frame in which maps move, and are drawn, anyway.
+/// sun's cascades: more are chosen where maps have to grow or what is seen takes another step of size, fewer only in every
+/// kMovesToCount-th frame in which maps move, and are drawn, anyway.
 namespace gnomon::shadow {
 
 /// Map edges are multiples of it, and at least this: as many texels as a quantised grid needs, few enough that a window
@@ -40,19 +40,35 @@ inline constexpr std::uint32_t kSpareFrames = 60;
 /// for sizes.
 inline constexpr std::uint32_t kMovesToCount = kSpareFrames;
 
+/// Most cascades that a sun gets unless it asks for more.
+inline constexpr std::uint32_t kMostCounted = 4;
+
+/// Edge of each of `count` maps that together have no more texels than kMostCounted of `edge_px`, which is a multiple
+/// of kLeastMap_px, and at least that.
+std::uint32_t shared_edge_px(std::uint32_t edge_px, std::uint32_t count);
+
+/// What `edge_px`, the most that each of `of` maps may have, becomes for `count` maps: what shared_edge_px() made of it
+/// for `of` it makes for `count`. Never more texels in all than kLeastMap_px makes of rounding.
+std::uint32_t edge_for_count_px(std::uint32_t edge_px, std::uint32_t of, std::uint32_t count);
+
 /// What a sun's cascades of one count come to.
 struct CascadeTrial {
+    std::uint32_t count = 0;
     double predicted_px = 0.0;
     std::uint64_t texels = 0;  // of all their maps
-    bool may_grow = false;     // they are not as large as they may be
 };
 
-/// How many cascades a sun gets, where trials[i] is of i + 1 of them: the fewest that keep its word with no more texels
-/// than the most of them take, and may grow. All where there are none: each has then the smallest texels that can be
-/// had. The `held` number stays, unless fewer do, while it keeps the word with less than twice those texels;
-/// 0: none. No fewer than `least`.
-std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, std::uint32_t least,
-                                double wished_px);
+/// How many cascades a sun gets; trials are of rising counts. The fewest that keep its word with no more texels than
+/// the most of them take; the `held` number stays, unless fewer do, while it keeps the word with less than twice those
+/// texels (0: none is held).
+///
+/// Where there are none all share the same texels, and the one is chosen whose count times error is least: twice as many
+/// maps must halve the predicted error. That bound is of the worst place, near the camera; everywhere else
+/// smaller maps have larger texels, and what is thinner than these is lost. Measured: courtyard and Sponza, where four
+/// maps divide the bound by 1.5 to 2.5, are best with one; a valley of kilometres, where they divide it by 6 to 50, with
+/// two or four (docs/cost.md). The held number stays while the least is no less than 1 / sqrt(2) of its product, as much
+/// as rounding of two sides to steps makes of it.
+std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px);
 
 /// Whether maps that err by `predicted_px` keep the light's word.
 bool keeps_contract(double predicted_px, double wished_px);

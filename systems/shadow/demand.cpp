@@ -19,6 +19,12 @@ constexpr std::uint32_t kLargestAutomatic_px = 8192;
 /// Below this no margin for the filter is left around the content.
 constexpr std::uint32_t kLeastRequested_px = 16;
 
+/// Of each of four cascades, per pixel of the picture's larger side, and up to which size: a sun's edges are seen from
+/// nearer and farther than its texels are made for. 0.05 % of wrong pixels takes so many (docs/cost.md); beyond, memory
+/// is worth more.
+constexpr float kSunTexelsPerPixel = 1.6f;
+constexpr std::uint32_t kUsualSunMap_px = 2048;
+
 Reason wanted(const LightItem& light, bool shadows) {
     if (!light.has_shadow) return Reason::no_light_shadow;
     if (!shadows || !light.shadow.enabled) return Reason::shadows_off;
@@ -111,6 +117,17 @@ void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint
         set_resolution(light, held_px, demand);
 }
 
+/// Edge of each of four maps of a sun that follows the contract; twice that, of one, is within the device's limit.
+std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
+                          const ShadowDemand& demand) {
+    const float error_px = light.shadow.max_error_px;
+    const std::uint32_t half_px = limit_px / 2;
+    const std::uint32_t usual_px =
+        std::min(automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, half_px), kUsualSunMap_px);
+    return std::max(usual_px, automatic_resolution(viewport_px, filter_row(demand.filter).texels_per_pixel, error_px,
+                                                   std::min(half_px, kLargestAutomatic_px / 2)));
+}
+
 void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {
     demand.faces_eighths = next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
     demand.view_count = cone_layers(demand.faces_eighths);
@@ -163,6 +180,11 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand&
     if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
 
+void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowDemand& demand) {
+    demand.most_px = most_px;
+    set_resolution(light, held_px > 0 ? std::min(held_px, most_px) : most_px, demand);
+}
+
 ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint32_t i,
                        ShadowFilter filter) {
     glm::uvec2 viewport_px{1, 1};
@@ -185,6 +207,9 @@ ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device,
         if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
             set_cascades(light.shadow, held_light->cascades, demand);
     }
+    if (light.kind == LightKind::directional && follows_contract(light, demand))
+        set_most(light, shared_edge_px(sun_edge_px(light, viewport_px, limit_px, demand), demand.view_count),
+                 held_light ? held_light->map_px : 0, demand);
     if (asks_rays(filter_row(demand.filter))) decide_sheets(demand);
     return demand;
 }

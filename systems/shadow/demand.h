@@ -23,6 +23,10 @@ void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& 
 ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
                        std::uint32_t light, ShadowFilter filter);
 
+/// Sets the size of the light's maps to the most they may have, or to `held_px`, their last one, if that is less and
+/// above 0.
+void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowDemand& demand);
+
 /// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
 /// `shadows` false treats every light as disabled. `held`: what the fits left last frame.
 void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,

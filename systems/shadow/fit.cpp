@@ -166,13 +166,18 @@ private:
         if (most == 0 || views().empty() || demand().view_count != std::min(usual, most)) return false;
         if (held.cascades == 0) return true;
         if (next.views != held.views) ++next.moves;
-        const bool fewer = demand().view_count < most;
-        if (fewer && !keeps_contract(predicted_px(views()), wished_error_px(light_.shadow))) return true;
-        if (fewer && next.map_px > held.map_px) return true;
-        return next.moves >= kMovesToCount;
+        return next.map_px > held.map_px || has_stepped(held, next) || next.moves >= kMovesToCount;
     }
 
-    /// Tries all, each as if it were the first fit of this light: what is held is of other slices.
+    /// Whether what is seen takes another size: so does then what another number of maps would come to.
+    static bool has_stepped(const HeldLight& held, const HeldLight& next) {
+        if (next.splits.near_step != held.splits.near_step || next.splits.far_step != held.splits.far_step) return true;
+        return !std::equal(next.views.begin(), next.views.end(), held.views.begin(),
+                           [](const HeldView& a, const HeldView& b) { return a.extent_step == b.extent_step; });
+    }
+
+    /// Tries twice as many again and again, each as if it were the first fit of this light: what is held is of other
+    /// slices.
     bool choose_count(const HeldLight& held, HeldLight& next) {
         HeldLight fresh = held;
         fresh.views = {};
@@ -181,15 +186,17 @@ private:
         fresh.map_px = fresh.spare_frames = 0;
         const ShadowDemand usual = demand();
         std::array<CascadeTrial, kMaxCascades> trials;
+        std::size_t tried = 0;
         // Fewer are for a scene that has calmed down: what makes the camera ask for more now may be gone in a frame.
         const std::uint32_t least = next.moves >= kMovesToCount ? 1 : std::max(held.cascades, 1u);
-        for (std::uint32_t count = least; count <= usual.most_views; ++count) {
+        for (std::uint32_t count = std::min(least, usual.most_views);; count = std::min(2 * count, usual.most_views)) {
             if (!fit_count(count, usual, fresh, next)) return false;
             const std::uint64_t edge_px = demand().resolution_px;
-            trials[count - 1] = {predicted_px(views()), count * edge_px * edge_px, edge_px < usual.most_px};
+            trials[tried++] = {count, predicted_px(views()), count * edge_px * edge_px};
+            if (count == usual.most_views) break;
         }
-        const std::uint32_t chosen = contract_cascades(std::span(trials).first(usual.most_views), held.cascades, least,
-                                                       wished_error_px(light_.shadow));
+        const std::uint32_t chosen =
+            contract_cascades(std::span(trials).first(tried), held.cascades, wished_error_px(light_.shadow));
         const bool stays = chosen == held.cascades;
         const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
         next.cascades = chosen;
@@ -200,7 +207,7 @@ private:
     bool fit_count(std::uint32_t count, const ShadowDemand& usual, const HeldLight& held, HeldLight& next) {
         demand() = usual;
         set_cascades(light_.shadow, count, demand());
-        set_resolution(light_, held.map_px > 0 ? held.map_px : usual.most_px, demand());
+        set_most(light_, edge_for_count_px(usual.most_px, usual.view_count, count), held.map_px, demand());
         return fit(held, next);
     }
 

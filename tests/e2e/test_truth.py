@@ -114,13 +114,13 @@ class Presets(GameTest):
         fast, high = self.wrong_and_bytes("--preset", "fast"), self.wrong_and_bytes("--preset", "high")
         default = self.wrong_and_bytes("--preset", "default")
         self.assertEqual(default, self.wrong_and_bytes())
-        self.assertLess(high[0], default[0])
+        self.assertLess(4 * high[0], default[0])
         self.assertLess(2 * default[0], fast[0])
-        self.assertLess(default[1], high[1])
+        self.assertEqual(high[1], 0, "rays need no map")
 
     def test_a_setting_goes_before_the_preset_and_an_unknown_one_is_refused(self):
-        changed = self.wrong_and_bytes("--set", "resolution=256", "--preset", "high")
-        self.assertLess(changed[1], self.wrong_and_bytes("--preset", "high")[1] // 16)
+        changed = self.wrong_and_bytes("--set", "resolution=256", "--preset", "fast")
+        self.assertLess(changed[1], self.wrong_and_bytes("--preset", "fast")[1] // 8)
         self.assert_refused("--headless", "--preset", "ultra", mentions="ultra")
 
 

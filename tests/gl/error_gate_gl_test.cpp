@@ -27,9 +27,9 @@ using ::testing::SizeIs;
 constexpr glm::uvec2 kSize_px{400, 225};
 /// Of the quick sweep, beside what tutorials set up: a row per way to filter, fit, store and bias.
 constexpr std::string_view kRows[] = {bench::kDefaultsRow, "fit=tight", "fit=stable",         "cascades=1",
-                                      "depth_format=d24",  "hard",      "bias=normal_offset", "hard, resolution=512",
-                                      "pcf_grid_3",        "sharp_4x4", "hardware_2x2",       "poisson_4",
-                                      "evsm4_3",           "moments_3", "resolution=1024"};
+                                      "cascades=4",        "hard",      "bias=normal_offset", "hard, resolution=512",
+                                      "depth_format=d24",  "sharp_4x4", "hardware_2x2",       "poisson_4",
+                                      "pcf_grid_3",        "moments_3", "resolution=1024",    "evsm4_3"};
 
 std::filesystem::path record_file() {
     return test::source_folder() / "tests/gl/recorded_errors.txt";

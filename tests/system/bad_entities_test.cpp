@@ -290,7 +290,7 @@ TEST_F(OddWorlds, TwoCamerasShareTheMaps) {
     world.add_light(LightKind::directional, kLightPlace_m, "sun");
     step();
     EXPECT_EQ(light("sun").state, LightState::rendered);
-    EXPECT_THAT(map_labels(device), SizeIs(1 + 4));
+    EXPECT_THAT(map_labels(device), SizeIs(1 + 1));
 }
 
 }  // namespace

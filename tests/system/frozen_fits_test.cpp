@@ -12,7 +12,8 @@ protected:
     void SetUp() override {
         FrameTest::SetUp();
         stage = world.add_stage();
-        world.add_light(LightKind::directional, kLightPlace_m, "sun");
+        const ecs::Entity sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
+        world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.fit = ShadowFit::tight; });
         world.add_light(LightKind::spot, kLightPlace_m, "lamp");
         step();
         step();

@@ -17,6 +17,7 @@ protected:
 
 TEST_F(ProjectionReport, ASunInPerspectiveHasAMapOfOneLayerAndDrawsItOnce) {
     const ecs::Entity sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
+    change(sun, [](LightShadow& s) { s.cascades = 4; });
     step();
     ASSERT_THAT(map_labels(device), SizeIs(1 + 4));
     change(sun, [](LightShadow& s) { s.projection = LightProjection::perspective; });
@@ -47,7 +48,7 @@ TEST_F(ProjectionReport, WhatAKindCannotDoIsReportedAndItsOwnIsDrawn) {
 
 TEST_F(ProjectionReport, AnAbsurdEyeOrRangeIsReported) {
     const ecs::Entity sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
-    change(sun, [](LightShadow& s) { s.projection = LightProjection::perspective, s.eye_angle_rad = -1.0f; });
+    change(sun, [](LightShadow& s) { s.projection = LightProjection::perspective, s.eye_angle_rad = -1.0f, s.cascades = 4; });
     step();
     EXPECT_STREQ(reason_code(light("sun").reason), "eye_invalid");
     EXPECT_THAT(map_labels(device), SizeIs(1 + 4)) << "it stays orthographic";

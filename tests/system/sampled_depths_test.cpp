@@ -19,7 +19,7 @@ protected:
         use(CascadeSplits::sampled);
     }
     void use(CascadeSplits splits, ShadowFit fit = ShadowFit::tight) {
-        world.registry.patch<LightShadow>(sun, [&](LightShadow& s) { s.splits = splits, s.fit = fit; });
+        world.registry.patch<LightShadow>(sun, [&](LightShadow& s) { s.splits = splits, s.fit = fit, s.cascades = 4; });
     }
     /// Lets the device answer that all pixels lie between these bins.
     void answer(std::uint32_t from_bin, std::uint32_t to_bin) {

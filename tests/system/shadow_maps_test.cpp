@@ -86,12 +86,18 @@ TEST_F(ShadowMaps, APointGetsOneCube) {
     EXPECT_EQ(light("lamp").views, 4u) << "nothing is seen overhead nor on the camera's side";
 }
 
-TEST_F(ShadowMaps, ASunGetsOneArrayOfFourLayers) {
-    world.add_light(LightKind::directional, kLightPlace_m, "lamp");
+TEST_F(ShadowMaps, ASunGetsOneArrayOfAsManyLayersAsItsCascades) {
+    const ecs::Entity lamp = world.add_light(LightKind::directional, kLightPlace_m, "lamp");
     step();
-    const gl::TextureDesc map = map_of("lamp");
-    EXPECT_EQ(map.kind, gl::TextureKind::array);
-    EXPECT_EQ(map.layers, 4u);
+    const gl::TextureDesc one = map_of("lamp");
+    EXPECT_EQ(one.kind, gl::TextureKind::array);
+    EXPECT_EQ(one.layers, 1u) << "the stage is small";
+    EXPECT_THAT(map_labels(device), SizeIs(1 + 1));
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.cascades = 4; });
+    step();
+    const gl::TextureDesc four = map_of("lamp");
+    EXPECT_EQ(four.layers, 4u);
+    EXPECT_EQ(four.width, one.width / 2) << "they share its texels";
     EXPECT_THAT(map_labels(device), SizeIs(1 + 4));
     EXPECT_LE(light("lamp").views, 4u);
     EXPECT_GE(light("lamp").views, 1u);
@@ -121,7 +127,7 @@ TEST_F(ShadowMaps, RemovingTheShadowFreesTheMapAndItsTargets) {
 TEST_F(ShadowMaps, DestroyingTheLightFreesTheMap) {
     const ecs::Entity lamp = world.add_light(LightKind::directional, kLightPlace_m, "lamp");
     step();
-    ASSERT_THAT(map_labels(device), SizeIs(5));
+    ASSERT_THAT(map_labels(device), SizeIs(1 + 1));
     world.registry.destroy(lamp);
     step();
     EXPECT_THAT(map_labels(device), IsEmpty());
@@ -210,10 +216,10 @@ TEST_F(ShadowMaps, ALightThatBecomesOfAnotherKindGetsAMapOfThatKind) {
         return map_of("lamp");
     };
     step();
-    EXPECT_EQ(become(LightKind::directional).layers, 4u);
+    EXPECT_EQ(become(LightKind::directional).kind, gl::TextureKind::array);
     EXPECT_EQ(become(LightKind::point).kind, gl::TextureKind::cube);
     EXPECT_EQ(become(LightKind::spot).layers, 1u);
-    EXPECT_EQ(become(LightKind::directional).layers, 4u);
+    EXPECT_EQ(become(LightKind::directional).kind, gl::TextureKind::array);
 }
 
 TEST_F(ShadowMaps, TheRequestedResolutionIsTheMaps) {
@@ -272,11 +278,11 @@ TEST_F(ShadowMaps, SeveralLightsOfMixedKindsEachHaveTheirOwn) {
     world.add_light(LightKind::spot, {-2, 5, 2}, "other spot");
     world.add_light(LightKind::point, {1, 3, 0}, "plain point", false);
     step();
-    EXPECT_EQ(map_of("sun").layers, 4u);
+    EXPECT_EQ(map_of("sun").layers, 1u);
     EXPECT_EQ(map_of("spot").kind, gl::TextureKind::array);
     EXPECT_EQ(map_of("point").kind, gl::TextureKind::cube);
     EXPECT_EQ(map_of("other spot").kind, gl::TextureKind::array);
-    EXPECT_THAT(map_labels(device), SizeIs((1 + 4) + (1 + 1) + (1 + 6) + (1 + 1)));
+    EXPECT_THAT(map_labels(device), SizeIs((1 + 1) + (1 + 1) + (1 + 6) + (1 + 1)));
     EXPECT_EQ(light("plain point").reason, Reason::no_light_shadow);
     std::uint64_t bytes = 0;
     for (const LightReport& l : frame->report().lights) bytes += l.bytes;
