@@ -12,7 +12,7 @@ constexpr std::array kFast{"filter=hardware_2x2", "resolution=1024", "cascades=2
 constexpr std::array kHigh{"filter=exact"};
 const std::array kPresets{Preset{"fast", "one tap of small maps, two of them for a sun", kFast},
                           Preset{"default", "sizes that keep max_error_px, exact edges", {}},
-                          Preset{"high", "a ray from every pixel, no maps", kHigh}};
+                          Preset{"high", "rays wherever a map is not certain", kHigh}};
 
 std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
 

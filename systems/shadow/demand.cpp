@@ -122,10 +122,12 @@ std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::u
                           const ShadowDemand& demand) {
     const float error_px = light.shadow.max_error_px;
     const std::uint32_t half_px = limit_px / 2;
-    const std::uint32_t usual_px =
-        std::min(automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, half_px), kUsualSunMap_px);
-    return std::max(usual_px, automatic_resolution(viewport_px, filter_row(demand.filter).texels_per_pixel, error_px,
-                                                   std::min(half_px, kLargestAutomatic_px / 2)));
+    const FilterRow& row = filter_row(demand.filter);
+    const std::uint32_t own_px = automatic_resolution(viewport_px, row.texels_per_pixel, error_px,
+                                                      std::min(half_px, kLargestAutomatic_px / 2));
+    if (asks_rays(row)) return own_px;  // edges are the rays'
+    const std::uint32_t usual_px = automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, half_px);
+    return std::max(std::min(usual_px, kUsualSunMap_px), own_px);
 }
 
 void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {

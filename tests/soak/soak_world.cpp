@@ -124,7 +124,10 @@ void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
             add_light(kind.kind, filter.id);
-            run_frame();
+            for (const std::uint32_t cascades : {1u, 4u, 0u}) {  // what fades into the next one is another program
+                world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) { s.cascades = cascades; });
+                run_frame();
+            }
             if (shadow::asks_rays(filter)) leave_to_rays(run_frame);
             world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
             run_frame();

@@ -44,10 +44,14 @@ protected:
         ASSERT_TRUE(scene);
         spawned_ = game::spawn_scene(std::move(scene).value(), world_, library_);
         game::apply_motion(spawned_.moving, 0.0, world_);
+        look_from(0);
+        add_points();
+    }
+    void look_from(std::size_t camera) {
+        game::activate_camera(spawned_, camera, world_);
         extract();
         start_ = snapshot_.consumers.front();
         distance_m_ = bench::seen_distance_m(snapshot_, library_, start_);
-        add_points();
     }
     Walk go(const std::string& path, const std::vector<std::string>& settings) {
         for (const game::NamedEntity& light : spawned_.lights)
@@ -205,14 +209,32 @@ TEST_F(CameraPaths, AQuantisedSunStepsFourTimesAtMostAndMovesByWholeTexelsBetwee
     }
 }
 
-TEST_F(CameraPaths, AQuantisedSunOfFourCascadesStepsFourTimesWhileWalking) {
-    EXPECT_LE(go("walk", {"fit=quantised", "cascades=4"}).stepped_frames, 4);
-    for (const char* path : {"pan", "roll", "zoom"}) {
+class PathsOverKilometres : public CameraPaths {
+protected:
+    void SetUp() override { start(game::kValleyScene); }
+};
+
+TEST_F(PathsOverKilometres, AQuantisedSunStepsFourTimesAtMost) {
+    for (const std::size_t camera : {0u, 1u, 2u}) {
+        look_from(camera);
+        for (const char* path : {"pan", "walk", "roll", "zoom"}) {
+            SCOPED_TRACE(std::to_string(camera) + " " + path);
+            const Walk walk = go(path, {"fit=quantised"});
+            EXPECT_LE(walk.stepped_frames, 4);
+            EXPECT_EQ(walk.parted, 0);
+            EXPECT_EQ(walk.outside, 0);
+        }
+    }
+}
+
+/// Each is fitted to what is seen in a slice of its own: more than the four, of a sun that needs one.
+TEST_F(CameraPaths, AQuantisedSunOfFourCascadesStepsLittleMore) {
+    for (const auto& [path, most] : {std::pair{"pan", 6}, {"walk", 4}, {"roll", 7}, {"zoom", 4}}) {
         SCOPED_TRACE(path);
-        const Walk turn = go(path, {"fit=quantised", "cascades=4"});
-        EXPECT_LE(turn.stepped_frames, kFrames / 25) << "three each";
-        EXPECT_EQ(turn.parted, 0);
-        EXPECT_EQ(turn.outside, 0);
+        const Walk walk = go(path, {"fit=quantised", "cascades=4"});
+        EXPECT_LE(walk.stepped_frames, most);
+        EXPECT_EQ(walk.parted, 0);
+        EXPECT_EQ(walk.outside, 0);
     }
 }
 

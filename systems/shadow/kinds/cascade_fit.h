@@ -14,6 +14,7 @@ struct CascadeInput {
     double from_m, to_m;      // the slice, along the first consumer's view
     bool of_all;              // it holds what several consumers see: points_ws then knows more than the slice
     std::span<const glm::dvec3> points_ws;  // what is seen of receivers in it; not empty
+    bool steps_too = false;  // another cascade's size steps in this frame: what soon would may do so with it
 };
 
 /// False if nothing finite lies there. Pure, history included.

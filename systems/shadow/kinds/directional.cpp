@@ -112,15 +112,20 @@ void end_before(double distance_m, ShadowView& view) {
     if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = view.fades_to_m = distance_m;
 }
 
-}  // namespace
+/// Whether a held size of some cascade is no longer the one that the last frame had.
+bool has_stepped(const FitInput& input) {
+    for (std::size_t i = 0; i < kHeldViews; ++i) {
+        const HeldView &held = input.held.views[i], &next = input.next.views[i];
+        if (held.used && (next.extent_step != held.extent_step || next.far_step != held.far_step)) return true;
+    }
+    return false;
+}
 
-bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
-    const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
-    if (input.demand.perspective_sun) return fit_perspective_sun(input, basis, views);
+void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, bool steps_too,
+                  std::vector<ShadowView>& views) {
     const bool counts_from_eye = input.demand.near_m > 0.0 || input.demand.far_m > 0.0;
     const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
     const ConsumerItem& consumer = input.scene.consumers.front();
-    const CascadeSlices slices = cascade_slices(input);
     // Several consumers share the cascades: the last one then holds whatever any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.demand.view_count;
@@ -132,7 +137,8 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
         auto receivers = static_cast<std::uint32_t>(input.receivers.size());
         const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input, receivers);
         OrthographicBox box;
-        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws};
+        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws,
+                                   steps_too};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
         // Where maps hold true distances they reach up to the casters.
         if (filter_row(input.demand.filter).storage == FilterStorage::moments &&
@@ -157,6 +163,22 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
             state_error(consumer, points_ws,
                         static_cast<double>(input.reach_texel - input.demand.filtering.still_texel), view);
         views.push_back(view);
+    }
+}
+
+}  // namespace
+
+bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
+    const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
+    if (input.demand.perspective_sun) return fit_perspective_sun(input, basis, views);
+    const CascadeSlices slices = cascade_slices(input);
+    const std::size_t before = views.size();
+    fit_cascades(input, basis, slices, false, views);
+    if (has_stepped(input)) {
+        // A step shows. Cascades that would soon follow do it in the same frame.
+        views.resize(before);
+        input.next.views = input.held.views;
+        fit_cascades(input, basis, slices, true, views);
     }
     return views.size() > before;
 }

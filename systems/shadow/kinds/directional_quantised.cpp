@@ -17,6 +17,7 @@ struct Side {
 /// larger than it need be.
 struct Holding {
     int patience, headroom;
+    bool steps_too = false;  // it is a good frame for a step
 };
 
 /// A turning camera lengthens and shortens a slice's sides all the time, and each change of a size shows.
@@ -24,12 +25,23 @@ constexpr Holding kAcross{6, 1};
 /// A depth range costs no sharpness: its rounding is a hundred-thousandth of a texel. So it may be generous.
 constexpr Holding kAlong{12, 4};
 
+/// Steps beyond the headroom that stay in a frame in which another size steps anyway.
+constexpr int kSpare = 2;
+
+/// The step for `needed`, and whether it is held.
+int held_step_for(double needed, bool used, int held_step, const Holding& holding) {
+    const int closest = step_at_or_above(needed);
+    if (!used) return closest;
+    const int least = closest + (holding.steps_too ? holding.headroom : 0);
+    const int most = closest + (holding.steps_too ? holding.headroom + kSpare : holding.patience);
+    return held_step >= least && held_step <= most ? held_step : closest + holding.headroom;
+}
+
 /// From low to high, not longer than `room` of a step, on parts of `grid` of it; the held one where that still holds
 /// it.
 Side hold(double low, double high, double room, double grid, const Holding& holding, bool used, double held_low,
           int held_step, int& step) {
-    step = hold_above((high - low) / room, used, held_step, holding.patience);
-    if (used && step != held_step) step += holding.headroom;
+    step = held_step_for((high - low) / room, used, held_step, holding);
     Side side{0.0, step_size(step)};
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
     const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
@@ -58,13 +70,15 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const double texel = 1.0 / input.light.demand.resolution_px;
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
     glm::dvec3 low, size;
+    Holding across = kAcross, along = kAlong;
+    across.steps_too = along.steps_too = input.steps_too;
     for (int axis = 0; axis < 2; ++axis) {
-        const Side side = hold(seen.low[axis], seen.high[axis], room, texel, kAcross, held.used, held.low[axis],
+        const Side side = hold(seen.low[axis], seen.high[axis], room, texel, across, held.used, held.low[axis],
                                held.extent_step[axis], next.extent_step[axis]);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
-    const Side depth = hold(seen.low.z, seen.high.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, kAlong, held.used,
+    const Side depth = hold(seen.low.z, seen.high.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, along, held.used,
                             held.near_m, held.far_step, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;
