@@ -7,17 +7,23 @@
 
 namespace gnomon::bench {
 
-/// Wall-clock times of whole frames, each from its start until the device has finished it.
+/// Frames of one kind: wall-clock time of each from its start until the device has finished it, and the process's
+/// time on all cores, which another process's work does not touch.
+struct TimedFrames {
+    Spread us, cpu_us;
+    Spread ratio, cpu_ratio;  // to the same frames without shadows, one ratio of medians per round; none of those
+};
+
+/// Whole frames without shadows and with them.
 struct FrameTimes {
     std::string scene, device;
     glm::uvec2 size_px{0, 0};
-    Spread without_us;                                       // no light casts shadows
-    Spread kept_us;                                          // shadows; the scene is still, so maps are kept
-    Spread redrawn_us;                                       // shadows, economy off: every view drawn in every frame
-    Spread kept_ratio, redrawn_ratio;                        // to `without`, one ratio of medians per round
-    Spread moving_without_us;                                // everything moves (everything_moving()), no shadows
-    Spread moving_us;                                        // the same frames with shadows
-    Spread moving_ratio;                                     // one to the other
+    TimedFrames without;                                     // no light casts shadows
+    TimedFrames kept;                                        // the scene is still: maps, and what pixels saw, are kept
+    TimedFrames looked_up;                                   // maps are kept, and looked up in every frame
+    TimedFrames redrawn;                                     // economy off: every view drawn in every frame
+    TimedFrames walk_without, walk;                          // the camera walks ahead at 1.4 m/s
+    TimedFrames moving_without, moving;                      // everything moves (everything_moving())
     std::uint32_t moving_views = 0, moving_views_drawn = 0;  // of the last of these frames
 };
 

@@ -92,6 +92,7 @@ std::optional<Error> Stage::start_over(std::span<const std::string> settings, Li
         if (!light || !holds(kinds, light->kind)) continue;
         LightShadow shadow = opened;
         for (const std::string& setting : settings) (void)game::apply_setting(shadow, setting);
+        shadow.keep_visibility = false;
         world_.emplace<LightShadow>(entity, shadow);
     }
     return std::nullopt;

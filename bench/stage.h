@@ -53,6 +53,7 @@ public:
     std::optional<Error> apply_setting(const std::string& key_value);
     /// Every light of these kinds as it was when the scene was opened, with these settings; lights of other kinds cast
     /// no shadows. Runs a frame without any shadows in between, so that neither fits nor maps remember what was before.
+    /// Lights are looked up in every frame, still ones as well (LightShadow::keep_visibility): that tells rows apart.
     /// Errors: "set.*"; then nothing is changed.
     std::optional<Error> start_over(std::span<const std::string> settings, LightKinds kinds = kAllKinds);
 

@@ -137,6 +137,9 @@ struct LightShadow {
     CasterFaces caster_faces = CasterFaces::automatic;  // automatic: front, which measures best (docs/accuracy.md)
     ShadowLayers layers = kAllShadowLayers;             // whose shadows fall on whom (shadow_layers.h)
     bool economy = true;                                // false: redraw every view every frame, change nothing else
+    /// What pixels see of the light is kept while nothing that it follows from changes, and read instead of looked up;
+    /// 4 bytes per pixel that the light reaches, only while that pays. Nothing changes but time. Needs economy.
+    bool keep_visibility = true;
     bool operator==(const LightShadow&) const = default;
 };
 

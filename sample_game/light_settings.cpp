@@ -186,6 +186,12 @@ constexpr std::array kSettings{
                  .set = set_switch<&S::economy>,
                  .get = get_switch<&S::economy>,
                  .editor = kToggle},
+    LightSetting{.key = "keep_visibility",
+                 .values = "on | off",
+                 .meaning = "what pixels see of the light is kept while nothing changes; the same to the bit",
+                 .set = set_switch<&S::keep_visibility>,
+                 .get = get_switch<&S::keep_visibility>,
+                 .editor = kToggle},
 };
 
 Error bad(std::string message, const char* rule) { return {.message = "--set: " + on_one_line(message), .rule = rule}; }

@@ -49,6 +49,10 @@ Json budget_stats(const BudgetReport& budget) {
             {"harm", budget.harm}};
 }
 
+Json kept_stats(const KeptReport& kept) {
+    return {{"reason", reason_code(kept.reason)}, {"bytes", kept.bytes}, {"saved_us", or_null(kept.saved_us)}};
+}
+
 Json light_stats(const FrameReport& report, const LightReport& light) {
     return {{"name", light.name},
             {"kind", shadow::light_kind_row(light.kind).name},
@@ -65,6 +69,7 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"triangles", light.triangles},
             {"cpu_us", light.cpu_us},
             {"gpu_us", or_null(light.gpu_us)},
+            {"kept", light.kept.bytes > 0 ? kept_stats(light.kept) : Json(nullptr)},
             {"budget", light.budget ? budget_stats(*light.budget) : Json(nullptr)},
             {"why", why_stats(report, light)}};
 }

@@ -24,7 +24,9 @@ Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, const shado
       gpu_scene_(std::move(scene)),
       shadows_(std::make_unique<shadow::ShadowSystem>(device, held_fits)),
       lighting_(std::make_unique<lighting::LightingSystem>(device)),
-      debug_(std::make_unique<debug::DebugPainter>(device)) {}
+      debug_(std::make_unique<debug::DebugPainter>(device)) {
+    shadows_->set_spare(&lighting_->spare());
+}
 
 Frame::~Frame() = default;
 
@@ -50,10 +52,11 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const bool measure_exposure =
         settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();
     if (!measure_exposure) lighting_->forget_exposure();
-    has_picture_ = !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
-                                                                {settings.exposure_ev, settings.programs_per_frame,
-                                                                 measure_exposure, sample_depths},
-                                                                commands_, report_);
+    has_picture_ =
+        !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
+                                                     {settings.exposure_ev, settings.programs_per_frame,
+                                                      measure_exposure, sample_depths, shadows_->maps().room()},
+                                                     commands_, report_);
     if (has_picture_) {
         const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
         debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);
@@ -70,6 +73,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const gl::SubmitResult result = device_.submit(commands_);
     if (settings.repeatable && (sample_depths || measure_exposure)) device_.finish();
     shadows_->commit(snapshot_, result.failure == gl::Failure::none);
+    lighting_->submitted(result.submission, result.failure == gl::Failure::none);
     if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
     if (result.failure != gl::Failure::none) report_.failure = result.failure;
     shadows_->draw_times().submitted(result.submission, snapshot_, report_);
@@ -107,6 +111,7 @@ void Frame::collect_timings(bool learn_costs) {
     const std::vector<gl::Timing> timings = device_.take_timings();
     if (timings.empty()) return;
     shadows_->draw_times().learn(timings);
+    lighting_->learn(timings);
     if (learn_costs) shadows_->cost_clock().learn(timings);
     const std::uint64_t last = timings.back().submission;
     double all_us = 0.0, shadow_us = 0.0;

@@ -27,6 +27,7 @@ enum class Reason : std::uint8_t {
     below_display_step,   // lit everywhere, it and others like it change no pixel by more than half a step
     content_unchanged,    // the map of an earlier frame still holds
     refresh_held,         // it shows casters where they were: within refresh_error_px, or by a budget's turn
+    visibility_kept,      // what its pixels saw of the light in an earlier frame still holds (KeptReport)
     resolution_clamped,   // the device's limit is below the wish
     over_budget,          // FrameSettings::shadow_budget does not hold it beside what is seen better
     budget_shrunk,        // the same leaves it less than it asks for
@@ -75,6 +76,13 @@ struct ViewReport {
     Why why;
 };
 
+/// What pixels saw of a light in an earlier frame, kept instead of looked up (docs/economy.md, "What pixels saw").
+struct KeptReport {
+    Reason reason = Reason::none;    // visibility_kept: this frame read it, in one picture or more
+    std::uint64_t bytes = 0;         // of all pictures; part of LightReport::bytes
+    std::optional<double> saved_us;  // of lighting on the GPU, by what looking it up took when it was last measured
+};
+
 /// What a budget left a light of what it asked for, and by what numbers.
 struct BudgetReport {
     std::uint32_t wanted_px = 0, px = 0;        // edge of its maps
@@ -103,6 +111,7 @@ struct LightReport {
     double cpu_us = 0.0;           // of the shadow stages, what this light alone took
     std::optional<double> gpu_us;  // shadow and lighting pass; empty: not measured
     Why why;
+    KeptReport kept;
     std::optional<BudgetReport> budget;            // empty: none is set, or it asked for no map
     std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };

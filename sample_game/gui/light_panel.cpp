@@ -88,7 +88,17 @@ void why_cells(LightState state, Reason reason, const Why& why) {
     time_cell(why.saved_us);
 }
 
-/// A row per light, and below it, opened up, one per view.
+/// What was kept of the light's visibility, as a row of its own.
+void kept_row(const LightReport& light) {
+    Why why;
+    why.saved_us = light.kept.saved_us;
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted("pixels");
+    why_cells(light.kept.reason == Reason::none ? LightState::rendered : LightState::reused, light.kept.reason, why);
+}
+
+/// A row per light, and below it, opened up, one per view, and one for what its pixels see.
 void draw_why(const FrameReport& report) {
     constexpr std::array kColumns{"view", "state", "reason", "receivers", "casters", "KiB saved", "us saved"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
@@ -109,6 +119,7 @@ void draw_why(const FrameReport& report) {
             ImGui::Text("%u", view.layer);
             why_cells(view.state, view.reason, view.why);
         }
+        if (light.kept.bytes > 0) kept_row(light);
         ImGui::TreePop();
     }
     ImGui::EndTable();

@@ -1,4 +1,5 @@
-// One light over its screen rectangle: visibility times BRDF, added to the picture; or the visibility alone.
+// One light over its screen rectangle: visibility times BRDF, added to the picture; or the visibility alone. READ_KEPT: as
+// it was when it was last looked up.
 #include "lighting/surface_targets.glsl"
 #include "row.glsl"
 #include "shadow/light_block.glsl"
@@ -10,6 +11,9 @@
 #include "lighting/light_at.glsl"
 #include "lighting/visible_surface.glsl"
 #include "lighting/brdf.glsl"
+#ifdef READ_KEPT
+#include "lighting/kept_visibility.glsl"
+#endif
 #ifdef WRITE_VISIBILITY
 layout(location = 0) out float visibility_out;
 #else
@@ -20,7 +24,11 @@ void main() {
     Surface surface = read_surface(ivec2(gl_FragCoord.xy));
     if (!surface.exists) discard;
     LightSample incoming = light_at(surface.position_ca);
+#ifdef READ_KEPT
+    float visible = kept_share(ivec2(gl_FragCoord.xy));
+#else
     float visible = visible_share(surface, incoming);
+#endif
 #ifdef WRITE_VISIBILITY
     visibility_out = visible;
 #else

@@ -27,6 +27,10 @@ const char* output_name(RowOutput output) {
             return "verdicts";
         case RowOutput::rays:
             return "rays";
+        case RowOutput::kept:
+            return "kept light";
+        case RowOutput::kept_visibility:
+            return "kept visibility";
     }
     return "light";
 }
@@ -96,7 +100,10 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
         if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
     }
     if (row.filter_file.empty() && row.sheets) defines.emplace_back("SHADOW_FOUND 1");
-    if (output == RowOutput::visibility) defines.emplace_back("WRITE_VISIBILITY 1");
+    const bool kept = output == RowOutput::kept || output == RowOutput::kept_visibility;
+    if (kept) defines.emplace_back("READ_KEPT 1");
+    if (output == RowOutput::visibility || output == RowOutput::kept_visibility)
+        defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
     if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +

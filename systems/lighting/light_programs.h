@@ -11,8 +11,12 @@
 namespace gnomon::lighting {
 
 /// What a program of a row writes; lookups: what a debug view shows of them.
-/// verdicts: what maps of sheets are certain of; rays: what rays find of the others (RayList).
-enum class RowOutput : std::uint8_t { picture, visibility, blended, lookups, verdicts, rays };
+/// verdicts: what maps of sheets are certain of; rays: what rays find of the others (RayList). kept, kept_visibility: the
+/// picture, or the visibility, by what pixels saw in an earlier frame (KeptVisibility).
+enum class RowOutput : std::uint8_t { picture, visibility, blended, lookups, verdicts, rays, kept, kept_visibility };
+
+/// A light that is not looked up: one row per kind.
+inline shadow::ProgramRow kept_row(const shadow::ProgramRow& row) { return {row.kind_define, {}, {}}; }
 
 /// Programs of the lighting system, made when first called for; one per (row, output, debug view). Owns them.
 /// One that could not be made is tried again after Retry::kFrames; one that no picture can do without, whenever it is

@@ -48,6 +48,7 @@ LightingSystem::LightingSystem(gl::Device& device)
       ray_list_(device),
       depths_(device),
       exposure_(device),
+      kept_(device),
       items_(device, "surface draw items"),
       uniforms_(device, "lighting uniforms") {}
 
@@ -78,6 +79,8 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     exposure_offset_ = ambient_offset_ + aligned(sizeof(AmbientRecord), alignment);
     lights_offset_ = exposure_offset_ + aligned(sizeof(ExposureRecord), alignment);
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
+    kept_stride_ = aligned(sizeof(KeptRecord), alignment);
+    kept_offset_ = lights_offset_ + light_stride_ * static_cast<std::uint32_t>(inputs.lights.size());
     const auto asks = [](const shadow::LightingLight& light) { return light.row.rays; };
     const bool wanted = std::any_of(inputs.lights.begin(), inputs.lights.end(), asks);
     const auto lists = [](const shadow::LightingLight& light) { return light.row.sheets; };
@@ -86,7 +89,7 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     has_places_ = targets_.provide_places(wanted) && wanted && programs_.surface(true);
     if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&
-                      uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * inputs.lights.size());
+                      uniforms_.reserve(kept_offset_ + std::uint64_t{kept_stride_} * inputs.lights.size());
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
 }
 
@@ -168,6 +171,11 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
         put(uniform_scratch_, lights_offset_ + i * light_stride_, &inputs.lights[i].record,
             sizeof(shadow::LightRecord));
+    for (std::uint32_t i = 0; i < passes_.size(); ++i) {
+        const gl::Rect& area = passes_[i].kept.area;
+        const KeptRecord record{{area.x, area.y, area.width, area.height}};
+        if (passes_[i].reads) put(uniform_scratch_, kept_offset_ + i * kept_stride_, &record, sizeof record);
+    }
     list.update(items_.handle(), 0, std::span<const DrawItem>(draw_items_));
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(uniform_scratch_));
 }
@@ -291,6 +299,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
                             const LightingSettings& settings, gl::CommandList& list, FrameReport& report) {
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
+    passes_.clear();
     programs_.next_frame(settings.most_rows);
     report.failure = prepare(inputs, scene);
     if (report.failure != gl::Failure::none) {
@@ -299,6 +308,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
         report.failure = prepare(inputs, scene);
         if (report.failure != gl::Failure::none) return false;
     }
+    plan_passes(inputs, scene, settings);
     upload(inputs, scene, settings, list);
     record_surfaces(gpu, list);
     if (settings.sample_depths)
@@ -314,8 +324,13 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
 bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
                                        gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
-    const LightProgram used = light_program(inputs.lights[light], RowOutput::visibility);
+    LightProgram used = light_program(inputs.lights[light], RowOutput::visibility);
     if (!used.program || used.unshadowed) return false;
+    const LightPass* pass = light < passes_.size() ? &passes_[light] : nullptr;
+    const bool reads = pass && pass->reads && kept_.holds(pass->kept.texture);
+    if (reads) used = {};
+    if (reads) used.program = programs_.row(kept_row(inputs.lights[light].row), RowOutput::kept_visibility);
+    if (!used.program) return false;
     constexpr float kNoSurface = -1.0f;
     list.add(gl::BeginGroup{"visibility"});
     if (used.verdicts_program) record_rays(used, light, {}, {}, gpu, list);
@@ -323,7 +338,10 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
     list.add(
         gl::SetPipeline{{used.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     bind_surface_textures(list);
-    bind_light(used, light, gpu, list);
+    if (reads)
+        bind_kept(*pass, light, list);
+    else
+        bind_light(used, light, gpu, list);
     if (used.verdicts_program) ray_list_.bind_answers(list);
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});

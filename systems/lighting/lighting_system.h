@@ -11,8 +11,10 @@
 #include "systems/growing_buffer.h"
 #include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/exposure_meter.h"
+#include "systems/lighting/kept_visibility.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/lighting_targets.h"
+#include "systems/lighting/lookup_times.h"
 #include "systems/lighting/ray_list.h"
 #include "systems/report.h"
 #include "systems/shadow/types.h"
@@ -30,11 +32,17 @@ struct ExposureRecord {
     float unused[2] = {};
 };
 
+/// Matches KeptBlock in shaders/lighting/kept_visibility.glsl (std140).
+struct KeptRecord {
+    glm::ivec4 area{0};
+};
+
 struct LightingSettings {
     std::optional<float> exposure_ev;                   // EV100; empty: from the picture's own logarithmic mean
     std::uint32_t most_rows = LightPrograms::kNoLimit;  // so many programs of lights are compiled in one frame at most
     bool measure_exposure = false;                      // read the picture's own back, for most_exposure()
     bool sample_depths = false;  // count the picture's pixels by view distance, for collect_depths()
+    std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // of what pixels saw (KeptVisibility), over all pictures
 };
 
 /// By what the picture of a camera at this EV100 is multiplied before the tone curve.
@@ -58,6 +66,15 @@ public:
     /// report.failure says why.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
+
+    /// To be called after each submission of what record() recorded: which it was, and whether it was executed without
+    /// failure. What pixels saw is kept only where this is called: a still picture then reads it instead of looking
+    /// lights up, to the same bits (docs/economy.md, "What pixels saw").
+    void submitted(std::uint64_t submission, bool drawn);
+    /// Timers of earlier submissions: what was saved by it, for later reports.
+    void learn(std::span<const gl::Timing> timings) { lookup_times_.learn(timings); }
+    /// What of its memory only saves time.
+    SpareMemory& spare() { return kept_; }
 
     /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of
     /// the last record() of the same inputs. False if it cannot be done.
@@ -115,6 +132,20 @@ private:
         Reason lacks = Reason::none;                           // why it is not the light's own row
         bool unshadowed = false;
     };
+    /// One light's pass over the picture.
+    struct LightPass {
+        LightProgram own;
+        KeptVisibility::Plan kept;
+        gl::ProgramHandle reads{};  // of kept.use: instead of `own`
+        LightProgram fills;         // and before that
+    };
+    void plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
+                     const LightingSettings& settings);
+    void plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces, LightPass& pass);
+    std::uint64_t surfaces_signature(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) const;
+    void bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const;
+    void record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list);
+    void report_kept(const LightPass& pass, std::uint32_t index, const LightItem& light, FrameReport& frame);
     LightProgram light_program(const shadow::LightingLight& light, RowOutput output);
     gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
@@ -142,10 +173,14 @@ private:
     RayList ray_list_;
     DepthSampler depths_;
     ExposureMeter exposure_;
+    KeptVisibility kept_;
+    LookupTimes lookup_times_;
+    std::vector<LightPass> passes_;  // of the last record(): one per light of its inputs
     GrowingBuffer items_, uniforms_;
     bool has_places_ = false;  // of the last record(): surfaces say where exactly they are
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
-    std::uint32_t light_stride_ = 0, lights_offset_ = 0, ambient_offset_ = 0, exposure_offset_ = 0;
+    std::uint32_t light_stride_ = 0, kept_stride_ = 0, lights_offset_ = 0, kept_offset_ = 0, ambient_offset_ = 0,
+                  exposure_offset_ = 0;
     std::vector<std::uint32_t> visible_;
     std::vector<DrawItem> draw_items_;
     std::vector<SurfaceDraw> draws_, blended_;

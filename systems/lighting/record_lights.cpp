@@ -73,7 +73,8 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
         if (light.screen.width <= 0) continue;
-        const LightProgram used = light_program(light, RowOutput::picture);
+        const LightPass& pass = passes_[i];
+        const LightProgram& used = pass.own;
         if (used.lacks != Reason::none) {
             report.lights[light.light].state = used.unshadowed ? LightState::skipped : LightState::degraded;
             report.lights[light.light].reason = used.lacks;
@@ -81,19 +82,25 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
-        if (used.verdicts_program) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);
+        const bool lists = used.verdicts_program && !pass.reads;
+        if (lists) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);
+        if (pass.reads && pass.fills.program) record_fill(pass, i, gpu, list);
         list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
         list.add(gl::SetScissor{light.screen});
-        list.add(gl::SetPipeline{
-            {used.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
+        list.add(gl::SetPipeline{{pass.reads ? pass.reads : used.program, gl::CullMode::none, false,
+                                  gl::DepthTest::less, false, false, gl::Blend::add}});
         bind_surface_textures(list);
-        bind_light(used, i, gpu, list);
-        if (used.verdicts_program) ray_list_.bind_answers(list);
+        if (pass.reads)
+            bind_kept(pass, i, list);
+        else
+            bind_light(used, i, gpu, list);
+        if (lists) ray_list_.bind_answers(list);
         list.add(gl::DrawTriangle{light.farthest_depth});
         list.add(gl::EndPass{});
-        if (used.verdicts_program) ray_list_.unbind_answers(list);
+        if (lists) ray_list_.unbind_answers(list);
         list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});
+        report_kept(pass, light.light, scene.lights[light.light], report);
     }
     list.add(gl::EndGroup{});
 }

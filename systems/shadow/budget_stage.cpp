@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/core/signature.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
@@ -10,7 +11,6 @@
 #include "systems/shadow/map_desc.h"
 #include "systems/shadow/predicted_error.h"
 #include "systems/shadow/publish.h"
-#include "systems/shadow/signature.h"
 
 namespace gnomon::shadow {
 namespace {

@@ -1,6 +1,6 @@
+#include "engine/core/signature.h"
 #include "systems/shadow/exact/ray_load.h"
 #include "systems/shadow/map_store.h"
-#include "systems/shadow/signature.h"
 
 /// The part of stage 5 that asks whether a map is worth drawing.
 namespace gnomon::shadow {

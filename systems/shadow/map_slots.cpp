@@ -1,10 +1,10 @@
 #include <algorithm>
 
+#include "engine/core/signature.h"
 #include "systems/shadow/cube_route.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/map_store.h"
-#include "systems/shadow/signature.h"
 
 /// The half of stage 5 that says what each view's layer is to hold, and whether it does.
 namespace gnomon::shadow {

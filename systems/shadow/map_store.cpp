@@ -201,7 +201,12 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
         if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // as good
         const MomentDescs moments = moments_of(desc, demand);
         const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
-        const Reason reason = has_room ? try_create(desc, demand, history) : Reason::map_allocation_failed;
+        Reason reason = has_room ? try_create(desc, demand, history) : Reason::map_allocation_failed;
+        if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
+            spare_->release();
+            device_.finish();  // only then is what was freed given back
+            reason = try_create(desc, demand, history);
+        }
         refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
         if (reason == Reason::none) {
             if (halving > 0) history.failure = Reason::map_shrunk;
@@ -227,10 +232,19 @@ bool MapStore::stay() {
     return true;
 }
 
-/// Frees what the picture does without until there is room for so many bytes more: maps that nobody looks at, the
-/// longest unused first, copies of still casters, and at last the map that is to be replaced.
+/// Has others give up what they hold if it stands in the way of so many bytes more, which would fit without. Whether
+/// there was any.
+bool MapStore::yield_spare(std::uint64_t bytes_more) const {
+    if (!spare_ || spare_->bytes() == 0 || spare_->bytes() <= room() - std::min(room(), bytes_more)) return false;
+    spare_->release();
+    return true;
+}
+
+/// Frees what the picture does without until there is room for so many bytes more: what others keep to save time, maps
+/// that nobody looks at, the longest unused first, copies of still casters, and at last the map that is to be replaced.
 bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
     if (limit_ == kNoLimit) return true;
+    yield_spare(bytes_more);
     for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
         LightHistory* unseen = nullptr;
         LightHistory* apart = nullptr;

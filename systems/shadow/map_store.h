@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "systems/shadow/staleness.h"
 #include "systems/shadow/still_map.h"
 #include "systems/shadow/types.h"
+#include "systems/spare_memory.h"
 
 namespace gnomon::shadow {
 
@@ -76,6 +78,10 @@ public:
     /// Whether views may have to wait because a budget has others drawn: what they show is then remembered.
     void let_take_turns(bool takes_turns) { takes_turns_ = takes_turns; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
+    /// Who else holds memory within the limit, and gives it up before any map has to. Outlives this; null: nobody.
+    void set_spare(SpareMemory* spare) { spare_ = spare; }
+    /// What the limit leaves beside the maps; kNoLimit: anything.
+    std::uint64_t room() const { return limit_ == kNoLimit ? kNoLimit : limit_ - std::min(limit_, bytes()); }
     /// For kRetryFrames after the device had no room for a map: what all held then, since more is not to be had;
     /// kNoLimit otherwise.
     std::uint64_t available() const { return frame_ < short_until_frame_ ? available_ : kNoLimit; }
@@ -114,6 +120,7 @@ private:
     LightHistory& entry(ecs::Entity light);
     void note_places(std::size_t first);
     void release(LightHistory& history);
+    bool yield_spare(std::uint64_t bytes_more) const;
     bool make_room(std::uint64_t bytes_more, LightHistory* replaced);
     void keep_or_release(ecs::Entity light, Reason skip);
     void provide_maps(const SceneSnapshot& scene, ShadowFrame& frame);
@@ -142,6 +149,7 @@ private:
     std::vector<LightHistory> lights_;
     std::unordered_map<std::uint32_t, std::uint32_t> places_;  // in lights_, by the entity's index, which may be any
     std::uint64_t frame_ = 0, limit_ = kNoLimit;
+    SpareMemory* spare_ = nullptr;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
     bool refused_ = false;  // in this frame
     bool takes_turns_ = false;

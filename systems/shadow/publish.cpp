@@ -11,6 +11,7 @@
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
+#include "systems/shadow/lookup_signature.h"
 #include "systems/shadow/seed_cell.h"
 #include "systems/shadow/sets.h"
 
@@ -317,6 +318,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }
         publish_rays(scene, samplers, rays, frame, inputs);
+        sign_lookups(scene, frame, inputs);
     }
 }
 

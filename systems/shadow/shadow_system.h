@@ -47,6 +47,8 @@ public:
 
     const visibility::RayScene& rays() const { return rays_; }
     const MapStore& maps() const { return maps_; }
+    /// See MapStore::set_spare().
+    void set_spare(SpareMemory* spare) { maps_.set_spare(spare); }
     const DimLights& dim_lights() const { return dim_lights_; }
     const History& held_fits() const { return history_; }
 

@@ -42,6 +42,7 @@ bool MapStore::provide_still(LightHistory& map) const {
     gl::TextureDesc desc = map.desc;
     desc.label += ", still";
     const bool fits = limit_ == kNoLimit || bytes() + still_bytes(map) <= limit_;
+    if (fits) yield_spare(still_bytes(map));
     if (fits) still.texture = device_.create_texture(desc, {}).handle;
     desc.label += " triangles";
     desc.format = kTriangleFormat;

@@ -278,6 +278,9 @@ struct LightingLight {
     PlainLookup plain;
     gl::Rect screen{};            // pixels the light can reach; empty: none
     float farthest_depth = 0.0f;  // of the picture: surfaces that it can reach have larger ones, and the sky never has
+    /// Of all that a lookup's result at a place of the picture follows from, beside that place and the camera
+    /// (lookup_signature.h): the same number, the same visibility. 0: nobody knows, or it is not to be kept.
+    std::uint64_t lookup_signature = 0;
     LightRecord record;
 };
 struct LightingInputs {

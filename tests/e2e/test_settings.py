@@ -42,7 +42,10 @@ class Settings(GameTest):
         self.assertEqual(on[-1]["shadow"]["draws"], 0)
         self.assertEqual({l["state"] for l in on[-1]["lights"]}, {"reused"})
         self.assertEqual(off[-1]["shadow"]["draws"], off[0]["shadow"]["draws"])
-        self.assertEqual(on[-1]["shadow"]["bytes"], off[-1]["shadow"]["bytes"])
+        kept = [light["kept"] for light in on[-1]["lights"]]
+        self.assertEqual({k["reason"] for k in kept}, {"visibility_kept"})
+        self.assertEqual({light["kept"] for light in off[-1]["lights"]}, {None})
+        self.assertEqual(on[-1]["shadow"]["bytes"] - sum(k["bytes"] for k in kept), off[-1]["shadow"]["bytes"])
         with_economy = self.fields_of(*still)
         without = self.fields_of("--set", "economy=off", *still)
         for name, field in with_economy.items():

@@ -7,7 +7,6 @@ namespace gnomon {
 BothWays::BothWays(gl::Device& device, const assets::MeshLibrary& library)
     : device_(device),
       library_(library),
-      lighting_(device),
       sides_{std::make_unique<Side>(device), std::make_unique<Side>(device)} {
     auto gpu = GpuScene::create(device, library);
     EXPECT_TRUE(gpu);
@@ -34,9 +33,11 @@ void BothWays::run_side(Way way, const std::function<void(const Picture&)>& look
         EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
     }
     for (const shadow::LightingInputs& inputs : frame.inputs) {
-        EXPECT_TRUE(lighting_.record(inputs, side.scene, *gpu_, {}, side.commands, side.report));
-        EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
-        look({way, inputs, side.commands});
+        EXPECT_TRUE(side.lighting.record(inputs, side.scene, *gpu_, {}, side.commands, side.report));
+        const gl::SubmitResult result = device_.submit(side.commands);
+        EXPECT_EQ(result.failure, gl::Failure::none);
+        look({way, inputs, side.commands});  // while all that the list names stands
+        side.lighting.submitted(result.submission, true);
         side.commands.clear();
     }
     side.shadows.commit(side.scene, true);

@@ -12,7 +12,7 @@
 namespace gnomon {
 
 /// One world whose shadows are worked out twice in each frame: as usual, and with economy=off, each with maps and a
-/// history of its own. Everything else is common to both.
+/// history of its own, and with lighting of its own. Everything else is common to both.
 class BothWays {
 public:
     enum Way : std::size_t { kThrifty, kLavish, kWays };
@@ -33,13 +33,14 @@ public:
     const SceneSnapshot& scene() const { return snapshot_; }
     const FrameReport& report(Way way) const { return sides_[way]->report; }
     const shadow::ShadowFrame& frame(Way way) const { return sides_[way]->shadows.frame(); }
-    lighting::LightingSystem& lighting() { return lighting_; }
+    lighting::LightingSystem& lighting(Way way) { return sides_[way]->lighting; }
     const GpuScene& gpu() const { return *gpu_; }
 
 private:
     struct Side {
-        explicit Side(gl::Device& device) : shadows(device) {}
+        explicit Side(gl::Device& device) : shadows(device), lighting(device) {}
         shadow::ShadowSystem shadows;
+        lighting::LightingSystem lighting;
         SceneSnapshot scene;
         FrameReport report;
         gl::CommandList commands;
@@ -52,7 +53,6 @@ private:
     Extractor extractor_;
     SceneSnapshot snapshot_;
     std::unique_ptr<GpuScene> gpu_;
-    lighting::LightingSystem lighting_;
     std::array<std::unique_ptr<Side>, kWays> sides_;
 };
 

@@ -115,11 +115,11 @@ TEST_P(RefreshGl, MoversWouldDarkenThemselvesWithoutTheOffsetForWhatMoved) {
     const auto visibility_of = [&](const shadow::LightingInputs& inputs) {
         gl::CommandList list;
         FrameReport report;
-        EXPECT_TRUE(both.lighting().record(inputs, both.scene(), both.gpu(), {}, list, report));
-        EXPECT_TRUE(both.lighting().record_visibility(inputs, 0, both.gpu(), list));
+        EXPECT_TRUE(both.lighting(BothWays::kThrifty).record(inputs, both.scene(), both.gpu(), {}, list, report));
+        EXPECT_TRUE(both.lighting(BothWays::kThrifty).record_visibility(inputs, 0, both.gpu(), list));
         run(list);
         const glm::uvec2 size_px = settings.viewport_px;
-        return read<float>(both.lighting().visibility_texture(), std::size_t{size_px.x} * size_px.y);
+        return read<float>(both.lighting(BothWays::kThrifty).visibility_texture(), std::size_t{size_px.x} * size_px.y);
     };
     int held = 0;
     for (int i = 0; i < 6; ++i) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "components/shadow_caster.h"
+#include "systems/lighting/kept_visibility.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/map_store.h"
@@ -120,6 +121,9 @@ void SoakWorld::leave_to_rays(const std::function<void()>& run_frame) {
     }
 }
 
+/// A fit may settle in the second; then what pixels saw is kept, and read.
+constexpr std::uint32_t kFramesToRest = 2 + lighting::KeptVisibility::kStillFrames + 1;
+
 void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
@@ -128,6 +132,7 @@ void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
                 world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) { s.cascades = cascades; });
                 run_frame();
             }
+            for (std::uint32_t i = 0; i < kFramesToRest; ++i) run_frame();
             if (shadow::asks_rays(filter)) leave_to_rays(run_frame);
             world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
             run_frame();

@@ -12,6 +12,7 @@ protected:
         world.add_stage();
         world.add_light(LightKind::spot, kLightPlace_m, "lamp");
         world.add_light(LightKind::point, {0, 5, 1}, "bulb");
+        world.look_lights_up();
     }
     void show(const std::string& light) { settings.debug = {.view = debug::find_view("depth"), .light = light}; }
     std::size_t made(const std::string& label) const {

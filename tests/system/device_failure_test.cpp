@@ -60,6 +60,7 @@ protected:
         stage = world.add_stage();
         lamp = world.add_light(GetParam(), kLightPlace_m, "lamp");
         world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px = kSize_px; });
+        world.look_lights_up();
     }
     void TearDown() override {
         frame.reset();

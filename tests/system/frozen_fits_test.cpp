@@ -15,6 +15,7 @@ protected:
         const ecs::Entity sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
         world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.fit = ShadowFit::tight; });
         world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+        world.look_lights_up();
         step();
         step();
         camera_x_m = frame->snapshot().consumers.front().position_ws_m.x;

@@ -42,8 +42,9 @@ TEST_F(Programs, OneShadowedSpotNeedsOneDepthProgramAndOneRow) {
 TEST_F(Programs, NothingIsMadeTwice) {
     world.add_stage();
     for (int i = 0; i < 3; ++i) world.add_light(LightKind::spot, kLightPlace_m, "lamp");
-    for (int i = 0; i < 3; ++i) step();
-    EXPECT_THAT(made(), ElementsAre("depth opaque", kSpot2x2, "luminance", "surface", "tonemap"));
+    for (int i = 0; i < 10; ++i) step();
+    EXPECT_THAT(made(), ElementsAre("depth opaque", "kept light LIGHT_SPOT ", kSpot2x2, "luminance", "surface", "tonemap",
+                                    "visibility LIGHT_SPOT shadow/filters/hardware_2x2.glsl"));
 }
 
 TEST_F(Programs, EachFilterInUseIsARow) {
@@ -137,6 +138,7 @@ TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
         const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp" + std::to_string(i));
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = kFilters[i]; });
     }
+    world.look_lights_up();
     settings.programs_per_frame = 1;
     const auto waiting = [&] {
         std::vector<std::string> names;

@@ -97,7 +97,8 @@ protected:
             if (scene.before_each) scene.before_each();
             step();
         }
-        return light("lamp").reason;
+        const LightReport& report = light("lamp");
+        return report.kept.reason == Reason::none ? report.reason : report.kept.reason;
     }
     void start_anew() {
         frame.reset();
@@ -133,6 +134,7 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
           {},
           3,
           [this] { world.registry.patch<Transform>(stage.box, [](Transform& t) { t.translation_m.x += 0.001; }); }}},
+        {Reason::visibility_kept, {.frames = 10}},
         {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
         {Reason::over_budget, changed([this] { settings.shadow_budget.bytes = 1; })},
         {Reason::budget_shrunk,

@@ -118,6 +118,7 @@ protected:
         world.add_camera({0, 12, 12}, {0, 0, 0});
         lamp = add_lamp(LightKind::spot, {1, 8, 0}, "lamp");
         world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = GetParam(); });
+        world.look_lights_up();
     }
     ecs::Entity lamp;
 };

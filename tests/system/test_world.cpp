@@ -99,6 +99,12 @@ void TestWorld::move(ecs::Entity e, const glm::dvec3& to_m) {
     registry.patch<Transform>(e, [&](Transform& t) { t.translation_m = to_m; });
 }
 
+void TestWorld::look_lights_up() {
+    registry.each<LightShadow>([&](ecs::Entity e, const LightShadow&) {
+        registry.patch<LightShadow>(e, [](LightShadow& s) { s.keep_visibility = false; });
+    });
+}
+
 TestWorld::Stage TestWorld::add_stage() {
     return {add_mesh(kPlane, {0, 0, 0}, false), add_mesh(kBox, {0, 1, 0}, true), add_camera({0, 4, 8}, {0, 0, 0})};
 }

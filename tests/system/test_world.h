@@ -29,6 +29,8 @@ struct TestWorld {
     /// Sun and spot shine from `at_m` at the origin. Range 30 m for local lights.
     ecs::Entity add_light(LightKind kind, const glm::dvec3& at_m, const std::string& name, bool shadow = true);
     void move(ecs::Entity e, const glm::dvec3& to_m);
+    /// In still frames as well: for tests of how that is done (LightShadow::keep_visibility).
+    void look_lights_up();
 
     /// A plane that receives, a box at 1 m height that casts, a camera that sees both.
     struct Stage {

@@ -1,8 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 
-namespace gnomon::shadow {
+namespace gnomon {
 
 /// A number that follows from a sequence of words. Each step is one-to-one in what came before and in the word, and two
 /// multiplications carry each bit over all others: sequences that differ share a number with probability 2^-64.
@@ -13,6 +17,15 @@ public:
     }
     void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
     void add(float number) { add(std::uint64_t{std::bit_cast<std::uint32_t>(number)}); }
+
+    void add(std::span<const std::byte> bytes) {
+        add(std::uint64_t{bytes.size()});
+        for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
+            std::uint64_t word = 0;
+            std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
+            add(word);
+        }
+    }
 
     /// Of what was added so far; never 0.
     std::uint64_t value() const {
@@ -31,4 +44,4 @@ private:
     std::uint64_t value_ = kStepOffset;
 };
 
-}  // namespace gnomon::shadow
+}  // namespace gnomon

@@ -1,0 +1,13 @@
+// What the picture's pixels saw of the light when it was last looked up: systems/lighting/kept_visibility.h.
+layout(binding = 4) uniform sampler2D kept_visibility;
+// C++ twin: KeptRecord in systems/lighting/lighting_system.h.
+layout(std140, binding = 6) uniform KeptBlock {
+    ivec4 area;   // of the picture: first pixel, and size
+} kept;
+
+// 0 beyond the area, which the light does not reach.
+float kept_share(ivec2 pixel) {
+    ivec2 texel = pixel - kept.area.xy;
+    bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, kept.area.zw));
+    return inside ? texelFetch(kept_visibility, texel, 0).r : 0.0;
+}

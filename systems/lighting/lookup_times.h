@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/entity.h"
+#include "engine/gl/device.h"
+
+namespace gnomon::lighting {
+
+/// What lighting with each light took on the GPU, when it was last measured: looked up, and read from what was kept.
+/// Devices may answer some frames late.
+class LookupTimes {
+public:
+    /// A pass that is recorded; `index`: of the light's timer.
+    void add(std::uint32_t index, ecs::Entity light, bool kept) {
+        recorded_.push_back({index, light, kept, 0, 0, 0.0});
+    }
+    /// All that was added since the last call.
+    void submitted(std::uint64_t submission);
+    void learn(std::span<const gl::Timing> timings);
+
+    /// By how many microseconds reading is faster; empty: not both were measured. Never below 0.
+    std::optional<double> saved_us(ecs::Entity light) const;
+
+    static constexpr std::size_t kFrames = 8;  // more than drivers queue
+
+private:
+    struct Pass {
+        std::uint32_t index = 0;
+        ecs::Entity light;
+        bool kept = false;
+        std::uint64_t frame = 0, submission = 0;
+        double us = 0.0;
+    };
+    struct Measured {
+        ecs::Entity light;
+        std::optional<double> looked_up_us, kept_us;
+    };
+    std::vector<Pass> recorded_, passes_;  // of the frame at hand, and of the last kFrames
+    std::uint64_t frame_ = 0;
+    std::vector<Measured> measured_;  // by the entity's index
+};
+
+}  // namespace gnomon::lighting

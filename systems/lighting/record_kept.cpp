@@ -1,0 +1,116 @@
+#include <algorithm>
+
+#include "engine/core/signature.h"
+#include "systems/lighting/lighting_system.h"
+
+/// Lights whose pixels see what they saw in an earlier frame: when that is so, what is recorded then, and what the
+/// report says of it.
+namespace gnomon::lighting {
+
+/// Of all that surfaces show to lights: the camera, and what is drawn, where, how bent, and whose shadows it receives.
+std::uint64_t LightingSystem::surfaces_signature(const shadow::LightingInputs& inputs,
+                                                 const SceneSnapshot& scene) const {
+    Signature s;
+    s.add(std::as_bytes(std::span(&inputs.camera, 1)));
+    s.add(std::uint64_t{has_places_});
+    for (const std::uint32_t i : visible_) {
+        const InstanceItem& item = scene.instances[i];
+        s.add((std::uint64_t{item.gpu_slot} << 32) | item.mesh);
+        s.add(item.version);
+        const std::uint64_t layers = item.receives ? item.receive_layers : 0u;
+        s.add(layers * 4 + (item.mirrored ? 2u : 0u) + (item.folded ? 1u : 0u));
+    }
+    return s.value();
+}
+
+/// After prepare(): programs may then be made.
+void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
+                                 const LightingSettings& settings) {
+    const auto may_keep = [](const shadow::LightingLight& light) { return light.lookup_signature != 0; };
+    const bool any = std::any_of(inputs.lights.begin(), inputs.lights.end(), may_keep);
+    const std::uint64_t surfaces = any ? surfaces_signature(inputs, scene) : 0;
+    kept_.begin(scene.consumers[inputs.consumer].entity, settings.most_kept_bytes);
+    passes_.resize(inputs.lights.size());
+    for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
+        const shadow::LightingLight& light = inputs.lights[i];
+        if (light.screen.width > 0) passes_[i].own = light_program(light, RowOutput::picture);
+    }
+    // Programs that only save time come last.
+    for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
+        const shadow::LightingLight& light = inputs.lights[i];
+        if (light.screen.width > 0 && may_keep(light) && passes_[i].own.lacks == Reason::none)
+            plan_kept(light, scene.lights[light.light].entity, surfaces, passes_[i]);
+    }
+    kept_.end();
+}
+
+/// The programs of a light that reads what was kept are made when it is filled: those of the visibility alone, and of
+/// its kind.
+void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces,
+                               LightPass& pass) {
+    Signature s;
+    s.add(surfaces);
+    s.add(light.lookup_signature);
+    const KeptVisibility::Plan plan = kept_.plan(entity, s.value(), light.screen, targets_.size_px());
+    if (plan.use == KeptVisibility::Use::look_up) return;
+    const bool fills = plan.use == KeptVisibility::Use::fill;
+    const shadow::ProgramRow row = kept_row(light.row);
+    const bool waits = programs_.must_wait(row, RowOutput::kept) ||
+                       (fills && !pass.own.verdicts_program && programs_.must_wait(light.row, RowOutput::visibility));
+    const gl::ProgramHandle reads = waits ? gl::ProgramHandle{} : programs_.row(row, RowOutput::kept);
+    LightProgram visibility;
+    if (fills && reads) visibility = light_program(light, RowOutput::visibility);
+    const bool can_fill = visibility.program && visibility.lacks == Reason::none && !visibility.unshadowed;
+    if (!reads || (fills && !can_fill)) return kept_.cancel(entity);
+    pass.kept = plan;
+    pass.reads = reads;
+    pass.fills = visibility;
+}
+
+void LightingSystem::bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const {
+    list.add(
+        gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
+    list.add(gl::BindUniforms{6, uniforms_.handle(), kept_offset_ + index * kept_stride_, sizeof(KeptRecord)});
+    list.add(gl::BindTexture{4, pass.kept.texture, point_sampler_});
+}
+
+/// Filters take their randomness from where the pixel is: what is less than the picture is filled in one of its size.
+void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu,
+                                 gl::CommandList& list) {
+    const KeptVisibility::Plan& kept = pass.kept;
+    const LightProgram& fills = pass.fills;
+    if (fills.verdicts_program) record_rays(fills, index, {}, {}, gpu, list);
+    list.add(gl::BeginPass{kept.scratch ? kept.scratch : kept.target, viewport(), false, 0.0f, false, {}});
+    list.add(gl::SetScissor{kept.area});
+    list.add(
+        gl::SetPipeline{{fills.program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
+    bind_surface_textures(list);
+    bind_light(fills, index, gpu, list);
+    if (fills.verdicts_program) ray_list_.bind_answers(list);
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    if (fills.verdicts_program) ray_list_.unbind_answers(list);
+    if (!kept.scratch) return;
+    list.add(gl::Blit{kept.scratch, kept.target, kept.area, {0, 0, kept.area.width, kept.area.height}});
+}
+
+void LightingSystem::report_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
+                                 FrameReport& frame) {
+    const bool may_pay = light.has_shadow && light.shadow.keep_visibility && light.shadow.economy;
+    if (may_pay && kept_.is_told() && !pass.fills.program)
+        lookup_times_.add(index, light.entity, static_cast<bool>(pass.reads));
+    if (!pass.reads || index >= frame.lights.size()) return;
+    LightReport& report = frame.lights[index];
+    report.kept.bytes += pass.kept.bytes;
+    report.bytes += pass.kept.bytes;
+    if (pass.fills.program) return;
+    report.kept.reason = Reason::visibility_kept;
+    report.kept.saved_us = lookup_times_.saved_us(light.entity);
+}
+
+void LightingSystem::submitted(std::uint64_t submission, bool drawn) {
+    kept_.submitted(drawn);
+    lookup_times_.submitted(submission);
+}
+
+}  // namespace gnomon::lighting
