@@ -54,12 +54,14 @@ void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity e
     const KeptVisibility::Plan plan = kept_.plan(entity, s.value(), light.screen, targets_.size_px());
     if (plan.use == KeptVisibility::Use::look_up) return;
     const bool fills = plan.use == KeptVisibility::Use::fill;
-    const shadow::ProgramRow row = kept_row(light.row);
-    const bool waits = programs_.must_wait(row, RowOutput::kept) ||
-                       (fills && !pass.own.verdicts_program && programs_.must_wait(light.row, RowOutput::visibility));
-    const gl::ProgramHandle reads = waits ? gl::ProgramHandle{} : programs_.row(row, RowOutput::kept);
+    // One after the other, where a frame may make but one.
+    const auto made = [&](const shadow::ProgramRow& row, RowOutput output) {
+        return programs_.must_wait(row, output) ? gl::ProgramHandle{} : programs_.row(row, output);
+    };
+    const gl::ProgramHandle reads = made(kept_row(light.row), RowOutput::kept);
     LightProgram visibility;
-    if (fills && reads) visibility = light_program(light, RowOutput::visibility);
+    if (fills && reads && made(light.row, RowOutput::visibility))
+        visibility = light_program(light, RowOutput::visibility);
     const bool can_fill = visibility.program && visibility.lacks == Reason::none && !visibility.unshadowed;
     if (!reads || (fills && !can_fill)) return kept_.cancel(entity);
     pass.kept = plan;

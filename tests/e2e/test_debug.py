@@ -33,7 +33,7 @@ class Debug(GameTest):
         spot = Region(self.view("depth:guard_lamp"), (WIDTH - edge) // 2, TITLE, edge, edge)
         self.assertGreater(spot.share(lambda p: grey(p) or nothing(p)), 0.99)
         self.assertGreater(spot.shades(), 30)
-        sun, one = self.view("depth:sun"), self.view("depth:sun:1")
+        sun, one = (self.view(view, "--set", "cascades=4") for view in ("depth:sun", "depth:sun:1"))
         alone = Region(one, (WIDTH - edge) // 2, TITLE, edge, edge)
         self.assertGreater(alone.shades(), 30)
         self.assertGreater(sun.mean_difference(one), 10.0)
@@ -60,9 +60,10 @@ class Debug(GameTest):
 
     def test_shadows_fitted_to_another_camera_are_shown_from_this_one(self):
         # The camera above sees more of the ground than the maps for the one below serve.
-        own = self.view("cascades:sun", "--camera", "top")
-        other = self.view("cascades:sun", "--camera", "top", "--fit-camera", "main")
-        same = self.view("cascades:sun", "--camera", "top", "--fit-camera", "top")
+        cascades = ("cascades:sun", "--set", "cascades=4", "--camera", "top")
+        own = self.view(*cascades)
+        other = self.view(*cascades, "--fit-camera", "main")
+        same = self.view(*cascades, "--fit-camera", "top")
         self.assertGreater(own.mean_difference(other), 3.0)
         self.assertEqual(own.rgba, same.rgba)
         self.assertGreater(self.view("frusta:sun", "--camera", "top", "--fit-camera", "main").mean_difference(

@@ -130,9 +130,8 @@ void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
             add_light(kind.kind, filter.id);
             for (const std::uint32_t cascades : {1u, 4u, 0u}) {  // what fades into the next one is another program
                 world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) { s.cascades = cascades; });
-                run_frame();
+                for (std::uint32_t i = 0; i < kFramesToRest; ++i) run_frame();
             }
-            for (std::uint32_t i = 0; i < kFramesToRest; ++i) run_frame();
             if (shadow::asks_rays(filter)) leave_to_rays(run_frame);
             world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
             run_frame();

@@ -7,6 +7,7 @@
 #include "engine/gl/device_recording.h"
 #include "sample_game/spawn.h"
 #include "systems/frame.h"
+#include "systems/lighting/kept_visibility.h"
 #include "tests/unit/assets/bad_input.h"
 
 namespace gnomon::test {
@@ -50,8 +51,8 @@ protected:
 };
 
 TEST_F(ShownWorld, StaysAsItIsWhenAnyBadFileIsRefused) {
-    step();
-    step();  // the maps are drawn; from now on one frame is like the next
+    // The maps are drawn, and what pixels saw is kept: from now on one frame is like the next.
+    for (std::uint32_t i = 0; i < 2 + lighting::KeptVisibility::kStillFrames; ++i) step();
     const std::uint64_t version = frame_->snapshot().version;
     const gl::CommandList commands = frame_->commands();
     const assets::MeshLibrary library = library_;
