@@ -57,6 +57,8 @@ protected:
             }
         for (std::size_t v = 0; v < a.slots.size(); ++v) {
             if (a.demands[a.views[v].demand].left_to_rays) continue;
+            // Neither drawn nor looked up: it may hold what it did before rays did without it.
+            if (a.views[v].lit && b.views[v].lit && a.demands[a.views[v].demand].asks_rays) continue;
             if (contents[Way::kThrifty].of(a.slots[v].target, device) ==
                 contents[Way::kLavish].of(b.slots[v].target, device))
                 continue;
