@@ -1,7 +1,9 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "tests/gl/truth_scenes.h"
 #include "tests/oracle/exactness.h"
+#include "tests/source_paths.h"
 
 // filter=exact against rays in double: no pixel is wrong whose truth does not hang on the last digits.
 namespace gnomon {
@@ -90,6 +92,40 @@ TEST_F(ExactScenes, CastersThatMovedAreWhereTheyAreAndNotWhereTheyWere) {
     stage->run_frame();
     EXPECT_TRUE(stage->frame().report().rays.instances_written);
     expect_exact(judge(*stage));
+}
+
+TEST_F(ExactScenes, SponzasSunIsTheTruth) {
+    auto options = exact();
+    options.scene = test::data_folder() / "sponza-crytek/Sponza.gltf";
+    if (!std::filesystem::exists(*options.scene)) GTEST_SKIP() << "Sponza is not there";
+    const auto stage = open(options);
+    ASSERT_TRUE(stage);
+    stage->run_frame();
+    expect_exact(judge(*stage));
+}
+
+/// What bends is drawn, measured for contours and put into the trees anew.
+TEST_F(ExactScenes, ARunningFoxIsTheTruth) {
+    auto options = exact();
+    options.scene = test::data_folder() / "fox-draco-testdata/Fox/glTF/Fox.gltf";
+    if (!std::filesystem::exists(*options.scene)) GTEST_SKIP() << "the fox is not there";
+    const auto stage = open(options);
+    ASSERT_TRUE(stage);
+    for (const double time_s : {0.1, 0.4}) {
+        stage->move_to(time_s);
+        stage->run_frame();
+        SCOPED_TRACE(time_s);
+        const std::vector<Judged> judged = judge(*stage);
+        ASSERT_FALSE(judged.empty());
+        for (const auto& [name, report, found] : judged) {
+            std::printf("%s: %zu scored, %zu dark, %zu ambiguous\n", name.c_str(), found.scored, found.dark,
+                        found.ambiguous);
+            EXPECT_EQ(found.wrong, 0u) << name << " of " << found.scored;
+            EXPECT_GT(found.dark, 100u);
+            EXPECT_GT(found.lit, 100u);
+        }
+    }
+    EXPECT_GT(stage->frame().report().rays.meshes_written, 0u) << "it bent";
 }
 
 TEST_F(ExactScenes, WouldBeCaughtWithOneTapOfAMap) {
