@@ -131,7 +131,7 @@ void ShadowSystem::stand_still() {
 void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report) {
     decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
-    limit_rays(scene, device_.info(), history_, most_rays_, frame_.demands);
+    limit_rays(scene, device_.info(), history_, most_rays_, frame_.demands, frame_.set_scratch.items);
     budget_.apply(scene, history_, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });

@@ -129,6 +129,22 @@ TEST_F(FrameCost, AMovingSceneOfLocalLightsAllocatesNothingOnceWarm) {
     EXPECT_EQ(allocations_when_warm({LightKind::spot, LightKind::point}, settings, moving), 0u);
 }
 
+TEST_F(FrameCost, ExactLightsAllocateNothingOnceWarmWhateverTheirRaysMayBe) {
+    const auto exact_and_moving = [](TestWorld& made, const TestWorld::Stage& staged, int i) {
+        moving(made, staged, i);
+        if (i > 0) return;
+        made.registry.each<LightShadow>([&](ecs::Entity e, const LightShadow&) {
+            made.registry.patch<LightShadow>(
+                e, [](LightShadow& s) { s.filter = ShadowFilter::exact, s.resolution_px = 64; });
+        });
+    };
+    const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
+    for (const std::uint64_t rays : {std::uint64_t{0}, std::uint64_t{1}, std::uint64_t{1500}}) {
+        settings.shadow_budget.rays = rays;
+        EXPECT_EQ(allocations_when_warm(kinds, settings, exact_and_moving), 0u) << rays;
+    }
+}
+
 TEST_F(FrameCost, ASunAllocatesNothingOnceWarm) {
     EXPECT_EQ(allocations_when_warm({LightKind::directional}, settings, still), 0u);
     EXPECT_EQ(allocations_when_warm({LightKind::directional}, settings, moving), 0u);

@@ -45,13 +45,15 @@ double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {
 }
 
 void limit_rays(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint64_t most_rays,
-                std::vector<ShadowDemand>& demands) {
+                std::vector<ShadowDemand>& demands, std::vector<std::uint32_t>& asking) {
     if (most_rays == 0) return;
-    std::vector<std::uint32_t> asking;
+    asking.clear();
     for (const ShadowDemand& demand : demands)
         if (demand.skip == Reason::none && demand.asks_rays) asking.push_back(demand.light);
-    std::stable_sort(asking.begin(), asking.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return meaning(scene, scene.lights[a]) > meaning(scene, scene.lights[b]);
+    // A stable sort would allocate.
+    std::sort(asking.begin(), asking.end(), [&](std::uint32_t a, std::uint32_t b) {
+        const double first = meaning(scene, scene.lights[a]), second = meaning(scene, scene.lights[b]);
+        return first != second ? first > second : a < b;
     });
     double left = static_cast<double>(most_rays);
     for (const std::uint32_t i : asking) {

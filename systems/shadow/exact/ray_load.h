@@ -22,9 +22,9 @@ double asking_pixels(const SceneSnapshot& scene, const LightItem& light);
 
 /// Has lights asked by their own filter give way to kFilteredRow, with Reason::ray_budget, until the others ask for no
 /// more than `most_rays` (0: any number) in a frame: those that mean least to the picture first. A light that gave way
-/// comes back when there is room for a quarter more than it asks.
+/// comes back when there is room for a quarter more than it asks. `scratch` is overwritten.
 void limit_rays(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint64_t most_rays,
-                std::vector<ShadowDemand>& demands);
+                std::vector<ShadowDemand>& demands, std::vector<std::uint32_t>& scratch);
 
 /// What drawing a light's maps of sheets would draw.
 struct SheetLoad {
