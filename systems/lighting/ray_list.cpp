@@ -89,11 +89,4 @@ void RayList::unbind_answers(gl::CommandList& list) const {
     list.add(gl::BindTexture{kAnswerUnit, {}, {}});
 }
 
-std::uint64_t RayList::bytes() const {
-    const std::uint64_t pixels = std::uint64_t{size_px_.x} * size_px_.y;
-    return answer_target_
-               ? pixels * (gl::texel_bytes(gl::Format::r32ui) + gl::texel_bytes(gl::Format::r8)) + (1 + pixels) * kWord
-               : 0;
-}
-
 }  // namespace gnomon::lighting

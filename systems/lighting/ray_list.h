@@ -29,7 +29,6 @@ public:
     void bind_answers(gl::CommandList& list) const;
     /// After it: another light's go into the same textures.
     void unbind_answers(gl::CommandList& list) const;
-    std::uint64_t bytes() const;
 
 private:
     void release();

@@ -49,12 +49,6 @@ protected:
         }
         return labels;
     }
-    std::vector<std::string> compiled() const {
-        std::vector<std::string> labels;
-        for (const gl::ResourceCall& call : device.resource_calls())
-            if (call.kind == gl::ResourceCall::Kind::create_program) labels.push_back(call.label);
-        return labels;
-    }
     TestWorld::Stage stage;
 };
 
@@ -132,7 +126,7 @@ TEST_F(ExactMaps, AreDoneWithoutWhereThereIsNoRoom) {
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_EQ(light("lamp").reason, Reason::map_allocation_failed);
         EXPECT_TRUE(light("lamp").keeps_max_error) << "rays do without";
-        EXPECT_THAT(compiled(), Contains(HasSubstr("exact")));
+        EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("exact")));
         device.stop_failing();
         for (std::uint64_t i = 0; i < shadow::MapStore::kRetryFrames; ++i) step();
         EXPECT_THAT(drawn(), SizeIs(3));

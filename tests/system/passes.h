@@ -43,6 +43,14 @@ inline std::vector<Pass> depth_passes_of(const gl::CommandList& list, const gl::
     return passes;
 }
 
+/// Labels of all programs that were made, in order.
+inline std::vector<std::string> compiled_labels(const gl::RecordingDevice& device) {
+    std::vector<std::string> labels;
+    for (const gl::ResourceCall& call : device.resource_calls())
+        if (call.kind == gl::ResourceCall::Kind::create_program) labels.push_back(call.label);
+    return labels;
+}
+
 /// Labels of living textures that hold shadow maps, sorted.
 inline std::vector<std::string> map_labels(const gl::RecordingDevice& device, const std::string& kind = "shadow map") {
     std::vector<std::string> labels = device.live_labels();

@@ -54,12 +54,6 @@ protected:
             if (const auto* s = std::get_if<gl::BindStorage>(&c)) found.push_back(s->binding);
         return found;
     }
-    std::vector<std::string> compiled() const {
-        std::vector<std::string> labels;
-        for (const gl::ResourceCall& call : device.resource_calls())
-            if (call.kind == gl::ResourceCall::Kind::create_program) labels.push_back(call.label);
-        return labels;
-    }
     TestWorld::Stage stage;
     static constexpr std::uint32_t kFirstRayBinding = 3;
 };
@@ -72,10 +66,10 @@ TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
     step();
     EXPECT_THAT(ray_labels(), IsEmpty());
     EXPECT_THAT(storage_bindings(), Each(::testing::Lt(kFirstRayBinding)));
-    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("exact"))));
-    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("places"))));
-    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("sheet"))));
-    EXPECT_THAT(compiled(), Not(Contains(HasSubstr("peeled"))));
+    EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("exact"))));
+    EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("places"))));
+    EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("sheet"))));
+    EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("peeled"))));
     EXPECT_THAT(map_labels(device, ", second"), IsEmpty());
     EXPECT_THAT(map_labels(device, ", bounds"), IsEmpty());
     EXPECT_EQ(frame->report().rays.bytes + frame->report().rays.host_bytes, 0u);
@@ -165,7 +159,7 @@ TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceAndItIsTriedAgain) {
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
         EXPECT_GT(light("lamp").predicted_error_px, 0.0) << "as a map by itself has";
-        EXPECT_THAT(compiled(), Contains(HasSubstr("filters/hard")));
+        EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("filters/hard")));
         device.stop_failing();
         for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
         EXPECT_EQ(light("lamp").state, LightState::rendered);
