@@ -54,16 +54,4 @@ const CasterSurface& CasterSurfaces::of(const GpuScene& gpu, std::uint32_t mesh)
     return kept.surface;
 }
 
-std::size_t CasterSurfaces::bytes() const {
-    std::size_t sum = kept_.capacity() * sizeof(Kept);
-    for (const Kept& kept : kept_) {
-        const CasterSurface& s = kept.surface;
-        sum += s.edges.borders.capacity() * sizeof(assets::SurfaceEdges::Border) +
-               s.edges.folds.capacity() * sizeof(assets::SurfaceEdges::Fold) +
-               s.facets.capacity() * sizeof(CasterSurface::Facet) +
-               (s.opaque.capacity() + s.masked.capacity()) * sizeof(std::uint32_t);
-    }
-    return sum;
-}
-
 }  // namespace gnomon::shadow

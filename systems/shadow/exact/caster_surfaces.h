@@ -29,7 +29,6 @@ class CasterSurfaces {
 public:
     /// As the device has it now. Valid until the next call.
     const CasterSurface& of(const GpuScene& gpu, std::uint32_t mesh);
-    std::size_t bytes() const;
     /// Forgets all of them.
     void clear() { std::vector<Kept>().swap(kept_); }
 

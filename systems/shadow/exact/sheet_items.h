@@ -10,7 +10,7 @@
 
 namespace gnomon::shadow {
 
-/// A triangle or an edge that the passes of sheets draw. Matches SheetItem in shaders/shadow/exact/bounds.vert
+/// A triangle or an edge that the passes of sheets draw. Matches SheetItem in shaders/shadow/exact/sheet_item.glsl
 /// (std430).
 struct SheetItem {
     std::uint32_t instance = 0;         // slot of its record

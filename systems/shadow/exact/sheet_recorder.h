@@ -35,9 +35,6 @@ public:
     /// No light has such views any more: frees all but programs.
     void release();
 
-    /// Of the surfaces, on the CPU.
-    std::size_t surface_bytes() const { return surfaces_.bytes(); }
-
 private:
     enum class Kind : std::uint8_t { triangles, contours, masked, count };
     struct View {
