@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "bench/exact_visibility.h"
+#include "systems/shadow/budget_cost.h"
 #include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
 #include "systems/shadow/fit.h"
@@ -89,6 +90,11 @@ oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowDeman
 EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held)
     : scene_(scene) {
     shadow::decide_demand(scene, device, true, held, frame_.demands);
+    for (shadow::ShadowDemand& demand : frame_.demands) {
+        const LightItem& light = scene.lights[demand.light];
+        const shadow::HeldLight* last = find(held, light.entity, demand.light);
+        if (last && !(last->grant == shadow::Grant{})) demand = shadow::granted(light, demand, last->grant);
+    }
     shadow::select_sets(scene, frame_);
     shadow::fit_views(scene, held, frame_);
 }
@@ -145,14 +151,18 @@ oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_r
 
 oracle::TexelThere EdgeBounds::promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                                         double wished) const {
+    return within(light, point_rel_m, normal, shadow::wished_error_px(scene_.lights[light].shadow), wished);
+}
+
+oracle::TexelThere EdgeBounds::within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                      double error_px, double wished) const {
     const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);
     if (!view) return lit();
     oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, edge_texel(*view));
     texel.u_m *= wished;
     texel.v_m *= wished;
-    texel.error_px = shadow::allowed_error_px(wished * shadow::wished_error_px(scene_.lights[light].shadow),
-                                              glm::dot(to_light(*view, p_ws), normal));
+    texel.error_px = shadow::allowed_error_px(wished * error_px, glm::dot(to_light(*view, p_ws), normal));
     return texel;
 }
 

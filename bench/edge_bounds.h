@@ -11,7 +11,7 @@ namespace gnomon::bench {
 /// that serves the point. Works from a copy of the frame's own fits, which are pure.
 class EdgeBounds {
 public:
-    /// `held`: what the fits of that frame left. The scene must outlive this. Positions below are relative to its first
+    /// `held`: what the fits of that frame left, and what a budget left each light. The scene must outlive this. Positions below are relative to its first
     /// consumer.
     EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held);
 
@@ -24,6 +24,13 @@ public:
     /// `wished`: 1; else both are taken to be that many times as large, to see what a broken contract looks like.
     oracle::TexelThere promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                                 double wished) const;
+
+    /// The same where an edge may be off by `error_px` beside the picture's own pixel, whatever the contract.
+    oracle::TexelThere within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                              double error_px, double wished = 1.0) const;
+
+    /// Edge of the light's maps, for which all of this is said; 0: it has none.
+    std::uint32_t map_px(std::uint32_t light) const { return frame_.demands[light].resolution_px; }
 
     /// What the view that serves the point states for receivers of its slope; 0 where none does.
     double stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const;

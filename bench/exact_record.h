@@ -63,7 +63,7 @@ concept ReadsTriangles = requires(Row row) {
 
 /// Where the casters are in double, not where the records' floats have them: points are as exact.
 template <ReadsTriangles Row>
-void set_casters(std::span<const InstanceItem> instances, std::span<const CasterTriangle> triangles,
+void set_casters(std::span<const InstanceItem> instances, const CasterTriangleList& casters,
                  const glm::dvec3& camera_ws_m, Row& row) {
     using Instance = typename decltype(row.instances)::Element;
     using Triangle = typename decltype(row.caster_triangles)::Element;
@@ -75,14 +75,15 @@ void set_casters(std::span<const InstanceItem> instances, std::span<const Caster
                                      vec4(to_vec3(item.basis[2]), t.z), vec4()};
     }
     auto corners = std::make_shared<std::vector<Triangle>>();
-    corners->reserve(triangles.size());
-    for (const CasterTriangle& t : triangles) {
+    corners->reserve(casters.triangles.size());
+    for (const CasterTriangle& t : casters.triangles) {
         const auto& [a, b, c] = t.corners;
         corners->push_back(
             {to_vec3(a.position_ms), a.across, to_vec3(b.position_ms), b.across, to_vec3(c.position_ms), c.across});
     }
     row.instances.elements = std::move(records);
     row.caster_triangles.elements = std::move(corners);
+    row.ray_masks.elements = std::make_shared<std::vector<uint>>(casters.masks);
     row.camera.anchor_high = vec4(to_vec3(camera_ws_m), 0.0);
     row.camera.anchor_low = vec4();
 }

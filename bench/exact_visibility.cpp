@@ -39,7 +39,7 @@ template <class Row>
 class RowLight final : public ExactLight {
 public:
     RowLight(const shadow::ShadowFrame& frame, const SceneSnapshot& scene, std::uint32_t light, const MapCopy& map,
-             std::span<const CasterTriangle> casters)
+             const CasterTriangleList& casters)
         : camera_ws_m_(scene.consumers.front().position_ws_m), texels_(map) {
         if constexpr (ReadsTriangles<Row>) set_casters(scene.instances, casters, camera_ws_m_, row_);
         const auto views = published_views(frame, light);
@@ -81,7 +81,7 @@ public:
 
 template <class Row>
 std::unique_ptr<ExactLight> make_row(const shadow::ShadowFrame& frame, const SceneSnapshot& scene, std::uint32_t light,
-                                     const MapCopy& map, std::span<const CasterTriangle> casters) {
+                                     const MapCopy& map, const CasterTriangleList& casters) {
     return std::make_unique<glsl::RowLight<Row>>(frame, scene, light, map, casters);
 }
 
@@ -103,7 +103,7 @@ constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};
 
 std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
                                              std::uint32_t light, const MapCopy& map,
-                                             std::span<const CasterTriangle> casters) {
+                                             const CasterTriangleList& casters) {
     const shadow::ProgramRow& row = frame.inputs.front().lights[light].row;
     if (row.filter_file.empty()) return std::make_unique<LitLight>();
     for (const CompiledRow& compiled : kRows)

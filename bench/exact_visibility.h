@@ -57,7 +57,7 @@ public:
 /// filters that read them. Null if the row's files are not among those compiled in.
 std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
                                              std::uint32_t light, const MapCopy& map,
-                                             std::span<const CasterTriangle> casters);
+                                             const CasterTriangleList& casters);
 
 /// The shaders' own: receivers of a larger tangent toward the light are moved along their normal.
 double steep_tangent();

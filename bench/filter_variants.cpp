@@ -11,6 +11,8 @@ constexpr std::array<std::uint32_t, 3> kSizes = {3, 5, 7};
 /// Blurs cost a prefiltered map nothing when it is read.
 constexpr std::array<std::uint32_t, 3> kBlurs = {3, 7, 15};
 constexpr std::array<std::uint32_t, 4> kTaps = {4, 8, 16, 32};
+/// More take a software device half a minute a frame.
+constexpr std::array<std::uint32_t, 2> kRays = {4, 16};
 
 /// `value` of `key`, if the row has such a choice.
 void add(std::vector<FilterVariant>& found, const shadow::FilterRow& row, const char* key = nullptr,
@@ -42,6 +44,8 @@ std::vector<FilterVariant> filter_variants() {
         const bool moments = row.storage == shadow::FilterStorage::moments;
         if (row.width == shadow::FilterWidth::size)
             for (const std::uint32_t size : moments ? kBlurs : kSizes) add(found, row, "filter_size", size);
+        else if (row.storage == shadow::FilterStorage::soft_sheets)
+            for (const std::uint32_t rays : kRays) add(found, row, "penumbra_rays", rays);
         else if (row.taps(fewest, false) != row.taps(most, false))
             for (const std::uint32_t taps : kTaps) add(found, row, "filter_taps", taps);
         else

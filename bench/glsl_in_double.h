@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -285,6 +286,15 @@ template <Vector V>
 bool any(const V& a) {
     return dot(a, a) > 0.0;
 }
+template <Vector V>
+V isnan(const V& a) {
+    return each(a, [](double p) { return std::isnan(p) ? 1.0 : 0.0; });
+}
+template <Vector V>
+V isinf(const V& a) {
+    return each(a, [](double p) { return std::isinf(p) ? 1.0 : 0.0; });
+}
+inline double uintBitsToFloat(uint bits) { return static_cast<double>(std::bit_cast<float>(bits)); }
 inline bool any(const bvec4& a) { return a[0] || a[1] || a[2] || a[3]; }
 
 struct mat3 {

@@ -7,6 +7,7 @@
 
 #include "bench/accuracy.h"
 #include "bench/audit_command.h"
+#include "bench/budget_speeds.h"
 #include "bench/culling.h"
 #include "bench/demand.h"
 #include "bench/drawings.h"
@@ -43,6 +44,7 @@ struct Arguments {
     StabilityOptions stability;
     std::string plot, drawings, filters, rows, markdown;
     DemandOptions demand;
+    SpeedOptions speeds;
     QueriesOptions queries;
     std::string sweep, sweep_rows;
     bool quick = false, audit = false;
@@ -226,6 +228,16 @@ int run_demand(const Arguments& arguments) {
     return 0;
 }
 
+int run_budget_speeds(const Arguments& arguments) {
+    const auto speeds = measure_budget_speeds(arguments.speeds);
+    if (!speeds) return fail(speeds.error());
+    const std::string table = budget_speeds_markdown(speeds.value());
+    std::fputs(table.c_str(), stdout);
+    if (!arguments.markdown.empty())
+        if (auto error = replace_marked(arguments.markdown, "speeds", table)) return fail(*error);
+    return 0;
+}
+
 void add_demand(CLI::App& command, Arguments& arguments) {
     DemandOptions& options = arguments.demand;
     command.add_option("--lights", options.lights, "how many lights, one scene each; separated by commas")
@@ -328,6 +340,15 @@ int run(int argc, char** argv) {
     culling->add_option("--filter", arguments.filter, "regular expression for benchmarks' names (default: all)");
     CLI::App* demand = app.add_subcommand("demand", "what shadows cost by the number of lights, economy on and off");
     add_demand(*demand, arguments);
+    CLI::App* budget = app.add_subcommand("budget", "what a unit of each kind of work takes that budgets reckon with");
+    budget->add_option("--rounds", arguments.speeds.rounds, "rounds of all rows")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    budget->add_option("--repeat", arguments.speeds.frames, "frames of each row in a round")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    budget->add_option("--markdown", arguments.markdown,
+                       "page whose text between <!-- speeds --> and <!-- end of speeds --> is replaced");
     CLI::App* redraws = app.add_subcommand("redraws", "how many maps are drawn while a camera walks or a thing moves");
     add_common(*redraws, arguments);
     redraws->add_option("--frames", arguments.stability.frames, "frames of each run")
@@ -363,6 +384,7 @@ int run(int argc, char** argv) {
         return 0;
     }
     if (*demand) return run_demand(arguments);
+    if (*budget) return run_budget_speeds(arguments);
     if (*redraws) return run_redraws(arguments);
     if (*sets) return run_set_shares(arguments);
     if (*queries) return run_queries(arguments);

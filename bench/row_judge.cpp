@@ -85,7 +85,9 @@ void take_report(const LightItem& light, const LightReport& report, std::uint32_
     row.state = to_text(report.state);
     row.reason = report.reason == Reason::none ? "" : reason_code(report.reason);
     RowFigures& figures = row.figures;
-    figures.taps = shadow::filter_row(light.shadow.filter).taps(light.shadow, light.kind == LightKind::point);
+    const bool chosen = light.shadow.filter == ShadowFilter::automatic;
+    const ShadowFilter filter = chosen ? report.filter.filter : light.shadow.filter;
+    figures.taps = shadow::filter_row(filter).taps(light.shadow, light.kind == LightKind::point);
     figures.views = report.views;
     figures.texels = static_cast<double>(report.texels);
     figures.bytes = static_cast<double>(report.bytes);

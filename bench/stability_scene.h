@@ -53,7 +53,7 @@ private:
     FrameReport report_;
     gl::CommandList commands_;
     std::vector<ReadMap> maps_;  // one per light
-    std::vector<CasterTriangle> caster_triangles_;
+    CasterTriangleList caster_triangles_;
 };
 
 /// Points spread over the surfaces that a camera sees at `stations` places of its path, on receivers of shadow.

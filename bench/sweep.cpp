@@ -162,7 +162,10 @@ private:
         return std::max(0.0, options_.budget_s - journal_.spent_s() - judging_s);
     }
 
-    bool is_spent(std::uint32_t round) const { return round > 0 && journal_.spent_s() >= options_.budget_s; }
+    /// Whether another round, which takes as long as those before, would go beyond it. There is one at least.
+    bool is_spent(std::uint32_t round) const {
+        return round > 0 && journal_.spent_s() + journal_.timed_s() / round > options_.budget_s;
+    }
 
     JudgedRow judge(std::size_t i) {
         std::vector<std::uint8_t> rgba;

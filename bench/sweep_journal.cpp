@@ -65,6 +65,7 @@ void SweepJournal::take(const std::string& line) {
     if (json.contains("round")) {
         timed_.push_back({json.at("row").get<std::string>(), json.at("round").get<std::uint32_t>(),
                           times_from(json.at("times")), times_from(json.at("base"))});
+        timed_s_ += spent_s;
     } else {
         JudgedRow row{json.at("row").get<std::string>(), std::nullopt, {}};
         if (!json.at("error").is_null()) row.error = json.at("error").get<std::string>();
@@ -94,6 +95,7 @@ std::optional<Error> SweepJournal::add(const JudgedRow& row, double spent_s) {
 std::optional<Error> SweepJournal::add(const TimedRow& row, double spent_s) {
     timed_.push_back(row);
     spent_s_ += spent_s;
+    timed_s_ += spent_s;
     return append(line_of({{"row", row.row},
                            {"round", row.round},
                            {"s", spent_s},

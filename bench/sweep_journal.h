@@ -29,6 +29,7 @@ public:
     const std::vector<JudgedRow>& judged() const { return judged_; }
     const std::vector<TimedRow>& timed() const { return timed_; }
     double spent_s() const { return spent_s_; }  // on all that it holds
+    double timed_s() const { return timed_s_; }  // of that on times
 
     /// `spent_s`: what this finding took. Errors: "output.write".
     std::optional<Error> add(const JudgedRow& row, double spent_s);
@@ -42,7 +43,7 @@ private:
     std::filesystem::path file_;
     std::vector<JudgedRow> judged_;
     std::vector<TimedRow> timed_;
-    double spent_s_ = 0.0;
+    double spent_s_ = 0.0, timed_s_ = 0.0;
 };
 
 }  // namespace gnomon::bench

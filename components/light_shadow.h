@@ -7,7 +7,8 @@
 
 namespace gnomon {
 
-/// Rows of the filter table (systems/shadow/filter_table.h), one per shaders/shadow/filters file.
+/// Rows of the filter table (systems/shadow/filter_table.h), one per shaders/shadow/filters file. `automatic` is none:
+/// the accuracy contract chooses one (systems/shadow/filter_choice.h).
 enum class ShadowFilter : std::uint8_t {
     hard,
     hardware_2x2,
@@ -28,7 +29,9 @@ enum class ShadowFilter : std::uint8_t {
     pcss,
     pcss_moments,
     exact,
-    count
+    exact_soft,
+    count,
+    automatic
 };
 
 /// Where a filter that differs from point to point takes its randomness from: the pixel, so that it stays on the screen
@@ -86,7 +89,9 @@ enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 /// Add this to a Light's entity and the light casts shadows; remove it and its map is freed.
 struct LightShadow {
     bool enabled = true;
-    ShadowFilter filter = ShadowFilter::triangles;  // the row that measures best (docs/accuracy.md)
+    /// `automatic`: triangles, which measures best (docs/accuracy.md), or exact where max_error_px is said and no map
+    /// keeps it otherwise.
+    ShadowFilter filter = ShadowFilter::automatic;
     std::uint32_t filter_size = 3;   // of pcf and prefiltered maps, texels along an edge; odd, at most 31
     std::uint32_t filter_taps = 16;  // of the Poisson filters; 1 to 32
     /// Half-width of the Poisson and cube filters: in texels of the map, or, where filter_spread_m is above 0, in
@@ -102,12 +107,15 @@ struct LightShadow {
     float moment_bleeding = 0.2f;           // 0 to 0.9: what is lit less counts as dark
     std::uint32_t moment_levels = 1;        // 1 to 4 of mipmaps
     std::uint32_t moment_anisotropy = 1;    // 1 to 16 samples along a pixel's footprint
-    /// Size of the light's source, for pcss and pcss_moments, which soften by it: of a spot or a point its radius in
-    /// metres, of a sun that of its disk as an angle (the real one's: 0.00465). 0: a point, whose shadows are hard.
+    /// Size of the light's source, for pcss, pcss_moments and exact_soft, which soften by it: of a spot or a point its
+    /// radius in metres, of a sun that of its disk as an angle (the real one's: 0.00465). 0: a point, whose shadows are
+    /// hard.
     float source_radius_m = 0.0f, sun_radius_rad = 0.0f;
+    std::uint32_t penumbra_rays = 16;  // of exact_soft, from each pixel in a penumbra; 1 to 256
     bool early_bail = false;          // filters of many taps: five first, the others only if those differ
     std::uint32_t resolution_px = 0;  // edge of one map or cube face; 0: chosen by the system
-    float max_error_px = 1.0f;        // how far a shadow edge may be off on screen; > 0
+    /// How far a shadow edge may be off on screen. 0, not said: 1, as far as maps of the usual size keep it.
+    float max_error_px = 0.0f;
     /// How much farther off it may be because a map shows casters where they were, so that it need not be drawn anew
     /// whenever one moves; 0: it always is. Needs BiasMode::automatic (docs/economy.md).
     float refresh_error_px = 0.0f;

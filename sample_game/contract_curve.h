@@ -17,7 +17,7 @@ int contract_step(float max_error_px);
 
 /// What was measured at one setting.
 struct ContractPoint {
-    float max_error_px = 0.0f;
+    float max_error_px = 0.0f;  // 0: nobody said it
     /// Of the GPU per frame, medians over the last frames: of those that drew maps, and those that kept all of them.
     /// Empty: no such frame was timed.
     std::optional<float> drawn_ms, kept_ms;

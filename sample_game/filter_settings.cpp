@@ -21,12 +21,19 @@ constexpr double kTexels = static_cast<double>(shadow::kMostSpread_texel);
 
 bool set_filter(LightShadow& shadow, std::string_view text) {
     const shadow::FilterRow* row = shadow::find_filter(text);
-    if (row) shadow.filter = row->id;
-    return row != nullptr;
+    if (!row && text != kAutomatic) return false;
+    shadow.filter = row ? row->id : ShadowFilter::automatic;
+    return true;
 }
-std::string get_filter(const LightShadow& shadow) { return std::string(shadow::filter_row(shadow.filter).name); }
+std::string get_filter(const LightShadow& shadow) {
+    const bool chosen = shadow.filter == ShadowFilter::automatic;
+    return std::string(chosen ? kAutomatic : shadow::filter_row(shadow.filter).name);
+}
+/// `automatic`, then the rows.
 std::string_view filter_name(std::size_t index) {
-    return index < shadow::filter_table().size() ? shadow::filter_table()[index].name : std::string_view{};
+    const auto rows = shadow::filter_table();
+    if (index == 0) return kAutomatic;
+    return index <= rows.size() ? rows[index - 1].name : std::string_view{};
 }
 
 template <std::uint32_t LightShadow::*field, std::uint32_t kMost, std::uint32_t kStep>
@@ -75,8 +82,8 @@ bool set_sun_radius(LightShadow& shadow, std::string_view text) {
 using S = LightShadow;
 constexpr std::array kSettings{
     LightSetting{.key = "filter",
-                 .values = "a filter, see below",
-                 .meaning = "how the map is read",
+                 .values = "automatic | a filter, see below",
+                 .meaning = "how the map is read; automatic: triangles, or exact where only that keeps max_error_px",
                  .set = set_filter,
                  .get = get_filter,
                  .editor = SettingEditor::choice,
@@ -190,6 +197,14 @@ constexpr std::array kSettings{
                  .get = get_degrees<&S::sun_radius_rad>,
                  .editor = SettingEditor::number,
                  .slider_most = kSliderSun_deg},
+    LightSetting{.key = "penumbra_rays",
+                 .values = "1 ... 256",
+                 .meaning = "of exact_soft: rays from each pixel in a penumbra",
+                 .set = set_count<&S::penumbra_rays, shadow::kMostPenumbraRays, 1>,
+                 .get = get_count<&S::penumbra_rays>,
+                 .editor = SettingEditor::number,
+                 .slider_most = shadow::kMostPenumbraRays,
+                 .whole = true},
     LightSetting{.key = "early_bail",
                  .values = "on | off",
                  .meaning = "five taps first, the others only if those differ",
@@ -216,9 +231,9 @@ const char* sampler_text(shadow::MapReading reading) {
 std::span<const LightSetting> filter_settings() { return kSettings; }
 
 std::string filter_names() {
-    std::string names;
+    std::string names(kAutomatic);
     for (const shadow::FilterRow& row : shadow::filter_table())
-        names += (names.empty() ? "" : " | ") + std::string(row.name);
+        names += " | " + std::string(row.name);
     return names;
 }
 
@@ -231,7 +246,9 @@ std::string list_filters() {
         std::string name(row.name);
         name.resize(std::max(kNameWidth, name.size()), ' ');
         if (shadow::asks_rays(row)) {
-            text += "  " + name + "a ray for each pixel of which its map is not certain\n";
+            const bool soft = row.storage == shadow::FilterStorage::soft_sheets;
+            text += "  " + name + (soft ? "rays to the source" : "a ray") +
+                    " for each pixel of which its map is not certain\n";
             continue;
         }
         text += "  " + name + taps_text(row, shadow) + ", E " +

@@ -108,11 +108,20 @@ inline bool set_resolution(LightShadow& shadow, std::string_view text) {
 }
 inline std::string get_resolution(const LightShadow& shadow) { return std::to_string(shadow.resolution_px); }
 
+/// Of what the system chooses where nobody says it.
+inline constexpr std::string_view kAutomatic = "automatic";
+
 inline bool set_max_error(LightShadow& shadow, std::string_view text) {
+    if (text == kAutomatic) shadow.max_error_px = 0.0f;
+    if (text == kAutomatic) return true;
     const auto value = read_number(text);
     if (!value || !(static_cast<float>(*value) > 0.0f && *value <= kMaxError_px)) return false;
     shadow.max_error_px = static_cast<float>(*value);
     return true;
+}
+
+inline std::string get_max_error(const LightShadow& shadow) {
+    return shadow.max_error_px > 0.0f ? get_float<&LightShadow::max_error_px>(shadow) : std::string(kAutomatic);
 }
 
 /// A number of 0 to kMost / kParts.

@@ -3,6 +3,7 @@
 #include <span>
 
 #include "sample_game/picture_files.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 
 namespace gnomon::game {
@@ -53,6 +54,12 @@ Json kept_stats(const KeptReport& kept) {
     return {{"reason", reason_code(kept.reason)}, {"bytes", kept.bytes}, {"saved_us", or_null(kept.saved_us)}};
 }
 
+Json filter_stats(const FilterReport& filter) {
+    return {{"name", shadow::filter_row(filter.filter).name},
+            {"reason", reason_code(filter.reason)},
+            {"usual_error_px", or_null(filter.usual_error_px)}};
+}
+
 Json light_stats(const FrameReport& report, const LightReport& light) {
     return {{"name", light.name},
             {"kind", shadow::light_kind_row(light.kind).name},
@@ -60,6 +67,7 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"reason", reason_code(light.reason)},
             {"predicted_error_px", light.predicted_error_px},
             {"keeps_max_error", light.keeps_max_error},
+            {"filter", light.filter.filter == ShadowFilter::automatic ? Json(nullptr) : filter_stats(light.filter)},
             {"views", light.views},
             {"views_drawn", light.views_drawn},
             {"texels", light.texels},
@@ -97,7 +105,9 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
                    {"clears", clears},
                    {"triangles", triangles},
                    {"bytes", bytes},
-                   {"ray_bytes", report.rays.bytes}};
+                   {"ray_bytes", report.rays.bytes},
+                   {"ray_picture_bytes", report.rays.list_bytes + report.rays.place_bytes},
+                   {"sheet_bytes", report.rays.sheet_bytes}};
     return {{"index", index},
             {"time_s", time_s},
             {"cpu_us", report.cpu_us},

@@ -36,6 +36,8 @@ const char* reason_code(Reason reason) {
             return "content_unchanged";
         case Reason::refresh_held:
             return "refresh_held";
+        case Reason::map_too_coarse:
+            return "map_too_coarse";
         case Reason::visibility_kept:
             return "visibility_kept";
         case Reason::resolution_clamped:

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/light.h"
+#include "components/light_shadow.h"
 #include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
@@ -27,6 +28,7 @@ enum class Reason : std::uint8_t {
     below_display_step,   // lit everywhere, it and others like it change no pixel by more than half a step
     content_unchanged,    // the map of an earlier frame still holds
     refresh_held,         // it shows casters where they were: within refresh_error_px, or by a budget's turn
+    map_too_coarse,       // no map of the usual filter keeps max_error_px: the light has one that does (FilterReport)
     visibility_kept,      // what its pixels saw of the light in an earlier frame still holds (KeptReport)
     resolution_clamped,   // the device's limit is below the wish
     over_budget,          // FrameSettings::shadow_budget does not hold it beside what is seen better
@@ -94,6 +96,13 @@ struct BudgetReport {
     double harm = 0.0;                          // share of the picture that is wrong for it, by the model
 };
 
+/// How a light is looked up, and why so.
+struct FilterReport {
+    ShadowFilter filter = ShadowFilter::automatic;  // automatic: it is skipped
+    Reason reason = Reason::none;                   // map_too_coarse: the accuracy contract chose it
+    std::optional<double> usual_error_px;           // and this is what maps of the usual filter would err by
+};
+
 struct LightReport {
     ecs::Entity entity;
     std::string name;
@@ -112,14 +121,18 @@ struct LightReport {
     std::optional<double> gpu_us;  // shadow and lighting pass; empty: not measured
     Why why;
     KeptReport kept;
+    FilterReport filter;
     std::optional<BudgetReport> budget;            // empty: none is set, or it asked for no map
     std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };
 
-/// What lights that ask by rays share (FilterStorage::sheets): trees over the casters, on the device and beside it. All
-/// 0: no light asks.
+/// What lights that ask by rays share (FilterStorage::sheets): trees over the casters, on the device and beside it, and
+/// what pictures of them hold. All 0: no light asks.
 struct RayReport {
-    std::uint64_t bytes = 0, host_bytes = 0;
+    std::uint64_t bytes = 0, host_bytes = 0;           // of trees
+    std::uint64_t list_bytes = 0;                      // of pixels that ask, and their answers (lighting/ray_list.h)
+    std::uint64_t place_bytes = 0;                     // of where surfaces exactly are, per pixel
+    std::uint64_t sheet_bytes = 0, sheet_host_bytes = 0;  // of what maps of sheets are drawn from
     std::uint64_t triangles = 0, instances = 0;
     std::uint32_t meshes_written = 0;  // in this frame: those that bent
     bool instances_written = false;    // in this frame: something moved

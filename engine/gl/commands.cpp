@@ -108,6 +108,9 @@ struct Writer {
     std::string operator()(const BindStorage& c) const {
         return "BindStorage" + field("binding", c.binding) + field("buffer", c.buffer);
     }
+    std::string operator()(const BindTexels& c) const {
+        return "BindTexels" + field("unit", c.unit) + field("buffer", c.buffer);
+    }
     std::string operator()(const UpdateBuffer& c) const {
         return "UpdateBuffer" + field("buffer", c.buffer) + field("offset", c.offset) + field("first", c.first) +
                field("size", c.size);

@@ -88,6 +88,14 @@ struct BindStorage {  // whole buffer
     bool operator==(const BindStorage&) const = default;
 };
 
+/// A whole buffer with BufferDesc::texels, read as `uniform usamplerBuffer`: software devices find four numbers at once in
+/// the time that they take for one of a storage buffer. Units are those of BindTexture, which unbinds it.
+struct BindTexels {
+    std::uint32_t unit = 0;
+    BufferHandle buffer{};
+    bool operator==(const BindTexels&) const = default;
+};
+
 /// Copies list.bytes[first, first+size) to the buffer at offset. Allowed outside passes only.
 struct UpdateBuffer {
     BufferHandle buffer{};
@@ -168,7 +176,7 @@ struct EndTimer {
 };
 
 using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
-                             BindUniforms, BindStorage, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
+                             BindUniforms, BindStorage, BindTexels, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
                              DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {

@@ -146,7 +146,7 @@ Failure check_texture(const TextureDesc& desc, const DeviceInfo& info, std::size
 }
 
 Failure check_buffer(const BufferDesc& desc, std::size_t given_bytes) {
-    if (desc.size == 0) return Failure::invalid_value;
+    if (desc.size == 0 || (desc.texels && desc.size % kTexelBytes != 0)) return Failure::invalid_value;
     if (given_bytes == 0) return desc.use == BufferUse::fixed ? Failure::invalid_value : Failure::none;
     const bool fits = given_bytes == desc.size && desc.use != BufferUse::read_back;
     return fits ? Failure::none : Failure::invalid_value;

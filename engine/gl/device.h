@@ -70,10 +70,14 @@ struct SamplerDesc {
     bool operator==(const SamplerDesc&) const = default;
 };
 
+/// Of a buffer that is read as texels: four numbers of 32 bits.
+inline constexpr std::uint64_t kTexelBytes = 16;
+
 struct BufferDesc {
     std::string label = {};
     std::uint64_t size = 0;  // > 0
     BufferUse use = BufferUse::updated;
+    bool texels = false;  // may be bound by BindTexels, in texels of kTexelBytes; size: whole ones
     bool operator==(const BufferDesc&) const = default;
 };
 

@@ -104,6 +104,10 @@ public:
         const GlBuffer* buffer = find_object(objects_.buffers, h.id);
         return buffer == nullptr ? 0 : buffer->name;
     }
+    GLuint texels_name(BufferHandle h) const {
+        const GlBuffer* buffer = find_object(objects_.buffers, h.id);
+        return buffer == nullptr ? 0 : buffer->texels;
+    }
 
     Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) override {
         const Failure checked = check_texture(desc, info_, pixels.size());
@@ -138,7 +142,7 @@ public:
     }
     void destroy(BufferHandle h) override {
         readbacks_.forget(h.id);
-        remove(objects_.buffers, h.id, [](const GlBuffer& buffer) { glDeleteBuffers(1, &buffer.name); });
+        remove(objects_.buffers, h.id, delete_buffer);
     }
     void destroy(ProgramHandle h) override {
         remove(objects_.programs, h.id, [](GLuint name) { glDeleteProgram(name); });
@@ -254,6 +258,11 @@ unsigned gl_name(const Device& gl45_device, SamplerHandle sampler) {
 unsigned gl_name(const Device& gl45_device, BufferHandle buffer) {
     const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
     return device == nullptr ? 0 : device->name(buffer);
+}
+
+unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? 0 : device->texels_name(buffer);
 }
 
 std::size_t live_objects(const Device& gl45_device) {

@@ -24,6 +24,8 @@ Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, std::filesyst
 unsigned gl_name(const Device& gl45_device, TextureHandle texture);
 unsigned gl_name(const Device& gl45_device, SamplerHandle sampler);
 unsigned gl_name(const Device& gl45_device, BufferHandle buffer);
+/// The same of the texture by which a buffer with BufferDesc::texels is read.
+unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 
 /// GL objects this device currently owns (leak checks).
 std::size_t live_objects(const Device& gl45_device);

@@ -88,6 +88,8 @@ const char* to_text(Misuse misuse) {
             return "update_out_of_range";
         case Misuse::update_of_fixed_buffer:
             return "update_of_fixed_buffer";
+        case Misuse::buffer_without_texels:
+            return "buffer_without_texels";
         case Misuse::uniform_misaligned:
             return "uniform_misaligned";
         case Misuse::uniform_out_of_range:

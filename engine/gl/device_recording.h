@@ -32,6 +32,7 @@ enum class Misuse : std::uint8_t {
     update_inside_pass,
     update_out_of_range,
     update_of_fixed_buffer,  // or of one that is written by copies alone
+    buffer_without_texels,   // and bound as such
     uniform_misaligned,
     uniform_out_of_range,
     viewport_out_of_target,    // or blit rectangle out of it; a scissor of negative size

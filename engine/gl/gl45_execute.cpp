@@ -181,6 +181,13 @@ public:
         }
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, c.binding, buffer->name);
     }
+    void operator()(const BindTexels& c) {
+        const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
+        if (buffer == nullptr || buffer->texels == 0 || c.unit >= static_cast<std::uint32_t>(fixtures_.texture_units))
+            return note(Failure::invalid_value);
+        glBindTextureUnit(c.unit, buffer->texels);
+        glBindSampler(c.unit, 0);
+    }
     void operator()(const UpdateBuffer& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
         if (in_pass_ || buffer == nullptr || buffer->desc.use != BufferUse::updated ||

@@ -210,8 +210,32 @@ Made<GLuint> make_sampler(const SamplerDesc& desc) {
     return failed<GLuint>(failure, desc.label);
 }
 
+namespace {
+
+/// Of the context: how large a buffer it can read as texels.
+std::uint64_t most_texel_bytes() {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    return static_cast<std::uint64_t>(most) * kTexelBytes;
+}
+
+Failure make_texels(GlBuffer& buffer) {
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &buffer.texels);
+    glTextureBuffer(buffer.texels, GL_RGBA32UI, buffer.name);
+    set_gl_label(GL_TEXTURE, buffer.texels, buffer.desc.label);
+    return take_gl_error();
+}
+
+}  // namespace
+
+void delete_buffer(const GlBuffer& buffer) {
+    glDeleteTextures(1, &buffer.texels);
+    glDeleteBuffers(1, &buffer.name);
+}
+
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) {
-    if (desc.size > static_cast<std::uint64_t>(std::numeric_limits<GLsizeiptr>::max())) {
+    if (desc.size > static_cast<std::uint64_t>(std::numeric_limits<GLsizeiptr>::max()) ||
+        (desc.texels && desc.size > most_texel_bytes())) {
         return failed<GlBuffer>(Failure::out_of_memory, desc.label);
     }
     drop_gl_errors();
@@ -230,8 +254,9 @@ Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> by
         set_gl_label(GL_BUFFER, buffer.name, desc.label);
         failure = take_gl_error();
     }
+    if (failure == Failure::none && desc.texels) failure = make_texels(buffer);
     if (failure == Failure::none) return {std::move(buffer)};
-    glDeleteBuffers(1, &buffer.name);
+    delete_buffer(buffer);
     return failed<GlBuffer>(failure, desc.label);
 }
 

@@ -16,6 +16,7 @@ struct GlTexture {
 struct GlBuffer {
     GLuint name = 0;
     BufferDesc desc;
+    GLuint texels = 0;  // the buffer as a texture; 0: without BufferDesc::texels
 };
 struct GlTarget {
     GLuint name = 0;
@@ -61,6 +62,7 @@ struct Made {
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels);
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
+void delete_buffer(const GlBuffer& buffer);
 Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects);
 
 /// Forgets errors that other users of the context left behind.

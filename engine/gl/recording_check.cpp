@@ -73,6 +73,13 @@ public:
     }
     void operator()(const BindStorage& c) { known(objects_.buffers, c.buffer.id, "buffer"); }
 
+    void operator()(const BindTexels& c) {
+        textures_.erase(c.unit);
+        if (!known(objects_.buffers, c.buffer.id, "buffer")) return;
+        const BufferDesc& desc = objects_.buffers.at(c.buffer.id).desc;
+        if (!desc.texels) find(Misuse::buffer_without_texels, desc.label);
+    }
+
     void operator()(const UpdateBuffer& c) {
         if (in_pass_) find(Misuse::update_inside_pass, "a pass is open");
         if (!known(objects_.buffers, c.buffer.id, "buffer")) return;

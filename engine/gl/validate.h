@@ -12,7 +12,7 @@ namespace gnomon::gl {
 /// or `pixel_bytes` neither 0 nor exactly mip 0 of every layer.
 Failure check_texture(const TextureDesc& desc, const DeviceInfo& info, std::size_t pixel_bytes);
 
-/// invalid_value: zero size, `given_bytes` neither 0 nor desc.size, a fixed buffer without its bytes, or one to
+/// invalid_value: zero size, a part of a texel, `given_bytes` neither 0 nor desc.size, a fixed buffer without its bytes, or one to
 /// read back with any.
 Failure check_buffer(const BufferDesc& desc, std::size_t given_bytes);
 

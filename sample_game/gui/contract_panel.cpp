@@ -20,7 +20,7 @@ bool is_meant(const NamedEntity& light, const ContractState& state) {
     return state.light.empty() || light.name == state.light;
 }
 
-/// What the lights that are meant have in common; empty: they differ, or there is none.
+/// What the lights that are meant have in common, 0 if none says it; empty: they differ, or there is none.
 std::optional<float> common_px(const GameWorld& world, const ContractState& state) {
     std::optional<float> common;
     for (const NamedEntity& light : world.scene.lights) {
@@ -82,12 +82,26 @@ void draw_presets(GameWorld& world, ContractState& state) {
     ImGui::TextUnformatted(now ? "preset" : "preset: none of these");
 }
 
+std::string px_words(std::optional<float> px) {
+    if (!px) return "they differ";
+    if (!(*px > 0.0f)) return "automatic";
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", static_cast<double>(*px));
+    return text;
+}
+
 void draw_slider(GameWorld& world, ContractState& state, std::optional<float> now) {
-    int step = contract_step(now.value_or(contract_px(0)));
-    char shown[32];
-    std::snprintf(shown, sizeof shown, now ? "%.3g px" : "they differ", static_cast<double>(now.value_or(0.0f)));
-    if (ImGui::SliderInt("max_error_px", &step, kLeastContractStep, kMostContractStep, shown, ImGuiSliderFlags_NoInput))
+    const bool is_said = now.value_or(0.0f) > 0.0f;
+    int step = is_said ? contract_step(*now) : 0;
+    const std::string shown = px_words(now);
+    if (ImGui::SliderInt("max_error_px", &step, kLeastContractStep, kMostContractStep, shown.c_str(),
+                         ImGuiSliderFlags_NoInput))
         change(world, state, [&](LightShadow& shadow) { shadow.max_error_px = contract_px(step); });
+    ImGui::SameLine();
+    bool automatic = now && !is_said;
+    if (ImGui::Checkbox("automatic", &automatic))
+        change(world, state, [&](LightShadow& shadow) { shadow.max_error_px = automatic ? 0.0f : contract_px(0); });
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("1 px, as far as maps of the usual filter keep it");
 }
 
 std::string ms_words(std::optional<float> ms) {
@@ -109,13 +123,13 @@ void draw_points(const std::vector<ContractPoint>& points, std::optional<float> 
         ImGui::TextUnformatted(text.c_str());
     };
     for (const ContractPoint& point : points) {
-        char px[32], predicted[32];
+        char predicted[32];
         const bool is_now = now && !(*now < point.max_error_px) && !(*now > point.max_error_px);
-        std::snprintf(px, sizeof px, is_now ? "> %.3g" : "%.3g", static_cast<double>(point.max_error_px));
+        const std::string px = (is_now ? "> " : "") + px_words(point.max_error_px);
         std::snprintf(predicted, sizeof predicted, "%.2f", point.predicted_px);
         ImGui::TableNextRow();
         for (const std::string& text :
-             {std::string(px), ms_words(point.drawn_ms), ms_words(point.kept_ms), std::to_string(point.texels),
+             {px, ms_words(point.drawn_ms), ms_words(point.kept_ms), std::to_string(point.texels),
               std::to_string(point.bytes / 1024), std::string(predicted), std::to_string(point.frames)})
             cell(text);
     }
@@ -133,10 +147,11 @@ void draw_curve(const std::vector<ContractPoint>& points, std::optional<float> n
                static_cast<float>(kMostContractStep - kLeastContractStep);
     };
     for (const ContractPoint& point : points) {
+        if (!(point.max_error_px > 0.0f)) continue;
         if (point.kept_ms) plot.dot(across(point.max_error_px), *point.kept_ms, kKept);
         if (point.drawn_ms) plot.dot(across(point.max_error_px), *point.drawn_ms, kDrawn);
     }
-    if (now) plot.dot(across(*now), 0.0f, kNow);
+    if (now && *now > 0.0f) plot.dot(across(*now), 0.0f, kNow);
     char words[64];
     std::snprintf(words, sizeof words, "0 ... %.2f ms on the GPU", static_cast<double>(kAbove * most));
     plot.label(most > 0.0f ? words : "no times measured yet");

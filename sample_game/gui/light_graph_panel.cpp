@@ -6,6 +6,7 @@
 
 #include "sample_game/gui/gui.h"
 #include "sample_game/gui/plot.h"
+#include "systems/shadow/contract.h"
 
 namespace gnomon::game {
 namespace {
@@ -35,10 +36,12 @@ std::string error_words(const LightSample& now) {
     return text;
 }
 
+float said_px(const LightShadow& shadow) { return static_cast<float>(shadow::wished_error_px(shadow)); }
+
 std::optional<float> contract_of(const GameWorld& world, const std::string& name) {
     for (const NamedEntity& light : world.scene.lights)
         if (light.name == name)
-            if (const LightShadow* shadow = world.registry.get<LightShadow>(light.entity)) return shadow->max_error_px;
+            if (const LightShadow* shadow = world.registry.get<LightShadow>(light.entity)) return said_px(*shadow);
     return std::nullopt;
 }
 

@@ -9,6 +9,7 @@
 
 #include "sample_game/gui/gui.h"
 #include "sample_game/light_settings.h"
+#include "systems/shadow/filter_table.h"
 
 namespace gnomon::game {
 namespace {
@@ -125,8 +126,15 @@ void draw_why(const FrameReport& report) {
     ImGui::EndTable();
 }
 
+/// Its name, and why it is not the one that was to be expected.
+std::string filter_words(const FilterReport& filter) {
+    if (filter.filter == ShadowFilter::automatic) return "-";
+    const std::string name(shadow::filter_row(filter.filter).name);
+    return filter.reason == Reason::none ? name : name + " (" + reason_code(filter.reason) + ")";
+}
+
 void draw_report(const FrameReport& report) {
-    constexpr std::array kColumns{"light", "state", "reason", "texels", "KiB", "draws", "cpu us", "gpu us", "error px"};
+    constexpr std::array kColumns{"light", "state", "reason", "filter", "texels", "KiB", "draws", "cpu us", "gpu us", "error px"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);
@@ -144,6 +152,7 @@ void draw_report(const FrameReport& report) {
         text(light.name.c_str());
         text(to_text(light.state));
         text(reason_code(light.reason));
+        text(filter_words(light.filter).c_str());
         count(light.texels);
         count(light.bytes / 1024);
         count(light.draws);

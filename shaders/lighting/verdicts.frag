@@ -9,10 +9,10 @@
 #include "lighting/ray_list.glsl"
 layout(location = 0) out uint verdict_out;
 
-int certainty_of(Surface surface) {
+Certainty certainty_of(Surface surface) {
     LightSample incoming = light_at(surface.position_ca);
-    if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return kCertainlyDark;
-    if (!takes_shadow(surface.shadow_layers)) return kCertainlyLit;
+    if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return Certainty(kCertainlyDark, 0.0);
+    if (!takes_shadow(surface.shadow_layers)) return Certainty(kCertainlyLit, 0.0);
     return certainty(surface.place_ca, surface.geometric_normal, 0.0, surface.triangle);
 }
 
@@ -20,10 +20,10 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = read_surface(pixel);
     if (!surface.exists) discard;
-    int found = certainty_of(surface);
-    verdict_out = uint(found);
-    if (found != kUncertain) return;
+    Certainty found = certainty_of(surface);
+    verdict_out = uint(found.verdict);
+    if (found.verdict != kUncertain) return;
     uint place = atomicAdd(ray_count, 1u);
-    ray_pixels[place] = uint(pixel.x) | uint(pixel.y) << 16;
+    listed_rays[place] = ListedRay(uint(pixel.x) | uint(pixel.y) << 16, found.reach);
     verdict_out = kListed + place;
 }

@@ -1,6 +1,6 @@
 // Whether a masked material is there at a point of a triangle, at its texture's finest level, as the depth passes have it; the
 // float twin of engine/rays/alpha_mask.cpp. Textures of many materials at once: their alpha lies in one buffer, a byte each.
-// C++ twin: RayMask in systems/visibility/ray_records.h.
+// C++ twin: RayMask in systems/extract/ray_masks.h.
 layout(std430, binding = 7) readonly buffer RayMaskBuffer { uint ray_masks[]; };
 
 const uint kNoMaskTexture = 0xffffffffu;
@@ -12,11 +12,13 @@ struct RayMask {
     uint width, height;
     uint wrap_u, wrap_v;
     bool linear;
+    float chord_texel;       // how wide what it leaves is, on the average
 };
 
 RayMask ray_mask(uint at) {
     return RayMask(uintBitsToFloat(ray_masks[at]), uintBitsToFloat(ray_masks[at + 1u]), ray_masks[at + 2u],
-                   ray_masks[at + 3u], ray_masks[at + 4u], ray_masks[at + 5u], ray_masks[at + 6u], ray_masks[at + 7u] != 0u);
+                   ray_masks[at + 3u], ray_masks[at + 4u], ray_masks[at + 5u], ray_masks[at + 6u], ray_masks[at + 7u] != 0u,
+                   uintBitsToFloat(ray_masks[at + 8u]));
 }
 
 vec2 mask_uv(uint at) { return vec2(uintBitsToFloat(ray_masks[at]), uintBitsToFloat(ray_masks[at + 1u])); }

@@ -31,8 +31,22 @@ struct RayInstance {
     uint instance;        // of `instances`
     uint layers;          // of light that it darkens
 };
-layout(std430, binding = 3) readonly buffer RayNodeBuffer { RayNode ray_nodes[]; };
-layout(std430, binding = 4) readonly buffer RayTriangleBuffer { RayTriangle ray_triangles[]; };
+// Two texels a node, three a triangle: each three floats and a number.
+layout(binding = 10) uniform usamplerBuffer ray_nodes;
+layout(binding = 11) uniform usamplerBuffer ray_triangles;
+
+RayNode ray_node(uint place) {
+    int texel = 2 * int(place);
+    uvec4 low = texelFetch(ray_nodes, texel), high = texelFetch(ray_nodes, texel + 1);
+    return RayNode(uintBitsToFloat(low.xyz), low.w, uintBitsToFloat(high.xyz), high.w);
+}
+
+RayTriangle ray_triangle(uint slot) {
+    int texel = 3 * int(slot);
+    uvec4 a = texelFetch(ray_triangles, texel), b = texelFetch(ray_triangles, texel + 1), c = texelFetch(ray_triangles, texel + 2);
+    return RayTriangle(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz), c.w);
+}
+
 layout(std430, binding = 5) readonly buffer RayTopBuffer {
     vec3 anchor_high;
     uint nodes;

@@ -17,6 +17,7 @@ struct ShadowRay {
     dvec3 from_ca;   // from the camera's anchor
     dvec3 along;
     float last;      // it ends there, times `along`; kNoEnd: nowhere
+    float reach;     // from there on nothing is known to stand in its way: boxes beyond are not walked
     float error_m;   // how far its beginning may be off the receiver's surface
     uvec2 receiver;  // instance and triangle of that; kNoReceiver: not known
     uint layers;     // of the light
@@ -62,14 +63,14 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
     while (n < item.nodes && !blocked && unsure_count <= kMostUnsure - kMostInLeaf) {
         uint leaf = 0u;
         while (n < item.nodes && leaf == 0u) {
-            RayNode node = ray_nodes[item.first_node + n];
-            bool met = meets_box(boxes, node.low, node.high, exact.last);
+            RayNode node = ray_node(item.first_node + n);
+            bool met = meets_box(boxes, node.low, node.high, exact.reach);
             leaf = met ? node.leaf : 0u;
             n = met ? n + 1u : node.skip;
         }
         uint first = item.first_slot + (leaf >> 4u), slots = leaf & 15u;
         for (uint i = 0u; i < slots && !blocked; ++i) {
-            RayTriangle t = ray_triangles[first + i];
+            RayTriangle t = ray_triangle(first + i);
             int verdict = meets_triangle(from_model * t.a + origin, from_model * t.b + origin, from_model * t.c + origin,
                                          ray.end_m, error_m);
             if (t.triangle == exact.receiver.y && item.instance == exact.receiver.x) verdict = kMisses;
@@ -86,7 +87,7 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
 // What floats left open.
 bool blocks_exactly(ShadowRay ray, uvec2 slots) {
     RayInstance item = ray_instances[slots.x];
-    RayTriangle t = ray_triangles[slots.y];
+    RayTriangle t = ray_triangle(slots.y);
     InstanceRecord record = instances[item.instance];
     dvec3 origin_m = exact_origin(record, camera.anchor_high.xyz, camera.anchor_low.xyz) - ray.from_ca;
     // Bases are floats, the receiver's and the caster's: so far may planes that are one be apart.
@@ -114,7 +115,7 @@ bool ray_blocked(ShadowRay exact) {
         while (goes_on) {
             while (top < ray_top.nodes && leaf == 0u) {
                 RayNode node = ray_top.node[top];
-                bool met = meets_box(boxes, node.low, node.high, exact.last);
+                bool met = meets_box(boxes, node.low, node.high, exact.reach);
                 leaf = met ? node.leaf : 0u;
                 top = met ? top + 1u : node.skip;
             }

@@ -1,11 +1,15 @@
 // Whether a triangle that a texel shows, or one beside it in its mesh, stands between a receiver and its light: the casters'
-// own corners decide, so that no texel's size enters.
+// own corners decide, so that no texel's size enters. RAY_MASKS: some of them are masked.
 #include "shared/numerics.glsl"
 #include "shared/instances.glsl"
 #include "shared/camera_block.glsl"
 #include "shadow/toward_light.glsl"
+#ifdef RAY_MASKS
+#include "rays/alpha_mask.glsl"
+#endif
 
-// C++ twin: CasterTriangle in systems/extract/gpu_scene.h. `across`: the triangle beyond the edge that starts at a corner.
+// C++ twin: CasterTriangle in systems/extract/caster_triangles.h. `across`: the triangle beyond the edge that starts at a
+// corner; of a masked one kMaskedTriangle, and the words of its mask and of its texture coordinates.
 struct CasterTriangle {
     vec3 a;
     uint across_ab;
@@ -16,7 +20,7 @@ struct CasterTriangle {
 };
 layout(std430, binding = 2) readonly buffer CasterTriangleBuffer { CasterTriangle caster_triangles[]; };
 
-const uint kNoTriangle = 0xffffffffu;
+const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
 const int kPasses = 0, kBlocked = 1, kUnknown = 2;
 // A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on.
 const int kMostSteps = 8;
@@ -27,10 +31,36 @@ vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
     return position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
 }
 
+#ifdef RAY_MASKS
+// Area of a mask's texels on a triangle, twice.
+float mask_area_texel2(RayMask mask, uint uvs) {
+    vec2 size = vec2(mask.width, mask.height), corner = mask_uv(uvs);
+    vec2 ab = size * (mask_uv(uvs + 2u) - corner), ac = size * (mask_uv(uvs + 4u) - corner);
+    return abs(ab.x * ac.y - ab.y * ac.x);
+}
+
+// Whether what the mask leaves of a triangle is as wide as the map's texels, on the average. Else it lies between texels as often as
+// under them, and a test of the triangles that these show would lose it; what the nearest texel says has the right share of it.
+// `area_m2`: the triangle's across the ray, twice.
+bool is_resolved(CasterTriangle t, float area_m2, float texel_m2) {
+    RayMask mask = ray_mask(t.across_bc);
+    return mask.texels == kNoMaskTexture || mask_area_texel2(mask, t.across_ca) * texel_m2 <= mask.chord_texel * mask.chord_texel * area_m2;
+}
+
+// Of a masked triangle before the receiver. It has no sheet to walk: what lies beside it shows in other texels.
+int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2) {
+    if (!is_resolved(t, area_m2, texel_m2)) return kUnknown;
+    if (min(inside.x, min(inside.y, inside.z)) < 0.0) return kPasses;
+    vec3 weights = vec3(inside.y, inside.z, inside.x) / (inside.x + inside.y + inside.z);
+    return is_there(t.across_bc, t.across_ca, weights) ? kBlocked : kPasses;
+}
+#endif
+
 // Starts at the triangle that a texel shows (instance, triangle) and walks the mesh toward the receiver's ray, as long as it
 // faces the light the same way: past a contour or a boundary the sheet is over, and the ray passes it.
-// Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than rounding.
-int caster_verdict(uvec2 shown, vec3 position_ca, float error_m) {
+// Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than rounding, and no mask
+// cuts it out there. `texel`: the map's, metres, or tangents from a lamp.
+int caster_verdict(uvec2 shown, vec3 position_ca, float error_m, vec2 texel) {
     if (shown.y == kNoTriangle) return kUnknown;
     InstanceRecord instance = instances[shown.x];
     vec3 ray = toward_light(position_ca);
@@ -45,7 +75,8 @@ int caster_verdict(uvec2 shown, vec3 position_ca, float error_m) {
         vec3 c = corner_ca(instance, t.c) - position_ca;
         vec3 ab = b - a, ac = c - a;
         vec3 normal = cross(ab, ac);
-        float faces = dot(normal, toward_light(a_ca));
+        vec3 to_light = toward_light(a_ca);
+        float faces = dot(normal, to_light);
         float side = faces < 0.0 ? -1.0 : 1.0;
         // Above 0: the ray passes on the inner side of the edge. That one came over it counts as such.
         vec3 inside = side * vec3(dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a)));
@@ -56,6 +87,10 @@ int caster_verdict(uvec2 shown, vec3 position_ca, float error_m) {
         uint next = inside.x == least ? across.x : (inside.y == least ? across.y : across.z);
         float behind = side * dot(normal, a);
         float rounding = error_m * length(normal) + kPlaneRounding * length(ab) * length(ac) * length(a);
+#ifdef RAY_MASKS
+        if (t.across_ab == kMaskedTriangle)
+            return behind > rounding ? masked_verdict(t, inside, abs(dot(normal, ray)) / length(ray), texel_area_m2(texel, to_light)) : kPasses;
+#endif
         if (facing * faces < 0.0) verdict = kPasses;
         else if (least >= 0.0) verdict = behind > rounding ? kBlocked : kPasses;
         else if (next == kNoTriangle) verdict = kPasses;

@@ -6,3 +6,12 @@ vec3 toward_light(vec3 position_ca) {
     return light.position.xyz - position_ca;
 #endif
 }
+
+// Area of a texel, across the light, of what stands so far from it; `texel`: its sides, metres of a sun's, else tangents.
+float texel_area_m2(vec2 texel, vec3 toward_light_m) {
+#ifdef LIGHT_DIRECTIONAL
+    return texel.x * texel.y;
+#else
+    return texel.x * texel.y * dot(toward_light_m, toward_light_m);
+#endif
+}

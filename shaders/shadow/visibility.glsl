@@ -3,8 +3,8 @@
 // SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one,
 // SHADOW_MOMENTS if it reads a prefiltered map, SHADOW_FOOTPRINT if that has mipmaps or anisotropy (then row.glsl brings
 // CameraBlock), SHADOW_TRIANGLES if it reads which triangles texels show (then CameraBlock and InstanceBuffer), SHADOW_RAYS if it
-// asks the casters' triangles by rays (then those as well, RAY_MASKS if some casters are masked, and SHADOW_SHEETS if a map says where
-// rays are needed).
+// asks the casters' triangles by rays (then those as well, and SHADOW_SHEETS if a map says where rays are needed). RAY_MASKS, with one of
+// these two, if some casters are masked.
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface

@@ -76,15 +76,6 @@ gl::BufferUse shape_use(const assets::MeshLibrary& library) {
     return bends ? gl::BufferUse::updated : gl::BufferUse::fixed;
 }
 
-/// Whether each triangle of the mesh is wholly there: what masks cut is not told by its corners.
-std::vector<bool> opaque_triangles(const assets::MeshLibrary& library, const assets::Mesh& mesh) {
-    std::vector<bool> opaque(mesh.indices.size() / 3, false);
-    for (const assets::Submesh& s : mesh.submeshes)
-        for (std::uint32_t i = s.first_index / 3; i < (s.first_index + s.index_count) / 3; ++i)
-            opaque[i] = library.materials[s.material].alpha_mode == assets::AlphaMode::opaque;
-    return opaque;
-}
-
 }  // namespace
 
 void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
@@ -97,25 +88,6 @@ void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<co
         const double size = glm::length(n);
         normals.emplace_back(size > 0.0 ? glm::vec3(n / size) : glm::vec3(0.0f), 0.0f);
     }
-}
-
-std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library) {
-    std::vector<CasterTriangle> triangles;
-    for (const assets::Mesh& mesh : library.meshes) {
-        const auto first = static_cast<std::uint32_t>(triangles.size());
-        const std::vector<std::uint32_t> neighbours = assets::triangle_neighbours(mesh);
-        const std::vector<bool> opaque = opaque_triangles(library, mesh);
-        for (std::size_t t = 0; t < mesh.indices.size() / 3; ++t) {
-            CasterTriangle& triangle = triangles.emplace_back();
-            for (std::size_t c = 0; c < 3; ++c) {
-                triangle.corners[c].position_ms = mesh.vertices[mesh.indices[3 * t + c]].position_ms;
-                const std::uint32_t across = neighbours[3 * t + c];
-                if (across != assets::kNoNeighbour && opaque[t] && opaque[across])
-                    triangle.corners[c].across = first + across;
-            }
-        }
-    }
-    return triangles;
 }
 
 float most_reflected(const assets::Material& material) {
@@ -221,9 +193,14 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
 
 bool GpuScene::provide_caster_triangles() {
     if (caster_triangles_ || !triangles_retry_.due(++triangles_asked_)) return static_cast<bool>(caster_triangles_);
-    triangle_records_ = caster_triangles_of(*library_);
+    CasterTriangleList made = caster_triangles_of(*library_);
+    triangle_records_ = std::move(made.triangles);
     for (const Bent& bent : bent_) put_corners(bent);
     caster_triangles_ = filled_buffer(*device_, "caster triangles", triangle_records_, shape_use(*library_)).handle;
+    if (caster_triangles_ && !made.masks.empty()) {
+        caster_masks_ = filled_buffer(*device_, "caster masks", made.masks).handle;
+        if (!caster_masks_) device_->destroy(std::exchange(caster_triangles_, {}));
+    }
     if (!caster_triangles_) triangles_retry_.failed(triangles_asked_);
     if (!caster_triangles_ || bent_.empty()) triangle_records_ = {};
     return static_cast<bool>(caster_triangles_);
@@ -241,6 +218,7 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     triangle_normals_ = std::exchange(other.triangle_normals_, {});
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
     caster_triangles_ = std::exchange(other.caster_triangles_, {});
+    caster_masks_ = std::exchange(other.caster_masks_, {});
     bent_ = std::move(other.bent_);
     triangle_records_ = std::move(other.triangle_records_);
     bent_meshes_ = other.bent_meshes_;
@@ -265,7 +243,7 @@ GpuScene::~GpuScene() { release(); }
 void GpuScene::release() {
     if (!device_) return;
     for (const gl::BufferHandle b :
-         {vertices_, indices_, instances_, triangle_normals_, material_uniforms_, caster_triangles_})
+         {vertices_, indices_, instances_, triangle_normals_, material_uniforms_, caster_triangles_, caster_masks_})
         device_->destroy(b);
     for (const gl::TextureHandle t : textures_) device_->destroy(t);
     for (const gl::SamplerHandle s : samplers_) device_->destroy(s);

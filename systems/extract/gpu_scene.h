@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/assets/mesh_topology.h"
 #include "engine/core/result.h"
 #include "engine/gl/device.h"
+#include "systems/extract/caster_triangles.h"
 #include "systems/extract/snapshot.h"
 #include "systems/retry.h"
 
@@ -30,21 +30,6 @@ struct MaterialRecord {
     float has_texture;
 };
 static_assert(sizeof(MaterialRecord) == 48);
-
-/// Matches CasterTriangle in shaders/shadow/caster_triangles.glsl (std430): corners in model space, and what lies
-/// beyond the edge that starts at each.
-struct CasterTriangle {
-    struct Corner {
-        glm::vec3 position_ms{0.0f};
-        std::uint32_t across = assets::kNoNeighbour;  // a triangle of the common index buffer
-    };
-    Corner corners[3];
-};
-static_assert(sizeof(CasterTriangle) == 48);
-
-/// All triangles of a library at rest, in the order of the common index buffer. Neighbours are of the same mesh and
-/// opaque both.
-std::vector<CasterTriangle> caster_triangles_of(const assets::MeshLibrary& library);
 
 /// What the surfaces' geometric normals come from: of each triangle of `indices`, zero where it has no area, w unused.
 /// In double: the cross product of float edges is exact enough that the normal is right to float rounding.
@@ -75,8 +60,8 @@ public:
     /// How many meshes the last update() bent.
     std::uint32_t bent_meshes() const { return bent_meshes_; }
 
-    /// Makes caster_triangles() where there is none; to be called each frame that a light reads them. False: the device
-    /// has no room; it is asked again after Retry::kFrames such frames.
+    /// Makes caster_triangles() and caster_masks() where there are none; to be called each frame that a light reads
+    /// them. False: the device has no room; it is asked again after Retry::kFrames such frames.
     bool provide_caster_triangles();
 
     struct MeshRange {
@@ -121,6 +106,8 @@ public:
     }  // vec4 per triangle of `indices`, model space
     /// CasterTriangle per triangle of `indices`; {0} until provided.
     gl::BufferHandle caster_triangles() const { return caster_triangles_; }
+    /// The masks of those that are masked, as shaders/rays/alpha_mask.glsl reads them; {0}: none is, or not provided.
+    gl::BufferHandle caster_masks() const { return caster_masks_; }
     gl::BufferHandle material_uniforms() const { return material_uniforms_; }
 
 private:
@@ -141,7 +128,7 @@ private:
     gl::Device* device_ = nullptr;
     const assets::MeshLibrary* library_ = nullptr;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
-    gl::BufferHandle caster_triangles_{};
+    gl::BufferHandle caster_triangles_{}, caster_masks_{};
     std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer
     std::vector<CasterTriangle> triangle_records_;  // of the whole library, if it has such meshes and they are provided
     std::vector<glm::vec4> normal_scratch_;

@@ -316,6 +316,8 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     record_lights(inputs, scene, gpu, list, report);
     record_blended(inputs, gpu, list, report);
     record_finish(list);
+    report.rays.list_bytes = ray_list_.bytes();
+    report.rays.place_bytes = targets_.place_bytes();
     if (settings.measure_exposure)
         exposure_.record({camera, targets_.luminance, mip_sampler_, uniforms_.handle(), exposure_offset_}, list);
     return true;

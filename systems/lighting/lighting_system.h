@@ -128,6 +128,7 @@ private:
         gl::SamplerHandle sampler{};
         visibility::RayBuffers rays{};
         gl::TextureHandle second{}, bounds{};                  // of a map of sheets
+        gl::BufferHandle ends{};                               // and of a source with a size
         gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` itself asks the rays
         Reason lacks = Reason::none;                           // why it is not the light's own row
         bool unshadowed = false;

@@ -1,6 +1,12 @@
 #include "systems/lighting/lighting_targets.h"
 
 namespace gnomon::lighting {
+namespace {
+
+/// Depth along the view, which triangle of which instance (shaders/lighting/exact_place.glsl).
+constexpr gl::Format kPlaceFormat = gl::Format::rgba32ui;
+
+}  // namespace
 
 bool LightingTargets::make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width,
                            std::uint32_t height, std::uint32_t mips) {
@@ -55,10 +61,14 @@ bool LightingTargets::ensure_visibility() {
 
 bool LightingTargets::provide_places(bool wanted) {
     if (wanted == static_cast<bool>(places_target)) return true;
-    const bool made = wanted && make(places, "surface places", gl::Format::rgba32ui, size_px_.x, size_px_.y) &&
+    const bool made = wanted && make(places, "surface places", kPlaceFormat, size_px_.x, size_px_.y) &&
                       make(places_target, "surface places", {colour, normals, material, light_sum, places}, depth);
     if (!made) release_places();
     return made == wanted;
+}
+
+std::uint64_t LightingTargets::place_bytes() const {
+    return places ? std::uint64_t{gl::texel_bytes(kPlaceFormat)} * size_px_.x * size_px_.y : 0;
 }
 
 void LightingTargets::release_places() {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <glm/vec2.hpp>
 
 #include "engine/gl/device.h"
@@ -25,6 +26,7 @@ public:
     /// Beside the surfaces, where exactly they are: made when asked for, gone when not. False: there is no room.
     bool provide_places(bool wanted);
     glm::uvec2 size_px() const { return size_px_; }
+    std::uint64_t place_bytes() const;  // of `places`
     gl::Failure failure() const { return failure_; }  // of the last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},

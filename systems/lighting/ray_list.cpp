@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kBinding = 1;
 /// In shaders/lighting/answers.glsl.
 constexpr std::uint32_t kVerdictUnit = 5, kAnswerUnit = 7;
-constexpr std::uint64_t kWord = sizeof(std::uint32_t);
+constexpr std::uint64_t kWord = sizeof(std::uint32_t), kWordsPerRay = 2;
 /// Two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
 
@@ -29,15 +29,18 @@ void RayList::release() {
     }
     device_.destroy(pixels_);
     pixels_ = {};
+    bytes_ = 0;
 }
 
 bool RayList::make(glm::uvec2 size_px, gl::TextureHandle depth) {
     size_px_ = size_px;
     depth_ = depth;
     const auto texture = [&](const char* label, gl::Format format) {
+        bytes_ += std::uint64_t{gl::texel_bytes(format)} * size_px.x * size_px.y;
         return device_.create_texture({label, gl::TextureKind::flat, format, size_px.x, size_px.y}, {}).handle;
     };
-    const std::uint64_t words = 1 + std::uint64_t{size_px.x} * size_px.y;
+    const std::uint64_t words = 1 + std::uint64_t{kWordsPerRay} * size_px.x * size_px.y;
+    bytes_ = words * kWord;
     verdicts_ = texture("verdicts of maps", gl::Format::r32ui);
     if (verdicts_) answers_ = texture("answers of rays", gl::Format::r8);
     if (answers_)

@@ -19,6 +19,7 @@ public:
     /// Made when wanted, gone when not. `depth`: of the picture's surfaces. False: there is no room; asked again later.
     bool provide(bool wanted, glm::uvec2 size_px, gl::TextureHandle depth);
     explicit operator bool() const { return static_cast<bool>(answer_target_); }
+    std::uint64_t bytes() const { return bytes_; }
 
     /// Where the map's verdicts go: records the beginning of their pass. `end_verdicts` ends it.
     void begin_verdicts(gl::CommandList& list) const;
@@ -37,6 +38,7 @@ private:
 
     gl::Device& device_;
     glm::uvec2 size_px_{0, 0};
+    std::uint64_t bytes_ = 0;
     gl::TextureHandle depth_{}, verdicts_{}, answers_{};
     gl::TargetHandle verdict_target_{}, answer_target_{};
     gl::BufferHandle pixels_{};

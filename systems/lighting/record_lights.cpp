@@ -7,8 +7,10 @@ namespace gnomon::lighting {
 void LightingSystem::bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const {
     list.add(gl::BindTexture{6, targets_.places, point_sampler_});
     list.add(gl::BindStorage{0, gpu.instances()});
-    std::uint32_t binding = 3;
-    for (const gl::BufferHandle buffer : {rays.nodes, rays.triangles, rays.top, rays.instances, rays.masks})
+    list.add(gl::BindTexels{10, rays.nodes});
+    list.add(gl::BindTexels{11, rays.triangles});
+    std::uint32_t binding = 5;
+    for (const gl::BufferHandle buffer : {rays.top, rays.instances, rays.masks})
         if (buffer) list.add(gl::BindStorage{binding++, buffer});
 }
 
@@ -19,11 +21,13 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
     if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
     if (light.second) list.add(gl::BindTexture{7, light.second, {}});
     if (light.bounds) list.add(gl::BindTexture{8, light.bounds, {}});
+    if (light.ends) list.add(gl::BindStorage{2, light.ends});
     if (light.rays.nodes) bind_rays(light.rays, gpu, list);
     if (!light.triangles) return;
     list.add(gl::BindTexture{5, light.triangles, {}});
     list.add(gl::BindStorage{0, gpu.instances()});
     list.add(gl::BindStorage{2, gpu.caster_triangles()});
+    if (gpu.caster_masks()) list.add(gl::BindStorage{7, gpu.caster_masks()});
 }
 
 /// The light's own row; where that cannot be had, one tap of its map; or the same light without its shadow.
@@ -37,7 +41,7 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
     if (!has_surfaces) lacks = Reason::buffer_failed;
     if (has_surfaces && (!may_wait || !programs_.must_wait(light.row, output))) {
         const gl::ProgramHandle own = programs_.row(light.row, output);
-        LightProgram used{own, light.map, light.triangles, light.sampler, light.rays, light.second, light.bounds};
+        LightProgram used{own, light.map, light.triangles, light.sampler, light.rays, light.second, light.bounds, light.ends};
         if (lists) used.verdicts_program = programs_.row(light.row, RowOutput::verdicts);
         if (lists) used.rays_program = programs_.row(light.row, RowOutput::rays);
         if (own && (!lists || (used.verdicts_program && used.rays_program))) return used;

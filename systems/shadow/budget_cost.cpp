@@ -90,10 +90,27 @@ double mean_fetches(const LightItem& light, ShadowFilter filter) {
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
 
+StorageWork storage_work(FilterStorage storage) {
+    constexpr double kDepth = 4.0, kTriangle = 8.0, kBounds = 8.0;
+    switch (storage) {
+        case FilterStorage::depth_and_triangle:
+            return {.texel_bytes = kDepth + kTriangle};
+        case FilterStorage::sheets:
+        case FilterStorage::soft_sheets:
+            return {.passes = 3.0, .casters = 3.0, .texel_bytes = kDepth + kTriangle + kDepth + kBounds};
+        case FilterStorage::depth:
+        case FilterStorage::moments:
+            break;
+    }
+    return {};
+}
+
 double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws) {
+    const FilterStorage storage = filter_row(demand.filter).storage;
+    const StorageWork work = storage_work(storage);
     const double texels = static_cast<double>(edge_px) * edge_px;
-    double view_ns = kPass_ns + texels * kTexel_ns;
-    if (filter_row(demand.filter).storage == FilterStorage::moments)
+    double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / StorageWork{}.texel_bytes;
+    if (storage == FilterStorage::moments)
         view_ns += 2.0 * (kPass_ns + texels * demand.filtering.size * kFetch_ns);
     return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
 }
@@ -116,9 +133,10 @@ Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& facto
     cost.bytes = map_bytes(*load.light, given);
     const double share =
         static_cast<double>(given.view_count) / static_cast<double>(std::max(load.wanted.view_count, 1u));
+    const double casters = share * storage_work(filter_row(given.filter).storage).casters;
     const double drawing =
-        drawing_ns(given, given.resolution_px, load.views * share, static_cast<double>(load.triangles) * share,
-                   static_cast<double>(load.draws) * share);
+        drawing_ns(given, given.resolution_px, load.views * share, static_cast<double>(load.triangles) * casters,
+                   static_cast<double>(load.draws) * casters);
     const double ns = drawing * share_in_bounds(load.activity) / given.refresh_frames * factors.drawing +
                       lookup_ns(load, grant, factors);
     constexpr double kMost_ns = 1.0e15;  // eleven days, so that sums stay in range

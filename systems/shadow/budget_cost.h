@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/grant.h"
 #include "systems/shadow/types.h"
 
@@ -15,9 +16,29 @@ inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
 inline constexpr std::uint32_t kLeastGranted_px = 64;
 
 /// Nanoseconds by kind of work, of a GPU of the middle class: where measurements start from (CostFactors). Only their
-/// ratios decide who is given less; their scale decides when.
+/// ratios decide who is given less; their scale decides when. They follow from such a GPU's data sheet (192 GB/s of
+/// memory, 1.7 GHz, two triangles a clock, 80 texture units, 4.4 TFLOPS), not from measurements of one:
+/// - a pass waits for the one before to leave the chip, and clears: some 5 µs between two targets;
+/// - a draw takes the driver and the front end 1 µs;
+/// - a triangle takes 0.3 ns where nothing but its set-up counts, and three vertices of 32 bytes 0.5 ns of memory: 1 ns;
+/// - a texel is 4 bytes, cleared or written, by way of memory: 4 B / 192 GB/s;
+/// - a fetch lies between the texture units' 0.007 ns and a sector of 32 bytes of its own, 0.17 ns;
+/// - a lit pixel reads 20 bytes of surfaces and blends 16: 0.2 ns, and some 1000 operations: another 0.25 ns.
+/// `./gnomon bench budget` measures the same six on a device (docs/economy.md, "Budgets").
 inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
 inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
+
+/// What drawing a view takes for its filter, against drawing depths of 4 bytes alone.
+struct StorageWork {
+    double passes = 1.0;       // targets drawn into, one after the other
+    double casters = 1.0;      // how often each caster is drawn
+    double texel_bytes = 4.0;  // cleared and written per texel, in all of them
+};
+
+/// depth_and_triangle: 8 bytes beside the depth, in the same pass. sheets: nearest depths with 8 bytes of triangles, next
+/// depths, and 8 bytes of bounds (map_desc.cpp); casters are drawn twice, and measured for the third. The two passes of
+/// a blur (moments) are counted apart, and what soft_sheets make of theirs, a small share, is not.
+StorageWork storage_work(FilterStorage storage);
 
 /// Measured over modelled time, by kind of work (CostClock).
 struct CostFactors {
@@ -61,7 +82,7 @@ double edge_harm(double rise_px);
 /// Fetches of a lookup, on the average of its pixels.
 double mean_fetches(const LightItem& light, ShadowFilter filter);
 
-/// Of drawing so many views with so much in them.
+/// Of drawing so many views with so much in them, as it is recorded: storage_work() says how often casters are.
 double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws);
 
 }  // namespace gnomon::shadow

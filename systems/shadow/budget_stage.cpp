@@ -134,10 +134,8 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     load.wanted = wanted_[d];
     // The fit may have found another count of cascades to be enough.
     if (next.grant.most_views >= load.wanted.view_count && fitted.view_count != load.wanted.view_count) {
-        const std::uint32_t most_px =
-            edge_for_count_px(load.wanted.most_px, load.wanted.view_count, fitted.view_count);
         load.wanted.view_count = fitted.view_count;
-        set_most(*load.light, most_px, 0, load.wanted);
+        set_most(*load.light, load.wanted.most_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
     load.activity = load.light->shadow.economy ? static_cast<double>(next.activity) : 1.0;
@@ -262,8 +260,9 @@ void BudgetStage::spread_draws(const GpuScene& gpu, const SceneSnapshot& scene, 
         const ShadowDemand& demand = frame.demands[view.demand];
         LightLoad load;
         count_draws(scene, gpu, frame, view, load);
-        const double ns =
-            drawing_ns(demand, slot.size_px, 1.0, static_cast<double>(load.triangles), static_cast<double>(load.draws));
+        const double casters = storage_work(filter_row(demand.filter).storage).casters;
+        const double ns = drawing_ns(demand, slot.size_px, 1.0, static_cast<double>(load.triangles) * casters,
+                                     static_cast<double>(load.draws) * casters);
         const bool may_wait = std::isfinite(slot.if_held.error_px) && slot.waited_frames < kMostWait_frames;
         const double harm = may_wait ? demand.weight * edge_harm(slot.if_held.error_px) : DueView::kMustNotWait;
         due_.push_back({v, ns * factors_.drawing, harm, slot.content});

@@ -44,20 +44,6 @@ std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicte
 
 bool keeps_contract(double predicted_px, double wished_px) { return of_texels_px(predicted_px) <= wished_px; }
 
-std::uint32_t shared_edge_px(std::uint32_t edge_px, std::uint32_t count) {
-    const double edge = edge_px * std::sqrt(static_cast<double>(kMostCounted) / count);
-    return std::max(static_cast<std::uint32_t>(edge) / kLeastMap_px * kLeastMap_px, kLeastMap_px);
-}
-
-std::uint32_t edge_for_count_px(std::uint32_t edge_px, std::uint32_t of, std::uint32_t count) {
-    if (count == of) return edge_px;
-    // Of sizes that differ by kLeastMap_px no two are shared into one: fewer maps than kMostCounted only stretch them.
-    std::uint32_t all_px = kLeastMap_px;
-    while (shared_edge_px(all_px + kLeastMap_px, of) <= edge_px) all_px += kLeastMap_px;
-    const std::uint32_t shared_px = shared_edge_px(all_px, count);
-    return count > of ? std::min(shared_px, edge_px) : shared_px;
-}
-
 std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px) {
     const std::uint64_t most = trials.back().texels;
     for (const CascadeTrial& trial : trials) {
@@ -65,7 +51,7 @@ std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint3
         if (trial.texels <= most || (trial.count == held && trial.texels < kPatience * most)) return trial.count;
     }
     const auto product = [&](const CascadeTrial& trial) {
-        const double product_px = trial.count * of_texels_px(trial.predicted_px);
+        const double product_px = trial.count * std::sqrt(trial.count) * of_texels_px(trial.predicted_px);
         if (!(product_px >= 0.0)) return std::numeric_limits<double>::infinity();
         return trial.count == held ? product_px / kCountPatience : product_px;
     };

@@ -40,17 +40,6 @@ inline constexpr std::uint32_t kSpareFrames = 60;
 /// for sizes.
 inline constexpr std::uint32_t kMovesToCount = kSpareFrames;
 
-/// Most cascades that a sun gets unless it asks for more.
-inline constexpr std::uint32_t kMostCounted = 4;
-
-/// Edge of each of `count` maps that together have no more texels than kMostCounted of `edge_px`, which is a multiple
-/// of kLeastMap_px, and at least that.
-std::uint32_t shared_edge_px(std::uint32_t edge_px, std::uint32_t count);
-
-/// What `edge_px`, the most that each of `of` maps may have, becomes for `count` maps: what shared_edge_px() made of it
-/// for `of` it makes for `count`. Never more texels in all than kLeastMap_px makes of rounding.
-std::uint32_t edge_for_count_px(std::uint32_t edge_px, std::uint32_t of, std::uint32_t count);
-
 /// What a sun's cascades of one count come to.
 struct CascadeTrial {
     std::uint32_t count = 0;
@@ -62,12 +51,13 @@ struct CascadeTrial {
 /// the most of them take; the `held` number stays, unless fewer do, while it keeps the word with less than twice those
 /// texels (0: none is held).
 ///
-/// Where there are none all share the same texels, and the one is chosen whose count times error is least: twice as many
-/// maps must halve the predicted error. That bound is of the worst place, near the camera; everywhere else
-/// smaller maps have larger texels, and what is thinner than these is lost. Measured: courtyard and Sponza, where four
-/// maps divide the bound by 1.5 to 2.5, are best with one; a valley of kilometres, where they divide it by 6 to 50, with
-/// two or four (docs/cost.md). The held number stays while the least is no less than 1 / sqrt(2) of its product, as much
-/// as rounding of two sides to steps makes of it.
+/// Where none does, all have the largest maps, and the one is chosen whose count times error is least if they shared
+/// the same texels, whose edges err by the root of the count more: twice as many maps must halve the predicted error
+/// beyond what more texels do of themselves. That bound is of the worst place, near the camera; everywhere else
+/// cascades have no smaller texels, and what is thinner than these is lost. Measured, with the same texels in all:
+/// courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one; a valley of kilometres,
+/// where they divide it by 6 to 50, with two or four (docs/cost.md). The held number stays while the least is no less
+/// than 1 / sqrt(2) of its product, as much as rounding of two sides to steps makes of it.
 std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px);
 
 /// Whether maps that err by `predicted_px` keep the light's word.

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "systems/shadow/contract.h"
+#include "systems/shadow/exact/ray_load.h"
+#include "systems/shadow/filter_choice.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cone_fade.h"
 #include "systems/shadow/kinds/splits.h"
@@ -19,9 +21,8 @@ constexpr std::uint32_t kLargestAutomatic_px = 8192;
 /// Below this no margin for the filter is left around the content.
 constexpr std::uint32_t kLeastRequested_px = 16;
 
-/// Of each of four cascades, per pixel of the picture's larger side, and up to which size: a sun's edges are seen from
-/// nearer and farther than its texels are made for. 0.05 % of wrong pixels takes so many (docs/cost.md); beyond, memory
-/// is worth more.
+/// Of each of a sun's maps, per pixel of the picture's larger side, and up to which size: its edges are seen from
+/// nearer and farther than its texels are made for. 0.05 % of wrong pixels takes so many (docs/cost.md).
 constexpr float kSunTexelsPerPixel = 1.6f;
 constexpr std::uint32_t kUsualSunMap_px = 2048;
 
@@ -90,13 +91,22 @@ LightShadow with_own_source(const LightItem& light) {
     return shadow;
 }
 
+/// Of a point there is nothing to ask but whether it is seen.
+ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
+    if (filter != ShadowFilter::exact_soft) return filter;
+    const bool has_size = needs_distances(filter_demand(filter_row(filter), with_own_source(light), kLeastMap_px));
+    return has_size ? filter : ShadowFilter::exact;
+}
+
 /// A map of sheets costs as it is drawn and cleared, layer by layer, and saves rays: a cube's six are worth half the
-/// edge (docs/exact.md, "What it costs").
-float texels_per_pixel(const LightItem& light, const ShadowDemand& demand) {
+/// edge (docs/exact.md, "What it costs"), a sun's that is drawn once and for all (is_quiet) twice.
+float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowDemand& demand) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(demand.filter);
-    const bool faces = asks_rays(row) && light_kind_row(light.kind).texture == gl::TextureKind::cube;
-    return row.texels_per_pixel * (faces ? kOfAFace : 1.0f);
+    if (!asks_rays(row)) return row.texels_per_pixel;
+    if (light_kind_row(light.kind).texture == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
+    const bool waits = held && light.kind == LightKind::directional && is_quiet(*held);
+    return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
 }
 
 /// What errs by nothing is no larger for a smaller error.
@@ -105,11 +115,12 @@ float wished_resolution_px(const LightItem& light, const ShadowDemand& demand) {
 }
 
 /// As large as the picture asks for, or as the fits found to be enough (contract.h).
-void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, std::uint32_t held_px,
+void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, const HeldLight* held,
                        ShadowDemand& demand) {
+    const std::uint32_t held_px = held ? held->map_px : 0;
     const std::uint32_t asked_px = light.shadow.resolution_px;
     demand.most_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
-                                  : automatic_resolution(viewport_px, texels_per_pixel(light, demand),
+                                  : automatic_resolution(viewport_px, texels_per_pixel(light, held, demand),
                                                          wished_resolution_px(light, demand), limit_px);
     if (asked_px > 0 && demand.most_px != asked_px) demand.note = Reason::resolution_clamped;
     set_resolution(light, demand.most_px, demand);
@@ -117,16 +128,13 @@ void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint
         set_resolution(light, held_px, demand);
 }
 
-/// Edge of each of four maps of a sun that follows the contract; twice that, of one, is within the device's limit.
+/// Most edge of each map of a sun that follows the contract.
 std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
                           const ShadowDemand& demand) {
-    const float error_px = light.shadow.max_error_px;
-    const std::uint32_t half_px = limit_px / 2;
     const FilterRow& row = filter_row(demand.filter);
-    const std::uint32_t own_px = automatic_resolution(viewport_px, row.texels_per_pixel, error_px,
-                                                      std::min(half_px, kLargestAutomatic_px / 2));
-    if (asks_rays(row)) return own_px;  // edges are the rays'
-    const std::uint32_t usual_px = automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, half_px);
+    const std::uint32_t own_px =
+        automatic_resolution(viewport_px, row.texels_per_pixel, light.shadow.max_error_px, limit_px);
+    const std::uint32_t usual_px = automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, limit_px);
     return std::max(std::min(usual_px, kUsualSunMap_px), own_px);
 }
 
@@ -189,6 +197,14 @@ void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_
 
 ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint32_t i,
                        ShadowFilter filter) {
+    const LightItem& light = scene.lights[i];
+    const bool cube = light_kind_row(light.kind).texture == gl::TextureKind::cube;
+    return demand_with(scene, cube ? device.max_cube_px : device.max_texture_px, find(held, light.entity, i), i, filter);
+}
+
+ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held_light,
+                         std::uint32_t i, ShadowFilter filter) {
+    filter = without_size(scene.lights[i], filter);
     glm::uvec2 viewport_px{1, 1};
     for (const ConsumerItem& consumer : scene.consumers) viewport_px = glm::max(viewport_px, consumer.viewport_px);
     const LightItem& light = scene.lights[i];
@@ -196,11 +212,9 @@ ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device,
     demand.light = i;
     demand.filter = filter;
     demand.depth_format = light.shadow.depth_format;
-    const LightKindRow& kind = light_kind_row(light.kind);
-    demand.view_count = kind.layers;
-    const std::uint32_t limit_px = kind.texture == gl::TextureKind::cube ? device.max_cube_px : device.max_texture_px;
-    const HeldLight* held_light = find(held, light.entity, i);
-    decide_resolution(light, viewport_px, limit_px, held_light ? held_light->map_px : 0, demand);
+    demand.view_count = light_kind_row(light.kind).layers;
+    demand.device_px = limit_px;
+    decide_resolution(light, viewport_px, limit_px, held_light, demand);
     decide_projection(light, scene.sampled_depths.failed, demand);
     if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
     if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
@@ -210,8 +224,7 @@ ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device,
             set_cascades(light.shadow, held_light->cascades, demand);
     }
     if (light.kind == LightKind::directional && follows_contract(light, demand))
-        set_most(light, shared_edge_px(sun_edge_px(light, viewport_px, limit_px, demand), demand.view_count),
-                 held_light ? held_light->map_px : 0, demand);
+        set_most(light, sun_edge_px(light, viewport_px, limit_px, demand), held_light ? held_light->map_px : 0, demand);
     if (asks_rays(filter_row(demand.filter))) decide_sheets(demand);
     return demand;
 }
@@ -220,7 +233,9 @@ void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, boo
                    std::vector<ShadowDemand>& demands) {
     demands.clear();
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        demands.push_back(demand_of(scene, device, held, i, scene.lights[i].shadow.filter));
+        const LightItem& light = scene.lights[i];
+        const HeldLight* last = find(held, light.entity, i);
+        demands.push_back(demand_of(scene, device, held, i, filter_to_fit(light, last ? &last->filter : nullptr)));
         demands.back().skip = wanted(scene.lights[i], shadows);
     }
 }

@@ -23,6 +23,10 @@ void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& 
 ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
                        std::uint32_t light, ShadowFilter filter);
 
+/// The same within the device's limit on a map's edge; `held`: what the light's last fit left, null if there is none.
+ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held, std::uint32_t light,
+                         ShadowFilter filter);
+
 /// Sets the size of the light's maps to the most they may have, or to `held_px`, their last one, if that is less and
 /// above 0.
 void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowDemand& demand);

@@ -20,13 +20,13 @@ bool loses_more(const DueView& a, const DueView& b) {
 
 std::size_t choose_waiting(double room_ns, std::vector<DueView>& due) {
     std::erase_if(due, [](const DueView& view) { return !(view.ns > 0.0); });  // waiting frees nothing
+    std::sort(due.begin(), due.end(), waits_before);  // and a sum does not hang on the order in which they come
     double sum_ns = 0.0;
     for (const DueView& view : due) {
         sum_ns += view.ns;
         room_ns = std::max(room_ns, view.ns);
     }
     if (sum_ns <= room_ns) return 0;
-    std::sort(due.begin(), due.end(), waits_before);
     auto end = due.begin();
     while (end != due.end() && end->harm < DueView::kMustNotWait && sum_ns > room_ns) sum_ns -= (end++)->ns;
     std::sort(due.begin(), end, loses_more);

@@ -86,6 +86,13 @@ void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const 
     }
 }
 
+FilterReport filter_report(const ShadowDemand& demand) {
+    FilterReport out{demand.filter, Reason::none, {}};
+    if (demand.usual_px > 0.0) out.reason = Reason::map_too_coarse;
+    if (demand.usual_px > 0.0) out.usual_error_px = demand.usual_px;
+    return out;
+}
+
 /// Of the whole light: what its views saved; all of them, and its map, if it is skipped.
 void explain_savings(const LightItem& light, const ShadowDemand& demand, std::optional<double> view_us,
                      const FrameReport& report, LightReport& out) {
@@ -143,6 +150,7 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
         out.why.casters = sets.casters.count;
         out.why.display_steps = dim.steps(i);
         const std::optional<double> view_us = times.view_us(light.entity);
+        if (out.state != LightState::skipped) out.filter = filter_report(demand);
         if (out.state != LightState::skipped) explain_views(light, demand, frame, first, end, view_us, report, out);
         explain_savings(light, demand, view_us, report, out);
     }

@@ -26,6 +26,12 @@ void take_seeds(const LightShadow& shadow, FilterDemand& filter) {
     filter.cut = filter.cut || filter.taps != shadow.filter_taps || filter.cell_m != shadow.filter_cell_m;
 }
 
+/// In place of taps.
+void take_rays(const LightShadow& shadow, FilterDemand& filter) {
+    filter.taps = std::clamp(shadow.penumbra_rays, 1u, kMostPenumbraRays);
+    filter.cut = filter.cut || filter.taps != shadow.penumbra_rays;
+}
+
 void take_spread(const LightShadow& shadow, float most_texel, FilterDemand& filter) {
     filter.spread_m = length_of(shadow, &LightShadow::filter_spread_m, filter);
     filter.doubles_m = length_of(shadow, &LightShadow::filter_doubles_m, filter);
@@ -81,6 +87,7 @@ FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std:
     filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(shadow, filter);
     if (row.width == FilterWidth::spread) take_spread(shadow, most_texel, filter);
+    if (asks_rays(row)) take_rays(shadow, filter);
     if (row.width == FilterWidth::source) take_source(shadow, most_edge_texel, filter);
     filter.border_texel = border_texel(filter, filter.most_spread_texel);
     return filter;

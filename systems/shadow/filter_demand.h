@@ -7,7 +7,7 @@ namespace gnomon::shadow {
 
 struct FilterRow;
 
-inline constexpr std::uint32_t kMostFilterSize = 31, kMostFilterTaps = 32;
+inline constexpr std::uint32_t kMostFilterSize = 31, kMostFilterTaps = 32, kMostPenumbraRays = 256;
 /// Wider filters cost a map more border, and a plane more bias, than they are worth.
 inline constexpr float kMostSpread_texel = 16.0f;
 /// Half-width of the widest penumbra of FilterWidth::source: wider ones cost its search more taps; take fewer texels.

@@ -15,6 +15,7 @@ std::uint32_t of_ray(const LightShadow&, bool) {
     constexpr std::uint32_t kBoxes = 55, kTriangles = 32, kPerBox = 2, kPerTriangle = 3;
     return kBoxes * kPerBox + kTriangles * kPerTriangle;
 }
+std::uint32_t of_rays(const LightShadow& shadow, bool cube) { return of_ray(shadow, cube) * shadow.penumbra_rays; }
 std::uint32_t of_grid(const LightShadow& shadow, bool) { return shadow.filter_size * shadow.filter_size; }
 /// A fetch takes 2x2 texels; a grid of n that slides over them touches n + 1.
 std::uint32_t of_pairs(const LightShadow& shadow, bool) {
@@ -109,6 +110,8 @@ constexpr FilterRow kRows[] = {
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/pcss_moments.glsl", kFourMoments),
     {ShadowFilter::exact, "exact", "shadow/filters/exact.glsl", of_ray, 0.5f, FilterWidth::fixed, MapReading::depths,
      FilterStorage::sheets, 0.0f, 0.75f},
+    {ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact_soft.glsl", of_rays, 0.5f, FilterWidth::source,
+     MapReading::depths, FilterStorage::soft_sheets, 0.0f, 0.75f},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 
@@ -124,7 +127,7 @@ static_assert(rows_are_in_order());
 std::span<const FilterRow> filter_table() { return kRows; }
 
 const FilterRow& filter_row(ShadowFilter filter) {
-    const auto index = static_cast<std::size_t>(filter);
+    const auto index = static_cast<std::size_t>(filter == ShadowFilter::automatic ? kUsualFilter : filter);
     return kRows[index < std::size(kRows) ? index : 0];
 }
 

@@ -19,8 +19,8 @@ enum class FilterWidth : std::uint8_t {
 /// What a map holds for a filter: depth, or also which triangle each texel shows
 /// (shaders/shadow/caster_triangles.glsl), or also moments of distances, blurred (shaders/shadow/moments), or also what
 /// tells of which pixels it is certain (shaders/shadow/exact); rays ask the casters themselves (shaders/rays) about the
-/// others, or about all where the light has no such map.
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, sheets };
+/// others, or about all where the light has no such map; or also what of that a source with a size asks for.
+enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, sheets, soft_sheets };
 
 /// What its sampler returns: results of comparing, as they are or blended by hardware, what is stored, or blurred
 /// moments of it.
@@ -61,10 +61,17 @@ struct FilterRow {
     const MomentRow* moments = nullptr;  // of FilterStorage::moments
 };
 
-inline bool asks_rays(const FilterRow& row) { return row.storage == FilterStorage::sheets; }
+/// The row that measures best, and what ShadowFilter::automatic is where nothing speaks for another.
+inline constexpr ShadowFilter kUsualFilter = ShadowFilter::triangles;
+
+inline bool has_sheets(FilterStorage storage) {
+    return storage == FilterStorage::sheets || storage == FilterStorage::soft_sheets;
+}
+inline bool asks_rays(const FilterRow& row) { return has_sheets(row.storage); }
 
 /// In the order of ShadowFilter.
 std::span<const FilterRow> filter_table();
+/// Of ShadowFilter::automatic: kUsualFilter's.
 const FilterRow& filter_row(ShadowFilter filter);
 /// nullptr if there is none of that name.
 const FilterRow* find_filter(std::string_view name);

@@ -10,7 +10,6 @@
 #include "systems/shadow/depth_format.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
-#include "systems/shadow/light_time.h"
 #include "systems/shadow/predicted_error.h"
 #include "systems/shadow/sets.h"
 #include "systems/shadow/view_casters.h"
@@ -132,9 +131,9 @@ public:
           first_(frame.views.size()) {}
 
     /// False if no finite volume exists.
-    bool run(const HeldLight& held, HeldLight& next) {
+    bool run(const HeldLight& held, bool recount, HeldLight& next) {
         if (!fit(held, next)) return false;
-        if (is_count_due(held, next)) return choose_count(held, next);
+        if (is_count_due(held, next) || (recount && !views().empty())) return choose_count(held, next);
         return true;
     }
 
@@ -179,11 +178,7 @@ private:
     /// Tries twice as many again and again, each as if it were the first fit of this light: what is held is of other
     /// slices.
     bool choose_count(const HeldLight& held, HeldLight& next) {
-        HeldLight fresh = held;
-        fresh.views = {};
-        fresh.splits = {};
-        fresh.sampled_ends = {};
-        fresh.map_px = fresh.spare_frames = 0;
+        const HeldLight fresh = without_fits(held);
         const ShadowDemand usual = demand();
         std::array<CascadeTrial, kMaxCascades> trials;
         std::size_t tried = 0;
@@ -207,7 +202,7 @@ private:
     bool fit_count(std::uint32_t count, const ShadowDemand& usual, const HeldLight& held, HeldLight& next) {
         demand() = usual;
         set_cascades(light_.shadow, count, demand());
-        set_most(light_, edge_for_count_px(usual.most_px, usual.view_count, count), held.map_px, demand());
+        set_most(light_, usual.most_px, held.map_px, demand());
         return fit(held, next);
     }
 
@@ -233,44 +228,34 @@ bool select_casters(const SceneSnapshot& scene, std::size_t first, ShadowFrame& 
 
 }  // namespace
 
-void fit_views(const SceneSnapshot& scene, const History& held, ShadowFrame& frame) {
-    const HeldLight none;
-    frame.views.clear();
-    frame.next_history.lights.clear();
-    frame.view_caster_items.clear();
-    for (std::uint32_t d = 0; d < frame.demands.size(); ++d) {
-        PotentialSets& sets = frame.sets[d];
-        ShadowDemand& demand = frame.demands[d];
-        if (demand.skip != Reason::none) continue;
-        const LightTime time(frame, demand.light);
-        const LightItem& light = scene.lights[demand.light];
-        const HeldLight* last = find(held, light.entity, frame.next_history.lights.size());
-        HeldLight& next = frame.next_history.lights.emplace_back(last ? *last : none);
-        next.light = light.entity;
-        next.gave_way = demand.gives_way;
-        if (sets.skip != Reason::none) continue;
-        if (!has_map(demand)) {
-            if (sets.casters.count == 0) sets.skip = Reason::no_caster;
-            continue;
-        }
-        const HeldLight before = next;
-        const std::size_t first = frame.views.size();
-        if (!LightFit(scene, d, frame).run(before, next)) {
-            frame.views.resize(first);
-            sets.skip = Reason::fit_degenerate;
-            continue;
-        }
-        if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
-        for (std::size_t v = first; v < frame.views.size(); ++v) {
-            const ShadowView& view = frame.views[v];
-            if (depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 &&
-                demand.note == Reason::none)
-                demand.note = Reason::depth_coarse;
-        }
-        if (!select_casters(scene, first, frame)) {
-            frame.views.resize(first);
-            sets.skip = Reason::no_caster;
-        }
+HeldLight without_fits(const HeldLight& held) {
+    HeldLight fresh = held;
+    fresh.views = {};
+    fresh.splits = {};
+    fresh.sampled_ends = {};
+    fresh.map_px = fresh.spare_frames = fresh.large_frames = fresh.tired_frames = 0;
+    return fresh;
+}
+
+void fit_light_views(const SceneSnapshot& scene, std::uint32_t d, const HeldLight& held, bool recount, HeldLight& next,
+                     ShadowFrame& frame) {
+    PotentialSets& sets = frame.sets[d];
+    ShadowDemand& demand = frame.demands[d];
+    const std::size_t first = frame.views.size();
+    if (!LightFit(scene, d, frame).run(held, recount, next)) {
+        frame.views.resize(first);
+        sets.skip = Reason::fit_degenerate;
+        return;
+    }
+    if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
+    for (std::size_t v = first; v < frame.views.size(); ++v) {
+        const ShadowView& view = frame.views[v];
+        if (depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 && demand.note == Reason::none)
+            demand.note = Reason::depth_coarse;
+    }
+    if (!select_casters(scene, first, frame)) {
+        frame.views.resize(first);
+        sets.skip = Reason::no_caster;
     }
 }
 

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "components/light_shadow.h"
 #include "engine/ecs/entity.h"
 #include "systems/shadow/grant.h"
 #include "systems/shadow/kinds/splits.h"
@@ -32,6 +33,7 @@ struct HeldView {
     int near_step = 0;          // local light: near plane
     int far_step = 0;           // local light: far plane; sun: depth range
     double near_m = 0.0;        // sun: where the depth range starts, in the kind's own fixed axes
+    bool too_large = false;     // sun: one of its sizes is kept for now, though much smaller ones would do
     bool operator==(const HeldView&) const = default;
 };
 
@@ -64,17 +66,33 @@ struct HeldEnds {
     bool operator==(const HeldEnds&) const = default;
 };
 
+/// Which filter a light's contract chose (filter_choice.h).
+struct HeldFilter {
+    ShadowFilter filter = ShadowFilter::automatic;  // automatic: none, or it is not the contract's to choose
+    double wished_px = 0.0;                         // for this word
+    double usual_px = 0.0;     // that maps of the usual filter err by, when they were last fitted
+    double seen_px = 0.0;      // the error of the last fit's own maps: the same, and what is seen has not changed
+    std::uint32_t frames = 0;  // until maps of the usual filter are tried again; 0: when something changes
+    std::uint32_t passed = 0;  // in how many frames in a row they did
+    bool operator==(const HeldFilter&) const = default;
+};
+
 struct HeldLight {
     ecs::Entity light = {};
     HeldSplits splits;
     std::array<HeldView, kHeldViews> views;
     ConeFade cone;
     HeldEnds sampled_ends;
+    std::uint32_t large_frames = 0;  // for how many frames in a row some view was too large
+    std::uint32_t tired_frames = 0;  // for so many frames from now no size becomes smaller, since some have changed
     std::uint32_t map_px = 0;        // edge of its maps, where they follow the contract (contract.h); else 0
     std::uint32_t spare_frames = 0;  // for how many frames half of it seems to have done
     std::uint32_t cascades = 0;      // that its contract chose; 0: none yet, or it leaves no choice
     std::uint32_t moves = 0;         // in how many frames its maps moved since another number was tried
     bool gave_way = false;           // ShadowDemand::gives_way
+    std::uint64_t casters = 0;       // signature of what maps of sheets show, wherever those lie
+    std::uint32_t quiet_frames = 0;  // for how many frames it has stayed, of those whose pictures moved; at most kQuietFrames
+    HeldFilter filter;
     Grant grant;                     // what a budget left it; BudgetStage's, as all that follows
     float activity = 0.0f;           // share of its views that changed per frame, of late
     std::uint32_t new_frames = 0;    // in so many frames from now its views change because its grant did
@@ -83,6 +101,7 @@ struct HeldLight {
 
 struct History {
     std::vector<HeldLight> lights;  // in the order of the frame's lights
+    std::uint64_t pictures = 0;     // signature of where the last frame's cameras stood
     std::uint32_t calm_frames = 0;  // since grants changed (settle_grants); 0 without a budget
     bool operator==(const History&) const = default;
 };

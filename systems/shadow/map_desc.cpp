@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "systems/shadow/depth_format.h"
+#include "systems/shadow/exact/sheet_ends.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/moment_recorder.h"
 
@@ -56,9 +57,10 @@ std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const
                         const gl::TextureDesc& scratch) {
     std::uint64_t bytes = gl::byte_size(map);
     if (storage == FilterStorage::depth_and_triangle) bytes += gl::byte_size(triangles_of(map));
-    if (storage == FilterStorage::sheets) {
+    if (has_sheets(storage)) {
         const SheetDescs sheets = sheets_of(map);
         bytes += gl::byte_size(sheets.triangles) + gl::byte_size(sheets.second) + gl::byte_size(sheets.bounds);
+        if (storage == FilterStorage::soft_sheets) bytes += ends_bytes(map.width, gl::layer_count(map));
     }
     if (moments.width > 0) bytes += gl::byte_size(moments);
     if (scratch.width > 0) bytes += gl::byte_size(scratch);

@@ -37,7 +37,9 @@ void MapStore::leave_to_rays(const SceneSnapshot& scene, const GpuScene& gpu, Sh
         const std::uint64_t content = content_of(frame, first, end);
         const bool moves = history.wanted_content != 0 && history.wanted_content != content;
         history.wanted_content = content;
-        if (!moves || !are_rays_cheaper(asking_pixels(scene, light), load_of(scene, gpu, frame, first, end))) continue;
+        if (!moves || !are_rays_cheaper(asking_pixels(scene, light), rays_per_pixel(demand),
+                                        load_of(scene, gpu, frame, first, end)))
+            continue;
         demand.left_to_rays = true;
         for (std::size_t v = first; v < end; ++v) frame.slots[v] = {};
     }

@@ -16,6 +16,15 @@ constexpr std::uint64_t kBoundary = ~std::uint64_t{0};
 /// OpenGL's table has them side by side.
 bool are_opposite_faces(std::uint32_t a, std::uint32_t b) { return a != b && a / 2 == b / 2; }
 
+/// What is made of a map for a source with a size follows from that as well.
+std::uint64_t with_source(std::uint64_t content, const FilterDemand& filter) {
+    Signature s;
+    s.add(content);
+    s.add(filter.source_radius_m);
+    s.add(filter.sun_radius_tan);
+    return s.value();
+}
+
 }  // namespace
 
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
@@ -52,17 +61,18 @@ void MapStore::assign_views(const SceneSnapshot& scene, ShadowFrame& frame) {
         ShadowSlot& slot = frame.slots[v];
         slot.texture = history.texture;
         slot.triangles = history.triangles;
-        if (history.storage == FilterStorage::sheets) {
+        if (has_sheets(history.storage)) {
             slot.second = history.sheets.second;
             slot.second_target = history.sheets.second_targets[view.layer];
             slot.bounds = history.sheets.bounds;
             slot.bounds_target = history.sheets.bounds_targets[view.layer];
+            slot.ends = history.sheets.ends;
         }
         slot.target = history.targets[view.layer];
         slot.size_px = history.desc.width;
         const ContentSignature signature =
             content_signature(view, slot.size_px, scene, casters_of(frame, view), light.shadow.caster_faces);
-        slot.content = signature.all;
+        slot.content = slot.ends ? with_source(signature.all, frame.demands[view.demand].filtering) : signature.all;
         slot.placement = signature.placement;
         slot.still_content = signature.still;
         slot.reuse = view.lit || (light.shadow.economy && history.content[view.layer] == slot.content);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "systems/shadow/exact/sheet_ends.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_time.h"
 
@@ -14,14 +15,14 @@ bool is_same_store(const MomentMap& a, const MomentDescs& b) {
 }
 
 bool has_triangles(FilterStorage storage) {
-    return storage == FilterStorage::depth_and_triangle || storage == FilterStorage::sheets;
+    return storage == FilterStorage::depth_and_triangle || has_sheets(storage);
 }
 
 }  // namespace
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
-    const bool shared = map.storage == FilterStorage::sheets;
+    const bool shared = has_sheets(map.storage);
     if (map.triangles) target.colours.push_back({map.triangles, shared ? 0 : layer});
     return target;
 }
@@ -127,6 +128,11 @@ Reason MapStore::make_sheets(LightHistory& map) const {
     sheets.second = device_.create_texture(descs.second, {}).handle;
     if (sheets.second) sheets.bounds = device_.create_texture(descs.bounds, {}).handle;
     if (!sheets.bounds) return Reason::map_allocation_failed;
+    if (map.storage == FilterStorage::soft_sheets) {
+        const std::uint64_t bytes = ends_bytes(map.desc.width, gl::layer_count(map.desc));
+        sheets.ends = device_.create_buffer({map.desc.label + ", ends", bytes, gl::BufferUse::updated}, {}).handle;
+        if (!sheets.ends) return Reason::map_allocation_failed;
+    }
     for (std::int32_t layer = 0; layer < static_cast<std::int32_t>(gl::layer_count(map.desc)); ++layer) {
         const auto second = device_.create_target({descs.second.label, {}, {sheets.second, layer}});
         if (second) sheets.second_targets.push_back(second.handle);
@@ -142,6 +148,7 @@ void MapStore::release_sheets(SheetMap& sheets) const {
         for (const gl::TargetHandle target : *targets) device_.destroy(target);
     device_.destroy(sheets.second);
     device_.destroy(sheets.bounds);
+    device_.destroy(sheets.ends);
     sheets = {};
 }
 
@@ -150,7 +157,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
     made.desc = desc;
     made.storage = filter_row(demand.filter).storage;
     made.texture = device_.create_texture(desc, {}).handle;
-    const bool triangles = has_triangles(made.storage), sheets = made.storage == FilterStorage::sheets;
+    const bool triangles = has_triangles(made.storage), sheets = has_sheets(made.storage);
     gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;

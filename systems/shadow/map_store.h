@@ -28,6 +28,7 @@ struct MomentMap {
 /// Beside a depth map of FilterStorage::sheets (SheetDescs). What each texel shows is LightHistory::triangles.
 struct SheetMap {
     gl::TextureHandle second{}, bounds{};                          // {0}: there is none
+    gl::BufferHandle ends{};                                       // the same; FilterStorage::soft_sheets (sheet_ends.h)
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 

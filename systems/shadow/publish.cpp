@@ -73,6 +73,7 @@ void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const Shad
     out.sampler = out.plain.sampler;
     out.second = slot.second;
     out.bounds = slot.bounds;
+    out.ends = slot.ends;
     if (demand.asks_rays) return;  // by itself its map is good for no more
     const bool moments = filter.storage == FilterStorage::moments;
     if (moments && !slot.moments) return;  // they could not be made
@@ -128,12 +129,23 @@ void filter_record(const LightShadow& shadow, const FilterDemand& filter, const 
     record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
 
-/// What of the source shaders read: metres, or a sun's tangent. A sun that is seen from an eye gets a disk there, as
-/// wide as the sky's from the middle of the view's depth.
+/// What of the source shaders read: metres, or a sun's tangent.
+float source_size(LightKind kind, const FilterDemand& filter) {
+    return kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
+}
+
+/// A sun that is seen from an eye gets a disk there, as wide as the sky's from the middle of the view's depth.
 float source_size(LightKind kind, const FilterDemand& filter, const ShadowView& view) {
-    if (kind != LightKind::directional) return filter.source_radius_m;
-    if (view.projection == ViewProjection::orthographic) return filter.sun_radius_tan;
+    if (kind != LightKind::directional || view.projection == ViewProjection::orthographic)
+        return source_size(kind, filter);
     return filter.sun_radius_tan * static_cast<float>(0.5 * (view.near_m + view.far_m));
+}
+
+/// Whether the maps hold all casters as far away as they are, and around a lamp how far away those are that they do
+/// not.
+glm::vec4 source_record(const ShadowDemand& demand) {
+    const bool fitted = demand.near_m == 0.0 && demand.far_m == 0.0;
+    return {fitted ? 1.0f : 0.0f, static_cast<float>(demand.clear_m), 0.0f, 0.0f};
 }
 
 void bias_record(const LightShadow& shadow, LightingLight& out) {
@@ -247,7 +259,7 @@ namespace {
 /// Lights whose shadows are asked for by rays: with their maps, where they have any, for pixels of which those are not
 /// certain. A picture of another camera than those that maps are fitted to may show what is not in them.
 void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
-                  const ShadowFrame& frame, LightingInputs& inputs) {
+                  const ShadowFrame& frame, const ConsumerItem& consumer, LightingInputs& inputs) {
     for (std::size_t d = 0; d < frame.demands.size(); ++d) {
         const ShadowDemand& demand = frame.demands[d];
         if (!demand.asks_rays || demand.skip != Reason::none || frame.sets[d].skip != Reason::none || !rays.nodes)
@@ -261,7 +273,11 @@ void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const
                    .ray_masks = static_cast<bool>(rays.masks)};
         out.rays = rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
-        if (!out.row.sheets) out.map = out.second = out.bounds = {};
+        if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
+        // Also where it has no map.
+        const LightItem& light = scene.lights[demand.light];
+        filter_record(light.shadow, demand.filtering, consumer, out.record);
+        out.record.radiance.w = source_size(light.kind, demand.filtering);
         out.sampler = samplers.of(MapReading::depths);
     }
 }
@@ -269,7 +285,7 @@ void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const
 }  // namespace
 
 void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
-                    ShadowFrame& frame) {
+                    bool masked, ShadowFrame& frame) {
     const std::vector<ConsumerItem>& pictures = scene.pictures.empty() ? scene.consumers : scene.pictures;
     frame.inputs.resize(pictures.size());
     for (std::uint32_t c = 0; c < pictures.size(); ++c) {
@@ -304,6 +320,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             const LightItem& light = scene.lights[demand.light];
             LightingLight& out = inputs.lights[demand.light];
             set_lookup(demand, light_kind_row(light.kind), slot, samplers, out);
+            out.row.ray_masks = out.row.triangles && masked;
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.w |= 1 << view.layer;
@@ -314,10 +331,11 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             out.record.moment_sampling = {demand.moments.bleeding, demand.moments.footprint_texel,
                                           static_cast<float>(demand.moments.anisotropy), 0.0f};
             out.record.radiance.w = source_size(light.kind, demand.filtering, view);
+            if (slot.ends) out.record.moments = source_record(demand);
             out.record.bias.y = demand.cascade_blend;
             out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
         }
-        publish_rays(scene, samplers, rays, frame, inputs);
+        publish_rays(scene, samplers, rays, frame, consumer, inputs);
         sign_lookups(scene, frame, inputs);
     }
 }

@@ -44,8 +44,8 @@ float farthest_depth(const LightItem& light, const ConsumerItem& consumer);
 
 /// Stage 6: for each camera that draws, each light with its program row, record and textures. A light without a map is
 /// published unshadowed. Fills frame.inputs.
-/// Those that ask by rays get `rays`.
+/// Those that ask by rays get `rays`; `masked`: GpuScene::caster_masks() has something for those that read triangles.
 void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
-                    ShadowFrame& frame);
+                    bool masked, ShadowFrame& frame);
 
 }  // namespace gnomon::shadow

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "systems/shadow/demand.h"
+#include "systems/shadow/exact/clearance.h"
 #include "systems/shadow/exact/ray_load.h"
 #include "systems/shadow/explain.h"
 #include "systems/shadow/fit.h"
@@ -17,6 +18,7 @@ ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
       maps_(device),
       recorder_(device),
       sheets_(device),
+      ends_(device),
       moments_(device),
       rays_(device),
       history_(held_fits) {}
@@ -67,8 +69,16 @@ void ShadowSystem::provide_triangles(GpuScene& gpu) {
             frame_.sets[d].skip = Reason::buffer_failed;
 }
 
-/// The same of lights that ask by rays. What they ask is kept as long as there is one, seen or not.
-void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
+/// Whether the device had no room for what rays walk, and has none now: it is asked again from time to time.
+bool ShadowSystem::lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
+    const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
+                                 [](const ShadowDemand& d) { return d.skip == Reason::none && d.asks_rays; });
+    return rays_lack_ && any && !rays_.update(scene, gpu, list);
+}
+
+/// Lights that ask by rays are looked up once, or lit, in the frame that has no room for what those walk; give_rays_up()
+/// has it from the next on. What they ask is kept as long as there is one, seen or not. `updated`: in this frame.
+void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list) {
     bool any = false, asked = false;
     const auto asks = [&](std::size_t d) { return frame_.demands[d].asks_rays; };
     const auto asks_now = [&](std::size_t d) { return asks(d) && frame_.sets[d].skip == Reason::none; };
@@ -77,9 +87,12 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
         any = any || asks(d);
         asked = asked || asks_now(d);
     }
+    any = any || rays_lack_;
     if (!any) rays_.release();
     if (!any) sheets_.release();
-    if (!asked || rays_.update(scene, gpu, list)) return;
+    if (!any) ends_.release();
+    if (!asked || updated || rays_.update(scene, gpu, list)) return;
+    rays_lack_ = true;
     for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
         if (!asks_now(d)) continue;
         // A map that there is is looked up once: PlainLookup.
@@ -110,6 +123,8 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     }
     report.still = stands_;
     report.rays = rays_.report();
+    report.rays.sheet_bytes = sheets_.bytes();
+    report.rays.sheet_host_bytes = sheets_.host_bytes();
     if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
     explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
     budget_.report(report);
@@ -131,7 +146,10 @@ void ShadowSystem::stand_still() {
 void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report) {
     decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
-    limit_rays(scene, device_.info(), history_, most_rays_, frame_.demands, frame_.set_scratch.items);
+    const bool lacked = rays_lack_;
+    rays_lack_ = lacks_rays(scene, gpu, list);
+    if (rays_lack_) give_rays_up(scene, device_.info(), history_, frame_.demands);
+    limit_rays(scene, device_.info(), history_, most_rays_, frame_.demands, ray_askers_);
     budget_.apply(scene, history_, frame_.demands);
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none; });
@@ -140,10 +158,12 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
             if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
     select_sets(scene, frame_);
     dim_lights_.leave_out(scene, gpu, frame_);
+    frame_.shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
     fit_views(scene, history_, frame_);
+    count_quiet_frames(scene, history_, frame_);
     budget_.decide(scene, gpu, history_, maps_, frame_);
     provide_triangles(gpu);
-    provide_rays(scene, gpu, list);
+    provide_rays(scene, gpu, lacked && !rays_lack_, list);
     maps_.set_limit(budget_.limits().bytes);
     maps_.let_take_turns(budget_.limits().ns != BudgetLimits::kNone);
     maps_.assign_slots(scene, frame_);
@@ -153,10 +173,13 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     maps_.plan_draws(scene, gpu, frame_);
     recorder_.prepare(scene, gpu, frame_);
     sheets_.prepare(scene, gpu, frame_);
+    ends_.prepare(frame_);
+    measure_clearances(scene, gpu, frame_);
     moments_.prepare(frame_);
-    publish_lights(scene, samplers_, rays_.buffers(), frame_);
+    publish_lights(scene, samplers_, rays_.buffers(), static_cast<bool>(gpu.caster_masks()), frame_);
     recorder_.record(scene, gpu, frame_, list, report);
     sheets_.record(scene, gpu, frame_, list, report);
+    ends_.record(scene, frame_, list);
     moments_.record(scene, frame_, list);
 }
 

@@ -10,6 +10,8 @@
 #include "systems/shadow/cost_clock.h"
 #include "systems/shadow/dim_lights.h"
 #include "systems/shadow/draw_times.h"
+#include "systems/shadow/exact/ends_recorder.h"
+#include "systems/shadow/exact/ray_load.h"
 #include "systems/shadow/exact/sheet_recorder.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/moment_recorder.h"
@@ -60,12 +62,14 @@ private:
     bool samplers_ready();
     bool moment_sampler_ready(const MomentDemand& demand);
     void provide_triangles(GpuScene& gpu);
-    void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
+    bool lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
+    void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list);
 
     gl::Device& device_;
     MapStore maps_;
     DepthRecorder recorder_;
     SheetRecorder sheets_;
+    EndsRecorder ends_;
     MomentRecorder moments_;
     visibility::RayScene rays_;
     MapSamplers samplers_;
@@ -73,6 +77,8 @@ private:
     DimLights dim_lights_;
     BudgetStage budget_;
     std::uint64_t most_rays_ = 0;
+    std::vector<RayAsker> ray_askers_;
+    bool rays_lack_ = false;
     CostClock cost_clock_;
     ShadowFrame frame_;
     History history_;

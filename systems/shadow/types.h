@@ -47,6 +47,7 @@ struct ShadowDemand {
     std::uint32_t resolution_px = 0;   // edge of the map or of a cube face: the fit takes fewer than most_px where they
     std::uint32_t most_px = 0;         // keep the light's word (contract.h)
     std::uint32_t view_count = 0;      // layers of the map
+    std::uint32_t device_px = 0;       // the device's limit on that edge
     std::uint32_t most_views = 0;      // of a sun whose count of cascades is the fit's to choose; else 0
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
     bool perspective_sun = false;      // one view from an eye instead of cascades
@@ -58,8 +59,10 @@ struct ShadowDemand {
     bool asks_rays = false;            // FilterStorage::sheets: about pixels of which its map, if any, is not certain
     bool traced = false;               // and about all: it is to have no map
     bool gives_way = false;            // others' rays leave it none: it has another filter than its own
+    double usual_px = 0.0;             // the contract chose its filter, since maps of the usual one err by so much; else 0
     bool left_to_rays = false;         // its map is not worth drawing in this frame
     bool over_budget = false;          // a budget gives it less than it asks for
+    double clear_m = 0.0;              // of a lamp with a size: no caster that its maps do not hold whole comes nearer
     double weight = 0.0;               // of a budget: what its shadow means to the picture, 0 to 1
 };
 
@@ -163,6 +166,7 @@ struct ShadowSlot {
     gl::TargetHandle second_target{};  // this view's layer of it
     gl::TextureHandle bounds{};        // and where sheets end, and how far they depart from their depths
     gl::TargetHandle bounds_target{};
+    gl::BufferHandle ends{};           // FilterStorage::soft_sheets: what a source with a size asks of those; else {0}
     gl::TextureHandle moments{};       // FilterStorage::moments: what the depths become; else {0}
     gl::TargetHandle moment_target{};  // this view's layer of it
     gl::TextureHandle scratch{};       // between the two passes of its blur; {0} if there is one pass alone
@@ -255,7 +259,7 @@ struct ProgramRow {
     bool sheets = false;       // reads next depths and bounds: rays are for what those leave uncertain
     bool moments = false;      // reads a prefiltered map
     bool rays = false;         // asks the casters' triangles by rays, of surfaces that say where exactly they are
-    bool ray_masks = false;    // some of those are masked
+    bool ray_masks = false;    // some of those, or of `triangles`, are masked
     bool footprint = false;    // of which it takes what a pixel covers, by mipmaps or anisotropy
     bool operator==(const ProgramRow&) const = default;
 };
@@ -273,6 +277,7 @@ struct LightingLight {
     ProgramRow row;
     gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
     gl::TextureHandle second{}, bounds{};  // {0} unless row.sheets
+    gl::BufferHandle ends{};               // {0} unless they are of a source with a size
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
     PlainLookup plain;
@@ -312,6 +317,7 @@ struct SetScratch {
 struct ShadowFrame {
     std::vector<std::uint64_t> moving;          // which instances move, as CasterMotion::moving(); none: none
     std::vector<ShadowDemand> demands;          // one per light
+    bool shared_out = false;                    // within a budget: another filter waits for the next frame's shares
     std::vector<math::Frustum> seen;            // one per consumer: what it sees
     std::vector<PotentialSets> sets;            // one per demand
     std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances

@@ -32,19 +32,10 @@ struct RayTop {
 };
 static_assert(sizeof(RayTop) == 32);
 
-/// Matches RayMask in shaders/rays/alpha_mask.glsl: eight words of its buffer.
-struct RayMask {
-    float cutoff = 0.0f, alpha = 1.0f;
-    std::uint32_t texels = ~0u;  // word of the first, four to a word; ~0: alpha alone decides
-    std::uint32_t width = 0, height = 0;
-    std::uint32_t wrap_u = 0, wrap_v = 0;  // assets::TextureWrap
-    std::uint32_t linear = 0;
-};
-static_assert(sizeof(RayMask) == 32);
-
-/// What a light pass that asks by rays binds, in this order from storage binding 3 on.
+/// What a light pass that asks by rays binds: as texels on units 10 and 11, the others as storage from binding 5 on.
 struct RayBuffers {
-    gl::BufferHandle nodes{}, triangles{}, top{}, instances{};
+    gl::BufferHandle nodes{}, triangles{};
+    gl::BufferHandle top{}, instances{};
     gl::BufferHandle masks{};  // {0}: nothing that casts is masked
     bool operator==(const RayBuffers&) const = default;
 };

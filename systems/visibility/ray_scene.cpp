@@ -20,9 +20,9 @@ std::uint64_t pose_version(const SceneSnapshot& scene, std::uint32_t mesh) {
 
 template <class T>
 gl::BufferHandle filled(gl::Device& device, const char* label, const std::vector<T>& values) {
-    return device
-        .create_buffer({label, values.size() * sizeof(T), gl::BufferUse::updated}, std::as_bytes(std::span(values)))
-        .handle;
+    static_assert(sizeof(T) % gl::kTexelBytes == 0);
+    const gl::BufferDesc desc{label, values.size() * sizeof(T), gl::BufferUse::updated, true};
+    return device.create_buffer(desc, std::as_bytes(std::span(values))).handle;
 }
 
 }  // namespace
@@ -70,8 +70,15 @@ bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::Comma
 /// A mesh's triangles by slot, as shaders read them.
 void RayScene::take_triangles(const GpuScene& gpu, std::uint32_t mesh) {
     const std::uint32_t first = gpu.mesh(mesh).first_index / 3;
-    for (const rays::BvhTriangle& triangle : held_->trees.tree(mesh)->triangles())
-        held_->scratch.push_back(held_->masks.placed(triangle, mesh, first));
+    for (rays::BvhTriangle triangle : held_->trees.tree(mesh)->triangles()) {
+        if (triangle.mask != rays::kOpaque) {
+            const RayMasks::Place place = held_->masks.place(mesh, triangle.triangle, triangle.mask);
+            triangle.mask = place.mask;
+            triangle.spare = place.uvs;
+        }
+        triangle.triangle += first;
+        held_->scratch.push_back(triangle);
+    }
 }
 
 /// All meshes' trees, one after the other.

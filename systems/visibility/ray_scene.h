@@ -5,13 +5,13 @@
 
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
+#include "systems/extract/ray_masks.h"
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/report.h"
 #include "systems/retry.h"
 #include "systems/visibility/caster_trees.h"
 #include "systems/visibility/instance_tree.h"
-#include "systems/visibility/ray_masks.h"
 #include "systems/visibility/ray_records.h"
 
 namespace gnomon::visibility {

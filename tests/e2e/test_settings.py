@@ -71,9 +71,18 @@ class Settings(GameTest):
                              ("skipped", "shadows_off", 0, 0))
 
     def test_a_finer_error_bound_never_asks_for_fewer_texels(self):
-        fine, coarse = (self.lights_of("--set", "max_error_px=%s" % e) for e in ("0.25", "16"))
+        fine, coarse = (self.lights_of("--set", "filter=triangles", "--set", "max_error_px=%s" % e)
+                        for e in ("0.25", "16"))
         for name in fine:
             self.assertGreaterEqual(fine[name]["texels"], coarse[name]["texels"], name)
+
+    def test_a_word_that_no_usual_map_keeps_is_kept_by_another_filter(self):
+        for name, light in self.lights_of("--set", "max_error_px=0.25").items():
+            self.assertEqual((light["filter"]["name"], light["filter"]["reason"]), ("exact", "map_too_coarse"), name)
+            self.assertGreater(light["filter"]["usual_error_px"], 1.25, name)
+            self.assertTrue(light["keeps_max_error"], name)
+        for name, light in self.lights_of().items():
+            self.assertEqual((light["filter"]["name"], light["filter"]["reason"]), ("triangles", "none"), name)
 
     def test_a_constant_bias_of_nothing_shows_acne_that_the_automatic_one_does_not(self):
         args = ("--set", "filter=hard", "--set", "resolution=256")

@@ -140,11 +140,16 @@ TEST_F(DeviceState, ListsThatDoNotCloseAreClosedAndReported) {
 }
 
 TEST_F(DeviceState, CommandsOnUnknownObjectsAreLeftOutAndTheRestIsDrawn) {
+    const auto plain = keep(device().create_buffer({.label = "plain", .size = 16}, {}));
+    const auto texels = keep(device().create_buffer({.label = "texels", .size = 16, .texels = true}, {}));
     const auto program = full_screen("result = vec4(1.0);");
     const std::vector<gl::Command> bad = {gl::BindTexture{0, {999}, {}},
                                           gl::BindTexture{4000, {}, {}},
                                           gl::BindUniforms{0, {999}, 0, 16},
                                           gl::BindStorage{4000, {}},
+                                          gl::BindTexels{0, {999}},
+                                          gl::BindTexels{0, plain},
+                                          gl::BindTexels{4000, texels},
                                           gl::GenerateMips{{999}},
                                           gl::SetScissor{{0, 0, -1, 4}},
                                           gl::BeginPass{.target = {999}},

@@ -3,5 +3,6 @@ if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_sheets LABEL gl SOURCES
     sheets_gl_test.cpp
     sheets_of_scenes_gl_test.cpp
+    soft_sheets_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_oracle)
 endif()

@@ -6,10 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "components/light.h"
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
 
 namespace gnomon {
+
+/// In tests' names and traces.
+inline const char* kind_name(LightKind kind) {
+    return kind == LightKind::directional ? "sun" : kind == LightKind::spot ? "spot" : "point";
+}
 
 /// A headless debug context with the OpenGL device, new for each test. TearDown fails on any driver message of
 /// medium or higher severity that was not taken, and on objects left alive.

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "bench/edge_bounds.h"
 #include "tests/gl/hard_case_fixture.h"
+#include "tests/oracle/edge_exceptions.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"
 
@@ -89,17 +91,28 @@ protected:
             scored += m.scored;
             RecordProperty(light.name + "_wrong", std::to_string(m.fraction(m.wrong)));
             EXPECT_LE(m.fraction(m.acne), most_acne_and_leak) << m.acne << " of " << m.scored;
-            if (how == OnGpu::too_thin) continue;  // what is lost is a leak from end to end
+            if (how == OnGpu::too_thin) {  // what is lost is a leak from end to end
+                expect_named(l, truth, traced, m);
+                continue;
+            }
             EXPECT_LE(m.fraction(m.leak), most_acne_and_leak) << m.leak << " of " << m.scored;
             EXPECT_LE(m.fraction(m.wrong), kMostWrong) << m.wrong << " of " << m.scored;
         }
         EXPECT_GE(scored, kLeastScored);
     }
+    /// What is lost has its reason, and no other.
+    void expect_named(std::uint32_t l, const Truth& truth, const oracle::LightTruth& traced, const oracle::Metrics& m) {
+        const bench::EdgeBounds bounds(scene(), device().info(), frame().held_fits());
+        const oracle::EdgeExceptions beyond = oracle::edge_exceptions(
+            truth.tracer, truth.hits, scene().consumers.front(), scene().lights[l], traced, m.edge,
+            [&](const glm::dvec3& point, const glm::dvec3& normal) { return bounds.at(l, point, normal); });
+        EXPECT_GT(beyond.sub_texel_caster, 0u);
+        EXPECT_EQ(beyond.unexplained, 0u);
+    }
 };
 
 TEST_P(HardCasesGl, ThePictureIsTheTruth) {
     const auto& [row, fit] = GetParam();
-    if (row.waits_for) std::printf("skipped: %s\n", row.waits_for);
     World world;
     world.settings = {std::string("fit=") + fit};
     row.build(world);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 #include <random>
 
 #include "tests/gl/traced_frame_fixture.h"
@@ -58,6 +59,17 @@ protected:
         place(add_mesh(game::make_card(glm::dvec3(0.0), {0.0, 0.0, kSide_m}, {kSide_m, 0.0, 0.0}), 0), {}, false);
         look_down(0.45 * kSide_m);
     }
+    /// Share of pixels that are wrong, where the card's shadow may be.
+    double wrong_share() {
+        const Judged judged = judge();
+        double wrong = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < judged.truth.size(); ++i) {
+            if (judged.measured[i] < 0.0f) continue;
+            count += 1.0;
+            wrong += std::abs(judged.measured[i] - judged.truth[i]) > 0.5f ? 1.0 : 0.0;
+        }
+        return wrong / count;
+    }
     /// Shares of dark pixels within the card's shadow, borders left out.
     struct Shares {
         double drawn = 0.0, truth = 0.0;
@@ -101,6 +113,18 @@ TEST_P(MaskedCasters, CastAsMuchShadowThroughCoarseMapsAsThroughFineOnes) {
         const double three_errors = 3.0 * std::sqrt(shares.truth * (1.0 - shares.truth) / samples);
         EXPECT_NEAR(shares.drawn, shares.truth, std::max(kShareError, three_errors)) << resolution_px;
     }
+}
+
+TEST_P(MaskedCasters, AreCutWhereTheirTextureIsNotWhereTexelsAre) {
+    make_canopy();
+    const ecs::Entity lamp = add_light_of(GetParam(), {0.4, 9.0, 0.3}, {.resolution_px = 2048, .cascades = 1});
+    draw();
+    const double by_triangles = wrong_share();
+    world.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::hard; });
+    draw();
+    const double by_texels = wrong_share();
+    std::cout << "wrong: " << by_triangles << ", by texels " << by_texels << "\n";
+    EXPECT_LT(by_triangles, by_texels / 10.0);
 }
 
 TEST_F(MaskedFrames, WouldLoseTheirLeavesByAverages) {

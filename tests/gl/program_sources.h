@@ -60,6 +60,11 @@ inline std::vector<shadow::ProgramRow> all_rows() {
         }
     const std::size_t plain = rows.size();
     for (std::size_t i = 0; i < plain; ++i)
+        if (rows[i].triangles) {
+            rows.push_back(rows[i]);
+            rows.back().ray_masks = true;
+        }
+    for (std::size_t i = 0; i < plain; ++i)
         if (rows[i].moments) {
             rows.push_back(rows[i]);
             rows.back().footprint = true;
@@ -146,6 +151,11 @@ inline std::vector<gl::ProgramDesc> all_programs() {
     for (const char* file : {"shadow/depth_bins.comp", "lighting/exposure.comp"})
         if (const auto compute = gl::expand_shader(shader_files(), file, {}))
             programs.push_back({.label = file, .compute = compute.value()});
+    for (const char* define : {"", "CUBE 1", "OF_LEVEL 1"}) {
+        const std::vector<std::string> defines(*define ? 1 : 0, define);
+        if (const auto compute = gl::expand_shader(shader_files(), "shadow/exact/ends.comp", defines))
+            programs.push_back({.label = std::string("ends ") + define, .compute = compute.value()});
+    }
     const auto add_view = [&](std::string_view vertex_file, std::string_view fragment_file) {
         const auto vertex = gl::expand_shader(shader_files(), vertex_file, {});
         const auto fragment = gl::expand_shader(shader_files(), fragment_file, {});

@@ -10,6 +10,7 @@
 #include "systems/debug/shown_scale.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/lighting/lighting_system.h"
+#include "systems/shadow/exact/ends_recorder.h"
 #include "systems/visibility/ray_records.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/program_sources.h"
@@ -93,6 +94,7 @@ std::vector<Block> expected_blocks() {
     using rays::BvhTriangle;
     using shadow::CameraRecord;
     using shadow::DepthViewRecord;
+    using shadow::EndsRecord;
     using shadow::MomentRecord;
     using visibility::RayInstance;
     using visibility::RayTop;
@@ -128,6 +130,16 @@ std::vector<Block> expected_blocks() {
           {"MomentBlock.axis_v", offsetof(MomentRecord, axis_v)},
           {"MomentBlock.axis_back", offsetof(MomentRecord, axis_back)},
           {"MomentBlock.weights[0]", offsetof(MomentRecord, weights)}}},
+        {GL_UNIFORM_BLOCK,
+         "EndsBlock",
+         0,
+         sizeof(EndsRecord),
+         {{"EndsBlock.axis_u", offsetof(EndsRecord, axis_u)},
+          {"EndsBlock.axis_v", offsetof(EndsRecord, axis_v)},
+          {"EndsBlock.axis_back", offsetof(EndsRecord, axis_back)},
+          {"EndsBlock.from", offsetof(EndsRecord, from)},
+          {"EndsBlock.to", offsetof(EndsRecord, to)},
+          {"EndsBlock.numbers", offsetof(EndsRecord, numbers)}}},
         {GL_UNIFORM_BLOCK,
          "MaterialBlock",
          2,
@@ -171,24 +183,6 @@ std::vector<Block> expected_blocks() {
           {"caster_triangles[0].c", offsetof(CasterTriangle, corners[2].position_ms)},
           {"caster_triangles[0].across_ca", offsetof(CasterTriangle, corners[2].across)}}},
         {GL_SHADER_STORAGE_BLOCK,
-         "RayNodeBuffer",
-         3,
-         sizeof(BvhNode),
-         {{"ray_nodes[0].low", offsetof(BvhNode, min)},
-          {"ray_nodes[0].skip", offsetof(BvhNode, skip)},
-          {"ray_nodes[0].high", offsetof(BvhNode, max)},
-          {"ray_nodes[0].leaf", offsetof(BvhNode, leaf)}}},
-        {GL_SHADER_STORAGE_BLOCK,
-         "RayTriangleBuffer",
-         4,
-         sizeof(BvhTriangle),
-         {{"ray_triangles[0].a", offsetof(BvhTriangle, a)},
-          {"ray_triangles[0].triangle", offsetof(BvhTriangle, triangle)},
-          {"ray_triangles[0].b", offsetof(BvhTriangle, b)},
-          {"ray_triangles[0].mask", offsetof(BvhTriangle, mask)},
-          {"ray_triangles[0].c", offsetof(BvhTriangle, c)},
-          {"ray_triangles[0].uvs", offsetof(BvhTriangle, spare)}}},
-        {GL_SHADER_STORAGE_BLOCK,
          "RayTopBuffer",
          5,
          sizeof(BvhNode),
@@ -215,8 +209,11 @@ std::vector<Block> expected_blocks() {
         {GL_SHADER_STORAGE_BLOCK,
          "RayListBuffer",
          1,
-         sizeof(std::uint32_t),
-         {{"ray_count", 0}, {"ray_pixels[0]", sizeof(std::uint32_t)}}},
+         2 * sizeof(std::uint32_t),
+         {{"ray_count", 0},
+          {"listed_rays[0].pixel", sizeof(std::uint32_t)},
+          {"listed_rays[0].reach", 2 * sizeof(std::uint32_t)}}},
+        {GL_SHADER_STORAGE_BLOCK, "SheetEndBuffer", 2, shadow::ends_bytes(1, 1), {{"sheet_ends[0]", 0}}},
         {GL_SHADER_STORAGE_BLOCK, "RayMaskBuffer", 7, sizeof(std::uint32_t), {{"ray_masks[0]", 0}}},
         {GL_SHADER_STORAGE_BLOCK,
          "LineBuffer",

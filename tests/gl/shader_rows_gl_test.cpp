@@ -18,13 +18,16 @@ TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     };
     const auto prefiltered =
         static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
+    const auto by_triangles = static_cast<std::size_t>(
+        std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_triangles));
     constexpr std::size_t kMaskedOrNot = 2;
     // By rays alone: as every row. With sheets: what is found is read by one program of a kind to an output; blended
     // surfaces, verdicts and rays have their own, masked or not.
     const std::size_t by_rays = kinds * kMaskedOrNot * (shadow::filter_table().size() - filters);
     const std::size_t with_sheets = 2 * kinds + 3 * by_rays;
-    constexpr std::size_t kOutputs = 3, kCommon = 5, kDepth = 4, kCompute = 2, kBlur = 1, kSources = 3;
-    const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + by_rays;  // those by a pixel's footprint, too
+    constexpr std::size_t kOutputs = 3, kCommon = 5, kDepth = 4, kCompute = 5, kBlur = 1, kSources = 3;
+    // Those by a pixel's footprint, too, and those of masked casters.
+    const std::size_t rows = kinds + rows_of(filters) + rows_of(prefiltered) + rows_of(by_triangles) + by_rays;
     std::size_t views_programs = 1;  // lines
     for (const debug::ViewRow& view : debug::view_table()) {
         if (view.medium == debug::ViewMedium::flat) ++views_programs;

@@ -2,42 +2,29 @@
 #include <glm/geometric.hpp>
 
 #include "shaders/embedded.h"
+#include "systems/shadow/exact/clearance.h"
+#include "systems/shadow/exact/ends_recorder.h"
 #include "systems/shadow/exact/sheet_recorder.h"
 #include "systems/shadow/filter_table.h"
-#include "systems/shadow/kinds/orthographic_view.h"
-#include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/publish.h"
 #include "systems/shadow/record.h"
 #include "tests/gl/gl_test_context.h"
-#include "tests/gl/sheet_worlds.h"
 
 namespace gnomon {
 
 enum class Verdict : std::uint8_t { lit, dark, uncertain };
-
-/// All faces around a lamp.
-inline std::vector<shadow::ShadowView> cube_views(const LightItem& light, const shadow::PerspectiveRange& range,
-                                                  std::uint32_t size_px) {
-    std::vector<shadow::ShadowView> views;
-    const glm::dmat3 turn = glm::mat3_cast(shadow::cube_turn());
-    for (std::uint32_t face = 0; face < 6; ++face) {
-        const shadow::CubeFace& axes = shadow::cube_face(face);
-        const glm::dmat3 turned = turn * glm::dmat3(axes.axis_u, axes.axis_v, axes.axis_back);
-        views.push_back(
-            shadow::perspective_view(light.position_ws_m, turned, shadow::TangentRectangle{}, range, size_px));
-        views.back().projection = shadow::ViewProjection::cube_face;
-        views.back().layer = face;
-    }
-    return views;
-}
 
 /// Sheets of views put together by hand, and what they say of places, by the shaders' own text.
 class SheetsTest : public GlTest {
 protected:
     struct Maps {
         gl::TextureHandle depths, triangles, second, bounds;
+        gl::BufferHandle ends;
     };
+    /// Whom to ask: as the light's middle sees it, or all of its source, or the latter without looking beside the
+    /// middle; or how far toward the middle anything may stand.
+    enum class Ask : std::uint8_t { middle, source, source_without_reach, reach, count };
     /// One light with its views, before and after its maps are drawn.
     struct Drawn {
         shadow::ShadowFrame frame;
@@ -46,7 +33,7 @@ protected:
 
     /// Draws all casters of `scene` into `views`, which are of its only light.
     Drawn draw(const SceneSnapshot& scene, const assets::MeshLibrary& library, std::vector<shadow::ShadowView> views,
-               std::uint32_t size_px, bool margins) {
+               std::uint32_t size_px, bool margins, Ask ask = Ask::middle) {
         auto made = GpuScene::create(device(), library);
         EXPECT_TRUE(made);
         GpuScene gpu = std::move(made).value();
@@ -58,7 +45,7 @@ protected:
         shadow::ShadowFrame& frame = drawn.frame;
         const LightItem& light = scene.lights.at(0);
         shadow::ShadowDemand demand;
-        demand.filter = ShadowFilter::triangles;
+        demand.filter = ask == Ask::middle ? ShadowFilter::triangles : ShadowFilter::exact_soft;
         demand.filtering = shadow::filter_demand(shadow::filter_row(demand.filter), light.shadow, size_px);
         demand.resolution_px = demand.most_px = size_px;
         demand.view_count = static_cast<std::uint32_t>(views.size());
@@ -83,7 +70,12 @@ protected:
         };
         drawn.maps = {
             texture("depths", gl::Format::d32f, cube, layers), texture("triangles", gl::Format::rg32ui, false, 1),
-            texture("second", gl::Format::d32f, false, layers), texture("bounds", gl::Format::rg32f, false, layers)};
+            texture("second", gl::Format::d32f, false, layers), texture("bounds", gl::Format::rg32f, false, layers), {}};
+        if (ask != Ask::middle)
+            drawn.maps.ends =
+                device()
+                    .create_buffer({.label = "ends", .size = shadow::ends_bytes(size_px, layers)}, {})
+                    .handle;
         for (std::uint32_t v = 0; v < layers; ++v) {
             shadow::ShadowView& view = frame.views[v];
             view.casters = {0, static_cast<std::uint32_t>(frame.view_caster_items.size())};
@@ -94,6 +86,7 @@ protected:
             slot.triangles = drawn.maps.triangles;
             slot.second = drawn.maps.second;
             slot.bounds = drawn.maps.bounds;
+            slot.ends = drawn.maps.ends;
             slot.target =
                 device().create_target({"first", {{drawn.maps.triangles, 0}}, {drawn.maps.depths, layer}}).handle;
             slot.second_target = device().create_target({"second", {}, {drawn.maps.second, layer}}).handle;
@@ -103,14 +96,18 @@ protected:
         }
         shadow::DepthRecorder depths(device());
         shadow::SheetRecorder sheets(device(), margins);
+        shadow::EndsRecorder ends(device(), margins);
         FrameReport report;
         report.lights.resize(1);
         depths.prepare(scene, gpu, frame);
         sheets.prepare(scene, gpu, frame);
+        ends.prepare(frame);
+        shadow::measure_clearances(scene, gpu, frame);
         EXPECT_EQ(frame.sets[0].skip, Reason::none);
-        shadow::publish_lights(scene, {}, {}, frame);
+        shadow::publish_lights(scene, {}, {}, false, frame);
         depths.record(scene, gpu, frame, list, report);
         sheets.record(scene, gpu, frame, list, report);
+        ends.record(scene, frame, list);
         run(list);
         return drawn;
     }
@@ -122,11 +119,27 @@ protected:
         const Maps& maps = drawn.maps;
         for (const gl::TextureHandle map : {maps.depths, maps.triangles, maps.second, maps.bounds})
             device().destroy(map);
+        device().destroy(maps.ends);
     }
 
     /// Of places relative to the scene's first consumer, each with how far off it may be.
     std::vector<Verdict> verdicts(const Drawn& drawn, LightKind kind, const std::vector<glm::vec4>& places_ca,
-                                  bool receivers_cast, bool margins) {
+                                  bool receivers_cast, bool margins, Ask ask = Ask::middle) {
+        std::vector<Verdict> verdicts;
+        for (const float value : asked(drawn, kind, places_ca, receivers_cast, margins, ask))
+            verdicts.push_back(static_cast<Verdict>(static_cast<int>(value)));
+        return verdicts;
+    }
+
+    /// sheet_reach() of such places.
+    std::vector<float> reaches(const Drawn& drawn, LightKind kind, const std::vector<glm::vec4>& places_ca,
+                               bool margins) {
+        return asked(drawn, kind, places_ca, true, margins, Ask::reach);
+    }
+
+private:
+    std::vector<float> asked(const Drawn& drawn, LightKind kind, const std::vector<glm::vec4>& places_ca,
+                             bool receivers_cast, bool margins, Ask ask) {
         constexpr std::uint32_t kRow = 256;
         const auto rows = static_cast<std::uint32_t>((places_ca.size() + kRow - 1) / kRow);
         std::vector<glm::vec4> padded = places_ca;
@@ -149,53 +162,59 @@ protected:
         gl::CommandList list;
         list.add(gl::BeginPass{.target = target,
                                .viewport = {0, 0, static_cast<std::int32_t>(kRow), static_cast<std::int32_t>(rows)}});
-        list.add(gl::SetPipeline{{.program = verdict_program(kind, receivers_cast, margins)}});
+        list.add(gl::SetPipeline{{.program = verdict_program(kind, receivers_cast, margins, ask)}});
         list.add(gl::BindUniforms{1, block, 0, sizeof record});
         list.add(gl::BindStorage{9, buffer});
         list.add(gl::BindTexture{4, drawn.maps.depths, {}});
         list.add(gl::BindTexture{7, drawn.maps.second, {}});
         list.add(gl::BindTexture{8, drawn.maps.bounds, {}});
+        if (drawn.maps.ends) list.add(gl::BindStorage{2, drawn.maps.ends});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
         run(list);
-        const auto values = read<float>(out, padded.size());
+        auto values = read<float>(out, padded.size());
         device().destroy(target);
         device().destroy(out);
         device().destroy(block);
         device().destroy(buffer);
-        std::vector<Verdict> verdicts;
-        for (std::size_t i = 0; i < places_ca.size(); ++i)
-            verdicts.push_back(static_cast<Verdict>(static_cast<int>(values[i])));
-        return verdicts;
+        values.resize(places_ca.size());
+        return values;
     }
 
-private:
-    gl::ProgramHandle verdict_program(LightKind kind, bool receivers_cast, bool margins) {
-        gl::ProgramHandle& program = programs_[static_cast<std::size_t>(kind)][receivers_cast ? 1 : 0][margins ? 1 : 0];
+    static bool is_of_source(Ask ask) { return ask == Ask::source || ask == Ask::source_without_reach; }
+
+    gl::ProgramHandle verdict_program(LightKind kind, bool receivers_cast, bool margins, Ask ask) {
+        gl::ProgramHandle& program = programs_[static_cast<std::size_t>(kind)][receivers_cast ? 1 : 0][margins ? 1 : 0]
+                                              [static_cast<std::size_t>(ask)];
         if (program) return program;
         const auto& row = shadow::light_kind_row(kind);
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
         const std::string text =
             "#include \"" + std::string(row.file) +
-            "\"\n#include \"shadow/exact/verdict.glsl\"\n"
+            "\"\n#include \"shadow/exact/verdict.glsl\"\n" +
+            (is_of_source(ask) ? "#include \"shadow/exact/soft_verdict.glsl\"\n" : "") +
             "layout(std430, binding = 9) readonly buffer Places { vec4 places[]; };\n"
             "layout(location = 0) out float verdict;\n"
             "void main() {\n"
             "    vec4 place = places[int(gl_FragCoord.y) * 256 + int(gl_FragCoord.x)];\n"
             "    ShadowPoint point = shadow_point(0, place.xyz, vec3(0.0, 1.0, 0.0), place.w, 0.0);\n"
-            "    verdict = float(sheet_verdict(point, place.xyz, place.w, " +
-            (receivers_cast ? "true" : "false") + "));\n}\n";
+            "    verdict = float(" +
+            (ask == Ask::reach ? "sheet_reach(point, place.xyz, place.w"
+                               : std::string(is_of_source(ask) ? "soft" : "sheet") +
+                                     "_verdict(point, place.xyz, place.w, " + (receivers_cast ? "true" : "false")) +
+            "));\n}\n";
         files.push_back({"verdict.frag", text});
         std::vector<std::string> defines{"SHADOWED 1", "SHADOW_DEPTHS 1", "SHADOW_REACH_TEXEL 0.0",
                                          std::string(row.define) + " 1"};
         if (!margins) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
+        if (ask == Ask::source_without_reach) defines.emplace_back("SHEETS_WITHOUT_REACH 1");
         const auto vertex = gl::expand_shader(files, "shared/fullscreen.vert", defines);
         const auto fragment = gl::expand_shader(files, "verdict.frag", defines);
         EXPECT_TRUE(vertex && fragment);
         if (!vertex || !fragment) return {};
         return program = keep(device().create_program({"verdict", vertex.value(), fragment.value()}));
     }
-    gl::ProgramHandle programs_[3][2][2]{};
+    gl::ProgramHandle programs_[3][2][2][static_cast<std::size_t>(Ask::count)]{};
 };
 
 }  // namespace gnomon

@@ -8,6 +8,7 @@
 #include "sample_game/spawn.h"
 #include "systems/extract/extract.h"
 #include "systems/transform/transform_system.h"
+#include "tests/gl/sheet_views.h"
 #include "tests/gl/sheets_fixture.h"
 #include "tests/oracle/reference_tracer.h"
 #include "tests/source_paths.h"
@@ -100,7 +101,7 @@ private:
         if (light.kind == LightKind::spot)
             return {shadow::perspective_view(light.position_ws_m, light.rotation_ws, shadow::TangentRectangle{}, range,
                                              size_px)};
-        return cube_views(light, range, size_px);
+        return test::cube_views(light, range, size_px);
     }
 
     /// Percent of the scored pixels.

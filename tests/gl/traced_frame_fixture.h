@@ -36,8 +36,4 @@ protected:
     Judged judge(std::uint32_t light = 0) { return judge(light, frame().snapshot()); }
 };
 
-inline const char* kind_name(LightKind kind) {
-    return kind == LightKind::directional ? "sun" : kind == LightKind::spot ? "spot" : "point";
-}
-
 }  // namespace gnomon

@@ -20,6 +20,7 @@ endif()
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_exact LABEL gl SOURCES
     exact_scenes_gl_test.cpp
+    exact_soft_gl_test.cpp
     exact_worlds_gl_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()

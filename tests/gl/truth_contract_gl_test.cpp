@@ -74,6 +74,33 @@ TEST_F(TruthContract, IsKeptAtEveryEdgeOfEveryLightThatSaysSo) {
     }
 }
 
+/// Where no map of the usual filter keeps it, another filter does: every light then has its word.
+TEST_F(TruthContract, IsKeptByEveryLightWhoseFilterIsTheContractsToChoose) {
+    std::size_t chosen = 0;
+    Kept named, kept;
+    for (const char* wish_px : {"0.5", "1", "3"})
+        for (const char* camera : {"main", "low"}) {
+            SCOPED_TRACE(std::string(wish_px) + " px, " + camera);
+            bench::StageOptions options = asking_for(wish_px, "triangles");
+            options.camera = camera;
+            const auto stage = open(options);
+            ASSERT_TRUE(stage);
+            stage->run_frame();
+            for (const LightReport& light : stage->frame().report().lights)
+                named.broken += !light.keeps_max_error && light.views > 0;
+            options.settings[1] = "filter=automatic";
+            const bench::Accuracy accuracy = measure(options);
+            expect_kept(accuracy, kept);
+            for (const bench::LightAccuracy& light : accuracy.lights)
+                chosen += light.report.filter.reason == Reason::map_too_coarse;
+        }
+    print("automatic", kept);
+    EXPECT_EQ(kept.broken, 0u);
+    EXPECT_GE(chosen, 6u);
+    EXPECT_EQ(chosen, named.broken) << "and only those that would have broken it";
+    EXPECT_GT(kept.places, 5000u);
+}
+
 TEST_F(TruthContract, IsKeptInRandomLevels) {
     const std::uint64_t seed = print_seed();
     Kept kept;

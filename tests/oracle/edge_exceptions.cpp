@@ -1,8 +1,12 @@
 #include "tests/oracle/edge_exceptions.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
+
+#include "tests/oracle/parallel_rows.h"
 
 namespace gnomon::oracle {
 namespace {
@@ -23,11 +27,29 @@ struct Footprint {
     }
 };
 
+/// Answers to a fixed number of questions, each found when it is first asked for; by any number of threads.
+class Answers {
+public:
+    explicit Answers(std::size_t count) : known_(count) {}
+    template <class Find>
+    bool get(std::size_t question, const Find& find) {
+        constexpr std::uint8_t kUnknown = 0, kNo = 1, kYes = 2;
+        std::atomic<std::uint8_t>& known = known_[question];
+        std::uint8_t answer = known.load(std::memory_order_relaxed);
+        if (answer == kUnknown) known.store(answer = find() ? kYes : kNo, std::memory_order_relaxed);
+        return answer == kYes;
+    }
+
+private:
+    std::vector<std::atomic<std::uint8_t>> known_;
+};
+
+/// Places lie close together, and so do the steps of a search from them: what it asks of pixels is found once for each.
 class Judge {
 public:
     Judge(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer, const LightItem& light,
           const LightTruth& truth, const TexelAt& texel_at)
-        : tracer_(tracer), hits_(hits), consumer_(consumer), light_(light), truth_(truth), texel_at_(texel_at) {}
+        : tracer_(tracer), hits_(hits), consumer_(consumer), light_(light), truth_(truth), texel_at_(texel_at), answers_(kQuestions * truth.scored.size()) {}
 
     double bound_px(const EdgeDisplacement::Place& place) const {
         const auto at = [&](std::size_t i) { return texel_at_(hits_.position_rel_m[i], hits_.normal_ws[i]).error_px; };
@@ -68,7 +90,15 @@ private:
         return sure > 0.5;
     }
 
+    static constexpr std::size_t kQuestions = 3;  // of a pixel: whether it is certain, all dark, all lit
     bool is_certain(std::size_t pixel) const {
+        return answers_.get(kQuestions * pixel, [&] { return find_certain(pixel); });
+    }
+    bool is_whole(std::size_t pixel, bool dark) const {
+        return answers_.get(kQuestions * pixel + (dark ? 1 : 2), [&] { return find_whole(pixel, dark); });
+    }
+
+    bool find_certain(std::size_t pixel) const {
         if (truth_.ambiguous[pixel]) return false;
         const glm::dvec2 centre(pixel % hits_.size_px.x, pixel / hits_.size_px.x);
         for (const double x : {-kRasterSnap, kRasterSnap})
@@ -77,7 +107,7 @@ private:
         return true;
     }
 
-    bool is_whole(std::size_t pixel, bool dark) const {
+    bool find_whole(std::size_t pixel, bool dark) const {
         if (!truth_.scored[pixel]) return false;
         const glm::dvec3 &middle = hits_.position_rel_m[pixel], &n = hits_.normal_ws[pixel];
         const TexelThere texel = texel_at_(middle, n);
@@ -105,6 +135,7 @@ private:
     const LightItem& light_;
     const LightTruth& truth_;
     const TexelAt& texel_at_;
+    mutable Answers answers_;
 };
 
 }  // namespace
@@ -113,13 +144,22 @@ EdgeExceptions edge_exceptions(const ReferenceTracer& tracer, const PrimaryHits&
                                const LightItem& light, const LightTruth& truth, const EdgeDisplacement& edge,
                                const TexelAt& texel_at) {
     const Judge judge(tracer, hits, consumer, light, truth, texel_at);
-    EdgeExceptions exceptions;
-    for (std::size_t i = 0; i < edge.each.size(); ++i) {
+    struct Verdict {
+        bool beyond = false;
+        Judge::Cause cause = Judge::Cause::none;
+    };
+    std::vector<Verdict> verdicts(edge.each.size());
+    parallel_rows(static_cast<std::uint32_t>(verdicts.size()), 0, [&](std::uint32_t i) {
         const EdgeDisplacement::Place& place = edge.each[i];
         const double bound_px = judge.bound_px(place);
-        const bool beyond = place.off_px > bound_px, sampled = i % kSampleEvery == 0;
+        verdicts[i].beyond = place.off_px > bound_px;
+        if (verdicts[i].beyond || i % kSampleEvery == 0) verdicts[i].cause = judge.cause(place, bound_px);
+    });
+    EdgeExceptions exceptions;
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+        const auto& [beyond, cause] = verdicts[i];
+        const bool sampled = i % kSampleEvery == 0;
         if (!beyond && !sampled) continue;
-        const Judge::Cause cause = judge.cause(place, bound_px);
         if (beyond && cause == Judge::Cause::none) exceptions.unexplained_places.push_back(i);
         if (beyond) {
             ++(cause == Judge::Cause::none              ? exceptions.unexplained

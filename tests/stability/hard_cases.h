@@ -11,7 +11,7 @@ namespace gnomon::hard {
 enum class OnGpu {
     no,        // nothing to see, or seen by the check alone
     right,     // few wrong pixels, and none away from an edge
-    too_thin,  // what casts may be lost, but nothing else is wrong
+    too_thin,  // what casts may be lost, and that is counted as such, but nothing else is wrong
 };
 
 struct HardCase {
@@ -22,7 +22,6 @@ struct HardCase {
     /// What must hold of this case besides; may build worlds of its own. Null: nothing.
     void (*check)() = nullptr;
     OnGpu on_gpu = OnGpu::no;
-    const char* waits_for = nullptr;  // a part of the case that cannot apply yet, and why: printed
 };
 
 inline void PrintTo(const HardCase& row, std::ostream* out) { *out << row.name << ": " << row.breaks; }

@@ -15,7 +15,6 @@ class HardCases : public ::testing::TestWithParam<HardCase> {};
 
 TEST_P(HardCases, MatricesAreFiniteReceiversInsideCastersKeptAndSkipsExplained) {
     const HardCase& row = GetParam();
-    if (row.waits_for) std::printf("skipped: %s\n", row.waits_for);
     if (row.build) {
         World world;
         row.build(world);

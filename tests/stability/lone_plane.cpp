@@ -37,10 +37,11 @@ public:
 };
 
 /// From -1 to 1 along x and y.
-constexpr CasterTriangle kQuad[] = {
-    {{{{-1.0f, -1.0f, 0.0f}}, {{1.0f, -1.0f, 0.0f}}, {{1.0f, 1.0f, 0.0f}, 1}}},
-    {{{{-1.0f, -1.0f, 0.0f}, 0}, {{1.0f, 1.0f, 0.0f}}, {{-1.0f, 1.0f, 0.0f}}}},
-};
+const CasterTriangleList kQuad{{
+                                   {{{{-1.0f, -1.0f, 0.0f}}, {{1.0f, -1.0f, 0.0f}}, {{1.0f, 1.0f, 0.0f}, 1}}},
+                                   {{{{-1.0f, -1.0f, 0.0f}, 0}, {{1.0f, 1.0f, 0.0f}}, {{-1.0f, 1.0f, 0.0f}}}},
+                               },
+                               {}};
 
 template <class Row>
 class RowLookup final : public Lookup {
@@ -171,7 +172,7 @@ public:
         frame_.demands = {demand};
         frame_.views = views;
         frame_.slots.assign(views.size(), {.texture = {1}, .size_px = size_px});
-        shadow::publish_lights(scene_, {}, {}, frame_);
+        shadow::publish_lights(scene_, {}, {}, false, frame_);
         return frame_.inputs[0].lights[0];
     }
 

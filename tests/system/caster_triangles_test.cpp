@@ -1,3 +1,5 @@
+#include <bit>
+
 #include "systems/shadow/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
@@ -117,6 +119,40 @@ TEST_F(CasterTriangles, NameTheirInstanceAndTheFirstOfTheirDraw) {
     EXPECT_THAT(slots, ::testing::UnorderedElementsAre(slot_of(stage.box), slot_of(mixed), slot_of(second), slot_of(mixed), slot_of(second)));
 }
 
+class CasterTrianglesWithoutMasks : public CasterTriangles {
+protected:
+    void SetUp() override {
+        for (assets::Material& material : library.materials) material.alpha_mode = assets::AlphaMode::opaque;
+        CasterTriangles::SetUp();
+    }
+};
+
+TEST_F(CasterTriangles, BringTheMasksOfThoseThatAreMasked) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    EXPECT_THAT(bindings().second, Contains(7u));
+    EXPECT_THAT(map_labels(device, "caster masks"), SizeIs(1));
+}
+
+TEST_F(CasterTrianglesWithoutMasks, BringNone) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    EXPECT_THAT(bindings().second, Contains(2u));
+    EXPECT_THAT(bindings().second, Not(Contains(7u)));
+    EXPECT_THAT(map_labels(device, "caster masks"), IsEmpty());
+}
+
+TEST_F(CasterTriangles, WithoutRoomForTheirMasksAreGivenBack) {
+    device.fail_label("caster masks", gl::Failure::out_of_memory);
+    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
+    step();
+    EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+    EXPECT_THAT(triangle_labels(), IsEmpty());
+    device.stop_failing();
+    for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
+    EXPECT_EQ(light("lamp").state, LightState::rendered);
+}
+
 TEST_F(CasterTriangles, WithoutRoomForThemTheLightIsLitAndTriedAgain) {
     device.fail_label("caster triangles", gl::Failure::out_of_memory);
     add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
@@ -132,14 +168,14 @@ TEST_F(CasterTriangles, WithoutRoomForThemTheLightIsLitAndTriedAgain) {
 
 TEST(CasterTriangleRecords, HoldTheCornersAndCountNeighboursOverAllMeshes) {
     const assets::MeshLibrary library = test_library();
-    const auto triangles = caster_triangles_of(library);
+    const auto triangles = caster_triangles_of(library).triangles;
     std::size_t at = 0, found = 0;
     for (const assets::Mesh& mesh : library.meshes) {
         const std::size_t first = at;
         for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
             const CasterTriangle::Corner& corner = triangles.at(first + i / 3).corners[i % 3];
             EXPECT_EQ(corner.position_ms, mesh.vertices[mesh.indices[i]].position_ms);
-            if (corner.across == assets::kNoNeighbour) continue;
+            if (corner.across == assets::kNoNeighbour || triangles.at(first + i / 3).masked()) continue;
             ++found;
             EXPECT_GE(corner.across, first);
             EXPECT_LT(corner.across, first + mesh.indices.size() / 3);
@@ -155,14 +191,47 @@ TEST(CasterTriangleRecords, OfMasksHaveNoNeighbours) {
     const auto neighbours = [&](std::uint32_t mesh) {
         library.meshes = {test_library().meshes[mesh]};
         std::size_t count = 0;
-        for (const CasterTriangle& triangle : caster_triangles_of(library))
-            for (const auto& corner : triangle.corners) count += corner.across != assets::kNoNeighbour;
+        for (const CasterTriangle& triangle : caster_triangles_of(library).triangles)
+            for (const auto& corner : triangle.corners)
+                count += !triangle.masked() && corner.across != assets::kNoNeighbour;
         return count;
     };
     EXPECT_GT(neighbours(kSolidBox), 0u);
     EXPECT_EQ(neighbours(kMaskedBox), 0u);
     EXPECT_EQ(neighbours(kBlendedBox), 0u);
     EXPECT_LT(neighbours(kMixedBox), neighbours(kSolidBox));
+}
+
+TEST(CasterTriangleRecords, OfMasksNameTheirMaskAndTextureCoordinates) {
+    const assets::MeshLibrary library = test_library();
+    const CasterTriangleList all = caster_triangles_of(library);
+    std::size_t at = 0, masked = 0;
+    const auto word = [&](std::size_t i) { return std::bit_cast<float>(all.masks.at(i)); };
+    for (const assets::Mesh& mesh : library.meshes) {
+        for (const assets::Submesh& s : mesh.submeshes)
+            for (std::size_t i = s.first_index; i < s.first_index + s.index_count; i += 3) {
+                const CasterTriangle& triangle = all.triangles.at(at + i / 3);
+                const assets::Material& material = library.materials[s.material];
+                ASSERT_EQ(triangle.masked(), material.alpha_mode == assets::AlphaMode::mask) << mesh.name << " " << i;
+                if (!triangle.masked()) continue;
+                ++masked;
+                const std::uint32_t mask = triangle.corners[1].across, uvs = triangle.corners[2].across;
+                EXPECT_EQ(word(mask), material.alpha_cutoff);
+                EXPECT_EQ(word(mask + 1), material.base_colour.a);
+                for (std::size_t c = 0; c < 3; ++c)
+                    EXPECT_EQ(glm::vec2(word(uvs + 2 * c), word(uvs + 2 * c + 1)),
+                              mesh.vertices[mesh.indices[i + c]].uv);
+            }
+        at += mesh.indices.size() / 3;
+    }
+    EXPECT_GT(masked, 0u);
+}
+
+TEST(CasterTriangleRecords, OfALibraryWithoutMasksBringNone) {
+    assets::MeshLibrary library = test_library();
+    EXPECT_FALSE(caster_triangles_of(library).masks.empty());
+    library.meshes = {library.meshes[kSolidBox]};
+    EXPECT_TRUE(caster_triangles_of(library).masks.empty());
 }
 
 }  // namespace

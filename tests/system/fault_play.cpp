@@ -129,8 +129,8 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
         if (is_loss(light.reason)) lost.push_back(light.name);
     const bool is_sampler = starts_with(call.label, "shadow compare") || call.label == "shadow depths" ||
                             call.label == "shadow moments";
-    const bool of_all =
-        is_sampler || call.label == "caster triangles" || (call.frame == 0 && call.label == "instances");
+    const bool of_all = is_sampler || call.label == "caster triangles" || call.label == "caster masks" ||
+                        (call.frame == 0 && call.label == "instances");
     const bool of_some = starts_with(call.label, "depth ") || starts_with(call.label, "shadow draw items") ||
                          starts_with(call.label, "shadow views") || starts_with(call.label, "moments ") ||
                          call.label == "shadow moment records" || (call.frame > 0 && call.label == "instances");

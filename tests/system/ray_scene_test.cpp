@@ -1,6 +1,7 @@
 #include <map>
 
 #include "components/shadow_caster.h"
+#include "systems/shadow/exact/caster_surfaces.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/visibility/ray_records.h"
 #include "tests/system/frame_fixture.h"
@@ -54,8 +55,15 @@ protected:
             if (const auto* s = std::get_if<gl::BindStorage>(&c)) found.push_back(s->binding);
         return found;
     }
+    /// Labels of buffers that are read as texels.
+    std::vector<std::string> texels() const {
+        std::vector<std::string> found;
+        for (const gl::Command& c : frame->commands().commands)
+            if (const auto* t = std::get_if<gl::BindTexels>(&c)) found.push_back(device.buffer(t->buffer)->label);
+        return found;
+    }
     TestWorld::Stage stage;
-    static constexpr std::uint32_t kFirstRayBinding = 3;
+    static constexpr std::uint32_t kFirstRayBinding = 5;
 };
 
 TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
@@ -65,14 +73,18 @@ TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
     world.registry.patch<LightShadow>(off, [](LightShadow& s) { s.enabled = false; });
     step();
     EXPECT_THAT(ray_labels(), IsEmpty());
-    EXPECT_THAT(storage_bindings(), Each(::testing::Lt(kFirstRayBinding)));
+    constexpr std::uint32_t kMasks = 7;  // which casters' triangles have, too
+    EXPECT_THAT(storage_bindings(), Each(::testing::AnyOf(::testing::Lt(kFirstRayBinding), kMasks)));
+    EXPECT_THAT(texels(), IsEmpty());
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("exact"))));
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("places"))));
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("sheet"))));
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("peeled"))));
     EXPECT_THAT(map_labels(device, ", second"), IsEmpty());
     EXPECT_THAT(map_labels(device, ", bounds"), IsEmpty());
-    EXPECT_EQ(frame->report().rays.bytes + frame->report().rays.host_bytes, 0u);
+    const RayReport& rays = frame->report().rays;
+    EXPECT_EQ(rays.bytes + rays.host_bytes + rays.list_bytes + rays.place_bytes, 0u);
+    EXPECT_EQ(rays.sheet_bytes + rays.sheet_host_bytes, 0u);
 }
 
 TEST_F(RayScene, IsOneForAllLightsThatAsk) {
@@ -83,6 +95,8 @@ TEST_F(RayScene, IsOneForAllLightsThatAsk) {
     EXPECT_THAT(map_labels(device, "ray "), SizeIs(4)) << "trees, triangles, instances, the tree over them; no masks";
     EXPECT_THAT(map_labels(device, "surface places"), SizeIs(2)) << "a texture and a target";
     EXPECT_THAT(storage_bindings(), Contains(kFirstRayBinding));
+    EXPECT_THAT(texels(), Contains("ray trees of meshes"));
+    EXPECT_THAT(texels(), Contains("ray triangles"));
     for (const LightReport& light : frame->report().lights) {
         EXPECT_EQ(light.state, LightState::rendered) << light.name;
         EXPECT_TRUE(light.keeps_max_error) << light.name;
@@ -96,15 +110,40 @@ TEST_F(RayScene, SaysItsBytes) {
     step();
     EXPECT_THAT(map_labels(device, "ray masks"), SizeIs(1));
     std::map<std::string, std::uint64_t> sizes;
-    for (const gl::Command& c : frame->commands().commands)
+    for (const gl::Command& c : frame->commands().commands) {
         if (const auto* s = std::get_if<gl::BindStorage>(&c); s && s->binding >= kFirstRayBinding)
             sizes[device.buffer(s->buffer)->label] = device.buffer(s->buffer)->size;
+        if (const auto* t = std::get_if<gl::BindTexels>(&c))
+            sizes[device.buffer(t->buffer)->label] = device.buffer(t->buffer)->size;
+    }
     EXPECT_THAT(sizes, SizeIs(5));
     std::uint64_t held = 0;
     for (const auto& [label, size] : sizes) held += size;
     EXPECT_EQ(frame->report().rays.bytes, held);
     EXPECT_EQ(frame->report().rays.instances, 2u) << "the plane does not cast";
     EXPECT_EQ(frame->report().rays.triangles, 24u);
+}
+
+TEST_F(RayScene, SaysTheBytesOfItsPicturesAndOfWhatSheetsAreDrawnFrom) {
+    add_light(LightKind::spot, "lamp", ShadowFilter::exact);
+    step();
+    std::map<std::string, std::uint64_t> made;  // by label: what it was made as last
+    for (const gl::ResourceCall& call : device.resource_calls())
+        if (call.kind == gl::ResourceCall::Kind::create_texture || call.kind == gl::ResourceCall::Kind::create_buffer) made[call.label] = call.bytes;
+    const auto bytes = [&](const char* label) {
+        EXPECT_GT(made[label], 0u) << label;
+        return made[label];
+    };
+    const RayReport& rays = frame->report().rays;
+    EXPECT_EQ(rays.list_bytes, bytes("verdicts of maps") + bytes("answers of rays") + bytes("pixels for rays"));
+    EXPECT_EQ(rays.place_bytes, bytes("surface places"));
+    EXPECT_EQ(rays.sheet_bytes, bytes("shadow sheet items") + bytes("shadow sheet views"));
+    EXPECT_GE(rays.sheet_host_bytes, 12 * sizeof(shadow::CasterSurface::Facet)) << "a box";
+    const RayReport before = rays;
+    for (int i = 0; i < 3; ++i) step();
+    EXPECT_TRUE(frame->report().still);
+    EXPECT_EQ(frame->report().rays.list_bytes, before.list_bytes) << "still";
+    EXPECT_EQ(frame->report().rays.sheet_bytes, before.sheet_bytes);
 }
 
 TEST_F(RayScene, IsWrittenOnlyWhereSomethingMoved) {
@@ -150,7 +189,7 @@ TEST_F(RayScene, IsFreedWithTheLastLightThatAsks) {
     EXPECT_EQ(frame->report().rays.bytes, 0u);
 }
 
-TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceAndItIsTriedAgain) {
+TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceThenByTrianglesAndItIsTriedAgain) {
     for (const char* what : {"ray trees of meshes", "ray triangles", "ray tree of instances", "ray instances"}) {
         SCOPED_TRACE(what);
         device.fail_label(what, gl::Failure::out_of_memory);
@@ -160,14 +199,56 @@ TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceAndItIsTriedAgain) {
         EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
         EXPECT_GT(light("lamp").predicted_error_px, 0.0) << "as a map by itself has";
         EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("filters/hard")));
+        for (int i = 0; i < 2; ++i) {
+            step();
+            EXPECT_EQ(light("lamp").state, LightState::degraded);
+            EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+            EXPECT_EQ(light("lamp").filter.filter, ShadowFilter::triangles);
+        }
+        EXPECT_EQ(light("lamp").views_drawn, 0u) << "nothing changes while there is no room";
         device.stop_failing();
-        for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
+        for (std::uint64_t i = 2; i < Retry::kFrames; ++i) step();
         EXPECT_EQ(light("lamp").state, LightState::rendered);
         EXPECT_EQ(light("lamp").predicted_error_px, 0.0);
         world.registry.destroy(lamp);
         step();
         EXPECT_THAT(ray_labels(), IsEmpty());
     }
+}
+
+TEST_F(RayScene, WithoutRoomALightWhoseContractAsksForRaysIsHeldToWhatMapsGive) {
+    device.fail_label("ray triangles", gl::Failure::out_of_memory);
+    const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::automatic);
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) {
+        s.max_error_px = 0.01f;
+        s.resolution_px = 0;
+    });
+    step();
+    EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
+    const int frames = static_cast<int>(Retry::kFrames) + 3;  // and once it was tried again
+    for (int i = 0; i < frames; ++i) {
+        step();
+        EXPECT_EQ(light("lamp").filter.filter, ShadowFilter::triangles) << i;
+        EXPECT_EQ(light("lamp").state, LightState::degraded) << i;
+        EXPECT_EQ(light("lamp").reason, Reason::buffer_failed) << i;
+    }
+    device.stop_failing();
+    for (std::uint64_t i = 0; i <= Retry::kFrames; ++i) step();
+    EXPECT_EQ(light("lamp").filter.filter, ShadowFilter::exact);
+    EXPECT_EQ(light("lamp").predicted_error_px, 0.0);
+}
+
+TEST_F(RayScene, WithoutRoomASunThatAskedForNoMapHasOneAFrameLater) {
+    device.fail_label("ray triangles", gl::Failure::out_of_memory);
+    const ecs::Entity sun = add_light(LightKind::directional, "sun", ShadowFilter::exact);
+    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.projection = LightProjection::perspective; });
+    step();
+    EXPECT_EQ(light("sun").state, LightState::skipped) << "there is nothing to look up";
+    EXPECT_EQ(light("sun").reason, Reason::buffer_failed);
+    step();
+    EXPECT_EQ(light("sun").state, LightState::degraded);
+    EXPECT_EQ(light("sun").reason, Reason::buffer_failed);
+    EXPECT_EQ(light("sun").filter.filter, ShadowFilter::triangles);
 }
 
 TEST_F(RayScene, WithoutRoomForPlacesTheMapIsLookedUpOnceAndThatIsSaid) {

@@ -98,6 +98,7 @@ protected:
             step();
         }
         const LightReport& report = light("lamp");
+        if (report.filter.reason != Reason::none) return report.filter.reason;
         return report.kept.reason == Reason::none ? report.reason : report.kept.reason;
     }
     void start_anew() {
@@ -134,6 +135,8 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
           {},
           3,
           [this] { world.registry.patch<Transform>(stage.box, [](Transform& t) { t.translation_m.x += 0.001; }); }}},
+        {Reason::map_too_coarse,
+         {LightKind::spot, [](LightShadow& s) { s = {.max_error_px = 0.1f}; }}},
         {Reason::visibility_kept, {.frames = 10}},
         {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
         {Reason::over_budget, changed([this] { settings.shadow_budget.bytes = 1; })},

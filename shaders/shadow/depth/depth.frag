@@ -1,13 +1,9 @@
 // Opaque casters: the rasteriser's depth is all there is. Masked ones drop what is cut out.
-// TRIANGLES: and which triangle of which instance is shown (shadow/caster_triangles.glsl); none that is cut by a mask.
+// TRIANGLES: and which triangle of which instance is shown (shadow/caster_triangles.glsl).
 #ifdef TRIANGLES
 layout(location = 0) out uvec2 triangle_out;
-#ifdef MASKED
-void write_triangle() { triangle_out = uvec2(0xffffffffu); }
-#else
 layout(location = 0) flat in uvec2 fragment_item;   // instance, first triangle of the draw
 void write_triangle() { triangle_out = uvec2(fragment_item.x, fragment_item.y + uint(gl_PrimitiveID)); }
-#endif
 #else
 void write_triangle() {}
 #endif

@@ -14,7 +14,7 @@ layout(location = 0) flat out uvec2 vertex_item;
 #define UV_OUT vertex_uv
 #else
 #define UV_OUT fragment_uv
-#if defined(TRIANGLES) && !defined(MASKED)
+#ifdef TRIANGLES
 layout(location = 0) flat out uvec2 fragment_item;
 #endif
 #endif
@@ -40,7 +40,7 @@ void main() {
 #elif defined(LAYERED)
     vertex_item = draw_item;
 #endif
-#if defined(TRIANGLES) && !defined(MASKED) && (!defined(LAYERED) || defined(LAYER_BY_VERTEX))
+#if defined(TRIANGLES) && (!defined(LAYERED) || defined(LAYER_BY_VERTEX))
     fragment_item = uvec2(draw_item.x, draw_item.y >> 3);
 #endif
 }

@@ -5,7 +5,8 @@ layout(location = 0) flat in uvec2 vertex_item[];
 #ifdef MASKED
 in vec2 vertex_uv[];
 out vec2 fragment_uv;
-#elif defined(TRIANGLES)
+#endif
+#ifdef TRIANGLES
 layout(location = 0) flat out uvec2 fragment_item;
 #endif
 
@@ -15,7 +16,8 @@ void main() {
         gl_Position = gl_in[i].gl_Position;
 #ifdef MASKED
         fragment_uv = vertex_uv[i];
-#elif defined(TRIANGLES)
+#endif
+#ifdef TRIANGLES
         fragment_item = uvec2(vertex_item[0].x, vertex_item[0].y >> 3);
         gl_PrimitiveID = gl_PrimitiveIDIn;
 #endif

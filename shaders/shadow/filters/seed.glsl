@@ -20,16 +20,17 @@ uint wrapped_cell(int camera_cell, float along) {
     return (uint(camera_cell) + uint(int(cell - kSeedCells * floor(cell / kSeedCells)))) & 0xffffffu;
 }
 
+vec2 shares_of(uint seed) { return vec2(float(seed & 0xffffu), float(seed >> 16)) / 65536.0; }
+
+vec2 cell_seed(vec3 position_ca) {
+    vec3 along = vec3(dot(kSeedAxisX, position_ca), dot(kSeedAxisY, position_ca), dot(kSeedAxisZ, position_ca));
+    along = along * light.seed_place.w + light.seed_place.xyz;
+    uint seed = scrambled(wrapped_cell(light.seed_cell.x, along.x));
+    seed = scrambled(seed ^ wrapped_cell(light.seed_cell.y, along.y));
+    return shares_of(scrambled(seed ^ wrapped_cell(light.seed_cell.z, along.z)));
+}
+
 vec2 shadow_seed(ShadowPoint point) {
-    uint seed = 0u;
-    if (light.filtering.w != 0) {
-        vec3 along = vec3(dot(kSeedAxisX, point.position_ca), dot(kSeedAxisY, point.position_ca), dot(kSeedAxisZ, point.position_ca));
-        along = along * light.seed_place.w + light.seed_place.xyz;
-        seed = scrambled(wrapped_cell(light.seed_cell.x, along.x));
-        seed = scrambled(seed ^ wrapped_cell(light.seed_cell.y, along.y));
-        seed = scrambled(seed ^ wrapped_cell(light.seed_cell.z, along.z));
-    } else {
-        seed = scrambled(scrambled(uint(int(gl_FragCoord.x))) ^ uint(int(gl_FragCoord.y)));
-    }
-    return vec2(float(seed & 0xffffu), float(seed >> 16)) / 65536.0;
+    if (light.filtering.w != 0) return cell_seed(point.position_ca);
+    return shares_of(scrambled(scrambled(uint(int(gl_FragCoord.x))) ^ uint(int(gl_FragCoord.y))));
 }

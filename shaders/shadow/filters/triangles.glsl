@@ -1,6 +1,6 @@
 // Edges of the casters themselves: where four texels do not agree, the triangles that they show are tested against the ray
-// from the receiver to the light. Where a texel shows none that could be tested (leaves cut out of a card, meshes finer than the
-// walk), the nearest texel decides: votes would take from coarse maps the leaves that are narrower than a texel.
+// from the receiver to the light, and the masks of those that are masked. Where a test comes to no end (meshes finer than the
+// walk, leaves finer than texels), the nearest texel decides.
 #include "shadow/filters/votes.glsl"
 #include "shadow/caster_triangles.glsl"
 
@@ -46,7 +46,7 @@ float shadow_filter(ShadowPoint point) {
     int verdict = kPasses;
     bool unknown = false;
     for (int i = 0; i < shown.count && verdict != kBlocked; ++i) {
-        verdict = caster_verdict(shown.triangles[i], point.position_ca, point.error_m);
+        verdict = caster_verdict(shown.triangles[i], point.position_ca, point.error_m, shadow_texel_sides(point));
         unknown = unknown || verdict == kUnknown;
     }
     vec2 middle = floor(four.place) + 0.5;

@@ -80,6 +80,9 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
 uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
     return texelFetch(shadow_triangles, ivec3(ivec2(middle), int(point.layer)), 0).xy;
 }
+
+// Of a texel: metres, or tangents from a lamp.
+vec2 shadow_texel_sides(ShadowPoint point) { return vec2(light.views[point.view].axis_u.w, light.views[point.view].axis_v.w); }
 #endif
 #elif defined(SHADOW_MOMENTS)
 float read_texel(float reach_texel) { return max(reach_texel, SHADOW_REACH_TEXEL); }

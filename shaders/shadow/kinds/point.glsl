@@ -122,6 +122,9 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
 uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
     return textureLod(shadow_triangles, direction_to(point, middle), 0.0).xy;
 }
+
+// Of a texel: tangents.
+vec2 shadow_texel_sides(ShadowPoint point) { return vec2(light.views[0].axis_u.w, light.views[0].axis_v.w); }
 #endif
 #elif defined(SHADOW_MOMENTS)
 #include "shadow/moments/distance.glsl"

@@ -44,11 +44,22 @@ void fill(const GpuScene& gpu, std::uint32_t mesh, const GpuScene::MeshShape& sh
 
 }  // namespace
 
+std::uint64_t CasterSurfaces::bytes_of(const CasterSurface& surface) {
+    return surface.edges.borders.capacity() * sizeof(assets::SurfaceEdges::Border) +
+           surface.edges.folds.capacity() * sizeof(assets::SurfaceEdges::Fold) +
+           surface.facets.capacity() * sizeof(CasterSurface::Facet) +
+           (surface.opaque.capacity() + surface.masked.capacity()) * sizeof(std::uint32_t);
+}
+
 const CasterSurface& CasterSurfaces::of(const GpuScene& gpu, std::uint32_t mesh) {
     if (kept_.size() < gpu.mesh_count()) kept_.resize(gpu.mesh_count());
     Kept& kept = kept_[mesh];
     const GpuScene::MeshShape shape = gpu.shape(mesh);
-    if (!kept.made || kept.version != shape.version) fill(gpu, mesh, shape, kept.surface);
+    if (!kept.made || kept.version != shape.version) {
+        bytes_ -= bytes_of(kept.surface);
+        fill(gpu, mesh, shape, kept.surface);
+        bytes_ += bytes_of(kept.surface);
+    }
     kept.made = true;
     kept.version = shape.version;
     return kept.surface;

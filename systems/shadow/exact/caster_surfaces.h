@@ -30,7 +30,11 @@ public:
     /// As the device has it now. Valid until the next call.
     const CasterSurface& of(const GpuScene& gpu, std::uint32_t mesh);
     /// Forgets all of them.
-    void clear() { std::vector<Kept>().swap(kept_); }
+    void clear() {
+        std::vector<Kept>().swap(kept_);
+        bytes_ = 0;
+    }
+    std::uint64_t bytes() const { return bytes_; }
 
 private:
     struct Kept {
@@ -38,7 +42,10 @@ private:
         std::uint64_t version = 0;  // MeshShape::version
         bool made = false;
     };
+    static std::uint64_t bytes_of(const CasterSurface& surface);
+
     std::vector<Kept> kept_;  // by mesh
+    std::uint64_t bytes_ = 0;
 };
 
 }  // namespace gnomon::shadow

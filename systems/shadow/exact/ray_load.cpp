@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "engine/core/signature.h"
 #include "systems/shadow/demand.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/publish.h"
 
 namespace gnomon::shadow {
@@ -16,7 +18,8 @@ constexpr double kTriangle_rays = 1.5, kTexel_rays = 0.1, kVerdict_rays = 0.15;
 constexpr double kBackAgain = 1.25;
 
 double rays_of(const SceneSnapshot& scene, const ShadowDemand& demand) {
-    return asking_pixels(scene, scene.lights[demand.light]) * (demand.traced ? 1.0 : kUncertainShare);
+    const double pixels = asking_pixels(scene, scene.lights[demand.light]) * (demand.traced ? 1.0 : kUncertainShare);
+    return pixels * rays_per_pixel(demand);
 }
 
 /// What a light's shadow means to the picture, to compare lights by: pixels times illuminance at the camera.
@@ -33,7 +36,28 @@ double meaning(const SceneSnapshot& scene, const LightItem& light) {
     return lux * asking_pixels(scene, light);
 }
 
+/// Where the cameras stand.
+std::uint64_t pictures_of(const SceneSnapshot& scene) {
+    Signature s;
+    for (const ConsumerItem& camera : scene.pictures.empty() ? scene.consumers : scene.pictures) {
+        for (int i = 0; i < 3; ++i) s.add(camera.position_ws_m[i]);
+        for (int i = 0; i < 9; ++i) s.add(camera.rotation_ws[i / 3][i % 3]);
+    }
+    return s.value();
+}
+
+void give_way(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, Reason reason,
+              ShadowDemand& demand) {
+    demand = demand_of(scene, device, held, demand.light, filtered_row(demand.filter));
+    demand.gives_way = true;
+    demand.note = reason;
+}
+
 }  // namespace
+
+double rays_per_pixel(const ShadowDemand& demand) {
+    return filter_row(demand.filter).storage == FilterStorage::soft_sheets ? demand.filtering.taps : 1.0;
+}
 
 double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {
     double pixels = 0.0;
@@ -45,33 +69,67 @@ double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {
 }
 
 void limit_rays(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint64_t most_rays,
-                std::vector<ShadowDemand>& demands, std::vector<std::uint32_t>& asking) {
+                std::vector<ShadowDemand>& demands, std::vector<RayAsker>& asking) {
     if (most_rays == 0) return;
     asking.clear();
     for (const ShadowDemand& demand : demands)
-        if (demand.skip == Reason::none && demand.asks_rays) asking.push_back(demand.light);
+        if (demand.skip == Reason::none && demand.asks_rays)
+            asking.push_back({meaning(scene, scene.lights[demand.light]), demand.light});
     // A stable sort would allocate.
-    std::sort(asking.begin(), asking.end(), [&](std::uint32_t a, std::uint32_t b) {
-        const double first = meaning(scene, scene.lights[a]), second = meaning(scene, scene.lights[b]);
-        return first != second ? first > second : a < b;
+    std::sort(asking.begin(), asking.end(), [](const RayAsker& a, const RayAsker& b) {
+        return a.meaning != b.meaning ? a.meaning > b.meaning : a.light < b.light;
     });
     double left = static_cast<double>(most_rays);
-    for (const std::uint32_t i : asking) {
+    for (const RayAsker& asker : asking) {
+        const std::uint32_t i = asker.light;
         const HeldLight* last = find(held, scene.lights[i].entity, i);
         const double rays = rays_of(scene, demands[i]);
         if (rays * (last && last->gave_way ? kBackAgain : 1.0) <= left) {
             left -= rays;
             continue;
         }
-        demands[i] = demand_of(scene, device, held, i, kFilteredRow);
-        demands[i].gives_way = true;
-        demands[i].note = Reason::ray_budget;
+        give_way(scene, device, held, Reason::ray_budget, demands[i]);
     }
 }
 
-bool are_rays_cheaper(double pixels, const SheetLoad& load) {
+void give_rays_up(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
+                  std::vector<ShadowDemand>& demands) {
+    for (ShadowDemand& demand : demands)
+        if (demand.skip == Reason::none && demand.asks_rays)
+            give_way(scene, device, held, Reason::buffer_failed, demand);
+}
+
+void count_quiet_frames(const SceneSnapshot& scene, const History& held, ShadowFrame& frame) {
+    History& next = frame.next_history;
+    const bool any = std::any_of(frame.demands.begin(), frame.demands.end(),
+                                 [](const ShadowDemand& d) { return d.skip == Reason::none && d.asks_rays; });
+    next.pictures = any ? pictures_of(scene) : 0;
+    if (!any) return;
+    const bool moved = held.pictures != next.pictures;
+    std::size_t v = 0;
+    for (std::uint32_t d = 0; d < frame.demands.size(); ++d) {
+        const LightItem& light = scene.lights[frame.demands[d].light];
+        Signature casters;
+        casters.add(light.version);
+        const std::size_t first = v;
+        for (; v < frame.views.size() && frame.views[v].demand == d; ++v)
+            for (const std::uint32_t i : casters_of(frame, frame.views[v])) {
+                casters.add(std::uint64_t{scene.instances[i].gpu_slot});
+                casters.add(scene.instances[i].version);
+            }
+        if (v == first || !frame.demands[d].asks_rays) continue;
+        for (HeldLight& entry : next.lights) {
+            if (entry.light != light.entity) continue;
+            const bool same = entry.casters == casters.value() && light.shadow.economy && !frame.shared_out;
+            entry.casters = casters.value();
+            entry.quiet_frames = same ? std::min(entry.quiet_frames + (moved ? 1 : 0), kQuietFrames) : 0;
+        }
+    }
+}
+
+bool are_rays_cheaper(double pixels, double rays_per_pixel, const SheetLoad& load) {
     const double drawn = load.triangles * kTriangle_rays + load.texels * kTexel_rays;
-    return pixels < drawn + pixels * (kVerdict_rays + kUncertainShare);
+    return pixels * rays_per_pixel < drawn + pixels * (kVerdict_rays + kUncertainShare * rays_per_pixel);
 }
 
 }  // namespace gnomon::shadow

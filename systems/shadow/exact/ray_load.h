@@ -5,13 +5,19 @@
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
+#include "systems/shadow/filter_table.h"
 #include "systems/shadow/types.h"
 
 /// How many rays lights ask, before any is counted; and what follows from that.
 namespace gnomon::shadow {
 
 /// What an exact light falls back to when others' rays use a budget up: the row that errs least without any.
-inline constexpr ShadowFilter kFilteredRow = ShadowFilter::triangles;
+inline constexpr ShadowFilter kFilteredRow = kUsualFilter;
+/// The same of a source with a size.
+inline constexpr ShadowFilter kFilteredSoftRow = ShadowFilter::pcss;
+constexpr ShadowFilter filtered_row(ShadowFilter filter) {
+    return filter == ShadowFilter::exact_soft ? kFilteredSoftRow : kFilteredRow;
+}
 
 /// Of the pixels that ask a light, so many its map is taken not to be certain of: more than in all but one of the
 /// scenes of docs/exact.md.
@@ -20,11 +26,35 @@ inline constexpr double kUncertainShare = 0.2;
 /// Pixels that ask the light: of its rectangles in all pictures.
 double asking_pixels(const SceneSnapshot& scene, const LightItem& light);
 
-/// Has lights asked by their own filter give way to kFilteredRow, with Reason::ray_budget, until the others ask for no
-/// more than `most_rays` (0: any number) in a frame: those that mean least to the picture first. A light that gave way
-/// comes back when there is room for a quarter more than it asks. `scratch` is overwritten.
+/// Of each of those that is not certain.
+double rays_per_pixel(const ShadowDemand& demand);
+
+/// A light that asks by rays, and what its shadow means to the picture: pixels times illuminance at the camera.
+struct RayAsker {
+    double meaning = 0.0;
+    std::uint32_t light = 0;
+};
+
+/// Has lights asked by their own filter give way to filtered_row(), with Reason::ray_budget, until the others ask for
+/// no more than `most_rays` (0: any number) in a frame: those that mean least to the picture first. A light that gave
+/// way comes back when there is room for a quarter more than it asks. `scratch` is overwritten.
 void limit_rays(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint64_t most_rays,
-                std::vector<ShadowDemand>& demands, std::vector<std::uint32_t>& scratch);
+                std::vector<ShadowDemand>& demands, std::vector<RayAsker>& scratch);
+
+/// The same of all of them, with Reason::buffer_failed: the device has no room for what rays walk.
+void give_rays_up(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
+                  std::vector<ShadowDemand>& demands);
+
+/// A sun whose casters have stayed for so many frames, half a second, while the camera moved, has its map drawn once and
+/// asked in all frames to come: it then has twice the edge, which leaves a third fewer pixels to rays (docs/exact.md,
+/// "What it costs"). A still picture asks no ray, and has nothing drawn anew for it; what is shared out within a budget
+/// does not grow by itself.
+inline constexpr std::uint32_t kQuietFrames = 30;
+inline constexpr float kQuietEdges = 2.0f;
+inline bool is_quiet(const HeldLight& held) { return held.quiet_frames >= kQuietFrames; }
+
+/// After the fits: counts those frames.
+void count_quiet_frames(const SceneSnapshot& scene, const History& held, ShadowFrame& frame);
 
 /// What drawing a light's maps of sheets would draw.
 struct SheetLoad {
@@ -32,6 +62,6 @@ struct SheetLoad {
 };
 
 /// Whether rays for all pixels cost less than to draw that and ask for the uncertain ones.
-bool are_rays_cheaper(double pixels, const SheetLoad& load);
+bool are_rays_cheaper(double pixels, double rays_per_pixel, const SheetLoad& load);
 
 }  // namespace gnomon::shadow

@@ -35,6 +35,9 @@ public:
     /// No light has such views any more: frees all but programs.
     void release();
 
+    std::uint64_t bytes() const { return items_.bytes() + view_records_.bytes(); }
+    std::uint64_t host_bytes() const { return surfaces_.bytes(); }
+
 private:
     enum class Kind : std::uint8_t { triangles, contours, masked, count };
     struct View {

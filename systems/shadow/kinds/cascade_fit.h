@@ -7,6 +7,13 @@
 /// The three ways to fit one cascade of a sun: LightShadow::fit.
 namespace gnomon::shadow {
 
+/// Which held sizes a fit may change.
+enum class Stepping {
+    as_needed,
+    larger,    // those alone that no longer hold what is seen
+    together,  // some step in this frame: what soon would may do so with them
+};
+
 struct CascadeInput {
     const FitInput& light;
     const glm::dmat3& basis;  // of the light: right, up, toward it
@@ -14,7 +21,7 @@ struct CascadeInput {
     double from_m, to_m;      // the slice, along the first consumer's view
     bool of_all;              // it holds what several consumers see: points_ws then knows more than the slice
     std::span<const glm::dvec3> points_ws;  // what is seen of receivers in it; not empty
-    bool steps_too = false;  // another cascade's size steps in this frame: what soon would may do so with it
+    Stepping stepping = Stepping::as_needed;
 };
 
 /// False if nothing finite lies there. Pure, history included.

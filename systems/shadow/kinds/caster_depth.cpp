@@ -44,8 +44,8 @@ bool fit_cascade(const CascadeInput& input, OrthographicBox& box) {
     // First for the depth alone: how wide penumbrae are follows from it.
     FitInput light = input.light;
     light.reach_texel = filter.reach_texel;
-    CascadeInput cascade{light, input.basis, input.index, input.from_m, input.to_m, input.of_all,
-                         input.points_ws, input.steps_too};
+    CascadeInput cascade{light,      input.basis,  input.index,     input.from_m,
+                         input.to_m, input.of_all, input.points_ws, input.stepping};
     if (!fit(cascade, box)) return false;
     include_casters(light, radius_tan, box);
     const double content_m = 2.0 * std::min(box.half_extent_m.x, box.half_extent_m.y);

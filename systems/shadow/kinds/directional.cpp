@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "systems/extract/volumes.h"
+#include "systems/shadow/contract.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cascade_fit.h"
 #include "systems/shadow/kinds/cascade_slices.h"
@@ -121,7 +122,7 @@ bool has_stepped(const FitInput& input) {
     return false;
 }
 
-void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, bool steps_too,
+void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, Stepping stepping,
                   std::vector<ShadowView>& views) {
     const bool counts_from_eye = input.demand.near_m > 0.0 || input.demand.far_m > 0.0;
     const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
@@ -130,6 +131,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.demand.view_count;
     const std::size_t before = views.size();
+    for (HeldView& view : input.next.views) view.too_large = false;  // of those that are fitted the fit says it
     for (std::uint32_t i = 0; i < count; ++i) {
         const CascadeSlice& slice = slices[i];
         const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
@@ -137,8 +139,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
         auto receivers = static_cast<std::uint32_t>(input.receivers.size());
         const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input, receivers);
         OrthographicBox box;
-        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws,
-                                   steps_too};
+        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws, stepping};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
         // Where maps hold true distances they reach up to the casters.
         if (filter_row(input.demand.filter).storage == FilterStorage::moments &&
@@ -173,12 +174,20 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     if (input.demand.perspective_sun) return fit_perspective_sun(input, basis, views);
     const CascadeSlices slices = cascade_slices(input);
     const std::size_t before = views.size();
-    fit_cascades(input, basis, slices, false, views);
-    if (has_stepped(input)) {
-        // A step shows. Cascades that would soon follow do it in the same frame.
+    const HeldLight& held = input.held;
+    HeldLight& next = input.next;
+    fit_cascades(input, basis, slices, held.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
+    const bool too_large =
+        std::any_of(next.views.begin(), next.views.end(), [](const HeldView& view) { return view.too_large; });
+    next.large_frames = too_large ? held.large_frames + 1 : 0;
+    next.tired_frames = std::max(held.tired_frames, 1u) - 1;
+    if (has_stepped(input) || next.large_frames >= kSpareFrames) {
+        // A step shows. Sizes that would soon follow do it in the same frame, and what becomes smaller then waits.
         views.resize(before);
-        input.next.views = input.held.views;
-        fit_cascades(input, basis, slices, true, views);
+        next.views = held.views;
+        fit_cascades(input, basis, slices, Stepping::together, views);
+        next.large_frames = 0;
+        next.tired_frames = kSpareFrames;
     }
     return views.size() > before;
 }

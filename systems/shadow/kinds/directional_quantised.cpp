@@ -13,39 +13,47 @@ struct Side {
     double low = 0.0, size = 0.0;
 };
 
-/// How long a size is kept, in steps: given up when it is more than `patience` too large; what follows is `headroom`
-/// larger than it need be.
+/// How long a size is kept, in steps: one that is more than `patience` too large is given up in time, one more than
+/// `most` at once; what follows is `headroom` larger than it need be.
 struct Holding {
-    int patience, headroom;
-    bool steps_too = false;  // it is a good frame for a step
+    int patience, most, headroom;
 };
 
-/// A turning camera lengthens and shortens a slice's sides all the time, and each change of a size shows.
-constexpr Holding kAcross{6, 1};
+/// A turning camera lengthens and shortens a slice's sides all the time, and each change of a size shows: over a roll
+/// by 300 degrees sides vary by six to twelve steps (tests/stability/camera_paths_test.cpp).
+constexpr Holding kAcross{6, 12, 2};
 /// A depth range costs no sharpness: its rounding is a hundred-thousandth of a texel. So it may be generous.
-constexpr Holding kAlong{12, 4};
+constexpr Holding kAlong{12, 12, 4};
 
 /// Steps beyond the headroom that stay in a frame in which another size steps anyway.
 constexpr int kSpare = 2;
 
 /// The step for `needed`, and whether it is held.
-int held_step_for(double needed, bool used, int held_step, const Holding& holding) {
+int held_step_for(double needed, const HeldView& held, int held_step, const Holding& holding, Stepping stepping,
+                  HeldView& next) {
     const int closest = step_at_or_above(needed);
-    if (!used) return closest;
-    const int least = closest + (holding.steps_too ? holding.headroom : 0);
-    const int most = closest + (holding.steps_too ? holding.headroom + kSpare : holding.patience);
-    return held_step >= least && held_step <= most ? held_step : closest + holding.headroom;
+    if (!held.used) return closest;
+    const bool together = stepping == Stepping::together;
+    const int least = closest + (together ? holding.headroom : 0);
+    const int most = closest + (together ? holding.headroom + kSpare : holding.most);
+    const bool stays = held_step >= least && (stepping == Stepping::larger || held_step <= most);
+    next.too_large = next.too_large || (stays && held_step > closest + holding.patience);
+    return stays ? held_step : closest + holding.headroom;
 }
 
-/// From low to high, not longer than `room` of a step, on parts of `grid` of it; the held one where that still holds
-/// it.
-Side hold(double low, double high, double room, double grid, const Holding& holding, bool used, double held_low,
-          int held_step, int& step) {
-    step = held_step_for((high - low) / room, used, held_step, holding);
+/// What is seen along an axis.
+struct Span {
+    double low, high;
+};
+
+/// Around `seen`, of which it is no longer than `room` of a step, on parts of `grid` of it; the held one where that
+/// still holds it.
+Side hold(const Span& seen, double room, double grid, const HeldView& held, double held_low, int held_step, int step) {
     Side side{0.0, step_size(step)};
+    const auto [low, high] = seen;
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
     const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
-    if (used && step == held_step && holds) {
+    if (held.used && step == held_step && holds) {
         side.low = held_low;
     } else {
         const double part = grid * side.size;
@@ -70,16 +78,21 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const double texel = 1.0 / input.light.demand.resolution_px;
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
     glm::dvec3 low, size;
-    Holding across = kAcross, along = kAlong;
-    across.steps_too = along.steps_too = input.steps_too;
+    next.too_large = false;
     for (int axis = 0; axis < 2; ++axis) {
-        const Side side = hold(seen.low[axis], seen.high[axis], room, texel, across, held.used, held.low[axis],
-                               held.extent_step[axis], next.extent_step[axis]);
+        const Span span{seen.low[axis], seen.high[axis]};
+        const int held_step = held.extent_step[axis];
+        int& step = next.extent_step[axis];
+        step = held_step_for((span.high - span.low) / room, held, held_step, kAcross, input.stepping, next);
+        const Side side = hold(span, room, texel, held, held.low[axis], held_step, step);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
-    const Side depth = hold(seen.low.z, seen.high.z, 1.0 - 4.0 * kDepthSlack, kDepthSlack, along, held.used,
-                            held.near_m, held.far_step, next.far_step);
+    constexpr double kDepthRoom = 1.0 - 4.0 * kDepthSlack;
+    const Span span{seen.low.z, seen.high.z};
+    next.far_step =
+        held_step_for((span.high - span.low) / kDepthRoom, held, held.far_step, kAlong, input.stepping, next);
+    const Side depth = hold(span, kDepthRoom, kDepthSlack, held, held.near_m, held.far_step, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;
     next.used = true;

@@ -65,6 +65,7 @@ TEST_F(SweepJournalTest, WhatWasFoundIsThereAgainToTheLastFigure) {
     EXPECT_EQ(again.timed()[0].times.at(0).kept_us, std::nullopt);
     EXPECT_EQ(again.timed()[0].base.at(0).kept_us, 5.0);
     EXPECT_DOUBLE_EQ(again.spent_s(), 3.5);
+    EXPECT_DOUBLE_EQ(again.timed_s(), 0.5) << "that rows took to be judged is no time of a round";
 }
 
 TEST_F(SweepJournalTest, ALineThatWasCutShortCountsAsNotWrittenAndIsWrittenAnew) {

@@ -81,6 +81,8 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            BindTexture{1, {3}, {2}},
                                            BindUniforms{0, {1}, 256, 64},
                                            BindStorage{0, {1}},
+                                           BindTexels{0, {1}},
+                                           BindTexels{1, {1}},
                                            UpdateBuffer{{1}, 0, 4, 8},
                                            BindMeshes{{1}, {2}, {3}},
                                            DrawMeshes{0, 3, 1, 0, 1},

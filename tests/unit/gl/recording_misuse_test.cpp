@@ -196,6 +196,15 @@ TEST_F(RecordingMisuse, UniformsAreAlignedAndInRange) {
     EXPECT_THAT(of({BindUniforms{0, uniforms, 0, 0}}), ElementsAre(Misuse::uniform_out_of_range));
 }
 
+TEST_F(RecordingMisuse, OnlyBuffersOfTexelsAreBoundAsSuch) {
+    const BufferHandle texels = device.create_buffer({.label = "texels", .size = 32, .texels = true}, {}).handle;
+    EXPECT_THAT(of({BindTexels{0, texels}, BindStorage{0, texels}}), IsEmpty());
+    EXPECT_THAT(of({BindTexels{0, items}}), ElementsAre(Misuse::buffer_without_texels));
+    EXPECT_FALSE(device.create_buffer({.label = "part of a texel", .size = 24, .texels = true}, {}).handle);
+    EXPECT_THAT(in_draw({BindTexture{3, colour, sampler}, BindTexels{3, texels}}), IsEmpty())
+        << "what was bound there is not any more";
+}
+
 TEST_F(RecordingMisuse, ViewportsLieInTheirTarget) {
     const auto with = [&](Rect viewport) { return of({BeginPass{.target = target, .viewport = viewport}, EndPass{}}); };
     EXPECT_THAT(with({32, 16, 32, 16}), IsEmpty());
@@ -248,6 +257,7 @@ TEST_F(RecordingMisuse, EveryHandleInACommandMustLive) {
                                            BindUniforms{0, no_buffer, 0, 4},
                                            BindStorage{0, no_buffer},
                                            BindStorage{0, {}},
+                                           BindTexels{0, no_buffer},
                                            UpdateBuffer{no_buffer, 0, 0, 4},
                                            BindMeshes{no_buffer, indices, items},
                                            BindMeshes{vertices, no_buffer, items},

@@ -28,6 +28,7 @@ TEST(LightSettings, EveryKeyReadsBackWhatItPrints) {
                     .moment_anisotropy = 8,
                     .source_radius_m = 0.13f,
                     .sun_radius_rad = 0.00465f,
+                    .penumbra_rays = 7,
                     .early_bail = true,
                     .resolution_px = 768,
                     .max_error_px = 0.3f,

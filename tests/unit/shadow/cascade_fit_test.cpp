@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "systems/shadow/contract.h"
 #include "systems/shadow/filter_demand.h"
 #include "systems/shadow/kinds/slice_sphere.h"
 #include "tests/unit/shadow/cascade_waste.h"
@@ -291,23 +292,64 @@ TEST(QuantisedFit, AStillCameraMovesNothing) {
     EXPECT_EQ(first.next_history, fitted(scene, first.next_history).next_history);
 }
 
-TEST(QuantisedFit, AMapThatIsALittleTooLargeStaysAndOneThatIsMuchTooLargeIsReplaced) {
-    SceneSnapshot scene = street(ShadowFit::quantised);
-    scene.instances.resize(2);
-    scene.consumers[0].position_ws_m = {0.0, 0.0, 200.0};
-    scene.consumers[0].rotation_ws = glm::dmat3(1.0);
-    scene.lights[0].shadow.cascades = 1;
-    const auto extents = [&](double half_m, const History& held) {
-        for (InstanceItem& item : scene.instances) item.bounds_ws = {glm::dvec3(-half_m), glm::dvec3(half_m)};
-        const ShadowFrame frame = fitted(scene, held);
-        return std::pair(frame.views.at(0).half_extent_m, frame.next_history);
-    };
-    const auto [wide, history] = extents(20.0, {});
-    EXPECT_EQ(extents(17.0, history).first, wide);
-    const double replaced = extents(5.0, history).first.x / extents(5.0, {}).first.x;
-    EXPECT_GE(replaced, 1.0);
-    EXPECT_LE(replaced, 1.2) << "a step of headroom, for a camera that goes on turning";
-    EXPECT_GT(extents(30.0, history).first.x, wide.x) << "growth is followed at once";
+/// A sun above two boxes that change their size, before a camera far away.
+class QuantisedSize : public ::testing::Test {
+protected:
+    void SetUp() override {
+        scene_.instances.resize(2);
+        scene_.consumers[0].position_ws_m = {0.0, 0.0, 200.0};
+        scene_.consumers[0].rotation_ws = glm::dmat3(1.0);
+        scene_.lights[0].shadow.cascades = 1;
+    }
+    /// Of the map in the next frame.
+    double extent_m(double half_m, History& held) {
+        for (InstanceItem& item : scene_.instances) item.bounds_ws = {glm::dvec3(-half_m), glm::dvec3(half_m)};
+        const ShadowFrame frame = fitted(scene_, held);
+        held = frame.next_history;
+        return frame.views.at(0).half_extent_m.x;
+    }
+    double extent_alone_m(double half_m) {
+        History none;
+        return extent_m(half_m, none);
+    }
+    /// With two steps of headroom, for a camera that goes on turning.
+    void expect_replaced(double extent, double half_m) {
+        EXPECT_GE(extent / extent_alone_m(half_m), 1.0);
+        EXPECT_LE(extent / extent_alone_m(half_m), 1.42);
+    }
+    SceneSnapshot scene_ = street(ShadowFit::quantised);
+};
+
+TEST_F(QuantisedSize, ThatIsALittleTooLargeStaysOneMuchTooLargeDoesNotAndGrowthIsFollowedAtOnce) {
+    History history;
+    const double wide = extent_m(20.0, history);
+    for (std::uint32_t i = 0; i < 3 * kSpareFrames; ++i) EXPECT_EQ(extent_m(17.0, history), wide);
+    EXPECT_GT(extent_m(30.0, history), wide);
+    History far = {};
+    (void)extent_m(20.0, far);
+    expect_replaced(extent_m(2.0, far), 2.0);
+}
+
+TEST_F(QuantisedSize, ThatIsFourTimesTooLargeStaysForASecond) {
+    History history;
+    const double wide = extent_m(20.0, history);
+    for (std::uint32_t i = 1; i < kSpareFrames; ++i) ASSERT_EQ(extent_m(5.0, history), wide) << i;
+    expect_replaced(extent_m(5.0, history), 5.0);
+    // A glance in between begins it anew.
+    (void)extent_m(20.0, history);
+    const double again = extent_m(20.0, history);
+    for (std::uint32_t i = 0; i < 3 * kSpareFrames; ++i)
+        ASSERT_EQ(extent_m(i % 50 == 0 ? 20.0 : 5.0, history), again) << i;
+}
+
+TEST_F(QuantisedSize, BecomesNotSmallerForASecondAfterAStep) {
+    History history;
+    (void)extent_m(20.0, history);
+    const double wide = extent_m(60.0, history);
+    std::uint32_t waited = 0;
+    while (extent_m(2.0, history) == wide) ASSERT_LE(++waited, kSpareFrames);
+    EXPECT_GE(waited, kSpareFrames - 1);
+    expect_replaced(extent_m(2.0, history), 2.0);
 }
 
 }  // namespace

@@ -176,10 +176,11 @@ TEST_P(Contract, ComesToRest) {
             }
             const ShadowFrame fine = fitted(s);
             if (fine.views.empty() || fine.demands[0].resolution_px != 2 * kLeastMap_px) continue;
-            for (int step = 0; step < 24; ++step) {
-                wish_px *= 1.05f;
+            for (int step = 0; step < 12; ++step) {
+                wish_px *= 1.1f;
                 History held = fine.next_history;
-                for (std::uint32_t f = 0; f < kSpareFrames + 4; ++f) held = fitted(s, held).next_history;
+                // A size may be tried for so long, and another one be kept as long after it.
+                for (std::uint32_t f = 0; f < 3 * kSpareFrames; ++f) held = fitted(s, held).next_history;
                 EXPECT_TRUE(fitted(s, held).next_history == held) << i;
                 tried_in_vain += held.lights[0].spare_frames > kSpareFrames ? 1 : 0;
             }

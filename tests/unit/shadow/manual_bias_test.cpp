@@ -134,7 +134,7 @@ shadow::LightingLight published(const LightShadow& settings) {
     frame.slots.resize(1);
     frame.slots[0].texture = {1};
     frame.slots[0].size_px = 64;
-    shadow::publish_lights(scene, {}, {}, frame);
+    shadow::publish_lights(scene, {}, {}, false, frame);
     return frame.inputs.at(0).lights.at(0);
 }
 

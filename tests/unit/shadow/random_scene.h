@@ -76,10 +76,11 @@ inline void place(SceneSnapshot& s, double scale, const glm::dvec3& offset) {
     }
 }
 
-inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}) {
+inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
     gl::DeviceInfo device;
     device.max_texture_px = device.max_cube_px = 16384;
     ShadowFrame frame;
+    frame.shared_out = shared_out;
     decide_demand(scene, device, true, held, frame.demands);
     select_sets(scene, frame);
     fit_views(scene, held, frame);

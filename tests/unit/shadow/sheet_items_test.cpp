@@ -12,6 +12,7 @@
 #include "engine/gl/device_recording.h"
 #include "engine/math/frustum.h"
 #include "shaders/embedded.h"
+#include "systems/shadow/exact/sheet_ends.h"
 #include "systems/shadow/exact/sheet_margins.h"
 #include "systems/shadow/kinds/orthographic_view.h"
 #include "systems/shadow/kinds/perspective_view.h"
@@ -244,12 +245,12 @@ TEST(SheetItems, HaveTrianglesOfMasksApartAndEndSheetsAtThem) {
     EXPECT_THAT(items.masked, SizeIs(1));
 }
 
-/// A number of shaders/shadow/exact/margins.glsl as it stands there, with margins.
-double in_shaders(const std::string& name) {
+/// A number of shaders/shadow/exact/margins.glsl, or of another file there, as it stands there, with margins.
+double in_shaders(const std::string& name, const std::string& path = "shadow/exact/margins.glsl") {
     for (const gl::ShaderFile& file : shader_files()) {
-        if (file.path != "shadow/exact/margins.glsl") continue;
+        if (file.path != path) continue;
         const std::string text(file.text);
-        const std::size_t at = text.rfind("const float " + name + " = ");
+        const std::size_t at = text.rfind(' ' + name + " = ");
         if (at != std::string::npos) return std::stod(text.substr(text.find('=', at) + 1));
     }
     ADD_FAILURE() << name << " is not there";
@@ -263,6 +264,8 @@ TEST(SheetMargins, AreTheSameInShaders) {
     EXPECT_EQ(in_shaders("kMostMoved_texel"), shadow::kMostMoved_texel);
     EXPECT_EQ(in_shaders("kDepartureFactor"), shadow::kDepartureFactor);
     EXPECT_EQ(in_shaders("kFloorTangent"), shadow::kFloorTangent);
+    EXPECT_EQ(in_shaders("kEndsAcross", "shadow/exact/ends.glsl"), shadow::kEndsAcross);
+    EXPECT_EQ(in_shaders("kMostStretch", "shadow/exact/source_cone.glsl"), shadow::kMostStretch);
     // As docs/exact.md adds them up.
     EXPECT_GE(in_shaders("kTexelHalf"), 0.508 + 1.0 / 256.0);
     EXPECT_GE(shadow::kDepartureFactor, (0.508 + 1.0 / 256.0 + shadow::kMostMoved_texel) / 0.5 + 0.004);

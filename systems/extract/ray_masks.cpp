@@ -1,11 +1,10 @@
-#include "systems/visibility/ray_masks.h"
+#include "systems/extract/ray_masks.h"
 
 #include <array>
 #include <bit>
+#include <limits>
 
-#include "systems/visibility/ray_records.h"
-
-namespace gnomon::visibility {
+namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kWordsPerTriangle = 6;  // u and v of three corners
@@ -13,21 +12,35 @@ constexpr std::size_t kTexelsPerWord = 4;
 
 }  // namespace
 
-rays::BvhTriangle RayMasks::placed(const rays::BvhTriangle& triangle, std::uint32_t mesh,
-                                   std::uint32_t first_triangle) {
-    rays::BvhTriangle placed = triangle;
-    placed.triangle += first_triangle;
-    if (triangle.mask == rays::kOpaque) return placed;
-    placed.mask = material(triangle.mask);
-    placed.spare = uvs_of(mesh) + kWordsPerTriangle * triangle.triangle;
-    return placed;
+float mean_chord_texel(const assets::Texture& texture, float alpha, float cutoff) {
+    const auto is_left = [&](std::uint32_t x, std::uint32_t y) {
+        const std::size_t i = std::size_t{y} * texture.width + x;
+        return alpha * static_cast<float>(texture.rgba[4 * i + 3]) / 255.0f >= cutoff;
+    };
+    std::uint64_t left = 0, begins = 0;  // of a run along a row, of one along a column
+    for (std::uint32_t y = 0; y < texture.height; ++y)
+        for (std::uint32_t x = 0; x < texture.width; ++x) {
+            if (!is_left(x, y)) continue;
+            ++left;
+            begins += is_left((x + texture.width - 1) % texture.width, y) ? 0 : 1;
+            begins += is_left(x, (y + texture.height - 1) % texture.height) ? 0 : 1;
+        }
+    if (left == 0) return 0.0f;
+    if (begins == 0) return std::numeric_limits<float>::infinity();
+    return static_cast<float>(2.0 * static_cast<double>(left) / static_cast<double>(begins));
 }
 
-std::uint32_t RayMasks::material(std::uint32_t index) {
+RayMasks::Place RayMasks::place(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t material) {
+    return {mask_of(material), uvs_of(mesh) + kWordsPerTriangle * triangle};
+}
+
+std::uint32_t RayMasks::mask_of(std::uint32_t index) {
     materials_.resize(library_->materials.size(), kUnset);
     if (materials_[index] != kUnset) return materials_[index];
     const assets::Material& material = library_->materials[index];
-    RayMask mask{.cutoff = material.alpha_cutoff, .alpha = material.base_colour.a};
+    RayMask mask{.cutoff = material.alpha_cutoff,
+                 .alpha = material.base_colour.a,
+                 .chord_texel = std::numeric_limits<float>::infinity()};
     const auto texture = static_cast<std::size_t>(material.base_colour_texture);
     if (material.base_colour_texture >= 0 && texture < library_->textures.size()) {
         const assets::Texture& t = library_->textures[texture];
@@ -37,6 +50,7 @@ std::uint32_t RayMasks::material(std::uint32_t index) {
         mask.wrap_u = static_cast<std::uint32_t>(t.wrap_u);
         mask.wrap_v = static_cast<std::uint32_t>(t.wrap_v);
         mask.linear = t.linear_filter ? 1 : 0;
+        if (mask.texels != kUnset) mask.chord_texel = mean_chord_texel(t, mask.alpha, mask.cutoff);
     }
     const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(RayMask) / sizeof(std::uint32_t)>>(mask);
     materials_[index] = static_cast<std::uint32_t>(words_.size());
@@ -69,4 +83,4 @@ std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
     return uvs_[index];
 }
 
-}  // namespace gnomon::visibility
+}  // namespace gnomon

@@ -1,0 +1,124 @@
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <random>
+
+#include "engine/gl/shader_source.h"
+#include "engine/rays/bvh.h"
+#include "engine/rays/mesh_bvh.h"
+#include "shaders/embedded.h"
+#include "tests/gl/device_fixture.h"
+#include "tests/unit/math/random_seed.h"
+
+// The C++ and the GLSL views of what is read as texels: no interface of a program tells those. Shaders find in each member
+// what C++ wrote into it.
+namespace gnomon {
+namespace {
+
+using rays::BvhNode;
+using rays::BvhTriangle;
+
+constexpr std::uint32_t kRecords = 5, kOutBinding = 1;
+/// Words of 32 bits of a node and a triangle, as the probe writes them.
+constexpr std::size_t kWords = 8 + 12;
+
+const std::string kProbe = "#include \"rays/scene.glsl\"\n" R"(layout(local_size_x = 1) in;
+layout(std430, binding = 1) buffer Out { uint words[]; };
+void write(uint at, vec3 v, uint n) {
+    for (int i = 0; i < 3; ++i) words[at + uint(i)] = floatBitsToUint(v[i]);
+    words[at + 3u] = n;
+}
+void main() {
+    uint i = gl_WorkGroupID.x, at = 20u * i;
+    RayNode node = ray_node(i);
+    write(at, node.low, node.skip);
+    write(at + 4u, node.high, node.leaf);
+    RayTriangle t = ray_triangle(i);
+    write(at + 8u, t.a, t.triangle);
+    write(at + 12u, t.b, t.mask);
+    write(at + 16u, t.c, t.uvs);
+}
+)";
+
+void append(std::vector<std::uint32_t>& words, const glm::vec3& v, std::uint32_t n) {
+    for (int i = 0; i < 3; ++i) words.push_back(std::bit_cast<std::uint32_t>(v[i]));
+    words.push_back(n);
+}
+
+class RayTexels : public DeviceTest {
+protected:
+    template <class T>
+    gl::BufferHandle texels_of(const std::vector<T>& records) {
+        return keep(device().create_buffer(
+            {.label = "texels", .size = records.size() * sizeof(T), .use = gl::BufferUse::updated, .texels = true},
+            std::as_bytes(std::span(records))));
+    }
+    std::vector<std::uint32_t> read_by_shader(gl::BufferHandle nodes, gl::BufferHandle triangles) {
+        std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
+        files.push_back({"probe.comp", kProbe});
+        const auto text = gl::expand_shader(files, "probe.comp", {});
+        if (!text) return {};
+        const std::uint64_t bytes = kRecords * kWords * sizeof(std::uint32_t);
+        const auto program = keep(device().create_program({.label = "probe", .compute = text.value()}));
+        const auto out = keep(device().create_buffer({.label = "out", .size = bytes}, {}));
+        const auto back =
+            keep(device().create_buffer({.label = "back", .size = bytes, .use = gl::BufferUse::read_back}, {}));
+        gl::CommandList list;
+        list.add(gl::BindTexels{10, nodes});
+        list.add(gl::BindTexels{11, triangles});
+        list.add(gl::BindStorage{kOutBinding, out});
+        list.add(gl::Dispatch{program, kRecords, 1});
+        list.add(gl::CopyBuffer{out, back});
+        run(list);
+        std::vector<std::uint32_t> words(kRecords * kWords);
+        glFinish();
+        EXPECT_EQ(device().read_buffer(back, std::as_writable_bytes(std::span(words))), gl::Readback::done);
+        return words;
+    }
+};
+
+TEST_F(RayTexels, ShadersReadWhatWasWritten) {
+    std::mt19937_64 random(print_seed());
+    std::uniform_real_distribution<float> place(-100.0f, 100.0f);
+    const auto any = [&] { return glm::vec3(place(random), place(random), place(random)); };
+    const auto number = [&] { return static_cast<std::uint32_t>(random()); };
+    std::vector<BvhNode> nodes;
+    std::vector<BvhTriangle> triangles;
+    std::vector<std::uint32_t> written;
+    for (std::uint32_t i = 0; i < kRecords; ++i) {
+        const BvhNode& node = nodes.emplace_back(BvhNode{any(), number(), any(), number()});
+        append(written, node.min, node.skip);
+        append(written, node.max, node.leaf);
+        const BvhTriangle& t = triangles.emplace_back(BvhTriangle{any(), number(), any(), rays::kOpaque, any(), number()});
+        append(written, t.a, t.triangle);
+        append(written, t.b, t.mask);
+        append(written, t.c, t.spare);
+    }
+    const gl::BufferHandle node_texels = texels_of(nodes), triangle_texels = texels_of(triangles);
+    EXPECT_EQ(read_by_shader(node_texels, triangle_texels), written);
+
+    // A list writes to such a buffer as to any other, and what is read is what was written last.
+    std::swap(nodes.front(), nodes.back());
+    std::swap_ranges(written.begin(), written.begin() + 8, written.end() - kWords);
+    gl::CommandList list;
+    list.update(node_texels, 0, std::span<const BvhNode>(nodes));
+    run(list);
+    EXPECT_EQ(read_by_shader(node_texels, triangle_texels), written);
+}
+
+TEST_F(RayTexels, MoreThanTheDeviceCanAddressAreRefusedAndNothingIsLeft) {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    const std::size_t live = gl::live_objects(device());
+    const std::uint64_t over = (static_cast<std::uint64_t>(most) + 1) * gl::kTexelBytes;
+    const auto made = device().create_buffer({.label = "far too many", .size = over, .texels = true}, {});
+    EXPECT_EQ(made.failure, gl::Failure::out_of_memory);
+    EXPECT_THAT(made.log, ::testing::HasSubstr("far too many"));
+    EXPECT_EQ(device().create_buffer({.size = 24, .texels = true}, {}).failure, gl::Failure::invalid_value);
+    EXPECT_EQ(gl::live_objects(device()), live);
+    take_messages();
+}
+
+}  // namespace
+}  // namespace gnomon

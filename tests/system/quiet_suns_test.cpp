@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include "systems/shadow/exact/ray_load.h"
+#include "tests/system/frame_fixture.h"
+
+// Suns of filter=exact whose casters stay while the camera walks: a map that is drawn once and asked for ever may be larger.
+namespace gnomon {
+namespace {
+
+class QuietSuns : public FrameTest {
+protected:
+    void SetUp() override {
+        FrameTest::SetUp();
+        stage = world.add_stage();
+        sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
+        set([](LightShadow&) {});
+        step();
+        moving_texels = light("sun").texels;
+        ASSERT_GT(moving_texels, 0u);
+    }
+    template <class Change>
+    void set(Change change) {
+        world.registry.patch<LightShadow>(sun, [&](LightShadow& s) {
+            s.filter = ShadowFilter::exact;
+            change(s);
+        });
+    }
+    /// How many maps were drawn meanwhile.
+    std::uint32_t walk(std::uint32_t frames) {
+        std::uint32_t drawn = 0;
+        for (std::uint32_t i = 0; i < frames; ++i) {
+            x_m += 1e-4;
+            world.move(stage.camera, {x_m, 4, 8});
+            step();
+            drawn += light("sun").views_drawn;
+        }
+        return drawn;
+    }
+    TestWorld::Stage stage;
+    ecs::Entity sun;
+    double x_m = 0.0;
+    std::uint64_t moving_texels = 0;
+    static constexpr std::uint64_t kLarger = 4;  // twice the edge
+};
+
+TEST_F(QuietSuns, GetALargerMapOnceWhileTheCameraWalks) {
+    EXPECT_EQ(walk(shadow::kQuietFrames), 0u) << "not before";
+    EXPECT_EQ(walk(1), 1u);
+    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+    EXPECT_EQ(walk(3 * shadow::kQuietFrames), 0u) << "and it stays";
+    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+}
+
+TEST_F(QuietSuns, GetTheSmallerOneAgainWithWhatHasToBeDrawnAnyway) {
+    walk(shadow::kQuietFrames + 1);
+    for (int i = 1; i <= 3; ++i) {
+        world.move(stage.box, {0.01 * i, 1, 0});
+        step();
+        EXPECT_LE(light("sun").views_drawn, 1u);
+        step();
+    }
+    EXPECT_EQ(light("sun").texels, moving_texels);
+    EXPECT_LE(walk(shadow::kQuietFrames - 1), 1u);
+    EXPECT_EQ(light("sun").texels, moving_texels);
+}
+
+TEST_F(QuietSuns, OfAStillPictureHaveNothingDrawn) {
+    for (std::uint32_t i = 0; i < 3 * shadow::kQuietFrames; ++i) {
+        step();
+        ASSERT_EQ(light("sun").views_drawn, 0u) << i;
+    }
+    EXPECT_EQ(light("sun").texels, moving_texels) << "nobody asks";
+    EXPECT_TRUE(frame->report().still);
+}
+
+TEST_F(QuietSuns, KeepTheSizeThatIsAskedFor) {
+    set([](LightShadow& s) { s.resolution_px = 256; });
+    step();
+    EXPECT_EQ(walk(2 * shadow::kQuietFrames), 0u);
+    EXPECT_EQ(light("sun").texels, 256u * 256u);
+}
+
+TEST_F(QuietSuns, AreNoneWhereAllIsDrawnInEveryFrame) {
+    set([](LightShadow& s) { s.economy = false; });
+    step();
+    EXPECT_EQ(walk(2 * shadow::kQuietFrames), 2 * shadow::kQuietFrames);
+    EXPECT_EQ(light("sun").texels, moving_texels);
+}
+
+TEST_F(QuietSuns, DoNotGrowWithinABudget) {
+    settings.shadow_budget.bytes = 2 * light("sun").bytes;  // there would be no room, and then room again
+    walk(1);
+    EXPECT_EQ(walk(4 * shadow::kQuietFrames), 0u);
+    EXPECT_EQ(light("sun").texels, moving_texels);
+}
+
+TEST_F(QuietSuns, AreOnlyThoseThatAskByRays) {
+    set([](LightShadow& s) { s.filter = ShadowFilter::triangles; });
+    step();
+    const std::uint64_t texels = light("sun").texels;
+    EXPECT_EQ(walk(2 * shadow::kQuietFrames), 0u);
+    EXPECT_EQ(light("sun").texels, texels);
+}
+
+}  // namespace
+}  // namespace gnomon
