@@ -37,11 +37,12 @@ void add_light(const LightingLight& light, Signature& s) {
     s.add(light.farthest_depth);
 }
 
-/// What the layers of its map hold. False: not what stands there now.
+/// What the layers of its map hold. False: not what stands there now, or it rests too little to be drawn, and what is
+/// kept meanwhile would go with the frame that draws it.
 bool add_views(const ShadowFrame& frame, std::size_t first, std::size_t end, Signature& s) {
     for (std::size_t v = first; v < end; ++v) {
         const ShadowSlot& slot = frame.slots[v];
-        if (slot.hold != Hold::none) return false;
+        if (slot.hold != Hold::none || frame.demands[frame.views[v].demand].left_to_rays) return false;
         s.add(slot.content);
         s.add(slot.moment_content);
     }

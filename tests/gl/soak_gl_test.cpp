@@ -9,14 +9,17 @@
 namespace gnomon {
 namespace {
 
-constexpr std::size_t kMostGrowth_bytes = 1u << 20;
+/// llvmpipe compiles a program once more for every combination of formats, sizes and states that it is used with, some
+/// 200 KiB each time, and the rarest of them come late: in 100 000 frames the last after 40 000. So the first half of
+/// the frames warms up, and the second may meet five more, or two in a long run.
+constexpr std::size_t kMostGrowth_bytes = 1u << 20, kMostLongGrowth_bytes = 1u << 19;
 
 class GlSoak : public GlTest {
 protected:
     /// llvmpipe keeps, for each list of work in flight, the memory that the list needed, and the last references to
     /// deleted textures, until that list is used again; how many there are depends on how its threads are scheduled.
-    /// That alone moves resident memory by up to 5 MiB either way, without a trend (44 000 frames; the allocations of
-    /// this process' own code stay the same to the byte meanwhile). Without threads there is one such list.
+    /// That alone moves memory by up to 5 MiB either way, without a trend (44 000 frames; the allocations of this
+    /// process' own code stay the same to the byte meanwhile). Without threads there is one such list.
     static void SetUpTestSuite() { setenv("LP_NUM_THREADS", "0", 1); }
 
     void SetUp() override {
@@ -53,21 +56,22 @@ protected:
 };
 
 TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
-    const std::size_t frames = std::getenv("GNOMON_LONG") ? 100000 : 3000, warm_up = 1000;
+    const bool is_long = std::getenv("GNOMON_LONG");
+    const std::size_t frames = is_long ? 50000 : 3000;
     world.use_everything([this] { step(); });
     const std::size_t baseline = objects_when_empty();
-    churn(warm_up);
+    churn(frames);
     EXPECT_EQ(objects_when_empty(), baseline);
-    const std::size_t bytes_before = resident_bytes();
+    const std::size_t bytes_before = held_bytes();
 
     churn(frames);
 
     EXPECT_EQ(objects_when_empty(), baseline);
-    const std::size_t bytes_after = resident_bytes();
+    const std::size_t bytes_after = held_bytes();
     EXPECT_EQ(failures, 0);
-    EXPECT_LE(bytes_after, bytes_before + kMostGrowth_bytes);
+    EXPECT_LE(bytes_after, bytes_before + (is_long ? kMostLongGrowth_bytes : kMostGrowth_bytes));
     const auto growth = static_cast<std::int64_t>(bytes_after) - static_cast<std::int64_t>(bytes_before);
-    std::cout << frames << " frames on " << device().info().name << ", resident memory grew by " << growth
+    std::cout << frames << " frames after as many on " << device().info().name << ", held memory grew by " << growth
               << " bytes\n";
     RecordProperty("growth_bytes", std::to_string(growth));
 }
@@ -75,7 +79,7 @@ TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
 TEST_F(GlSoak, ASmallLeakWouldBeSeen) {
     world.use_everything([this] { step(); });
     churn(500);
-    const std::size_t baseline = objects_when_empty(), bytes_before = resident_bytes();
+    const std::size_t baseline = objects_when_empty(), bytes_before = held_bytes();
     std::vector<gl::BufferHandle> kept;
     constexpr int kFrames = 400;
     for (int i = 0; i < kFrames; ++i) {  // 4 KiB a frame: the bound is reached after 256
@@ -84,7 +88,7 @@ TEST_F(GlSoak, ASmallLeakWouldBeSeen) {
         step();
     }
     EXPECT_GT(objects_when_empty(), baseline);
-    EXPECT_GT(resident_bytes(), bytes_before + kMostGrowth_bytes);
+    EXPECT_GT(held_bytes(), bytes_before + kMostGrowth_bytes);
     for (const gl::BufferHandle buffer : kept) device().destroy(buffer);
     EXPECT_EQ(objects_when_empty(), baseline);
 }

@@ -147,11 +147,10 @@ void SoakWorld::clear(const std::function<void()>& run_frame) {
     for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames; ++i) run_frame();
 }
 
-std::size_t resident_bytes() {
-    malloc_trim(0);
-    std::size_t all_pages = 0, resident_pages = 0;
-    std::ifstream("/proc/self/statm") >> all_pages >> resident_pages;
-    return resident_pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+std::size_t held_bytes() {
+    std::size_t all = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;  // in pages: proc(5), statm
+    std::ifstream("/proc/self/statm") >> all >> resident >> shared >> text >> library >> data;
+    return data * static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) - mallinfo2().fordblks;
 }
 
 }  // namespace gnomon

@@ -45,7 +45,8 @@ private:
     std::vector<ecs::Entity> lights_, casters_;
 };
 
-/// Bytes of this process that lie in memory, after giving back what the allocator held free.
-std::size_t resident_bytes();
+/// Bytes that this process holds: its writable private memory, less what the allocator has free in it. Resident memory
+/// would follow where the allocator happens to place things as well: which of its pages are ever touched.
+std::size_t held_bytes();
 
 }  // namespace gnomon

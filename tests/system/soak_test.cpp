@@ -74,7 +74,7 @@ TEST_F(Soak, AHundredThousandFramesLeaveNoObjectsAndNoMemoryBehind) {
     churn(kWarmUpFrames);
     labels_when_empty();
     forget();
-    const std::size_t bytes_before = resident_bytes(), created_before = created;
+    const std::size_t bytes_before = held_bytes(), created_before = created;
     drawn_views = 0;
 
     churn(kFrames);
@@ -85,7 +85,7 @@ TEST_F(Soak, AHundredThousandFramesLeaveNoObjectsAndNoMemoryBehind) {
     EXPECT_THAT(more, ::testing::IsEmpty());
     EXPECT_THAT(less, ::testing::IsEmpty());
     forget();
-    const std::size_t bytes_after = resident_bytes();
+    const std::size_t bytes_after = held_bytes();
     if (!kSanitized) {
         EXPECT_LE(bytes_after, bytes_before + kMostGrowth_bytes);
     }
@@ -96,7 +96,7 @@ TEST_F(Soak, AHundredThousandFramesLeaveNoObjectsAndNoMemoryBehind) {
     const auto growth = static_cast<std::int64_t>(bytes_after) - static_cast<std::int64_t>(bytes_before);
     RecordProperty("growth_bytes", std::to_string(growth));
     std::cout << kFrames << " frames: " << created - created_before << " maps made, " << drawn_views
-              << " views drawn, resident memory grew by " << growth << " bytes\n";
+              << " views drawn, held memory grew by " << growth << " bytes\n";
 }
 
 TEST_F(Soak, AnObjectLeftBehindWouldBeSeen) {
@@ -109,9 +109,9 @@ TEST_F(Soak, AnObjectLeftBehindWouldBeSeen) {
 }
 
 TEST_F(Soak, MemoryKeptWouldBeSeen) {
-    const std::size_t before = resident_bytes();
+    const std::size_t before = held_bytes();
     std::vector<char> kept(4 * kMostGrowth_bytes, 'x');
-    EXPECT_GT(resident_bytes(), before + kMostGrowth_bytes) << kept.back();
+    EXPECT_GT(held_bytes(), before + kMostGrowth_bytes) << kept.back();
 }
 
 }  // namespace
