@@ -2,19 +2,12 @@
 #include <cstdint>
 #include <string>
 
-#include "bench/spread.h"
+#include "bench/frame_blocks.h"
 #include "bench/stage.h"
 
 namespace gnomon::bench {
 
-/// Frames of one kind: wall-clock time of each from its start until the device has finished it, and the process's
-/// time on all cores, which another process's work does not touch.
-struct TimedFrames {
-    Spread us, cpu_us;
-    Spread ratio, cpu_ratio;  // to the same frames without shadows, one ratio of medians per round; none of those
-};
-
-/// Whole frames without shadows and with them.
+/// Whole frames without shadows and with them; ratios are to the same frames without.
 struct FrameTimes {
     std::string scene, device;
     glm::uvec2 size_px{0, 0};
