@@ -5,28 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/core/result.h"
-#include "engine/ecs/registry.h"
 #include "engine/gl/device.h"
 #include "sample_game/command_line.h"
-#include "sample_game/game_session.h"
-#include "sample_game/spawn.h"
+#include "sample_game/game_world.h"
 #include "sample_game/stats_file.h"
 #include "systems/frame.h"
 
 namespace gnomon::game {
-
-/// The loaded scene as entities.
-struct GameWorld {
-    ecs::Registry registry;
-    assets::MeshLibrary library;
-    SpawnedScene scene;
-    std::size_t camera = 0;                 // index into scene.cameras: the active one
-    std::optional<std::size_t> fit_camera;  // the one that shadows are fitted to
-    std::unique_ptr<GameSession> game;      // null: the scene is only looked at
-    std::vector<std::string> warnings;      // of the loader, one line each
-};
 
 /// Loads, spawns, applies --set, chooses the cameras, finds the light of --debug.
 Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
