@@ -11,8 +11,8 @@ namespace gnomon::bench {
 /// that serves the point. Works from a copy of the frame's own fits, which are pure.
 class EdgeBounds {
 public:
-    /// `held`: what the fits of that frame left, and what a budget left each light. The scene must outlive this. Positions below are relative to its first
-    /// consumer.
+    /// `held`: what the fits of that frame left, and what a budget left each light. The scene must outlive this.
+    /// Positions below are relative to its first consumer.
     EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held);
 
     /// `telling`: 1; else every texel is taken to be that many times as large as it is, to see what a wrong prediction

@@ -1,5 +1,6 @@
 #include "bench/number_words.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace gnomon::bench {
@@ -17,6 +18,8 @@ std::string percent_words(double share) {
     constexpr double kPercent = 100.0;
     return three_digits(kPercent * share) + " %";
 }
+
+std::string count_words(double count) { return std::to_string(std::llround(count)); }
 
 std::string factor_words(double factor) { return three_digits(factor); }
 

@@ -97,6 +97,21 @@ HalvingCost halving_cost(const SceneSweep& sweep, const std::string& light, Swee
     return found;
 }
 
+std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::string& light, SweepCost cost) {
+    const std::vector<Choice> all = choices(sweep, light, SweepTruth::point, cost);
+    const auto defaults = std::find_if(all.begin(), all.end(),
+                                       [&](const Choice& c) { return sweep.plan[c.row].name == kDefaultsRow; });
+    if (defaults == all.end() || defaults->error <= kMostWrongByDefault) return std::nullopt;
+    Missed missed;
+    missed.defaults = *defaults;
+    const RowFigures& figures = find_row(sweep, defaults->row, light)->figures;
+    missed.sub_texel = figures.sub_texel_caster.value_or(0.0);
+    for (const Figure& count : {figures.sub_texel_caster, figures.truth_ambiguous, figures.unexplained})
+        missed.beyond += count.value_or(0.0);
+    if (const Choice* reached = cheapest(all, kMostWrongByDefault)) missed.reached = *reached;
+    return missed;
+}
+
 std::vector<Bargain> bargains(const SceneSweep& sweep, const std::string& light, SweepCost cost) {
     std::vector<Bargain> found;
     const std::vector<Choice> all = choices(sweep, light, SweepTruth::point, cost);

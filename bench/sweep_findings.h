@@ -44,6 +44,19 @@ struct HalvingCost {
 /// An error of less than half a pixel of those that are scored counts as that.
 HalvingCost halving_cost(const SceneSweep& sweep, const std::string& light, SweepTruth truth, SweepCost cost);
 
+/// What the defaults promise of every light in every scene, as a share of the pixels that are scored: the bound of
+/// docs/cost.md. It cannot be had where shadows are narrower than their map's texels.
+inline constexpr double kMostWrongByDefault = 0.0005;
+
+/// Of defaults that are above that: what kept them from it, and what reaching it takes.
+struct Missed {
+    Choice defaults;
+    double beyond = 0.0, sub_texel = 0.0;  // places on edges farther off than predicted, and the narrow ones of them
+    std::optional<Choice> reached;         // the cheapest row that does; none: no row
+};
+/// Empty: the defaults are within it, or not known.
+std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::string& light, SweepCost cost);
+
 /// A tutorial's row, and the best that no more time buys.
 struct Bargain {
     Choice tutorial, best;

@@ -10,6 +10,20 @@ std::string named(const SceneSweep& sweep, const Choice& choice) {
            factor_words(choice.cost) + ")";
 }
 
+/// Why the defaults of a light are above their bound, and what it takes to reach it; nothing if they are not.
+std::string missed_words(const SceneSweep& sweep, const std::string& light) {
+    const auto missed = missed_by_defaults(sweep, light, SweepCost::drawn);
+    if (!missed) return {};
+    std::string text = " That is above the " + percent_words(kMostWrongByDefault) + " that defaults are to keep";
+    if (missed->sub_texel > 0.0)
+        text += ": of the " + count_words(missed->beyond) + " places on edges that are farther off than predicted, " +
+                count_words(missed->sub_texel) + " belong to shadows or lights narrower than a texel";
+    text += "; ";
+    if (!missed->reached) return text + "no row of this sweep reaches it.";
+    return text + "reaching it takes × " + factor_words(missed->reached->cost) + " their time, by “" +
+           sweep.plan[missed->reached->row].name + "” (" + percent_words(missed->reached->error) + ").";
+}
+
 std::string sentence(const SceneSweep& sweep, const std::string& light, SweepTruth truth) {
     const HalvingCost found = halving_cost(sweep, light, truth, SweepCost::drawn);
     const char* error = truth == SweepTruth::point ? "wrong pixels" : "error of soft shadows";
@@ -22,9 +36,11 @@ std::string sentence(const SceneSweep& sweep, const std::string& light, SweepTru
         text += ": no row has half the " + std::string(error) + " of the cheapest. ";
     if (!found.defaults) return text;
     text += "The defaults have " + percent_words(found.defaults->error) + "; ";
-    if (!found.from_defaults) return text + "no row halves that.";
+    const std::string missed = truth == SweepTruth::point ? missed_words(sweep, light) : std::string();
+    if (!found.from_defaults) return text + "no row halves that." + missed;
     return text + "halving that takes × " + factor_words(found.from_defaults->cost_factor()) + " their time, by “" +
-           sweep.plan[found.from_defaults->to.row].name + "” (" + percent_words(found.from_defaults->to.error) + ").";
+           sweep.plan[found.from_defaults->to.row].name + "” (" + percent_words(found.from_defaults->to.error) + ")." +
+           missed;
 }
 
 }  // namespace

@@ -3,13 +3,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "bench/sweep_report.h"
 #include "tests/unit/bench/made_up_sweep.h"
 
 namespace gnomon::bench {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 constexpr auto kPoint = SweepTruth::point;
 constexpr auto kDrawn = SweepCost::drawn;
@@ -85,6 +88,34 @@ TEST(SweepFindings, RowsThatFailedOrHaveNoTimesAreNoChoice) {
     sweep.rows[1].lights.clear();
     sweep.rows[2].lights[0].figures.gpu_ratio = {};
     EXPECT_THAT(front_of(sweep), ElementsAre("a"));
+}
+
+TEST(SweepFindings, DefaultsAboveTheirBoundSayWhyAndWhatReachingItTakes) {
+    SceneSweep sweep = made_up_sweep(
+        {{"defaults", 0.0011, 1.0}, {"fine", 0.0004, 3.0}, {"finer", 0.0001, 5.0}, {"nearly", 0.0006, 1.5}});
+    RowFigures& figures = sweep.rows[0].lights[0].figures;
+    figures.sub_texel_caster = 40.0;
+    figures.truth_ambiguous = 2.0;
+    figures.unexplained = 0.0;
+    const auto missed = missed_by_defaults(sweep, "sun", kDrawn);
+    ASSERT_TRUE(missed);
+    EXPECT_EQ(missed->sub_texel, 40.0);
+    EXPECT_EQ(missed->beyond, 42.0);
+    ASSERT_TRUE(missed->reached);
+    EXPECT_EQ(sweep.plan[missed->reached->row].name, "fine");
+    const std::string said = halving_sentences(sweep).at(0);
+    EXPECT_THAT(said, HasSubstr("above the 0.05 % that defaults are to keep: of the 42 places"));
+    EXPECT_THAT(said, HasSubstr("40 belong to shadows or lights narrower than a texel"));
+    EXPECT_THAT(said, HasSubstr("reaching it takes × 3 their time, by “fine” (0.04 %)."));
+    sweep.rows[1] = sweep.rows[2] = JudgedRow{};
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("no row of this sweep reaches it."));
+}
+
+TEST(SweepFindings, DefaultsWithinTheirBoundMissNothing) {
+    const SceneSweep sweep = made_up_sweep({{"defaults", 0.0005, 1.0}, {"fine", 0.0001, 3.0}});
+    EXPECT_FALSE(missed_by_defaults(sweep, "sun", kDrawn));
+    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("above")));
+    EXPECT_FALSE(missed_by_defaults(sweep, "moon", kDrawn)) << "it has no rows";
 }
 
 TEST(SweepFindings, ABargainIsTheBestThatNoMoreTimeBuys) {
