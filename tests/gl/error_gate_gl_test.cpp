@@ -169,7 +169,8 @@ TEST(RecordedErrors, SayWhatRoseWhatFellAndWhatCannotBeCompared) {
     EXPECT_THAT(test::what_rose(before, found), ElementsAre("sun, \"hard\": is missing"));
     EXPECT_THAT(test::what_rose({}, found), ElementsAre("sun, \"a row, of words\": was never recorded"));
 
-    const auto file = std::filesystem::temp_directory_path() / ("gnomon_errors_" + std::to_string(::getpid()));
+    const OwnFolder folder;
+    const auto file = folder.path() / "errors";
     test::write_errors(file, {"a device", before});
     const test::RecordedErrors read = test::read_errors(file);
     std::filesystem::remove(file);

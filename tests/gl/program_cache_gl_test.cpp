@@ -6,6 +6,7 @@
 
 #include "engine/gl/program_cache.h"
 #include "tests/gl/gl_test_context.h"
+#include "tests/own_folder.h"
 
 /// Linked programs out of a folder, on the real driver.
 namespace gnomon {
@@ -36,14 +37,6 @@ protected:
         GLint formats = 0;
         glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
         if (formats == 0) GTEST_SKIP() << "this driver gives no program binaries";
-        std::string pattern = ::testing::TempDir() + "gnomon_programs_gl_XXXXXX";
-        const char* made = ::mkdtemp(pattern.data());
-        ASSERT_NE(made, nullptr);
-        folder = made;
-    }
-    void TearDown() override {
-        if (!folder.empty()) fs::remove_all(folder);
-        GlTest::TearDown();
     }
     /// Makes both programs on a device of their own, draws with the first, and gives back what was counted and drawn.
     gl::ProgramCounts make_and_draw(std::array<float, 4>& pixel) {
@@ -84,7 +77,8 @@ protected:
         for (const auto& entry : fs::directory_iterator(folder)) all.push_back(entry.path());
         return all;
     }
-    fs::path folder;
+    OwnFolder own;
+    const fs::path& folder = own.path();
 };
 
 TEST_F(ProgramCacheGl, HasThemForTheNextDeviceAndTheyDrawTheSame) {

@@ -12,7 +12,6 @@ namespace {
 class SweepBounds : public TruthTest {
 protected:
     void SetUp() override {
-        TruthTest::SetUp();
         bench::StageOptions options;
         options.size_px = {320, 180};
         stage_ = open(options);

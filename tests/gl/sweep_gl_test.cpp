@@ -33,9 +33,7 @@ const bench::SweepRow kDefaults = row("defaults", {}), kHard = row("hard", {"fil
 
 class SweepGl : public TruthTest {
 protected:
-    static std::filesystem::path root() {
-        return std::filesystem::temp_directory_path() / ("gnomon_sweep_" + std::to_string(::getpid()));
-    }
+    const std::filesystem::path& root() const { return own_.path(); }
     bench::SceneSweep sweep(const std::string& folder, std::vector<bench::SweepRow> plan, std::uint32_t rounds = 0) {
         bench::StageOptions stage_options;
         stage_options.size_px = {160, 90};
@@ -55,10 +53,6 @@ protected:
         EXPECT_EQ(found.value().gl_complaints, 0u);
         return std::move(found).value();
     }
-    void TearDown() override {
-        std::filesystem::remove_all(root());
-        TruthTest::TearDown();
-    }
 
     /// Everything but times.
     static nlohmann::ordered_json found(const bench::SceneSweep& sweep, const std::string& name) {
@@ -75,6 +69,7 @@ protected:
         return nullptr;
     }
 
+    OwnFolder own_;
     std::vector<std::string> said_;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
@@ -11,6 +10,7 @@
 #include "bench/stage.h"
 #include "sample_game/picture_files.h"
 #include "sample_game/scene_generator/courtyard.h"
+#include "tests/own_folder.h"
 
 namespace gnomon {
 
@@ -20,14 +20,6 @@ inline constexpr double kMostWrong = 0.003, kMostAcneAndLeak = 0.001;
 /// A folder that is gone at the end of the test.
 class TruthTest : public ::testing::Test {
 protected:
-    void SetUp() override {
-        const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("gnomon_truth_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path courtyard_file(const game::CourtyardOptions& options) const {
         const auto file = folder_ / "courtyard.glb";
         const auto courtyard = game::make_courtyard(options);
@@ -61,7 +53,8 @@ protected:
     }
 
 private:
-    std::filesystem::path folder_;
+    OwnFolder own_;
+    const std::filesystem::path& folder_ = own_.path();
 };
 
 inline const bench::LightAccuracy* find_light(const bench::Accuracy& accuracy, const std::string& name) {

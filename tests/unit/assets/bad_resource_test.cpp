@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "engine/assets/gltf_limits.h"
+#include "tests/own_folder.h"
 #include "tests/unit/assets/gltf_builder.h"
 
 namespace gnomon::test {
@@ -37,8 +38,8 @@ TEST(BadResource, AnImageWithoutASourceIsLeftOutWithAWarning) {
 }
 
 TEST(BadResource, BuffersThatAreTooLargeTogetherAreRefused) {
-    const fs::path folder = fs::path(testing::TempDir()) / "gnomon_large_buffers";
-    fs::create_directories(folder);
+    const OwnFolder own;
+    const fs::path& folder = own.path();
     std::ofstream(folder / "zeros.bin").close();
     fs::resize_file(folder / "zeros.bin", limits::kMaxFileBytes);  // sparse: takes no room
     GltfBuilder builder = triangle();
@@ -46,7 +47,6 @@ TEST(BadResource, BuffersThatAreTooLargeTogetherAreRefused) {
     builder.doc["buffers"] = json::array({buffer, buffer, buffer});
     const std::string text = builder.doc.dump();
     const auto result = assets::load_gltf_memory(bytes_of(text), folder, "large.gltf");
-    fs::remove_all(folder);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().rule, "buffer.total_bytes") << to_line(result.error());
     EXPECT_EQ(result.error().pointer, "/buffers/2/uri");

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/own_folder.h"
 #include "tests/unit/assets/gltf_builder.h"
 
 namespace gnomon::test {
@@ -16,16 +17,12 @@ namespace fs = std::filesystem;
 class BadUri : public testing::Test {
 protected:
     void SetUp() override {
-        root_ = fs::path(testing::TempDir()) /
-                (std::string{"gnomon_uri_"} + testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::remove_all(root_);
         fs::create_directories(root_ / "asset/parts");
         builder_ = triangle();
         write(root_ / "asset/mesh.bin", builder_.binary);
         write(root_ / "asset/parts/my mesh.bin", builder_.binary);
         write(root_ / "secret.bin", builder_.binary);
     }
-    void TearDown() override { fs::remove_all(root_); }
 
     static void write(const fs::path& file, const Bytes& bytes) {
         std::ofstream stream(file, std::ios::binary);
@@ -46,7 +43,8 @@ protected:
         return result.error().rule;
     }
 
-    fs::path root_;
+    OwnFolder own_;
+    const fs::path& root_ = own_.path();
     GltfBuilder builder_;
 };
 

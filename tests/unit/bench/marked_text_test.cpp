@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/own_folder.h"
+
 namespace gnomon::bench {
 namespace {
 
@@ -15,9 +17,9 @@ protected:
         std::ifstream file(page_, std::ios::binary);
         return {std::istreambuf_iterator<char>(file), {}};
     }
-    void TearDown() override { std::filesystem::remove(page_); }
 
-    std::filesystem::path page_ = std::filesystem::path(::testing::TempDir()) / "gnomon_marked_text.md";
+    OwnFolder folder_;
+    std::filesystem::path page_ = folder_.path() / "page.md";
 };
 
 TEST_F(MarkedText, OnlyWhatStandsBetweenTheMarksIsReplaced) {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "bench/sweep_json.h"
+#include "tests/own_folder.h"
 
 namespace gnomon::bench {
 namespace {
@@ -28,8 +29,6 @@ protected:
         return {std::istreambuf_iterator<char>(in), {}};
     }
     void write(const std::string& text) const { std::ofstream(file_, std::ios::binary) << text; }
-    void SetUp() override { std::filesystem::remove(file_); }
-    void TearDown() override { std::filesystem::remove(file_); }
 
     /// A row with every figure, each another one.
     static JudgedRow full_row(const std::string& name) {
@@ -44,8 +43,8 @@ protected:
         return row;
     }
 
-    std::filesystem::path file_ = std::filesystem::path(::testing::TempDir()) /
-        (std::string("gnomon_sweep_journal_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".jsonl");
+    OwnFolder folder_;
+    std::filesystem::path file_ = folder_.path() / "journal.jsonl";
 };
 
 TEST_F(SweepJournalTest, WhatWasFoundIsThereAgainToTheLastFigure) {

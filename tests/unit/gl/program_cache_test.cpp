@@ -8,6 +8,8 @@
 #include <string>
 #include <thread>
 
+#include "tests/own_folder.h"
+
 /// What the cache gives back is what was kept, for the same sources and driver, or nothing.
 namespace gnomon::gl {
 namespace {
@@ -24,15 +26,6 @@ ProgramCache::Binary binary(const std::string& text, std::uint32_t format = 7) {
 
 class ProgramCaches : public ::testing::Test {
 protected:
-    void SetUp() override {
-        std::string pattern = ::testing::TempDir() + "gnomon_programs_XXXXXX";
-        const char* made = ::mkdtemp(pattern.data());
-        ASSERT_NE(made, nullptr);
-        root = made;
-        folder = root / "cache" / "deep";
-    }
-    void TearDown() override { fs::remove_all(root); }
-
     ProgramCache cache(const std::string& driver = "driver 1") const { return {folder, driver}; }
     std::vector<fs::path> files() const {
         if (!fs::exists(folder)) return {};
@@ -48,7 +41,8 @@ protected:
         std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
     }
 
-    fs::path root, folder;
+    OwnFolder own;
+    const fs::path &root = own.path(), folder = root / "cache" / "deep";
     const ProgramDesc program{"a", "vertex text", "fragment text"};
 };
 

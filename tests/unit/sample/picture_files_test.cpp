@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/own_folder.h"
+
 namespace gnomon::game {
 namespace {
 
@@ -13,14 +15,12 @@ namespace fs = std::filesystem;
 
 class PictureFiles : public ::testing::Test {
 protected:
-    void SetUp() override { fs::create_directories(folder_); }
-    void TearDown() override { fs::remove_all(folder_); }
     std::string content(const fs::path& file) const {
         std::ifstream in(file, std::ios::binary);
         return {std::istreambuf_iterator<char>(in), {}};
     }
-    fs::path folder_ = fs::path(::testing::TempDir()) /
-                       (std::string("gnomon_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    OwnFolder own_;
+    const fs::path& folder_ = own_.path();
 };
 
 TEST_F(PictureFiles, PfmIsAHeaderAndLittleEndianFloatsBottomRowFirst) {
