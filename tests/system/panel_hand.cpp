@@ -1,5 +1,6 @@
 #include "tests/system/panel_hand.h"
 
+#include <gtest/gtest.h>
 #include <imgui_internal.h>
 
 namespace gnomon {
@@ -25,6 +26,8 @@ void PanelHand::show(double x_px, double y_px, bool down) {
     input.mouse_y = y_px;
     input.mouse_button = down;
     gui_.draw(world_, frame_, size_px_, &input, kFrame_s, false);
+    for (const gl::Finding& f : device_.findings()) ADD_FAILURE() << gl::to_text(f.misuse) << ": " << f.detail;
+    device_.forget();
 }
 
 std::optional<PanelHand::Row> PanelHand::find(unsigned id) {

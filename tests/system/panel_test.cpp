@@ -28,7 +28,7 @@ protected:
         gui = std::move(gui_made).value();
         gui->panel.shown = true;
         settings.viewport_px = {2000, 1600};  // the panel fits in with all that is opened
-        hand.emplace(world, *frame, *gui, settings.viewport_px);
+        hand.emplace(world, *frame, *gui, device, settings.viewport_px);
         step();
     }
     void TearDown() override {
