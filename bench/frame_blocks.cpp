@@ -7,7 +7,6 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr std::uint32_t kSettlingFrames = 4;  // the third one of a still scene fills what is kept
 constexpr double kUsPerS = 1.0e6, kWalk_m_s = 1.4;
 
 void time_frame(Stage& stage, BlockTimes& times) {
@@ -39,11 +38,11 @@ nlohmann::ordered_json to_json(const Spread& s) {
     return {{"median", s.median}, {"min", s.min}, {"max", s.max}, {"count", s.count}};
 }
 
-BlockTimes time_frames(Stage& stage, std::uint32_t frames, const BeforeFrame& before) {
+BlockTimes time_frames(Stage& stage, std::uint32_t frames, const BeforeFrame& before, std::uint32_t settling) {
     BlockTimes block;
-    for (std::uint32_t i = 0; i < kSettlingFrames + frames; ++i) {
+    for (std::uint32_t i = 0; i < settling + frames; ++i) {
         before(i);
-        if (i < kSettlingFrames)
+        if (i < settling)
             stage.run_frame();
         else
             time_frame(stage, block);

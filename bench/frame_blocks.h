@@ -44,8 +44,11 @@ using BeforeFrame = std::function<void(std::uint32_t frame)>;
 
 nlohmann::ordered_json to_json(const Spread& spread);
 
-/// Runs as many frames as it takes to settle, then `frames` that are timed; `before` each.
-BlockTimes time_frames(Stage& stage, std::uint32_t frames, const BeforeFrame& before);
+inline constexpr std::uint32_t kSettlingFrames = 4;  // the third one of a still scene fills what is kept
+
+/// Runs `settling` frames, then `frames` that are timed; `before` each.
+BlockTimes time_frames(Stage& stage, std::uint32_t frames, const BeforeFrame& before,
+                       std::uint32_t settling = kSettlingFrames);
 
 /// The first camera ahead along its own view, at a walker's 1.4 m/s; back in its place with the end of this.
 class Walk {

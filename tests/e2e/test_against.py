@@ -38,7 +38,7 @@ class AgainstTest(unittest.TestCase):
         self.assertIn("against resolution=256", text)
         self.assertEqual(found["settings"], ["filter=hard", "cascades=1", "resolution=64"])
         self.assertEqual(found["against"], ["resolution=256"])
-        for going in ("still", "still_against_drawn", "walk", "moving", "drawn"):
+        for going in ("still", "still_against_drawn", "walk", "walk_against_drawn", "moving", "drawn"):
             held = found[going]
             self.assertEqual(held["ratio"]["count"], ROUNDS, going)
             for way in ("own", "other"):
