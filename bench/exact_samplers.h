@@ -183,11 +183,25 @@ inline vec4 textureGather(const samplerCubeDepths& s, const vec3& at) {
     return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
 }
 
-/// Inside the map only.
-inline uvec4 texelFetch(const usampler2DArray& s, const ivec3& at, int) {
+/// Of the four texels around that corner.
+inline uvec4 gathered(const TriangleSampler& s, int layer, const vec2& corner, int component) {
     ++s.trace->taps;
-    const uvec2 shown = s.map->triangle(at.z, static_cast<uint>(at.x), static_cast<uint>(at.y));
-    return {shown.x, shown.y, 0, 0};
+    const auto tap = [&](double x, double y) {
+        const uvec2 shown = s.map->triangle(layer, static_cast<uint>(corner.x + x), static_cast<uint>(corner.y + y));
+        return component == 0 ? shown.x : shown.y;
+    };
+    return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
+}
+
+/// Inside the map only.
+inline uvec4 textureGather(const usampler2DArray& s, const vec3& at, int component) {
+    return gathered(s, static_cast<int>(at.z), floor(at.xy_() * static_cast<double>(s.map->size_px) + 0.5), component);
+}
+
+/// Inside a face only.
+inline uvec4 textureGather(const usamplerCube& s, const vec3& at, int component) {
+    const OnFace face = on_face(at, s.map->size_px);
+    return gathered(s, static_cast<int>(face.face), floor(face.texel + 0.5), component);
 }
 
 inline uvec4 textureLod(const usamplerCube& s, const vec3& at, double) {

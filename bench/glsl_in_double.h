@@ -33,6 +33,8 @@ struct ivec4 {
 
 struct uvec2 {
     uint x = 0, y = 0;
+    constexpr uvec2() = default;
+    constexpr uvec2(uint x_, uint y_) : x(x_), y(y_) {}
     bool operator==(const uvec2&) const = default;
 };
 struct uvec3 {
@@ -41,6 +43,11 @@ struct uvec3 {
 };
 struct uvec4 {
     uint x = 0, y = 0, z = 0, w = 0;
+    uvec4() = default;
+    explicit uvec4(uint s) : x(s), y(s), z(s), w(s) {}
+    uvec4(uint x_, uint y_, uint z_, uint w_) : x(x_), y(y_), z(z_), w(w_) {}
+    uint& operator[](int i) { return i == 0 ? x : (i == 1 ? y : (i == 2 ? z : w)); }
+    uint operator[](int i) const { return i == 0 ? x : (i == 1 ? y : (i == 2 ? z : w)); }
     uvec2 xy_() const { return {x, y}; }
 };
 

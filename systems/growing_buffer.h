@@ -13,7 +13,9 @@ namespace gnomon {
 /// Owns the buffer.
 class GrowingBuffer {
 public:
-    GrowingBuffer(gl::Device& device, std::string label) : device_(&device), label_(std::move(label)) {}
+    /// `texels`: it is read as such, BufferDesc::texels.
+    GrowingBuffer(gl::Device& device, std::string label, bool texels = false)
+        : device_(&device), label_(std::move(label)), texels_(texels) {}
     GrowingBuffer(const GrowingBuffer&) = delete;
     GrowingBuffer& operator=(const GrowingBuffer&) = delete;
     ~GrowingBuffer() { device_->destroy(buffer_); }
@@ -24,7 +26,7 @@ public:
         if (bytes <= size_) return true;
         constexpr std::uint64_t kLeastBytes = 4096;  // one page
         const std::uint64_t size = std::bit_ceil(std::max(bytes, kLeastBytes));
-        const auto made = device_->create_buffer({label_, size, gl::BufferUse::updated}, {});
+        const auto made = device_->create_buffer({label_, size, gl::BufferUse::updated, texels_}, {});
         if (!made) return false;
         device_->destroy(buffer_);
         buffer_ = made.handle;
@@ -43,6 +45,7 @@ public:
 private:
     gl::Device* device_;
     std::string label_;
+    bool texels_;
     gl::BufferHandle buffer_{};
     std::uint64_t size_ = 0;
 };

@@ -128,6 +128,9 @@ struct Writer {
         return c.depth ? "DrawTriangle" + field("depth", *c.depth) : "DrawTriangle";
     }
     std::string operator()(const DrawLines& c) const { return "DrawLines" + field("vertex_count", c.vertex_count); }
+    std::string operator()(const DrawPoints& c) const {
+        return "DrawPoints" + field("first_vertex", c.first_vertex) + field("vertex_count", c.vertex_count);
+    }
     std::string operator()(const DrawPulled& c) const {
         return "DrawPulled" + field("first_vertex", c.first_vertex) + field("vertex_count", c.vertex_count);
     }

@@ -88,8 +88,8 @@ struct BindStorage {  // whole buffer
     bool operator==(const BindStorage&) const = default;
 };
 
-/// A whole buffer with BufferDesc::texels, read as `uniform usamplerBuffer`: software devices find four numbers at once in
-/// the time that they take for one of a storage buffer. Units are those of BindTexture, which unbinds it.
+/// A whole buffer with BufferDesc::texels, read as `uniform usamplerBuffer`: software devices find four numbers at once
+/// in the time that they take for one of a storage buffer. Units are those of BindTexture, which unbinds it.
 struct BindTexels {
     std::uint32_t unit = 0;
     BufferHandle buffer{};
@@ -116,13 +116,20 @@ struct DrawMeshes {  // triangles
     std::uint32_t first_item = 0, item_count = 0;  // instances, from draw_items
     bool operator==(const DrawMeshes&) const = default;
 };
-struct DrawTriangle {  // one full-screen triangle, vertex_count = 3, no attributes
+struct DrawTriangle {                 // one full-screen triangle, vertex_count = 3, no attributes
     std::optional<float> depth = {};  // all of it lies at this depth, in [0,1], whatever its shader says
     bool operator==(const DrawTriangle&) const = default;
 };
 struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage buffers
     std::uint32_t vertex_count = 0;
     bool operator==(const DrawLines&) const = default;
+};
+
+/// Squares of gl_PointSize pixels, 1 to DeviceInfo::max_point_px, around their vertices, which are pulled from storage
+/// buffers. gl_VertexID runs from first_vertex. A point whose middle lies outside of the clip volume shows nothing.
+struct DrawPoints {
+    std::uint32_t first_vertex = 0, vertex_count = 0;
+    bool operator==(const DrawPoints&) const = default;
 };
 
 /// Triangles, no attributes: pulled from storage buffers. gl_VertexID runs from first_vertex.
@@ -175,9 +182,10 @@ struct EndTimer {
     bool operator==(const EndTimer&) const = default;
 };
 
-using Command = std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture,
-                             BindUniforms, BindStorage, BindTexels, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
-                             DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
+using Command =
+    std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture, BindUniforms,
+                 BindStorage, BindTexels, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines, DrawPoints,
+                 DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;

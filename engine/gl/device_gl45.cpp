@@ -47,6 +47,9 @@ DeviceInfo read_info() {
     info.max_texture_px = std::min(get_unsigned(GL_MAX_TEXTURE_SIZE), drawable);
     info.max_cube_px = std::min(get_unsigned(GL_MAX_CUBE_MAP_TEXTURE_SIZE), drawable);
     info.max_layers = get_unsigned(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    std::array<GLfloat, 2> points{};
+    glGetFloatv(GL_POINT_SIZE_RANGE, points.data());
+    info.max_point_px = static_cast<std::uint32_t>(std::max(points[1], 1.0f));
     info.uniform_alignment = get_unsigned(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
     info.vertex_layer = epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
     return info;

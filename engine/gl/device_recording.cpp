@@ -13,6 +13,7 @@ using Kind = ResourceCall::Kind;
 
 constexpr std::uint32_t kRecordingMaxPx = 16384;  // what llvmpipe offers
 constexpr std::uint32_t kRecordingMaxLayers = 2048;
+constexpr std::uint32_t kRecordingMaxPoint_px = 64;
 constexpr std::uint32_t kRecordingAlignment = 256;
 
 template <class Map>
@@ -119,6 +120,7 @@ DeviceInfo RecordingDevice::default_info() {
     info.max_texture_px = kRecordingMaxPx;
     info.max_cube_px = kRecordingMaxPx;
     info.max_layers = kRecordingMaxLayers;
+    info.max_point_px = kRecordingMaxPoint_px;
     info.uniform_alignment = kRecordingAlignment;
     return info;
 }

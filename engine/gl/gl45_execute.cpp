@@ -39,6 +39,7 @@ void reset_state(const GlFixtures& fixtures) {
         glDisable(capability);
     }
     glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
+    glEnable(GL_PROGRAM_POINT_SIZE);
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     glDepthRange(0.0, 1.0);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
@@ -233,6 +234,11 @@ public:
     }
     void operator()(const DrawLines& c) {
         if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));
+    }
+
+    void operator()(const DrawPoints& c) {
+        if (can_draw(fixtures_.empty_layout))
+            glDrawArrays(GL_POINTS, static_cast<GLint>(c.first_vertex), static_cast<GLsizei>(c.vertex_count));
     }
 
     void operator()(const DrawPulled& c) {

@@ -115,6 +115,7 @@ public:
     }
     void operator()(const DrawTriangle&) { check_draw(); }
     void operator()(const DrawLines&) { check_draw(); }
+    void operator()(const DrawPoints&) { check_draw(); }
     void operator()(const DrawPulled& c) {
         check_draw();
         if (c.vertex_count % 3 != 0) find(Misuse::draw_out_of_range, "a part of a triangle");

@@ -24,6 +24,8 @@ struct Surface {
     float error_m;        // how far position_ca may be off the true surface
 #ifdef SHADOW_RAYS
     dvec3 place_ca;       // the same exactly (lighting/exact_place.glsl)
+    vec3 seen_ca;         // and in float, off by seen_error_m
+    float seen_error_m;
     uvec2 triangle;       // instance, and triangle of the common index buffer
 #endif
 };
@@ -55,6 +57,8 @@ Surface read_surface(ivec2 pixel) {
     s.error_m = surface_error_m(s.position_ca);
 #ifdef SHADOW_RAYS
     uvec4 place = texelFetch(surface_places, pixel, 0);
+    s.seen_ca = position_seen_at(pixel, uintBitsToFloat(place.x));
+    s.seen_error_m = kRebuiltRelative * length(s.seen_ca);
     s.place_ca = place_seen_at(pixel, double(uintBitsToFloat(place.x)) + double(uintBitsToFloat(place.y)));
     s.triangle = place.zw;
 #endif

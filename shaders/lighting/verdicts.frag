@@ -13,7 +13,7 @@ Certainty certainty_of(Surface surface) {
     LightSample incoming = light_at(surface.position_ca);
     if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return Certainty(kCertainlyDark, 0.0);
     if (!takes_shadow(surface.shadow_layers)) return Certainty(kCertainlyLit, 0.0);
-    return certainty(surface.place_ca, surface.geometric_normal, 0.0, surface.triangle);
+    return certainty(surface.seen_ca, surface.geometric_normal, surface.seen_error_m, surface.triangle);
 }
 
 void main() {

@@ -60,9 +60,9 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
     BoxRay boxes = box_ray(to_model * -origin_m, to_model * ray.along, item.slack_per_m * rounded_m);
 
     bool blocked = false;
-    while (n < item.nodes && !blocked && unsure_count <= kMostUnsure - kMostInLeaf) {
+    while (n < item.end_node && !blocked && unsure_count <= kMostUnsure - kMostInLeaf) {
         uint leaf = 0u;
-        while (n < item.nodes && leaf == 0u) {
+        while (n < item.end_node && leaf == 0u) {
             RayNode node = ray_node(item.first_node + n);
             bool met = meets_box(boxes, node.low, node.high, exact.reach);
             leaf = met ? node.leaf : 0u;
@@ -86,7 +86,7 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
 
 // What floats left open.
 bool blocks_exactly(ShadowRay ray, uvec2 slots) {
-    RayInstance item = ray_instances[slots.x];
+    RayInstance item = ray_instance(slots.x);
     RayTriangle t = ray_triangle(slots.y);
     InstanceRecord record = instances[item.instance];
     dvec3 origin_m = exact_origin(record, camera.anchor_high.xyz, camera.anchor_low.xyz) - ray.from_ca;
@@ -104,8 +104,9 @@ bool ray_blocked(ShadowRay exact) {
     vec3 along = vec3(exact.along);
     float length_m = length(along);
     FloatRay ray = FloatRay(vec3(exact.from_ca), along, ray_frame(along / length_m), exact.last < kNoEnd ? exact.last * length_m : kNoEnd);
-    precise vec3 from_top = ray.from_ca + ((camera.anchor_high.xyz - ray_top.anchor_high) + (camera.anchor_low.xyz - ray_top.anchor_low));
-    float rounded_m = largest_side(from_top) + largest_side(ray.from_ca) + ray_top.reach_m;
+    RayTop head = ray_top();
+    precise vec3 from_top = ray.from_ca + ((camera.anchor_high.xyz - head.anchor_high) + (camera.anchor_low.xyz - head.anchor_low));
+    float rounded_m = largest_side(from_top) + largest_side(ray.from_ca) + head.reach_m;
     BoxRay boxes = box_ray(from_top, ray.along, kBoxUnits * kUnitRoundoff * rounded_m);
     uint top = 0u, n = 0u, leaf = 0u;   // of the upper tree; node of the mesh in it, and which that is
     bool blocked = false, through = false;
@@ -113,17 +114,18 @@ bool ray_blocked(ShadowRay exact) {
         unsure_count = 0;
         bool goes_on = true;
         while (goes_on) {
-            while (top < ray_top.nodes && leaf == 0u) {
-                RayNode node = ray_top.node[top];
+            while (top < head.nodes && leaf == 0u) {
+                RayNode node = ray_top_node(top);
                 bool met = meets_box(boxes, node.low, node.high, exact.reach);
                 leaf = met ? node.leaf : 0u;
                 top = met ? top + 1u : node.skip;
             }
             through = leaf == 0u;
-            RayInstance item = ray_instances[leaf >> 4u];
-            if (through || (item.layers & exact.layers) == 0u) item.nodes = 0u;
+            RayInstance item = ray_instance(leaf >> 4u);
+            if (through || (item.layers & exact.layers) == 0u) item.end_node = 0u;
+            n = max(n, item.begin_node);
             blocked = mesh_blocks(exact, ray, leaf >> 4u, item, n);
-            goes_on = n >= item.nodes && !blocked && !through;
+            goes_on = n >= item.end_node && !blocked && !through;
             if (goes_on) n = leaf = 0u;
         }
         for (int i = 0; i < unsure_count && !blocked; ++i) blocked = blocks_exactly(exact, unsure[i]);

@@ -9,9 +9,9 @@ void LightingSystem::bind_rays(const visibility::RayBuffers& rays, const GpuScen
     list.add(gl::BindStorage{0, gpu.instances()});
     list.add(gl::BindTexels{10, rays.nodes});
     list.add(gl::BindTexels{11, rays.triangles});
-    std::uint32_t binding = 5;
-    for (const gl::BufferHandle buffer : {rays.top, rays.instances, rays.masks})
-        if (buffer) list.add(gl::BindStorage{binding++, buffer});
+    list.add(gl::BindTexels{12, rays.top});
+    list.add(gl::BindTexels{13, rays.instances});
+    if (rays.masks) list.add(gl::BindStorage{7, rays.masks});
 }
 
 void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, const GpuScene& gpu,
@@ -41,7 +41,8 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
     if (!has_surfaces) lacks = Reason::buffer_failed;
     if (has_surfaces && (!may_wait || !programs_.must_wait(light.row, output))) {
         const gl::ProgramHandle own = programs_.row(light.row, output);
-        LightProgram used{own, light.map, light.triangles, light.sampler, light.rays, light.second, light.bounds, light.ends};
+        LightProgram used{own,        light.map,    light.triangles, light.sampler,
+                          light.rays, light.second, light.bounds,    light.ends};
         if (lists) used.verdicts_program = programs_.row(light.row, RowOutput::verdicts);
         if (lists) used.rays_program = programs_.row(light.row, RowOutput::rays);
         if (own && (!lists || (used.verdicts_program && used.rays_program))) return used;

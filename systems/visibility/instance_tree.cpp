@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <queue>
 #include <utility>
 
 #include "engine/math/projection.h"
@@ -29,7 +30,7 @@ bool is_finite(const glm::dmat3& m) { return std::isfinite(norm(m)); }
 RayInstance record_of(const InstanceItem& item, const MeshTreePlace& mesh) {
     RayInstance record;
     record.first_node = mesh.first_node;
-    record.nodes = mesh.nodes;
+    record.end_node = mesh.nodes;
     record.first_slot = mesh.first_slot;
     record.instance = item.gpu_slot;
     record.layers = item.cast_layers;
@@ -49,12 +50,22 @@ RayInstance record_of(const InstanceItem& item, const MeshTreePlace& mesh) {
 }
 
 /// Around where shaders find the instance's corners: its translation is two floats there.
-rays::Box box_of(const InstanceItem& item, const RayInstance& record, const glm::dvec3& anchor_ws_m) {
+rays::Box box_of(const InstanceItem& item, const math::Aabb& bounds_ws, const RayInstance& record,
+                 const glm::dvec3& anchor_ws_m) {
     constexpr double kTwoFloats = 0x1p-47;
-    const glm::dvec3 low = item.bounds_ws.min - anchor_ws_m, high = item.bounds_ws.max - anchor_ws_m;
+    const glm::dvec3 low = bounds_ws.min - anchor_ws_m, high = bounds_ws.max - anchor_ws_m;
     const double size_m = std::max(largest(low), largest(high)) + static_cast<double>(record.reach_m);
     const glm::dvec3 slack(kCornerUnits * kUnitRoundoff * size_m + kTwoFloats * largest(item.translation_ws_m));
     return {glm::vec3(low - slack), glm::vec3(high + slack)};
+}
+
+math::Aabb bounds_of(const InstanceItem& item, const rays::BvhNode& node) {
+    return math::transformed({glm::dvec3(node.min), glm::dvec3(node.max)}, item.basis, item.translation_ws_m);
+}
+
+double half_area_m2(const math::Aabb& box) {
+    const glm::dvec3 size = box.max - box.min;
+    return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
 double steps(const rays::BvhCost& cost) { return cost.nodes + cost.triangles; }
@@ -78,19 +89,55 @@ void InstanceTree::update(const SceneSnapshot& scene, std::span<const MeshTreePl
 }
 
 void InstanceTree::list(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
-    items_.clear();
+    parts_.clear();
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
         const bool has_tree = item.mesh < meshes.size() && meshes[item.mesh].nodes > 0;
-        if (item.casts && has_tree && !math::is_empty(item.bounds_ws)) items_.push_back(i);
+        if (item.casts && has_tree && !math::is_empty(item.bounds_ws))
+            parts_.push_back({i, 0, meshes[item.mesh].nodes});
+    }
+    instances_ = parts_.size();
+    open(scene, meshes);
+}
+
+/// Large instances, whose boxes overlap as those of a building's materials do, give way to the parts that their own
+/// trees have at the top, the largest first: a ray that comes by then meets few of them (Benthin, Woop, Wald and Afra
+/// 2017, "Improved two-level BVHs using partial re-braiding").
+void InstanceTree::open(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
+    const std::size_t most = parts_.size() + kMostOpened;
+    struct Large {
+        double area_m2 = 0.0;
+        std::size_t part = 0;
+        bool operator<(const Large& other) const { return area_m2 < other.area_m2; }
+    };
+    std::priority_queue<Large> largest;
+    const auto push = [&](std::size_t i) {
+        const Part& part = parts_[i];
+        const InstanceItem& item = scene.instances[part.item];
+        const std::span<const rays::BvhNode> tree = meshes[item.mesh].tree;
+        if (tree.empty() || tree[part.begin_node].leaf != 0) return;
+        const double area_m2 = half_area_m2(bounds_of(item, tree[part.begin_node]));
+        if (area_m2 > 0.0) largest.push({area_m2, i});  // nor where it is none, or not a number
+    };
+    for (std::size_t i = 0; i < parts_.size(); ++i) push(i);
+    while (parts_.size() < most && !largest.empty()) {
+        const std::size_t i = largest.top().part;
+        largest.pop();
+        const Part part = parts_[i];
+        const std::span<const rays::BvhNode> tree = meshes[scene.instances[part.item].mesh].tree;
+        const std::uint32_t one = part.begin_node + 1, other = tree[one].skip;
+        parts_[i] = {part.item, one, other};
+        parts_.push_back({part.item, other, part.end_node});
+        push(i);
+        push(parts_.size() - 1);
     }
 }
 
 /// Amid the casters: a sum of two floats, so that shaders have it as it is.
 void InstanceTree::set_anchor(const SceneSnapshot& scene) {
     math::Aabb all;
-    for (const std::uint32_t i : items_) all = math::merged(all, scene.instances[i].bounds_ws);
-    const math::TwoFloat3 anchor = math::split(items_.empty() ? glm::dvec3(0.0) : math::centre(all));
+    for (const Part& part : parts_) all = math::merged(all, scene.instances[part.item].bounds_ws);
+    const math::TwoFloat3 anchor = math::split(parts_.empty() ? glm::dvec3(0.0) : math::centre(all));
     head_.anchor_high = anchor.high;
     head_.anchor_low = anchor.low;
     anchor_ws_m_ = glm::dvec3(anchor.high) + glm::dvec3(anchor.low);
@@ -98,12 +145,21 @@ void InstanceTree::set_anchor(const SceneSnapshot& scene) {
 
 /// Records and boxes, by slot.
 void InstanceTree::place(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
-    instances_.resize(items_.size());
-    boxes_.resize(items_.size());
-    for (std::size_t slot = 0; slot < items_.size(); ++slot) {
-        const InstanceItem& item = scene.instances[items_[slot]];
-        instances_[slot] = record_of(item, meshes[item.mesh]);
-        boxes_[slot] = box_of(item, instances_[slot], anchor_ws_m_);
+    records_.resize(parts_.size());
+    boxes_.resize(parts_.size());
+    for (std::size_t slot = 0; slot < parts_.size(); ++slot) {
+        const Part& part = parts_[slot];
+        const InstanceItem& item = scene.instances[part.item];
+        const MeshTreePlace& mesh = meshes[item.mesh];
+        RayInstance& record = records_[slot];
+        record = record_of(item, mesh);
+        if (!mesh.tree.empty()) {
+            record.begin_node = part.begin_node;
+            record.end_node = part.end_node;
+        }
+        const bool is_whole = mesh.tree.empty() || part.end_node - part.begin_node == mesh.nodes;
+        const math::Aabb bounds = is_whole ? item.bounds_ws : bounds_of(item, mesh.tree[part.begin_node]);
+        boxes_[slot] = box_of(item, bounds, record, anchor_ws_m_);
     }
 }
 
@@ -115,16 +171,16 @@ void InstanceTree::build() {
         for (std::size_t slot = 0; slot < values.size(); ++slot) sorted[slot] = values[bvh.items[slot]];
         values = std::move(sorted);
     };
-    by_slot(items_);
-    by_slot(instances_);
+    by_slot(parts_);
+    by_slot(records_);
     by_slot(boxes_);
     built_cost_ = steps(rays::cost_of(nodes_));
     ++builds_;
 }
 
 std::size_t InstanceTree::bytes() const {
-    return nodes_.capacity() * sizeof(rays::BvhNode) + instances_.capacity() * sizeof(RayInstance) +
-           items_.capacity() * sizeof(std::uint32_t) + boxes_.capacity() * sizeof(rays::Box);
+    return nodes_.capacity() * sizeof(rays::BvhNode) + records_.capacity() * sizeof(RayInstance) +
+           parts_.capacity() * sizeof(Part) + boxes_.capacity() * sizeof(rays::Box);
 }
 
 }  // namespace gnomon::visibility

@@ -30,8 +30,8 @@ gl::BufferHandle filled(gl::Device& device, const char* label, const std::vector
 RayScene::Held::Held(gl::Device& device, const assets::MeshLibrary& library)
     : trees(library),
       masks(library),
-      top_buffer(device, "ray tree of instances"),
-      instance_buffer(device, "ray instances") {}
+      top_buffer(device, "ray tree of instances", true),
+      instance_buffer(device, "ray instances", true) {}
 
 void RayScene::free_meshes() {
     for (const gl::BufferHandle buffer : {buffers_.nodes, buffers_.triangles, buffers_.masks}) device_.destroy(buffer);
@@ -95,9 +95,12 @@ bool RayScene::make_meshes(const SceneSnapshot& scene, const GpuScene& gpu) {
         if (!tree || tree->nodes().empty()) continue;
         held_->places[mesh] = {static_cast<std::uint32_t>(nodes.size()),
                                static_cast<std::uint32_t>(tree->nodes().size()),
-                               static_cast<std::uint32_t>(held_->scratch.size()), tree->box()};
+                               static_cast<std::uint32_t>(held_->scratch.size()),
+                               tree->box(),
+                               {}};
         held_->pose_versions[mesh] = pose_version(scene, mesh);
         const bool bends = gpu.library().meshes[mesh].deformer != nullptr;
+        if (!bends) held_->places[mesh].tree = tree->nodes();
         nodes.insert(nodes.end(), tree->nodes().begin(), tree->nodes().end());
         nodes.resize(held_->places[mesh].first_node + most_nodes(*tree, bends));
         take_triangles(gpu, mesh);
@@ -153,7 +156,7 @@ bool RayScene::write_instances(const SceneSnapshot& scene, bool all, gl::Command
     held_->list_version = scene.list_version;
     const std::uint64_t top_bytes =
         sizeof(RayTop) + std::max<std::size_t>(tree.nodes().size(), 1) * sizeof(rays::BvhNode);
-    const std::uint64_t record_bytes = std::max<std::size_t>(tree.instances().size(), 1) * sizeof(RayInstance);
+    const std::uint64_t record_bytes = std::max<std::size_t>(tree.parts().size(), 1) * sizeof(RayInstance);
     if (!held_->top_buffer.reserve(top_bytes) || !held_->instance_buffer.reserve(record_bytes)) {
         held_->version = 0;
         return false;
@@ -162,7 +165,7 @@ bool RayScene::write_instances(const SceneSnapshot& scene, bool all, gl::Command
     buffers_.instances = held_->instance_buffer.handle();
     list.update(buffers_.top, 0, std::span<const RayTop>(&tree.head(), 1));
     if (!tree.nodes().empty()) list.update(buffers_.top, sizeof(RayTop), tree.nodes());
-    if (!tree.instances().empty()) list.update(buffers_.instances, 0, tree.instances());
+    if (!tree.parts().empty()) list.update(buffers_.instances, 0, tree.parts());
     report_.instances_written = true;
     return true;
 }
@@ -171,7 +174,7 @@ void RayScene::count() {
     report_.bytes = held_->mesh_bytes + held_->top_buffer.bytes() + held_->instance_buffer.bytes();
     report_.host_bytes = held_->trees.counts().bytes + held_->instances.bytes() + held_->masks.words().size_bytes();
     report_.triangles = held_->trees.counts().triangles;
-    report_.instances = held_->instances.instances().size();
+    report_.instances = held_->instances.instances();
 }
 
 }  // namespace gnomon::visibility

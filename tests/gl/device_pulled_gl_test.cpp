@@ -27,6 +27,33 @@ TEST_F(DevicePulled, TrianglesAreMadeOfNothingButTheirVertexNumbers) {
     for (std::uint32_t x = 0; x < kSize_px; ++x) EXPECT_EQ(at(image, x, 8)[0], x >= 2 && x < 5 ? 255 : 0) << x;
 }
 
+TEST_F(DevicePulled, PointsAreSquaresOfTheSizeThatTheirVertexSays) {
+    ASSERT_GE(device().info().max_point_px, 6u);
+    // Around (4.5, 7), of 5 pixels a side: columns 2 to 6, rows 5 to 9 (4.5 to 9.5). The first two vertices are not
+    // asked for; of the fourth the middle lies beside the target.
+    const gl::ProgramHandle program = keep(device().create_program(
+        {.label = "points",
+         .vertex = "#version 450 core\nvoid main() { vec2 at = gl_VertexID == 2 ? vec2(4.5, 7.0) : vec2(-1.0, 3.0);\n"
+                   "if (gl_VertexID < 2) at = vec2(12.5);\n"
+                   "gl_PointSize = gl_VertexID == 2 ? 5.0 : 6.0; gl_Position = vec4(at / 8.0 - 1.0, 0.5, 1.0); }\n",
+         .fragment =
+             "#version 450 core\nlayout(location = 0) out vec4 result;\nvoid main() { result = vec4(1.0); }\n"}));
+    gl::CommandList list;
+    list.add(clearing(target));
+    list.add(gl::SetPipeline{{.program = program}});
+    list.add(gl::DrawPoints{2, 2});
+    list.add(gl::EndPass{});
+    run(list);
+    const auto image = pixels();
+    for (std::uint32_t y = 0; y < kSize_px; ++y)
+        for (std::uint32_t x = 0; x < kSize_px; ++x) {
+            const bool inside = x >= 2 && x <= 6 && y >= 5 && y <= 8;
+            const bool on_border = x >= 2 && x <= 6 && (y == 4 || y == 9);  // whose middles lie on the square's sides
+            if (on_border) continue;
+            EXPECT_EQ(at(image, x, y)[0], inside ? 255 : 0) << x << ' ' << y;
+        }
+}
+
 TEST_F(DevicePulled, OfEachChannelTheLargerValueStays) {
     const auto colours = keep(device().create_texture(
         {.label = "two", .format = gl::Format::rg32f, .width = kSize_px, .height = kSize_px}, {}));

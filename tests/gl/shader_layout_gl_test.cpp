@@ -183,30 +183,6 @@ std::vector<Block> expected_blocks() {
           {"caster_triangles[0].c", offsetof(CasterTriangle, corners[2].position_ms)},
           {"caster_triangles[0].across_ca", offsetof(CasterTriangle, corners[2].across)}}},
         {GL_SHADER_STORAGE_BLOCK,
-         "RayTopBuffer",
-         5,
-         sizeof(BvhNode),
-         {{"RayTopBuffer.anchor_high", offsetof(RayTop, anchor_high)},
-          {"RayTopBuffer.nodes", offsetof(RayTop, nodes)},
-          {"RayTopBuffer.anchor_low", offsetof(RayTop, anchor_low)},
-          {"RayTopBuffer.reach_m", offsetof(RayTop, reach_m)},
-          {"RayTopBuffer.node[0].low", sizeof(RayTop) + offsetof(BvhNode, min)},
-          {"RayTopBuffer.node[0].leaf", sizeof(RayTop) + offsetof(BvhNode, leaf)}}},
-        {GL_SHADER_STORAGE_BLOCK,
-         "RayInstanceBuffer",
-         6,
-         sizeof(RayInstance),
-         {{"ray_instances[0].to_model_x", offsetof(RayInstance, to_model_x)},
-          {"ray_instances[0].first_node", offsetof(RayInstance, first_node)},
-          {"ray_instances[0].to_model_y", offsetof(RayInstance, to_model_y)},
-          {"ray_instances[0].nodes", offsetof(RayInstance, nodes)},
-          {"ray_instances[0].to_model_z", offsetof(RayInstance, to_model_z)},
-          {"ray_instances[0].first_slot", offsetof(RayInstance, first_slot)},
-          {"ray_instances[0].slack_per_m", offsetof(RayInstance, slack_per_m)},
-          {"ray_instances[0].reach_m", offsetof(RayInstance, reach_m)},
-          {"ray_instances[0].instance", offsetof(RayInstance, instance)},
-          {"ray_instances[0].layers", offsetof(RayInstance, layers)}}},
-        {GL_SHADER_STORAGE_BLOCK,
          "RayListBuffer",
          1,
          2 * sizeof(std::uint32_t),
@@ -285,7 +261,8 @@ void expect_block(const LinkedProgram& program, const Block& block) {
     }
     const GLenum variables = uniform ? GL_UNIFORM : GL_BUFFER_VARIABLE;
     for (const Member& member : block.members) {
-        EXPECT_EQ(program.property(variables, member.name, GL_OFFSET), static_cast<GLint>(member.offset)) << member.name;
+        EXPECT_EQ(program.property(variables, member.name, GL_OFFSET), static_cast<GLint>(member.offset))
+            << member.name;
         if (uniform || member.name.find('[') == std::string::npos) continue;
         // An array of vectors tells its stride itself, an array of structs through its members.
         const GLenum stride = member.name.back() == ']' ? GL_ARRAY_STRIDE : GL_TOP_LEVEL_ARRAY_STRIDE;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "shaders/embedded.h"
@@ -29,11 +30,12 @@ protected:
     struct Drawn {
         shadow::ShadowFrame frame;
         Maps maps;
+        std::size_t points = 0;  // draws of them
     };
 
     /// Draws all casters of `scene` into `views`, which are of its only light.
     Drawn draw(const SceneSnapshot& scene, const assets::MeshLibrary& library, std::vector<shadow::ShadowView> views,
-               std::uint32_t size_px, bool margins, Ask ask = Ask::middle) {
+               std::uint32_t size_px, bool margins, Ask ask = Ask::middle, bool points = true) {
         auto made = GpuScene::create(device(), library);
         EXPECT_TRUE(made);
         GpuScene gpu = std::move(made).value();
@@ -68,14 +70,14 @@ protected:
                                 {})
                 .handle;
         };
-        drawn.maps = {
-            texture("depths", gl::Format::d32f, cube, layers), texture("triangles", gl::Format::rg32ui, false, 1),
-            texture("second", gl::Format::d32f, false, layers), texture("bounds", gl::Format::rg32f, false, layers), {}};
+        drawn.maps = {texture("depths", gl::Format::d32f, cube, layers),
+                      texture("triangles", gl::Format::rg32ui, false, 1),
+                      texture("second", gl::Format::d32f, false, layers),
+                      texture("bounds", gl::Format::rg32f, false, layers),
+                      {}};
         if (ask != Ask::middle)
             drawn.maps.ends =
-                device()
-                    .create_buffer({.label = "ends", .size = shadow::ends_bytes(size_px, layers)}, {})
-                    .handle;
+                device().create_buffer({.label = "ends", .size = shadow::ends_bytes(size_px, layers)}, {}).handle;
         for (std::uint32_t v = 0; v < layers; ++v) {
             shadow::ShadowView& view = frame.views[v];
             view.casters = {0, static_cast<std::uint32_t>(frame.view_caster_items.size())};
@@ -95,7 +97,7 @@ protected:
             frame.slots.push_back(slot);
         }
         shadow::DepthRecorder depths(device());
-        shadow::SheetRecorder sheets(device(), margins);
+        shadow::SheetRecorder sheets(device(), {.with_margins = margins, .with_points = points});
         shadow::EndsRecorder ends(device(), margins);
         FrameReport report;
         report.lights.resize(1);
@@ -107,6 +109,9 @@ protected:
         shadow::publish_lights(scene, {}, {}, false, frame);
         depths.record(scene, gpu, frame, list, report);
         sheets.record(scene, gpu, frame, list, report);
+        drawn.points = static_cast<std::size_t>(
+            std::count_if(list.commands.begin(), list.commands.end(),
+                          [](const gl::Command& c) { return std::holds_alternative<gl::DrawPoints>(c); }));
         ends.record(scene, frame, list);
         run(list);
         return drawn;
@@ -190,8 +195,7 @@ private:
         const auto& row = shadow::light_kind_row(kind);
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
         const std::string text =
-            "#include \"" + std::string(row.file) +
-            "\"\n#include \"shadow/exact/verdict.glsl\"\n" +
+            "#include \"" + std::string(row.file) + "\"\n#include \"shadow/exact/verdict.glsl\"\n" +
             (is_of_source(ask) ? "#include \"shadow/exact/soft_verdict.glsl\"\n" : "") +
             "layout(std430, binding = 9) readonly buffer Places { vec4 places[]; };\n"
             "layout(location = 0) out float verdict;\n"

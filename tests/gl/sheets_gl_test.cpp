@@ -117,6 +117,43 @@ TEST_P(Sheets, AreRightWhereTheyAreCertain) {
     EXPECT_TRUE(tally.is_of_use());
 }
 
+/// A quad along a sliver is narrower than a point: where rounding leaves it open whether the sliver meets a texel, the
+/// quad may not ask there.
+TEST_P(Sheets, SayNoLessWherePointsCoverThemThanWhereQuadsDo) {
+    const std::uint64_t seed = print_seed();
+    std::size_t drawn_as_points = 0, drawn_as_quads = 0, texels = 0, less = 0, more = 0;
+    for (int world = 0; world < worlds(); ++world) {
+        SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
+        Random random(seed + static_cast<std::uint64_t>(world));
+        QueryScene scene = test::sheet_world(random, glm::dvec3(chance(random, 0.2) ? 1.0e8 : 0.0));
+        const View view = view_of(GetParam(), scene, random);
+        scene.snapshot.lights = {view.light};
+        scene.snapshot.consumers = {ConsumerItem{}};
+        std::vector<glm::vec2> bounds[2];
+        for (const bool points : {false, true}) {
+            const Drawn drawn =
+                draw(scene.snapshot, scene.library, view.views, view.size_px, true, Ask::middle, points);
+            for (std::uint32_t layer = 0; layer < view.views.size(); ++layer) {
+                const auto one = read<glm::vec2>(drawn.maps.bounds, std::size_t{view.size_px} * view.size_px, layer);
+                bounds[points ? 1 : 0].insert(bounds[points ? 1 : 0].end(), one.begin(), one.end());
+            }
+            (points ? drawn_as_points : drawn_as_quads) += drawn.points;
+            discard(drawn);
+        }
+        ASSERT_EQ(bounds[0].size(), bounds[1].size());
+        for (std::size_t i = 0; i < bounds[0].size(); ++i) {
+            const glm::vec2 &quads = bounds[0][i], &points = bounds[1][i];
+            less += points.x < quads.x || points.y < quads.y ? 1 : 0;
+            more += points.x > quads.x || points.y > quads.y ? 1 : 0;
+        }
+        texels += bounds[0].size();
+    }
+    EXPECT_GT(drawn_as_points, 0u);
+    EXPECT_EQ(drawn_as_quads, 0u);
+    EXPECT_EQ(less, 0u);
+    EXPECT_LE(more, texels / 1000);
+}
+
 TEST_P(Sheets, AreRightBelowNeedles) {
     const std::uint64_t seed = print_seed();
     Tally tally;

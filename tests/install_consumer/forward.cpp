@@ -86,12 +86,11 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
     if (light.row.rays) {
         const visibility::RayBuffers& rays = light.rays;
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, gl::gl_name(device, scene.instances()));
-        constexpr GLuint kNodesUnit = 10, kTrianglesUnit = 11;
-        glBindTextureUnit(kNodesUnit, gl::gl_texels_name(device, rays.nodes));
-        glBindTextureUnit(kTrianglesUnit, gl::gl_texels_name(device, rays.triangles));
-        GLuint binding = 5;
-        for (const gl::BufferHandle buffer : {rays.top, rays.instances, rays.masks})
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding++, buffer ? gl::gl_name(device, buffer) : 0);
+        GLuint unit = 10;
+        for (const gl::BufferHandle texels : {rays.nodes, rays.triangles, rays.top, rays.instances})
+            glBindTextureUnit(unit++, gl::gl_texels_name(device, texels));
+        constexpr GLuint kMasks = 7;
+        if (light.row.ray_masks) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMasks, gl::gl_name(device, rays.masks));
     }
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -22,23 +22,30 @@ vec4 covering(vec2 p, vec2 q, float half_side, vec2 corner) {
     const float kSlack = 0.02;   // the quad is snapped, too
     float pad = half_side + kSlack, slanted_pad = 1.4142136 * half_side + kSlack;
     vec2 low = min(p, q) - pad, high = max(p, q) + pad;
+#ifndef AS_POINTS
     vec2 side = q - p;
     float length_texel = length(side);
     vec2 straight = high - low;
     vec2 slanted = vec2(length_texel + 2.0 * slanted_pad, 2.0 * slanted_pad);
-    if (slanted.x * slanted.y >= straight.x * straight.y) return at_texel(mix(low, high, corner * 0.5 + 0.5));
-    vec2 along = side / length_texel, across = vec2(-along.y, along.x);
-    return at_texel(0.5 * (p + q) + along * (0.5 * corner.x * slanted.x) + across * (0.5 * corner.y * slanted.y));
+    if (slanted.x * slanted.y < straight.x * straight.y) {
+        vec2 along = side / length_texel, across = vec2(-along.y, along.x);
+        return at_texel(0.5 * (p + q) + along * (0.5 * corner.x * slanted.x) + across * (0.5 * corner.y * slanted.y));
+    }
+#endif
+    return box_at(low, high, corner);
 }
 
 void main() {
-    SheetItem item = sheet_items[gl_VertexID / 6];
+    SheetItem item = sheet_items[gl_VertexID / kVertices];
     InstanceRecord instance = instances[item.instance];
     Corner a = corner_of(instance, item.a), b = corner_of(instance, item.b);
     vec4 rounded = kProjectedUnits * kUnitRoundoff * max(abs(a.place), abs(b.place));   // by where it is clipped
     vec4 error = max(a.error, b.error) + kRoundings * rounded;
     vec2 corner = quad_corner(gl_VertexID);
     gl_Position = nowhere();
+#ifdef AS_POINTS
+    gl_PointSize = 1.0;
+#endif
     ends_texel = vec4(0.0);
     end_depths = vec2(0.0);
     half_texel = 0.0;
@@ -52,7 +59,7 @@ void main() {
         ends_texel = vec4(vec2(0.0), vec2(map_size()));
         half_texel = 2.0 * map_size();
         end_depths = vec2(2.0);
-        gl_Position = at_texel((corner * 0.5 + 0.5) * map_size());
+        gl_Position = box_at(vec2(0.0), vec2(map_size()), corner);
         return;
     }
     ends_texel = vec4(in_texels(from.place), in_texels(to.place));

@@ -57,7 +57,7 @@ bool is_outside(Corner a, Corner b, Corner c) {
 vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
     float size = map_size();
     box_texel = vec4(vec2(-size), vec2(2.0 * size));
-    if (!is_before_light(a) || !is_before_light(b) || !is_before_light(c)) return at_texel((corner * 0.5 + 0.5) * size);
+    if (!is_before_light(a) || !is_before_light(b) || !is_before_light(c)) return box_at(vec2(0.0), vec2(size), corner);
     vec2 p = in_texels(a.place), q = in_texels(b.place), r = in_texels(c.place);
     vec2 low = min(p, min(q, r)), high = max(p, max(q, r));
     float most = max(max(abs(low.x), abs(low.y)), max(abs(high.x), abs(high.y)));
@@ -67,6 +67,7 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
     const float kBoxSlack = 0.014, kSlantedSlack = 0.02;   // by which a quad is larger than it need be: it is snapped, too
     vec2 from = clamp(box_texel.xy - kBoxSlack, 0.0, size), to = clamp(box_texel.zw + kBoxSlack, 0.0, size);
     if (any(greaterThanEqual(from, to))) return nowhere();
+#ifndef AS_POINTS
     vec2 side = q - p;
     if (dot(r - q, r - q) > dot(side, side)) side = r - q;
     if (dot(p - r, p - r) > dot(side, side)) side = p - r;
@@ -83,16 +84,20 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
             return at_texel(along * at.x + across * at.y);
         }
     }
-    return at_texel(mix(from, to, corner * 0.5 + 0.5));
+#endif
+    return box_at(from, to, corner);
 }
 
 void main() {
-    SheetItem item = sheet_items[gl_VertexID / 6];
+    SheetItem item = sheet_items[gl_VertexID / kVertices];
     InstanceRecord instance = instances[item.instance];
     Corner a = corner_of(instance, item.a), b = corner_of(instance, item.b), c = corner_of(instance, item.c);
     gl_Position = nowhere();
     edge_ab = edge_bc = edge_ca = depth_plane = inverse_w = box_texel = errors = vec4(0.0);
     nearest = 0.0;
+#ifdef AS_POINTS
+    gl_PointSize = 1.0;
+#endif
     if (is_outside(a, b, c)) return;
     gl_Position = covering(a, b, c, quad_corner(gl_VertexID));
     vec4 error = max(a.error, max(b.error, c.error));

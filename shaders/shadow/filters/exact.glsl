@@ -10,12 +10,11 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
 #ifdef SHADOW_SHEETS
 #include "shadow/exact/certainty.glsl"
 
-Certainty certainty(dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
-    vec3 rounded_ca = vec3(position_ca);
-    float off_m = error_m + kUnitRoundoff * length(rounded_ca);
-    ShadowPoint point = shadow_point(0, rounded_ca, normal, off_m, 0.0);
-    int verdict = sheet_verdict(point, rounded_ca, off_m, receiver_casts(receiver));
-    return Certainty(verdict, verdict == kUncertain ? sheet_reach(point, rounded_ca, off_m) : kNoEnd);
+// `error_m`: how far position_ca may be off the surface.
+Certainty certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
+    ShadowPoint point = shadow_point(0, position_ca, normal, error_m, 0.0);
+    int verdict = sheet_verdict(point, position_ca, error_m, receiver_casts(receiver));
+    return Certainty(verdict, verdict == kUncertain ? sheet_reach(point, position_ca, error_m) : kNoEnd);
 }
 #endif
 #include "shadow/exact/traced.glsl"

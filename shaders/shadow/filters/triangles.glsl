@@ -18,39 +18,40 @@ bvec4 may_darken(ShadowPoint point, FourTexels four) {
     return other;
 }
 
-// What the four show that may darken the receiver: each triangle once, as many as `count`. Found first and tested together,
-// because software devices take as many rounds as the slowest of neighbouring pixels.
-struct Shown {
-    uvec2 triangles[4];
-    int count;
-};
-
-// `texels`: 4, or 0 for none.
-Shown shown_before(ShadowPoint point, FourTexels four, bvec4 may, int texels) {
-    Shown shown;
-    shown.count = 0;
-    for (int i = 0; i < texels; ++i) {
-        if (!may[i] || four.stored[i] == 0.0) continue;
-        vec2 middle = four.corner + vec2(i == 1 || i == 2 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5);
-        uvec2 triangle = shadow_triangle(point, middle);
-        if (shown.count > 0 && shown.triangles[shown.count - 1] == triangle) continue;
-        shown.triangles[shown.count++] = triangle;
+// Each triangle once: a bit for the first texel that shows it, of those that may darken and show any.
+int different(FourTexels four, bvec4 may, FourTriangles shown) {
+    int bits = 0;
+    for (int i = 0; i < 4; ++i) {
+        bool is_new = may[i] && four.stored[i] > 0.0;
+        for (int j = 0; j < i; ++j)
+            is_new = is_new && !((bits >> j & 1) != 0 && shown.triangle[j] == shown.triangle[i] && shown.instance[j] == shown.instance[i]);
+        if (is_new) bits |= 1 << i;
     }
-    return shown;
+    return bits;
 }
 
+// Loops, because software devices run both sides of an if, all of it, but of a loop that is not needed one round; and what is tested
+// is found first, because they take as many rounds as the slowest of neighbouring pixels.
 float shadow_filter(ShadowPoint point) {
     FourTexels four = four_texels(point);
     bvec4 may = may_darken(point, four);
-    Shown shown = shown_before(point, four, may, !any(may) || four.all_dark ? 0 : 4);
-    int verdict = kPasses;
-    bool unknown = false;
-    for (int i = 0; i < shown.count && verdict != kBlocked; ++i) {
-        verdict = caster_verdict(shown.triangles[i], point.position_ca, point.error_m, shadow_texel_sides(point));
-        unknown = unknown || verdict == kUnknown;
+    bool lit = !any(may);
+    for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
+        FourTriangles shown = shadow_triangles_around(point, four.corner);
+        int left = different(four, may, shown);
+        bool unknown = false;
+        lit = true;
+        while (left != 0 && lit) {
+            int i = (left & 1) != 0 ? 0 : ((left & 2) != 0 ? 1 : ((left & 4) != 0 ? 2 : 3));
+            left &= left - 1;
+            int verdict = caster_verdict(uvec2(shown.instance[i], shown.triangle[i]), point.position_ca, point.error_m, shadow_texel_sides(point));
+            unknown = unknown || verdict == kUnknown;
+            lit = verdict != kBlocked;
+        }
+        for (int votes = unknown && lit ? 1 : 0; votes > 0; --votes) {
+            vec2 middle = floor(four.place) + 0.5;
+            lit = lit_at(point, four.place, middle, shadow_depth(point, middle)) > 0.0;
+        }
     }
-    vec2 middle = floor(four.place) + 0.5;
-    float nearest = lit_at(point, four.place, middle, shadow_depth(point, middle));
-    bool lit = !any(may) || (!four.all_dark && verdict != kBlocked && (!unknown || nearest > 0.0));
     return lit ? 1.0 : 0.0;
 }

@@ -21,7 +21,8 @@ float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
 }
 
 // By how much more votes than not say lit, -1 to 1; at the edge 0, rising by 1 over kVotes_texel * sqrt(pi / 2) texels.
-// `rows`: 4, or 0 for none; a loop, because software devices run both sides of an if, but no empty loop.
+// `rows`: 4, or 0 for none; a loop, because software devices run both sides of an if, all of it, but of
+// a loop that is not needed one round.
 float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
     float lit = 0.0, all_votes = 0.0;
     for (int y = -2; y < rows - 2; ++y)

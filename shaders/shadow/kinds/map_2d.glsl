@@ -8,6 +8,7 @@ layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
 #endif
 
 #ifdef SHADOW_TRIANGLES
+#include "shadow/four_triangles.glsl"
 layout(binding = 5) uniform usampler2DArray shadow_triangles;   // see shadow/caster_triangles.glsl
 #endif
 
@@ -77,8 +78,13 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
 }
 
 #ifdef SHADOW_TRIANGLES
-uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
-    return texelFetch(shadow_triangles, ivec3(ivec2(middle), int(point.layer)), 0).xy;
+// What these four show.
+FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
+    vec3 at = vec3(corner * point.texel_uv, point.layer);
+    FourTriangles shown;
+    shown.instance = textureGather(shadow_triangles, at, 0);
+    shown.triangle = textureGather(shadow_triangles, at, 1);
+    return shown;
 }
 
 // Of a texel: metres, or tangents from a lamp.

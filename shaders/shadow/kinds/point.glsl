@@ -17,6 +17,7 @@ layout(binding = 4) uniform samplerCubeShadow shadow_map;
 #endif
 
 #ifdef SHADOW_TRIANGLES
+#include "shadow/four_triangles.glsl"
 layout(binding = 5) uniform usamplerCube shadow_triangles;   // see shadow/caster_triangles.glsl
 #endif
 
@@ -109,18 +110,40 @@ float shadow_depth(ShadowPoint point, vec2 middle) {
     return stored > 0.0 ? alpha + (stored - alpha) * largest(direction) : 0.0;
 }
 
-// Of the four texels around a corner between texels, in textureGather's order.
+// Whether all four texels around a corner are this face's.
+bool is_inside(ShadowPoint point, vec2 corner) {
+    return min(corner.x, corner.y) >= 1.0 && max(corner.x, corner.y) <= face_size() - 1.0 && is_drawn(point.position);
+}
+// Where they lie from there, in textureGather's order.
+vec2 toward_gathered(int i) { return vec2(i == 1 || i == 2 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5); }
+
+// Of the four texels around a corner between texels, in that order. A loop, because software devices run both sides of an if,
+// all of it, but of a loop that is not needed one round.
 vec4 shadow_depths(ShadowPoint point, vec2 corner) {
-    float size = face_size();
-    if (min(corner.x, corner.y) >= 1.0 && max(corner.x, corner.y) <= size - 1.0 && is_drawn(point.position))
-        return textureGather(shadow_map, direction_to(point, corner));
-    return vec4(shadow_depth(point, corner + vec2(-0.5, 0.5)), shadow_depth(point, corner + vec2(0.5, 0.5)),
-                shadow_depth(point, corner + vec2(0.5, -0.5)), shadow_depth(point, corner - vec2(0.5, 0.5)));
+    vec4 four = vec4(0.0);
+    bool gathers = is_inside(point, corner);
+    if (gathers) four = textureGather(shadow_map, direction_to(point, corner));
+    for (int i = gathers ? 4 : 0; i < 4; ++i) four[i] = shadow_depth(point, corner + toward_gathered(i));
+    return four;
 }
 
 #ifdef SHADOW_TRIANGLES
-uvec2 shadow_triangle(ShadowPoint point, vec2 middle) {
-    return textureLod(shadow_triangles, direction_to(point, middle), 0.0).xy;
+// What these four show.
+FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
+    FourTriangles shown;
+    shown.instance = shown.triangle = uvec4(0u);
+    vec3 direction = direction_to(point, corner);
+    bool gathers = is_inside(point, corner);
+    if (gathers) {
+        shown.instance = textureGather(shadow_triangles, direction, 0);
+        shown.triangle = textureGather(shadow_triangles, direction, 1);
+    }
+    for (int i = gathers ? 4 : 0; i < 4; ++i) {
+        uvec4 one = textureLod(shadow_triangles, direction_to(point, corner + toward_gathered(i)), 0.0);
+        shown.instance[i] = one.x;
+        shown.triangle[i] = one.y;
+    }
+    return shown;
 }
 
 // Of a texel: tangents.

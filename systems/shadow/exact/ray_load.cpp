@@ -13,7 +13,7 @@ namespace {
 
 /// What a ray costs, and in rays what else does: a triangle of a caster, drawn three times and measured; a texel of a
 /// map, cleared and written as often; a pixel's verdict. Ratios of one run (docs/exact.md, "What it costs").
-constexpr double kTriangle_rays = 1.5, kTexel_rays = 0.1, kVerdict_rays = 0.15;
+constexpr double kTriangle_rays = 2.5, kTexel_rays = 0.1, kVerdict_rays = 0.15;
 /// Room that a light needs to come back.
 constexpr double kBackAgain = 1.25;
 

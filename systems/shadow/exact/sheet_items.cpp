@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -15,6 +16,9 @@ namespace {
 constexpr double kDoubleRoundoff = 1.1102230246251565e-16;
 /// Of a facet's normal, rounded to float, with the products and sums of its test; and the same of places in double.
 constexpr double kFacingUnits = 4.0, kPlaceUnits = 16.0;
+/// Shaders take a corner for one before the light if w is more than 16 of its own errors.
+constexpr double kBeforeLight = 32.0;
+
 bool is_parallel(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
 
 /// Turns normals of planes as `m` turns points, but for a factor; needs no inverse.
@@ -73,16 +77,30 @@ void SheetGatherer::place(const std::vector<assets::Vertex>& vertices, const Cas
     const ClipRounding rounding(surface, item, view);
     const double beyond = 1.0 + kQuadReach_texel * 2.0 / size_px, w_slack = rounding.of_row(3);
     const glm::dvec2 slack(rounding.of_row(0) + beyond * w_slack, rounding.of_row(1) + beyond * w_slack);
+    const double half_size = 0.5 * size_px, row_slack = std::max(rounding.of_row(0), rounding.of_row(1));
     placed_.resize(vertices.size());
     for (std::size_t v = 0; v < vertices.size(); ++v) {
         const glm::dvec4 c = clip_from_model * glm::dvec4(glm::dvec3(vertices[v].position_ms), 1.0);
         const double reach = beyond * c.w;
         const bool bits[] = {c.x > reach + slack.x, -c.x > reach + slack.x, c.y > reach + slack.y,
                              -c.y > reach + slack.y, c.w < -w_slack};
-        placed_[v] = {c.w, 0};
+        Placed& placed = placed_[v] = {.distance_m = c.w};
+        if (c.w > kBeforeLight * w_slack && c.w > 0.0) {
+            const glm::dvec2 map = glm::dvec2(c) / c.w;
+            const double moved = (row_slack + std::max(std::abs(map.x), std::abs(map.y)) * w_slack) / c.w;
+            placed.is_placed = moved * half_size <= kSmallMoved_texel;
+            placed.at_texel = glm::vec2(map * half_size + half_size);
+        }
         for (unsigned bit = 0; bit < std::size(bits); ++bit)
-            placed_[v].beyond = static_cast<std::uint8_t>(placed_[v].beyond | (bits[bit] ? 1u << bit : 0u));
+            placed.beyond = static_cast<std::uint8_t>(placed.beyond | (bits[bit] ? 1u << bit : 0u));
     }
+}
+
+bool SheetGatherer::is_small(const Placed& a, const Placed& b, const Placed& c) const {
+    if (!draws_points_ || !a.is_placed || !b.is_placed || !c.is_placed) return false;
+    const glm::vec2 size =
+        glm::max(a.at_texel, glm::max(b.at_texel, c.at_texel)) - glm::min(a.at_texel, glm::min(b.at_texel, c.at_texel));
+    return std::max(size.x, size.y) <= static_cast<float>(kSmall_texel);
 }
 
 void SheetGatherer::append(const GpuScene& gpu, const CasterSurface& surface, const InstanceItem& item,
@@ -91,12 +109,14 @@ void SheetGatherer::append(const GpuScene& gpu, const CasterSurface& surface, co
     const auto& indices = *shape.indices;
     const auto base = static_cast<std::uint32_t>(gpu.mesh(item.mesh).base_vertex);
     place(*shape.vertices, surface, item, view, size_px);
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<SheetItem>& to) {
-        if ((placed_[a].beyond & placed_[b].beyond & placed_[c].beyond) == 0)
-            to.push_back({item.gpu_slot, base + a, base + b, base + c});
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, SheetItems::Kind kind) {
+        const Placed &one = placed_[a], &two = placed_[b], &three = placed_[c];
+        if ((one.beyond & two.beyond & three.beyond) != 0) return;
+        std::vector<SheetItem>& to = (is_small(one, two, three) ? items.small : items.large)[kind];
+        to.push_back({item.gpu_slot, base + a, base + b, base + c});
     };
-    const auto add_triangle = [&](std::uint32_t t, std::vector<SheetItem>& to) {
-        add(indices[std::size_t{3} * t], indices[std::size_t{3} * t + 1], indices[std::size_t{3} * t + 2], to);
+    const auto add_triangle = [&](std::uint32_t t, SheetItems::Kind kind) {
+        add(indices[std::size_t{3} * t], indices[std::size_t{3} * t + 1], indices[std::size_t{3} * t + 2], kind);
     };
     const auto farthest_m = [&](std::uint32_t t) {
         const auto distance = [&](std::size_t corner) {
@@ -112,12 +132,12 @@ void SheetGatherer::append(const GpuScene& gpu, const CasterSurface& surface, co
         double error = 0.0;
         const double side = test(facet, error);
         facing_[t] = side > error ? 1 : (side < -error ? -1 : 0);
-        if (!is_flat(facet, test.in_view(facet), side, error, farthest_m(t))) add_triangle(t, items.triangles);
+        if (!is_flat(facet, test.in_view(facet), side, error, farthest_m(t))) add_triangle(t, SheetItems::triangles);
     }
-    for (const auto& border : surface.edges.borders) add(border.a, border.b, border.a, items.contours);
+    for (const auto& border : surface.edges.borders) add(border.a, border.b, border.a, SheetItems::contours);
     for (const auto& fold : surface.edges.folds)
-        if (is_contour(fold, facing_)) add(fold.a, fold.b, fold.a, items.contours);
-    for (const std::uint32_t t : surface.masked) add_triangle(t, items.masked);
+        if (is_contour(fold, facing_)) add(fold.a, fold.b, fold.a, SheetItems::contours);
+    for (const std::uint32_t t : surface.masked) add_triangle(t, SheetItems::masked);
 }
 
 }  // namespace gnomon::shadow

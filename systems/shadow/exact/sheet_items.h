@@ -6,6 +6,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/exact/caster_surfaces.h"
 #include "systems/shadow/exact/flat_facets.h"
+#include "systems/shadow/exact/sheet_margins.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::shadow {
@@ -21,13 +22,18 @@ static_assert(sizeof(SheetItem) == 16);
 
 /// What one view draws over its sheets.
 struct SheetItems {
-    std::vector<SheetItem> triangles;  // opaque ones that depart from their depth by more than the floor
-    std::vector<SheetItem> contours;   // edges where a sheet ends as this light sees it
-    std::vector<SheetItem> masked;
+    enum Kind : std::uint8_t {
+        triangles,  // opaque ones that depart from their depth by more than the floor
+        contours,   // edges where a sheet ends as this light sees it
+        masked,
+        kinds
+    };
+    /// `large` are drawn as quads, six vertices each; `small` as points, one vertex each: they lie before the light, in
+    /// a square of kSmall_texel, so that a point of most_point_px() covers all texels that they may overlap.
+    std::vector<SheetItem> large[kinds], small[kinds];
     void clear() {
-        triangles.clear();
-        contours.clear();
-        masked.clear();
+        for (auto& items : large) items.clear();
+        for (auto& items : small) items.clear();
     }
 };
 
@@ -36,16 +42,24 @@ struct SheetItems {
 /// it.
 class SheetGatherer {
 public:
+    /// `max_point_px`: DeviceInfo's; where that is less than most_point_px() all items are large.
+    explicit SheetGatherer(std::uint32_t max_point_px) : draws_points_(max_point_px >= most_point_px()) {}
+    bool draws_points() const { return draws_points_; }
+
     void append(const GpuScene& gpu, const CasterSurface& surface, const InstanceItem& item, const ShadowView& view,
                 std::uint32_t size_px, SheetItems& items);
 
 private:
     struct Placed {
-        double distance_m = 0.0;  // along the view (perspective)
-        std::uint8_t beyond = 0;  // a bit per side of the map beyond which it lies, and one for behind the light
+        double distance_m = 0.0;   // along the view (perspective)
+        glm::vec2 at_texel{0.0f};  // of the map, if is_placed
+        bool is_placed = false;    // before the light, and float is off by less than kSmallMoved_texel there
+        std::uint8_t beyond = 0;   // a bit per side of the map beyond which it lies, and one for behind the light
     };
     void place(const std::vector<assets::Vertex>& vertices, const CasterSurface& surface, const InstanceItem& item,
                const ShadowView& view, std::uint32_t size_px);
+    bool is_small(const Placed& a, const Placed& b, const Placed& c) const;
+    bool draws_points_;
     std::vector<std::int8_t> facing_;  // per facet: 1 toward the light, -1 away, 0 not known
     std::vector<Placed> placed_;       // per vertex of the mesh
 };

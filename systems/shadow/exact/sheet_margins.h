@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 
 /// Margins of sheets, as docs/exact.md derives them. The same numbers are in shaders/shadow/exact/margins.glsl; the
 /// test SheetMargins.AreTheSameInShaders holds them together.
@@ -24,6 +25,14 @@ inline constexpr double kLeastAltitude_texel = 1.0 / 64.0;
 /// How far quads over triangles and edges reach beyond them: no less than half a diagonal of a texel and its slack
 /// (triangles.vert, contours.vert).
 inline constexpr double kQuadReach_texel = 2.0;
+/// Items in a square of that side are drawn as points, if float moves none of their corners by more than so much across
+/// the map: one vertex and one square instead of six and two triangles. Larger squares waste more of their texels on
+/// what is long and slanted. Of Sponza's items at 1024 texels 3 % are larger; other sides were not tried.
+inline constexpr double kSmall_texel = 12.0, kSmallMoved_texel = 0.25;
+/// Side of the largest such point: what a quad reaches beyond, on both sides, and kSmallMoved_texel.
+constexpr std::uint32_t most_point_px() {
+    return static_cast<std::uint32_t>(kSmall_texel + 2.0 * (kQuadReach_texel + kSmallMoved_texel)) + 1;
+}
 /// Tangent between normal and light up to which a facet is not drawn (SheetFloor).
 inline constexpr double kFloorTangent = 4.0;
 /// Of depth in [0, 1], for facets that are not drawn.

@@ -18,15 +18,18 @@ constexpr std::uint32_t kQuadVertices = 6;
 /// Nothing ends there: behind all that depth can be.
 constexpr float kNoContour = -1.0f;
 
+bool is_small(std::size_t which) { return which >= SheetItems::kinds; }
+
 bool is_bounded(const ShadowFrame& frame, std::size_t view) {
     return is_drawn(frame, view) && frame.slots[view].bounds_target;
 }
 
 }  // namespace
 
-SheetRecorder::SheetRecorder(gl::Device& device, bool with_margins)
+SheetRecorder::SheetRecorder(gl::Device& device, const Options& options)
     : device_(device),
-      with_margins_(with_margins),
+      with_margins_(options.with_margins),
+      gatherer_(options.with_points ? device.info().max_point_px : 0),
       items_(device, "shadow sheet items"),
       view_records_(device, "shadow sheet views") {}
 
@@ -40,27 +43,35 @@ void SheetRecorder::release() {
     surfaces_.clear();
 }
 
-bool SheetRecorder::program(Kind kind) {
-    Program& made = programs_[static_cast<std::size_t>(kind)];
+bool SheetRecorder::program(std::size_t which) {
+    Program& made = programs_[which];
     if (made.program) return true;
     if (!made.retry.due(frame_)) return false;
-    const bool contours = kind == Kind::contours;
+    const std::size_t kind = which % SheetItems::kinds;
+    const bool contours = kind == SheetItems::contours, points = is_small(which);
     std::vector<std::string> defines;
-    if (kind == Kind::masked) defines.emplace_back("MASKED 1");
+    if (kind == SheetItems::masked) defines.emplace_back("MASKED 1");
+    if (points) defines.emplace_back("AS_POINTS 1");
     if (!with_margins_) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
     const char* const name = contours ? "shadow/exact/contours" : "shadow/exact/triangles";
     const auto vertex = gl::expand_shader(shader_files(), std::string(name) + ".vert", defines);
     const auto fragment = gl::expand_shader(shader_files(), std::string(name) + ".frag", defines);
-    const char* const label = contours ? "sheet contours" : (kind == Kind::masked ? "sheet masks" : "sheet departures");
-    if (vertex && fragment) made.program = device_.create_program({label, vertex.value(), fragment.value()}).handle;
+    constexpr const char* kLabels[] = {"sheet departures", "sheet contours", "sheet masks"};
+    const std::string label = std::string(kLabels[kind]) + (points ? ", small" : "");
+    if (vertex && fragment)
+        made.program = device_.create_program({label.c_str(), vertex.value(), fragment.value()}).handle;
     if (!made.program) made.retry.failed(frame_);
     return static_cast<bool>(made.program);
 }
 
+/// Of a kind both, lest a frame be late once a camera comes so near that something is large.
 bool SheetRecorder::programs_ready(const View& view) {
     bool ready = true;
-    for (std::size_t kind = 0; kind < std::size(programs_); ++kind)
-        ready = (view.count[kind] == 0 || program(static_cast<Kind>(kind))) && ready;
+    for (std::size_t kind = 0; kind < SheetItems::kinds; ++kind) {
+        const std::size_t small = kind + SheetItems::kinds;
+        if (view.count[kind] + view.count[small] == 0) continue;
+        ready = program(kind) && (!gatherer_.draws_points() || program(small)) && ready;
+    }
     return ready;
 }
 
@@ -74,12 +85,11 @@ SheetRecorder::View SheetRecorder::gather(const SceneSnapshot& scene, const GpuS
     }
     View found;
     found.view = v;
-    const std::vector<SheetItem>* const kinds[] = {&view_scratch_.triangles, &view_scratch_.contours,
-                                                   &view_scratch_.masked};
-    for (std::size_t kind = 0; kind < std::size(kinds); ++kind) {
-        found.first[kind] = static_cast<std::uint32_t>(item_scratch_.size());
-        found.count[kind] = static_cast<std::uint32_t>(kinds[kind]->size());
-        item_scratch_.insert(item_scratch_.end(), kinds[kind]->begin(), kinds[kind]->end());
+    for (std::size_t which = 0; which < kPrograms; ++which) {
+        const auto& items = (is_small(which) ? view_scratch_.small : view_scratch_.large)[which % SheetItems::kinds];
+        found.first[which] = static_cast<std::uint32_t>(item_scratch_.size());
+        found.count[which] = static_cast<std::uint32_t>(items.size());
+        item_scratch_.insert(item_scratch_.end(), items.begin(), items.end());
     }
     return found;
 }
@@ -122,14 +132,18 @@ void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu,
     list.add(gl::BindStorage{0, gpu.instances()});
     list.add(gl::BindStorage{1, gpu.vertices()});
     list.add(gl::BindStorage{2, items_.handle()});
-    for (std::size_t kind = 0; kind < std::size(programs_); ++kind) {
-        if (drawn.count[kind] == 0) continue;
-        gl::PipelineState state{.program = programs_[kind].program};
+    for (std::size_t which = 0; which < kPrograms; ++which) {
+        const std::uint32_t first = drawn.first[which], count = drawn.count[which];
+        if (count == 0) continue;
+        gl::PipelineState state{.program = programs_[which].program};
         state.blend = gl::Blend::largest;
         list.add(gl::SetPipeline{state});
-        list.add(gl::DrawPulled{drawn.first[kind] * kQuadVertices, drawn.count[kind] * kQuadVertices});
+        if (is_small(which))
+            list.add(gl::DrawPoints{first, count});
+        else
+            list.add(gl::DrawPulled{first * kQuadVertices, count * kQuadVertices});
         ++report.draws;
-        report.triangles += 2 * std::uint64_t{drawn.count[kind]};
+        report.triangles += (is_small(which) ? 1 : 2) * std::uint64_t{count};
     }
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{shadow_timer(demand.light)});

@@ -19,8 +19,12 @@ namespace gnomon::shadow {
 /// second depths, are the DepthRecorder's. Programs, surfaces and buffers are made when first called for.
 class SheetRecorder {
 public:
-    /// `with_margins` false: none at all, to show in tests that they are needed.
-    explicit SheetRecorder(gl::Device& device, bool with_margins = true);
+    /// For tests: without margins, to show that they are needed; with quads alone, to show that points cover the same.
+    struct Options {
+        bool with_margins = true, with_points = true;
+    };
+    explicit SheetRecorder(gl::Device& device) : SheetRecorder(device, Options{}) {}
+    SheetRecorder(gl::Device& device, const Options& options);
     ~SheetRecorder();
     SheetRecorder(const SheetRecorder&) = delete;
     SheetRecorder& operator=(const SheetRecorder&) = delete;
@@ -39,16 +43,17 @@ public:
     std::uint64_t host_bytes() const { return surfaces_.bytes(); }
 
 private:
-    enum class Kind : std::uint8_t { triangles, contours, masked, count };
+    /// By SheetItems::Kind, first the large ones, then the small ones.
+    static constexpr std::size_t kPrograms = 2 * std::size_t{SheetItems::kinds};
     struct View {
         std::size_t view = 0;
-        std::uint32_t first[3] = {}, count[3] = {};  // items, by kind
+        std::uint32_t first[kPrograms] = {}, count[kPrograms] = {};  // items
     };
     struct Program {
         gl::ProgramHandle program{};
         Retry retry;
     };
-    bool program(Kind kind);
+    bool program(std::size_t which);
     bool programs_ready(const View& view);
     View gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::size_t view);
     void record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const View& view,
@@ -59,7 +64,7 @@ private:
     CasterSurfaces surfaces_;
     SheetGatherer gatherer_;
     GrowingBuffer items_, view_records_;
-    Program programs_[static_cast<std::size_t>(Kind::count)];
+    Program programs_[kPrograms];
     std::uint64_t frame_ = 0;
     // One frame's; storage is reused.
     std::vector<View> views_;

@@ -91,6 +91,8 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            DrawTriangle{0.0f},
                                            DrawTriangle{0.5f},
                                            DrawLines{6},
+                                           DrawPoints{0, 6},
+                                           DrawPoints{6, 6},
                                            DrawPulled{0, 6},
                                            DrawPulled{6, 6},
                                            Dispatch{{1}, 2, 3},

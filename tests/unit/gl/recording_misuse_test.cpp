@@ -67,6 +67,8 @@ TEST_F(RecordingMisuse, DrawsNeedAPipeline) {
     EXPECT_THAT(of({pass(), DrawTriangle{}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
     EXPECT_THAT(of({pass(), DrawLines{2}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
     EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawLines{2}, EndPass{}}), IsEmpty());
+    EXPECT_THAT(of({pass(), DrawPoints{0, 5}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
+    EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawPoints{3, 5}, EndPass{}}), IsEmpty());
     EXPECT_THAT(of({pass(), DrawPulled{0, 6}, EndPass{}}), ElementsAre(Misuse::draw_without_pipeline));
     EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawPulled{6, 6}, EndPass{}}), IsEmpty());
     EXPECT_THAT(of({SetPipeline{{.program = program}}, pass(), DrawPulled{0, 4}, EndPass{}}),

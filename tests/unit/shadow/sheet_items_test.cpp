@@ -37,9 +37,10 @@ public:
         EXPECT_TRUE(made);
         if (made) gpu_.emplace(std::move(made).value());
     }
-    shadow::SheetItems before(const shadow::ShadowView& view) {
+    /// `max_point_px` 1: as quads alone, so that all items are large.
+    shadow::SheetItems before(const shadow::ShadowView& view, std::uint32_t max_point_px = 1) {
         shadow::SheetItems items;
-        shadow::SheetGatherer gatherer;
+        shadow::SheetGatherer gatherer(max_point_px);
         for (const InstanceItem& item : scene_.snapshot.instances)
             gatherer.append(*gpu_, surfaces_.of(*gpu_, item.mesh), item, view, kMap_px, items);
         return items;
@@ -66,7 +67,7 @@ shadow::ShadowView lamp(const glm::dvec3& at) {
 
 std::set<std::array<std::uint32_t, 2>> edges_of(const shadow::SheetItems& items) {
     std::set<std::array<std::uint32_t, 2>> edges;
-    for (const shadow::SheetItem& item : items.contours)
+    for (const shadow::SheetItem& item : items.large[shadow::SheetItems::contours])
         edges.insert({std::min(item.a, item.b), std::max(item.a, item.b)});
     return edges;
 }
@@ -83,7 +84,7 @@ TEST(SheetItems, OfACubeAreSixContoursHoweverItIsTurned) {
         // Not within 1e-3 of edge-on.
         const glm::dvec3 seen = glm::abs(toward * turn);
         if (std::min({seen.x, seen.y, seen.z}) < 1e-3) continue;
-        EXPECT_THAT(SheetItemsOf(scene).before(sun(toward)).contours, SizeIs(6)) << i;
+        EXPECT_THAT(SheetItemsOf(scene).before(sun(toward)).large[shadow::SheetItems::contours], SizeIs(6)) << i;
     }
 }
 
@@ -91,8 +92,10 @@ TEST(SheetItems, HoldAllEdgesOfAFaceSeenEdgeOn) {
     oracle::AnalyticScene scene;
     scene.place(scene.add_cube(), {});
     // The light lies in the planes of four faces.
-    EXPECT_THAT(SheetItemsOf(scene).before(sun({0.0, 1.0, 0.0})).contours, SizeIs(4 + 4 + 4 + 4));
-    EXPECT_THAT(SheetItemsOf(scene).before(sun({1e-9, 1.0, 0.0})).contours, SizeIs(4 + 4 + 4 + 4));
+    EXPECT_THAT(SheetItemsOf(scene).before(sun({0.0, 1.0, 0.0})).large[shadow::SheetItems::contours],
+                SizeIs(4 + 4 + 4 + 4));
+    EXPECT_THAT(SheetItemsOf(scene).before(sun({1e-9, 1.0, 0.0})).large[shadow::SheetItems::contours],
+                SizeIs(4 + 4 + 4 + 4));
 }
 
 TEST(SheetItems, OfAMirrorImageAreThoseOfTheThing) {
@@ -113,7 +116,7 @@ TEST(SheetItems, OfAnOpenSheetAreItsBordersAndNoFoldThatIsSeenFromOneSide) {
         // The last one disagrees about its front.
         oracle::AnalyticScene scene;
         scene.place(scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {1, 0.1f, 1}, {0, 0, 1}}, indices), {});
-        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2})).contours, SizeIs(4));
+        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2})).large[shadow::SheetItems::contours], SizeIs(4));
     }
 }
 
@@ -123,7 +126,7 @@ TEST(SheetItems, HoldAFoldBetweenFrontAndBackHoweverItIsWound) {
         // Bent over 0-2 so far that the sun sees one triangle from above and one from below.
         oracle::AnalyticScene scene;
         scene.place(scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, -1, 0}}, indices), {});
-        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.1, 1.0, -0.3})).contours, SizeIs(5));
+        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.1, 1.0, -0.3})).large[shadow::SheetItems::contours], SizeIs(5));
     }
 }
 
@@ -154,8 +157,7 @@ TEST(SheetItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
             const glm::dvec3 anchor = view.anchor_ws_m - scene.offset_m;
             const glm::dvec4 p = m * glm::dvec4(corner(a) - anchor, 1.0), q = m * glm::dvec4(corner(b) - anchor, 1.0);
             bool beside = p.w < 0.0 && q.w < 0.0;
-            for (int i = 0; i < 2; ++i)
-                beside = beside || (p[i] > p.w && q[i] > q.w) || (-p[i] > p.w && -q[i] > q.w);
+            for (int i = 0; i < 2; ++i) beside = beside || (p[i] > p.w && q[i] > q.w) || (-p[i] > p.w && -q[i] > q.w);
             return beside;
         };
         const std::vector<bool> all(mesh.indices.size() / 3, true);
@@ -189,14 +191,14 @@ TEST(SheetItems, LeaveOutWhatIsFlat) {
     const std::uint32_t square = scene.add_square();
     scene.place(square, {});
     const auto tilted = [](double tangent) { return sun({tangent, 0.0, 1.0}); };
-    EXPECT_THAT(SheetItemsOf(scene).before(tilted(3.9)).triangles, IsEmpty());
-    EXPECT_THAT(SheetItemsOf(scene).before(tilted(6.0)).triangles, SizeIs(2));
+    EXPECT_THAT(SheetItemsOf(scene).before(tilted(3.9)).large[shadow::SheetItems::triangles], IsEmpty());
+    EXPECT_THAT(SheetItemsOf(scene).before(tilted(6.0)).large[shadow::SheetItems::triangles], SizeIs(2));
     // By the ray that is met most obliquely: at the square's corner, of 1.6 m from its middle at most.
-    EXPECT_THAT(SheetItemsOf(scene).before(lamp({0.0, 0.0, 2.0})).triangles, IsEmpty());
-    EXPECT_THAT(SheetItemsOf(scene).before(lamp({2.0, 0.0, 0.2})).triangles, SizeIs(2));
+    EXPECT_THAT(SheetItemsOf(scene).before(lamp({0.0, 0.0, 2.0})).large[shadow::SheetItems::triangles], IsEmpty());
+    EXPECT_THAT(SheetItemsOf(scene).before(lamp({2.0, 0.0, 0.2})).large[shadow::SheetItems::triangles], SizeIs(2));
     // What float places coarsely is drawn however flat it is.
     scene.snapshot.instances[0].basis *= 1e6;
-    EXPECT_THAT(SheetItemsOf(scene).before(tilted(0.5)).triangles, SizeIs(2));
+    EXPECT_THAT(SheetItemsOf(scene).before(tilted(0.5)).large[shadow::SheetItems::triangles], SizeIs(2));
 }
 
 TEST(SheetItems, LeaveOutWhatLiesBesideTheMap) {
@@ -208,13 +210,66 @@ TEST(SheetItems, LeaveOutWhatLiesBesideTheMap) {
         return shadow::perspective_view({}, math::basis_from_back(back), shadow::TangentRectangle{}, {0.1, 50.0},
                                         kMap_px);
     };
-    EXPECT_THAT(items.before(seen_toward({-1.0, 0.01, 0.02})).contours, Not(IsEmpty()));
+    EXPECT_THAT(items.before(seen_toward({-1.0, 0.01, 0.02})).large[shadow::SheetItems::contours], Not(IsEmpty()));
     for (const glm::dvec3& away : {glm::dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}}) {
         scene.snapshot.instances[0].translation_ws_m = {3.0, 0.0, 0.0};
         const shadow::SheetItems beside = items.before(seen_toward(away));
-        EXPECT_THAT(beside.contours, IsEmpty());
-        EXPECT_THAT(beside.triangles, IsEmpty());
+        EXPECT_THAT(beside.large[shadow::SheetItems::contours], IsEmpty());
+        EXPECT_THAT(beside.large[shadow::SheetItems::triangles], IsEmpty());
     }
+}
+
+TEST(SheetItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
+    std::mt19937_64 random(print_seed());
+    std::uniform_real_distribution<double> share(-1.0, 1.0);
+    std::size_t small = 0, large = 0;
+    for (int i = 0; i < 60; ++i) {
+        oracle::AnalyticScene scene;
+        const std::uint32_t cube = scene.add_cube();
+        // Of a hundredth of a texel to all of the map, and around the lamp itself.
+        const double size_m = std::pow(10.0, -4.5 + 2.5 * (1.0 + share(random)));
+        scene.place(cube, {2.0 * share(random), 2.0 * share(random), 2.0 * share(random)}, glm::dmat3(size_m));
+        const glm::dvec3 at(share(random), share(random), share(random) + 1.5);
+        const shadow::ShadowView view = i % 2 == 0 ? sun(at) : lamp(at);
+        SheetItemsOf items(scene);
+        const shadow::SheetItems quads = items.before(view), points = items.before(view, shadow::most_point_px());
+        const auto& vertices = scene.library.meshes[cube].vertices;
+        const InstanceItem& item = scene.snapshot.instances[0];
+        for (const auto kind :
+             {shadow::SheetItems::triangles, shadow::SheetItems::contours, shadow::SheetItems::masked}) {
+            std::vector<shadow::SheetItem> all = points.large[kind];
+            all.insert(all.end(), points.small[kind].begin(), points.small[kind].end());
+            EXPECT_THAT(all, ::testing::UnorderedElementsAreArray(quads.large[kind]));
+            EXPECT_THAT(quads.small[kind], IsEmpty());
+            large += points.large[kind].size();
+            for (const shadow::SheetItem& one : points.small[kind]) {
+                ++small;
+                glm::dvec2 low(1e9), high(-1e9);
+                for (const std::uint32_t v : {one.a, one.b, one.c}) {
+                    const glm::dvec3 place =
+                        item.basis * glm::dvec3(vertices[v].position_ms) + item.translation_ws_m - view.anchor_ws_m;
+                    const glm::dvec4 clip = glm::dmat4(view.clip_from_anchor) * glm::dvec4(place, 1.0);
+                    ASSERT_GT(clip.w, 0.0);
+                    const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(kMap_px);
+                    low = glm::min(low, texel);
+                    high = glm::max(high, texel);
+                }
+                EXPECT_LE(std::max(high.x - low.x, high.y - low.y), shadow::kSmall_texel + 1e-3);
+            }
+        }
+    }
+    EXPECT_GT(small, 50u);
+    EXPECT_GT(large, 50u);
+}
+
+TEST(SheetItems, AreLargeOnADeviceWithoutPointsOfTheirSize) {
+    oracle::AnalyticScene scene;
+    scene.place(scene.add_cube(), {}, glm::dmat3(0.01));
+    SheetItemsOf items(scene);
+    EXPECT_THAT(items.before(sun({0.3, 1.0, 0.2}), shadow::most_point_px()).small[shadow::SheetItems::contours],
+                SizeIs(6));
+    EXPECT_THAT(items.before(sun({0.3, 1.0, 0.2}), shadow::most_point_px() - 1).large[shadow::SheetItems::contours],
+                SizeIs(6));
 }
 
 TEST(SheetItems, LeaveOutNoNeedleHoweverFlat) {
@@ -223,7 +278,7 @@ TEST(SheetItems, LeaveOutNoNeedleHoweverFlat) {
         oracle::AnalyticScene scene;
         const std::uint32_t mesh = scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, altitude, 0}}, {0, 1, 2});
         scene.place(mesh, {}, glm::dmat3(scale));
-        return SheetItemsOf(scene).before(sun({0.0, 0.0, 1.0})).triangles.size();
+        return SheetItemsOf(scene).before(sun({0.0, 0.0, 1.0})).large[shadow::SheetItems::triangles].size();
     };
     constexpr double kTexel_m = 4.0 / kMap_px;
     EXPECT_EQ(drawn(static_cast<float>(0.01 * kTexel_m), 1.0), 1u);
@@ -241,8 +296,8 @@ TEST(SheetItems, HaveTrianglesOfMasksApartAndEndSheetsAtThem) {
     scene.library.meshes[mesh].submeshes = {{0, 3, 0}, {3, 3, 1}, {6, 3, 2}};
     scene.place(mesh, {});
     const shadow::SheetItems items = SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2}));
-    EXPECT_THAT(items.contours, SizeIs(3));  // of the opaque triangle alone
-    EXPECT_THAT(items.masked, SizeIs(1));
+    EXPECT_THAT(items.large[shadow::SheetItems::contours], SizeIs(3));  // of the opaque triangle alone
+    EXPECT_THAT(items.large[shadow::SheetItems::masked], SizeIs(1));
 }
 
 /// A number of shaders/shadow/exact/margins.glsl, or of another file there, as it stands there, with margins.

@@ -16,7 +16,7 @@ namespace {
 /// Instances of one mesh, here and there, turned, stretched and mirrored.
 struct Scene {
     SceneSnapshot snapshot;
-    std::vector<MeshTreePlace> meshes{{.first_node = 5, .nodes = 7, .first_slot = 11, .box = {}}};
+    std::vector<MeshTreePlace> meshes{{.first_node = 5, .nodes = 7, .first_slot = 11, .box = {}, .tree = {}}};
     std::mt19937_64 random;
 
     Scene(std::size_t count, const glm::dvec3& around_ws_m, std::uint64_t seed) : random(seed) {
@@ -63,7 +63,7 @@ void expect_sound(const InstanceTree& tree, const Scene& scene) {
         for (std::size_t below = n; below < nodes[n].skip; ++below) {
             if (nodes[below].leaf == 0) continue;
             ASSERT_EQ(nodes[below].slots(), 1u);
-            const RayInstance& record = tree.instances()[nodes[below].first_slot()];
+            const RayInstance& record = tree.parts()[nodes[below].first_slot()];
             const InstanceItem& item = scene.snapshot.instances[record.instance - 100];
             met += below == n ? 1 : 0;
             const rays::Box& box = scene.meshes[0].box;
@@ -76,7 +76,8 @@ void expect_sound(const InstanceTree& tree, const Scene& scene) {
     const auto casts = [](const InstanceItem& item) { return item.casts; };
     const auto& all = scene.snapshot.instances;
     EXPECT_EQ(met, static_cast<std::size_t>(std::count_if(all.begin(), all.end(), casts)));
-    EXPECT_EQ(tree.instances().size(), met);
+    EXPECT_EQ(tree.parts().size(), met);
+    EXPECT_EQ(tree.instances(), met);
     EXPECT_EQ(tree.head().nodes, nodes.size());
 }
 
@@ -113,9 +114,10 @@ TEST(InstanceTree, SaysWhereAMeshsTreeLiesAndHowItIsTurned) {
     Scene scene(1, glm::dvec3(0.0), print_seed());
     InstanceTree tree;
     tree.update(scene.snapshot, scene.meshes, false);
-    const RayInstance& record = tree.instances()[0];
+    const RayInstance& record = tree.parts()[0];
     EXPECT_EQ(record.first_node, 5u);
-    EXPECT_EQ(record.nodes, 7u);
+    EXPECT_EQ(record.begin_node, 0u);
+    EXPECT_EQ(record.end_node, 7u);
     EXPECT_EQ(record.first_slot, 11u);
     EXPECT_EQ(record.layers, 1u);
     const glm::dvec3 along(0.3, -0.2, 0.9), image = scene.snapshot.instances[0].basis * along;
@@ -129,8 +131,92 @@ TEST(InstanceTree, OfABasisWithoutAnInverseMeetsEverything) {
     scene.snapshot.instances[0].basis[1] = glm::dvec3(0.0);
     InstanceTree tree;
     tree.update(scene.snapshot, scene.meshes, false);
-    EXPECT_GT(tree.instances()[0].slack_per_m, 1e12f);
-    EXPECT_EQ(tree.instances()[0].to_model_x, glm::vec3(0.0f));
+    EXPECT_GT(tree.parts()[0].slack_per_m, 1e12f);
+    EXPECT_EQ(tree.parts()[0].to_model_x, glm::vec3(0.0f));
+}
+
+/// A mesh with a tree of its own, in several instances; one more mesh bends, and is not opened.
+struct OpenScene : Scene {
+    rays::Bvh tree;
+    OpenScene(std::size_t instances, std::size_t triangles, std::uint64_t seed) : Scene(instances, {}, seed) {
+        std::vector<rays::Box> boxes;
+        for (std::size_t i = 0; i < triangles; ++i) {
+            const glm::vec3 at(number(-1, 2), number(-0.5, 0.5), number(0, 3));
+            boxes.push_back({at, at});
+        }
+        tree = rays::build_bvh(boxes);
+        const auto nodes = static_cast<std::uint32_t>(tree.nodes.size());
+        meshes[0] = {5, nodes, 11, {tree.nodes[0].min, tree.nodes[0].max}, tree.nodes};
+        meshes.push_back({5 + nodes, nodes, 11, meshes[0].box, {}});
+        snapshot.instances.back().mesh = 1;
+        snapshot.instances.back().casts = true;
+    }
+};
+
+/// Of each caster all leaves of its mesh, once, in parts whose boxes hold them, and so do all boxes above.
+void expect_whole(const InstanceTree& tree, const OpenScene& scene) {
+    std::vector<std::vector<int>> seen(scene.snapshot.instances.size(), std::vector<int>(scene.tree.nodes.size()));
+    const auto nodes = tree.nodes();
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (std::size_t below = n; below < nodes[n].skip; ++below) {
+            if (nodes[below].leaf == 0) continue;
+            const RayInstance& part = tree.parts()[nodes[below].first_slot()];
+            const std::size_t i = part.instance - 100;
+            for (std::uint32_t k = part.begin_node; k < part.end_node; ++k) {
+                const rays::BvhNode& leaf = scene.tree.nodes[k];
+                if (leaf.leaf == 0) continue;
+                if (below == n) ++seen[i][k];
+                for (const glm::vec3& p : {leaf.min, leaf.max})
+                    EXPECT_TRUE(holds(nodes[n], placed(scene.snapshot.instances[i], p, tree.head())));
+            }
+        }
+    for (std::size_t i = 0; i < seen.size(); ++i)
+        for (std::size_t k = 0; k < scene.tree.nodes.size(); ++k)
+            EXPECT_EQ(seen[i][k], scene.snapshot.instances[i].casts && scene.tree.nodes[k].leaf != 0 ? 1 : 0)
+                << i << ' ' << k;
+}
+
+TEST(InstanceTree, TakesLargeInstancesApartAndLosesNothingOfThem) {
+    const std::uint64_t seed = print_seed();
+    for (const std::size_t triangles : {1u, 9u, 400u, 4000u}) {
+        SCOPED_TRACE(triangles);
+        OpenScene scene(9, triangles, seed);
+        InstanceTree tree;
+        tree.update(scene.snapshot, scene.meshes, false);
+        expect_whole(tree, scene);
+        const std::size_t casters = tree.instances();
+        EXPECT_EQ(casters, 8u);  // one of nine casts nothing
+        EXPECT_LE(tree.parts().size(), casters + InstanceTree::kMostOpened);
+        // Down to the leaves where there is room for that; all but the one that bends.
+        std::size_t leaves = 0;
+        for (const rays::BvhNode& node : scene.tree.nodes) leaves += node.leaf != 0 ? 1 : 0;
+        EXPECT_EQ(tree.parts().size(), std::min(casters + InstanceTree::kMostOpened, (casters - 1) * leaves + 1));
+        std::size_t of_bent = 0;
+        for (const RayInstance& part : tree.parts()) of_bent += part.first_node == scene.meshes[1].first_node ? 1 : 0;
+        EXPECT_EQ(of_bent, 1u);
+        // What moves afterwards takes its parts along.
+        scene.move(0, {3.0, 0.0, 0.0});
+        tree.update(scene.snapshot, scene.meshes, true);
+        EXPECT_EQ(tree.builds(), 1u);
+        expect_whole(tree, scene);
+    }
+}
+
+TEST(InstanceTree, TakesThoseApartWhosePartsAreLarge) {
+    OpenScene scene(3, 40000, print_seed());
+    // All of the size of the first, but for one a thousand times smaller: what is opened is opened of the others.
+    for (InstanceItem& item : scene.snapshot.instances) item.basis = glm::dmat3(1.0);
+    scene.snapshot.instances[1].basis = glm::dmat3(1e-3);
+    for (InstanceItem& item : scene.snapshot.instances)
+        item.bounds_ws = math::transformed({glm::dvec3(scene.meshes[0].box.min), glm::dvec3(scene.meshes[0].box.max)},
+                                           item.basis, item.translation_ws_m);
+    InstanceTree tree;
+    tree.update(scene.snapshot, scene.meshes, false);
+    std::size_t parts[3] = {};
+    for (const RayInstance& part : tree.parts()) ++parts[part.instance - 100];
+    EXPECT_EQ(parts[0], 1 + InstanceTree::kMostOpened);
+    EXPECT_EQ(parts[1], 1u);
+    EXPECT_EQ(parts[2], 1u);  // bends
 }
 
 TEST(InstanceTree, OfNobodyHasNoNode) {
