@@ -86,7 +86,8 @@ SheetRecorder::View SheetRecorder::gather(const SceneSnapshot& scene, const GpuS
     View found;
     found.view = v;
     for (std::size_t which = 0; which < kPrograms; ++which) {
-        const auto& items = (is_small(which) ? view_scratch_.small : view_scratch_.large)[which % SheetItems::kinds];
+        const std::vector<SheetItem>& items =
+            is_small(which) ? view_scratch_.small[which - SheetItems::kinds] : view_scratch_.large[which];
         found.first[which] = static_cast<std::uint32_t>(item_scratch_.size());
         found.count[which] = static_cast<std::uint32_t>(items.size());
         item_scratch_.insert(item_scratch_.end(), items.begin(), items.end());
