@@ -1,5 +1,5 @@
 // One light over its screen rectangle: visibility times BRDF, added to the picture; or the visibility alone. READ_KEPT: as
-// it was when it was last looked up.
+// it was when it was last looked up. LEAVE_UNDECIDED: but for pixels that this filter takes long for.
 #include "lighting/surface_targets.glsl"
 #include "row.glsl"
 #include "shadow/light_block.glsl"
@@ -28,6 +28,9 @@ void main() {
     float visible = kept_share(ivec2(gl_FragCoord.xy));
 #else
     float visible = visible_share(surface, incoming);
+#endif
+#ifdef LEAVE_UNDECIDED
+    if (shadow_undecided) discard;
 #endif
 #ifdef WRITE_VISIBILITY
     visibility_out = visible;

@@ -5,6 +5,7 @@
 // CameraBlock), SHADOW_TRIANGLES if it reads which triangles texels show (then CameraBlock and InstanceBuffer), SHADOW_RAYS if it
 // asks the casters' triangles by rays (then those as well, and SHADOW_SHEETS if a map says where rays are needed). RAY_MASKS, with one of
 // these two, if some casters are masked.
+// LEAVE_UNDECIDED: the filter says `shadow_undecided` where it would take long.
 //   position_ca   from the camera's anchor, metres
 //   normal        geometric normal, unit, facing the viewer
 //   error_m       how far position_ca may be off the true surface

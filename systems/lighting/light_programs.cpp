@@ -31,6 +31,8 @@ const char* output_name(RowOutput output) {
             return "kept light";
         case RowOutput::kept_visibility:
             return "kept visibility";
+        case RowOutput::decided:
+            return "decided light";
     }
     return "light";
 }
@@ -105,6 +107,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
     if (output == RowOutput::visibility || output == RowOutput::kept_visibility)
         defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
+    if (output == RowOutput::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
     if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +

@@ -11,9 +11,20 @@
 namespace gnomon::lighting {
 
 /// What a program of a row writes; lookups: what a debug view shows of them.
-/// verdicts: what maps of sheets are certain of; rays: what rays find of the others (RayList). kept, kept_visibility: the
-/// picture, or the visibility, by what pixels saw in an earlier frame (KeptVisibility).
-enum class RowOutput : std::uint8_t { picture, visibility, blended, lookups, verdicts, rays, kept, kept_visibility };
+/// verdicts: what maps of sheets are certain of; rays: what rays find of the others (RayList). kept, kept_visibility:
+/// the picture, or the visibility, by what pixels saw in an earlier frame (KeptVisibility). decided: the picture but
+/// for pixels that the row's filter takes long for.
+enum class RowOutput : std::uint8_t {
+    picture,
+    visibility,
+    blended,
+    lookups,
+    verdicts,
+    rays,
+    kept,
+    kept_visibility,
+    decided
+};
 
 /// A light that is not looked up: one row per kind.
 inline shadow::ProgramRow kept_row(const shadow::ProgramRow& row) { return {row.kind_define, {}, {}}; }

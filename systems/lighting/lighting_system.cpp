@@ -86,6 +86,8 @@ gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const 
     const auto lists = [](const shadow::LightingLight& light) { return light.row.sheets; };
     ray_list_.provide(std::any_of(inputs.lights.begin(), inputs.lights.end(), lists), targets_.size_px(),
                       targets_.depth);
+    const auto leaves = [](const shadow::LightingLight& light) { return light.row.triangles; };
+    targets_.provide_undecided(std::any_of(inputs.lights.begin(), inputs.lights.end(), leaves));
     has_places_ = targets_.provide_places(wanted) && wanted && programs_.surface(true);
     if (!programs_.surface(has_places_) || !programs_.luminance() || !programs_.tonemap()) return programs_.failure();
     const bool room = items_.reserve(std::max<std::size_t>(draw_items_.size(), 1) * sizeof(DrawItem)) &&

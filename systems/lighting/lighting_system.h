@@ -130,6 +130,7 @@ private:
         gl::TextureHandle second{}, bounds{};                  // of a map of sheets
         gl::BufferHandle ends{};                               // and of a source with a size
         gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` itself asks the rays
+        gl::ProgramHandle decided_program{};                   // leaves to `program` what takes it long; {0}: nothing
         Reason lacks = Reason::none;                           // why it is not the light's own row
         bool unshadowed = false;
     };
@@ -164,6 +165,10 @@ private:
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;
     void bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const;
     void bind_light(const LightProgram& program, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list) const;
+    void record_look_up(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
+                        std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const;
+    void record_kept(const LightPass& pass, std::uint32_t index, const shadow::LightingLight& light,
+                     gl::CommandList& list) const;
     void record_rays(const LightProgram& light, std::uint32_t index, const gl::Rect& area, std::optional<float> depth,
                      const GpuScene& gpu, gl::CommandList& list) const;
     gl::Rect viewport() const;

@@ -5,6 +5,7 @@ namespace {
 
 /// Depth along the view, which triangle of which instance (shaders/lighting/exact_place.glsl).
 constexpr gl::Format kPlaceFormat = gl::Format::rgba32ui;
+constexpr gl::Format kDepthFormat = gl::Format::d32f;
 
 }  // namespace
 
@@ -29,7 +30,7 @@ bool LightingTargets::make(gl::TargetHandle& target, const char* label,
 bool LightingTargets::resize(glm::uvec2 size) {
     if (size == size_px_ && picture_target) return true;
     release();
-    const bool made = make(depth, "surface depth", gl::Format::d32f, size.x, size.y) &&
+    const bool made = make(depth, "surface depth", kDepthFormat, size.x, size.y) &&
                       make(colour, "surface colour", gl::Format::srgb8_a8, size.x, size.y) &&
                       make(normals, "surface normals", gl::Format::rgba16_snorm, size.x, size.y) &&
                       make(material, "surface material", gl::Format::rgba8, size.x, size.y) &&
@@ -67,6 +68,14 @@ bool LightingTargets::provide_places(bool wanted) {
     return made == wanted;
 }
 
+bool LightingTargets::provide_undecided(bool wanted) {
+    if (wanted == static_cast<bool>(undecided_target)) return true;
+    const bool made = wanted && make(undecided, "undecided depth", kDepthFormat, size_px_.x, size_px_.y) &&
+                      make(undecided_target, "undecided light", {light_sum}, undecided);
+    if (!made) release_undecided();
+    return made == wanted;
+}
+
 std::uint64_t LightingTargets::place_bytes() const {
     return places ? std::uint64_t{gl::texel_bytes(kPlaceFormat)} * size_px_.x * size_px_.y : 0;
 }
@@ -78,8 +87,16 @@ void LightingTargets::release_places() {
     places = {};
 }
 
+void LightingTargets::release_undecided() {
+    device_.destroy(undecided_target);
+    device_.destroy(undecided);
+    undecided_target = {};
+    undecided = {};
+}
+
 void LightingTargets::release() {
     release_places();
+    release_undecided();
     for (gl::TargetHandle* t :
          {&surface_target, &light_target, &luminance_target, &picture_target, &visibility_target}) {
         device_.destroy(*t);

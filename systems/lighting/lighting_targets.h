@@ -25,18 +25,23 @@ public:
     bool ensure_visibility();
     /// Beside the surfaces, where exactly they are: made when asked for, gone when not. False: there is no room.
     bool provide_places(bool wanted);
+    /// A second depth of the surfaces, with the light's sum: of those that a light's first draw leaves to its second. Made
+    /// when asked for, gone when not. False: there is no room, and lights do with one draw.
+    bool provide_undecided(bool wanted);
     glm::uvec2 size_px() const { return size_px_; }
     std::uint64_t place_bytes() const;  // of `places`
     gl::Failure failure() const { return failure_; }  // of the last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},
-        places{};
+        places{}, undecided{};
     gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{},
-        places_target{};  // the surfaces, places included
+        places_target{},     // the surfaces, places included
+        undecided_target{};  // light_sum, with `undecided`
 
 private:
     void release();
     void release_places();
+    void release_undecided();
     bool make(gl::TextureHandle& texture, const char* label, gl::Format format, std::uint32_t width,
               std::uint32_t height, std::uint32_t mips = 1);
     bool make(gl::TargetHandle& target, const char* label, std::initializer_list<gl::TextureHandle> colours,

@@ -76,6 +76,18 @@ void LightingSystem::bind_kept(const LightPass& pass, std::uint32_t index, gl::C
     list.add(gl::BindTexture{4, pass.kept.texture, point_sampler_});
 }
 
+void LightingSystem::record_kept(const LightPass& pass, std::uint32_t index, const shadow::LightingLight& light,
+                                 gl::CommandList& list) const {
+    list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
+    list.add(gl::SetScissor{light.screen});
+    list.add(
+        gl::SetPipeline{{pass.reads, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::add}});
+    bind_surface_textures(list);
+    bind_kept(pass, index, list);
+    list.add(gl::DrawTriangle{light.farthest_depth});
+    list.add(gl::EndPass{});
+}
+
 /// Filters take their randomness from where the pixel is: what is less than the picture is filled in one of its size.
 void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu,
                                  gl::CommandList& list) {

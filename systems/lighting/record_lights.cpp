@@ -43,6 +43,10 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
         const gl::ProgramHandle own = programs_.row(light.row, output);
         LightProgram used{own,        light.map,    light.triangles, light.sampler,
                           light.rays, light.second, light.bounds,    light.ends};
+        // One that only saves time comes when there is time to make it.
+        const bool leaves = light.row.triangles && output == RowOutput::picture && targets_.undecided_target;
+        if (leaves && !programs_.must_wait(light.row, RowOutput::decided))
+            used.decided_program = programs_.row(light.row, RowOutput::decided);
         if (lists) used.verdicts_program = programs_.row(light.row, RowOutput::verdicts);
         if (lists) used.rays_program = programs_.row(light.row, RowOutput::rays);
         if (own && (!lists || (used.verdicts_program && used.rays_program))) return used;
@@ -72,6 +76,29 @@ void LightingSystem::record_rays(const LightProgram& light, std::uint32_t index,
     ray_list_.record_rays(light.rays_program, list);
 }
 
+/// A light's draw over its area of the picture. If some of its pixels take long, it is two: the first takes away the
+/// depth of those it is done with, so that none but the others pass the second one's depth test.
+void LightingSystem::record_look_up(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
+                                    std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
+    const bool two = static_cast<bool>(light.decided_program);
+    if (two) list.add(gl::CopyTexture{targets_.depth, targets_.undecided, 0});
+    list.add(
+        gl::BeginPass{two ? targets_.undecided_target : targets_.light_target, viewport(), false, 0.0f, false, {}});
+    list.add(gl::SetScissor{area});
+    const auto draw = [&](gl::ProgramHandle program, bool takes_depth) {
+        list.add(gl::SetPipeline{
+            {program, gl::CullMode::none, false, gl::DepthTest::less, takes_depth, false, gl::Blend::add}});
+        bind_surface_textures(list);
+        bind_light(light, index, gpu, list);
+        if (light.verdicts_program) ray_list_.bind_answers(list);
+        list.add(gl::DrawTriangle{depth});
+    };
+    if (two) draw(light.decided_program, true);
+    draw(light.program, false);
+    list.add(gl::EndPass{});
+    if (light.verdicts_program) ray_list_.unbind_answers(list);
+}
+
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                                    const GpuScene& gpu, gl::CommandList& list, FrameReport& report) {
     list.add(gl::BeginGroup{"lights"});
@@ -87,22 +114,13 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
-        const bool lists = used.verdicts_program && !pass.reads;
-        if (lists) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);
-        if (pass.reads && pass.fills.program) record_fill(pass, i, gpu, list);
-        list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
-        list.add(gl::SetScissor{light.screen});
-        list.add(gl::SetPipeline{{pass.reads ? pass.reads : used.program, gl::CullMode::none, false,
-                                  gl::DepthTest::less, false, false, gl::Blend::add}});
-        bind_surface_textures(list);
-        if (pass.reads)
-            bind_kept(pass, i, list);
-        else
-            bind_light(used, i, gpu, list);
-        if (lists) ray_list_.bind_answers(list);
-        list.add(gl::DrawTriangle{light.farthest_depth});
-        list.add(gl::EndPass{});
-        if (lists) ray_list_.unbind_answers(list);
+        if (pass.reads) {
+            if (pass.fills.program) record_fill(pass, i, gpu, list);
+            record_kept(pass, i, light, list);
+        } else {
+            if (used.verdicts_program) record_rays(used, i, light.screen, light.farthest_depth, gpu, list);
+            record_look_up(used, i, light.screen, light.farthest_depth, gpu, list);
+        }
         list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});
         report_kept(pass, light.light, scene.lights[light.light], report);

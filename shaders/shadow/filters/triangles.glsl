@@ -30,12 +30,21 @@ int different(FourTexels four, bvec4 may, FourTriangles shown) {
     return bits;
 }
 
+#ifdef LEAVE_UNDECIDED
+// Set where texels do not agree, while the first draw of lighting/light.frag asks.
+bool shadow_undecided = false;
+#endif
+
 // Loops, because software devices run both sides of an if, all of it, but of a loop that is not needed one round; and what is tested
 // is found first, because they take as many rounds as the slowest of neighbouring pixels.
 float shadow_filter(ShadowPoint point) {
     FourTexels four = four_texels(point);
     bvec4 may = may_darken(point, four);
     bool lit = !any(may);
+#ifdef LEAVE_UNDECIDED
+    shadow_undecided = shadow_undecided || !(lit || four.all_dark);
+    return lit ? 1.0 : 0.0;
+#endif
     for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
         FourTriangles shown = shadow_triangles_around(point, four.corner);
         int left = different(four, may, shown);
