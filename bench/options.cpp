@@ -13,7 +13,7 @@ constexpr std::uint32_t kMaxPoints = 10000000;
 constexpr unsigned kMostThreads = 1024;
 
 void add_scene(CLI::App& command, Arguments& arguments) {
-    command.add_option("--scene", arguments.scenes, "glTF or GLB, or valley (default: the built-in courtyard)");
+    command.add_option("--scene", arguments.scenes, "glTF or GLB, valley or spheres (default: the built-in courtyard)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
     command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every LightShadow, as the game's --set")

@@ -5,12 +5,14 @@
 #include "engine/assets/gltf_loader.h"
 #include "sample_game/number_text.h"
 #include "sample_game/scene_generator/courtyard.h"
+#include "sample_game/scene_generator/spheres.h"
 #include "sample_game/scene_generator/valley.h"
 
 namespace gnomon::game {
 
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file) {
     if (file == kValleyScene) return assets::load_gltf_memory(make_valley().glb, {}, "built-in valley");
+    if (file == kSpheresScene) return assets::load_gltf_memory(make_spheres().glb, {}, "built-in spheres");
     if (file) return assets::load_gltf(*file);
     return assets::load_gltf_memory(make_courtyard().glb, {}, "built-in courtyard");
 }

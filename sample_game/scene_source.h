@@ -11,9 +11,11 @@ namespace gnomon::game {
 
 /// What stands for a file's name and means the built-in scene of kilometres; no file without a suffix is a glTF.
 inline constexpr const char* kValleyScene = "valley";
+/// The same for the built-in scene of many triangles.
+inline constexpr const char* kSpheresScene = "spheres";
 
-/// `file`, or the built-in courtyard if there is none, or the valley by its name: these are made in memory and take the
-/// same loader.
+/// `file`, or the built-in courtyard if there is none, or the valley or the spheres by their names: these are made in
+/// memory and take the same loader.
 /// Errors: those of assets::load_gltf.
 Result<assets::SceneData> load_scene(const std::optional<std::filesystem::path>& file);
 

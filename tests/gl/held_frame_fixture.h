@@ -30,7 +30,8 @@ protected:
             shadows = std::make_unique<shadow::ShadowSystem>(device());
             lighting = std::make_unique<lighting::LightingSystem>(device());
         }
-        gl::CommandList list;
+        gl::CommandList& list = commands;
+        list.clear();
         extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
         world.discard_changes();
         scene->update(snapshot, list);
@@ -40,16 +41,19 @@ protected:
         shadows->commit(snapshot, true);
     }
     void record_picture(const shadow::LightingInputs& handed, gl::CommandList& list) {
-        ASSERT_TRUE(lighting->record(handed, snapshot, *scene, {.exposure_ev = settings.exposure_ev}, list, report));
+        ASSERT_TRUE(lighting->record(handed, snapshot, *scene, {.exposure_ev = settings.exposure_ev, .most_rows = most_rows},
+                                     list, report));
     }
     const shadow::LightingInputs& inputs() const { return shadows->frame().inputs.front(); }
     std::vector<std::uint8_t> drawn_picture() {
         return read<std::uint8_t>(lighting->picture_texture(), std::size_t{4} * settings.viewport_px.x * settings.viewport_px.y);
     }
 
+    std::uint32_t most_rows = lighting::LightPrograms::kNoLimit;  // LightingSettings::most_rows
     TransformSystem transforms;
     Extractor extractor;
     SceneSnapshot snapshot;
+    gl::CommandList commands;  // of the last run()
     FrameReport report;
     std::unique_ptr<GpuScene> scene;
     std::unique_ptr<shadow::ShadowSystem> shadows;

@@ -1,3 +1,4 @@
+#include <array>
 #include <random>
 
 #include "bench/demand_scene.h"
@@ -78,6 +79,54 @@ TEST_F(LightPasses, LeaveOutWhatLiesBehindTheLightsReach) {
     GlTest::run(list);
     EXPECT_NE(drawn_picture(), lit);
 }
+
+class LightPassesOf : public LightPasses, public ::testing::WithParamInterface<LightKind> {};
+
+/// The default filter's lights are drawn twice; while the first draw's program waits, once.
+TEST_P(LightPassesOf, TwoDrawsGiveThePictureOfOne) {
+    place(add_mesh(game::make_box({-8.0, -0.5, -8.0}, {8.0, 0.0, 8.0})), {}, false);
+    for (int i = 0; i < 5; ++i)
+        place(add_mesh(game::make_sphere(0.4, 12, 8)),
+              {.translation_m = {1.3 * i - 2.6, 0.3 + 0.3 * i, 0.4 * i - 0.8}});
+    add_camera({}, {0.0, 5.0, 5.0}, {0.0, -1.0, -1.0});
+    Light lamp;
+    lamp.kind = GetParam();
+    lamp.intensity = lamp.kind == LightKind::directional ? 20.0f : 400.0f;
+    add_light(lamp, {0.5, 6.0, 0.3}, {0.1, -1.0, -0.2});
+    const auto count = [](const gl::CommandList& list) {
+        return std::count_if(list.commands.begin(), list.commands.end(),
+                             [](const gl::Command& c) { return std::holds_alternative<gl::CopyTexture>(c); });
+    };
+    const auto draws_of_two = [&](const shadow::LightingInputs& handed) {
+        gl::CommandList list;
+        record_picture(handed, list);
+        GlTest::run(list);
+        return count(list);
+    };
+    most_rows = 1;
+    run();
+    EXPECT_EQ(count(commands), 0);
+    const std::vector<std::uint8_t> one = drawn_picture();
+    most_rows = lighting::LightPrograms::kNoLimit;
+    EXPECT_EQ(draws_of_two(inputs()), 1);
+    EXPECT_EQ(drawn_picture(), one);
+    // The control: whoever looks edges up otherwise gets another picture.
+    shadow::LightingInputs plain = inputs();
+    for (shadow::LightingLight& light : plain.lights) {
+        light.row = light.plain.row;
+        light.sampler = light.plain.sampler;
+    }
+    EXPECT_EQ(draws_of_two(plain), 0);
+    EXPECT_NE(drawn_picture(), one);
+}
+
+std::string kind_name(const ::testing::TestParamInfo<LightKind>& test) {
+    const std::array<const char*, 3> names{"directional", "spot", "point"};
+    return names.at(static_cast<std::size_t>(test.param));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, LightPassesOf,
+                         ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point), kind_name);
 
 }  // namespace
 }  // namespace gnomon
