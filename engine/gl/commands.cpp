@@ -142,7 +142,7 @@ struct Writer {
     }
     std::string operator()(const CopyTexture& c) const {
         return "CopyTexture" + field("source", c.source) + field("destination", c.destination) +
-               field("layer", c.layer);
+               field("layer", c.layer) + (c.area.width == 0 ? "" : field("area", c.area));
     }
     std::string operator()(const GenerateMips& c) const { return "GenerateMips" + field("texture", c.texture); }
     std::string operator()(const Blit& c) const {

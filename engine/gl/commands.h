@@ -153,10 +153,11 @@ struct CopyBuffer {
 };
 
 /// Copies one layer (of a cube: a face), its first mip, to the same layer of another texture of the same format and
-/// size, outside passes. Stored values are copied as they are, depth as well.
+/// size, outside passes. Stored values are copied as they are, depth as well. `area` of it; if its width is 0, all.
 struct CopyTexture {
     TextureHandle source{}, destination{};
     std::uint32_t layer = 0;
+    Rect area{};
     bool operator==(const CopyTexture&) const = default;
 };
 

@@ -45,7 +45,9 @@ std::uint32_t transfer_bytes(Format format) { return is_depth(format) ? kDepthTr
 
 bool is_depth(Format format) { return format == Format::d16 || format == Format::d24 || format == Format::d32f; }
 
-bool is_integer(Format format) { return format == Format::r32ui || format == Format::rg32ui || format == Format::rgba32ui; }
+bool is_integer(Format format) {
+    return format == Format::r32ui || format == Format::rg32ui || format == Format::rgba32ui;
+}
 
 std::uint32_t layer_count(const TextureDesc& desc) {
     return desc.kind == TextureKind::cube ? kCubeFaces : desc.kind == TextureKind::array ? desc.layers : 1;
@@ -160,9 +162,10 @@ Failure check_attachment(const Attachment& attachment, const TextureDesc* textur
     return whole || all || one ? Failure::none : Failure::incomplete_target;
 }
 
-bool can_copy(const TextureDesc& source, const TextureDesc& destination, std::uint32_t layer) {
+bool can_copy(const TextureDesc& source, const TextureDesc& destination, std::uint32_t layer, const Rect& area) {
     return source.format == destination.format && source.width == destination.width &&
-           source.height == destination.height && layer < std::min(layer_count(source), layer_count(destination));
+           source.height == destination.height && layer < std::min(layer_count(source), layer_count(destination)) &&
+           (area.width == 0 || in_target(area, source.width, source.height));
 }
 
 }  // namespace gnomon::gl

@@ -270,13 +270,15 @@ public:
         const GlTexture* source = find_object(objects_.textures, c.source.id);
         const GlTexture* destination = find_object(objects_.textures, c.destination.id);
         if (in_pass_ || source == nullptr || destination == nullptr || source == destination ||
-            !can_copy(source->desc, destination->desc, c.layer)) {
+            !can_copy(source->desc, destination->desc, c.layer, c.area)) {
             return note(Failure::invalid_value);
         }
         const auto layer = static_cast<GLint>(c.layer);
-        glCopyImageSubData(source->name, gl_kind(source->desc.kind), 0, 0, 0, layer, destination->name,
-                           gl_kind(destination->desc.kind), 0, 0, 0, layer, static_cast<GLsizei>(source->desc.width),
-                           static_cast<GLsizei>(source->desc.height), 1);
+        const Rect all{0, 0, static_cast<std::int32_t>(source->desc.width),
+                       static_cast<std::int32_t>(source->desc.height)};
+        const Rect& of = c.area.width == 0 ? all : c.area;
+        glCopyImageSubData(source->name, gl_kind(source->desc.kind), 0, of.x, of.y, layer, destination->name,
+                           gl_kind(destination->desc.kind), 0, of.x, of.y, layer, of.width, of.height, 1);
     }
 
     void operator()(const GenerateMips& c) {

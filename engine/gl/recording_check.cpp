@@ -148,7 +148,8 @@ public:
         const bool source_known = known(objects_.textures, c.source.id, "source");
         if (!known(objects_.textures, c.destination.id, "destination") || !source_known) return;
         const TextureDesc& destination = objects_.textures.at(c.destination.id);
-        if (c.source == c.destination || !can_copy(objects_.textures.at(c.source.id), destination, c.layer))
+        const TextureDesc& source = objects_.textures.at(c.source.id);
+        if (c.source == c.destination || !can_copy(source, destination, c.layer, c.area))
             find(Misuse::copy_mismatch, destination.label);
     }
 

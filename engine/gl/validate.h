@@ -20,8 +20,9 @@ Failure check_buffer(const BufferDesc& desc, std::size_t given_bytes);
 /// invalid_value: not alive; incomplete_target: no such layer.
 Failure check_attachment(const Attachment& attachment, const TextureDesc* texture);
 
-/// Whether that layer of one texture can be copied to the same layer of the other (CopyTexture). Not onto itself.
-bool can_copy(const TextureDesc& source, const TextureDesc& destination, std::uint32_t layer);
+/// Whether that area of one texture's layer can be copied to the same place of the other (CopyTexture). Not onto
+/// itself.
+bool can_copy(const TextureDesc& source, const TextureDesc& destination, std::uint32_t layer, const Rect& area);
 
 /// [first, first + size) lies in [0, limit); safe against overflow.
 constexpr bool in_range(std::uint64_t first, std::uint64_t size, std::uint64_t limit) {

@@ -81,7 +81,7 @@ void LightingSystem::record_rays(const LightProgram& light, std::uint32_t index,
 void LightingSystem::record_look_up(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
                                     std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
     const bool two = static_cast<bool>(light.decided_program);
-    if (two) list.add(gl::CopyTexture{targets_.depth, targets_.undecided, 0});
+    if (two) list.add(gl::CopyTexture{targets_.depth, targets_.undecided, 0, area});
     list.add(
         gl::BeginPass{two ? targets_.undecided_target : targets_.light_target, viewport(), false, 0.0f, false, {}});
     list.add(gl::SetScissor{area});

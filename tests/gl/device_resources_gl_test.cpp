@@ -41,7 +41,9 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
     std::size_t channels = 4;
     for (const Format two : {Format::rg16, Format::rg16f, Format::rg32f, Format::rg32ui})
         if (format == two) channels = 2;
-    if (format == Format::r8 || format == Format::r16f || format == Format::r32f || format == Format::r32ui || gl::is_depth(format)) channels = 1;
+    if (format == Format::r8 || format == Format::r16f || format == Format::r32f || format == Format::r32ui ||
+        gl::is_depth(format))
+        channels = 1;
     for (std::size_t i = 0; i < texels * channels; ++i) {
         const auto small = static_cast<std::uint16_t>(i % 251);
         switch (format) {
@@ -135,11 +137,38 @@ TEST_P(DeviceFormat, EveryLayerIsCopiedAloneAndAsItIs) {
         list.add(gl::CopyTexture{from, to, copied});
         run(list);
         for (std::uint32_t layer = 0; layer < layers; ++layer)
-            EXPECT_EQ(bytes_of(to, layer), layer <= copied ? bytes_of(from, layer) : blank) << name << " layer " << layer;
+            EXPECT_EQ(bytes_of(to, layer), layer <= copied ? bytes_of(from, layer) : blank)
+                << name << " layer " << layer;
     }
-    gl::CommandList beyond;
-    beyond.add(gl::CopyTexture{from, to, layers});
-    EXPECT_EQ(device().submit(beyond).failure, gl::Failure::invalid_value);
+    for (const gl::CopyTexture& beyond : {gl::CopyTexture{from, to, layers}, {from, to, 0, {5, 0, 4, 8}}}) {
+        gl::CommandList list;
+        list.add(beyond);
+        EXPECT_EQ(device().submit(list).failure, gl::Failure::invalid_value);
+    }
+}
+
+TEST_P(DeviceFormat, AnAreaIsCopiedAndNothingElse) {
+    constexpr std::uint32_t kSide = 8;
+    const auto [name, format, kind] = GetParam();
+    const gl::TextureDesc desc{.label = name, .kind = kind, .format = format, .width = kSide, .height = kSide};
+    const std::size_t texel = gl::transfer_bytes(format), layer_bytes = kSide * kSide * texel;
+    const std::vector<std::byte> sent = pattern(format, kSide * kSide * gl::layer_count(desc)), nothing(sent.size());
+    const gl::TextureHandle from = keep(device().create_texture(desc, sent));
+    const gl::TextureHandle to = keep(device().create_texture(desc, nothing));
+    const std::vector<std::byte> source = read<std::byte>(from, layer_bytes), blank = read<std::byte>(to, layer_bytes);
+    const gl::Rect area{2, 1, 5, 3};
+    gl::CommandList list;
+    list.add(gl::CopyTexture{from, to, 0, area});
+    run(list);
+    const std::vector<std::byte> copied = read<std::byte>(to, layer_bytes);
+    for (std::uint32_t at = 0; at < kSide * kSide; ++at) {
+        const auto x = static_cast<std::int32_t>(at % kSide), y = static_cast<std::int32_t>(at / kSide);
+        const bool in = x >= area.x && x < area.x + area.width && y >= area.y && y < area.y + area.height;
+        const auto first = (in ? source : blank).begin() + static_cast<std::ptrdiff_t>(at * texel);
+        ASSERT_TRUE(std::equal(first, first + static_cast<std::ptrdiff_t>(texel),
+                               copied.begin() + static_cast<std::ptrdiff_t>(at * texel)))
+            << name << " " << x << ", " << y;
+    }
 }
 
 TEST_P(DeviceFormat, EveryLayerCanBeDrawnIntoAlone) {

@@ -20,6 +20,7 @@ public:
     struct Speeds {
         double pass = 5000.0, draw = 1000.0, triangle = 1.0, texel = 0.02, shaded_pixel = 0.5;
         double plain_pixel = 0.1, filtered_pixel = 0.75;  // looked up by one fetch, or by any other filter
+        double left = 0.06;  // share of pixels that the first of a light's two draws leaves to the second
     };
     Speeds speeds;
     bool answers = true;                               // false: no timer ever comes
@@ -99,6 +100,9 @@ private:
         std::uint64_t bytes;
     };
 
+    bool is_decided(gl::ProgramHandle program) const {
+        return program && recording.program(program)->label.starts_with("decided light ");
+    }
     double lookup_ns(gl::ProgramHandle program) const {
         const std::string& label = recording.program(program)->label;
         if (label.find("filters/hard") != std::string::npos) return speeds.plain_pixel;
@@ -121,11 +125,13 @@ private:
             }
             if (!timed) continue;
             if (const auto* pass = std::get_if<gl::BeginPass>(&command)) {
+                program = {};
                 pixels = static_cast<double>(pass->viewport.width) * pass->viewport.height;
                 if (pass->clear_depth) ns += speeds.pass + pixels * speeds.texel;
             } else if (const auto* scissor = std::get_if<gl::SetScissor>(&command)) {
                 pixels = static_cast<double>(scissor->rect.width) * scissor->rect.height;
             } else if (const auto* state = std::get_if<gl::SetPipeline>(&command)) {
+                if (is_decided(program)) pixels *= speeds.left;
                 program = state->state.program;
             } else if (const auto* draw = std::get_if<gl::DrawMeshes>(&command)) {
                 ns += speeds.draw + speeds.triangle * draw->index_count / 3 * draw->item_count;

@@ -32,21 +32,22 @@ protected:
         return found;
     }
     std::string target_of(const Pass& pass) const { return device.target(pass.begin.target)->label; }
-    std::size_t copies_of_depth() const {
-        std::size_t copies = 0;
+    /// Of the surfaces' depth.
+    std::vector<gl::Rect> copied_areas() const {
+        std::vector<gl::Rect> areas;
         for (const gl::Command& c : frame->commands().commands) {
             const auto* copy = std::get_if<gl::CopyTexture>(&c);
             if (!copy || device.texture(copy->destination)->label != "undecided depth") continue;
             EXPECT_EQ(device.texture(copy->source)->label, "surface depth");
-            ++copies;
+            areas.push_back(copy->area);
         }
-        return copies;
+        return areas;
     }
     void expect_one_draw() {
         ASSERT_THAT(lamp_passes(), SizeIs(1));
         EXPECT_EQ(target_of(lamp_passes()[0]), "light sum");
         EXPECT_THAT(lamp_passes()[0].pipelines, SizeIs(1));
-        EXPECT_EQ(copies_of_depth(), 0u);
+        EXPECT_THAT(copied_areas(), IsEmpty());
     }
     ecs::Entity lamp;
 };
@@ -67,14 +68,17 @@ TEST_F(Undecided, PixelsAreThoseWhoseDepthTheFirstDrawDoesNotTake) {
     for (const gl::PipelineState& draw : {first, second}) EXPECT_EQ(draw.depth_test, gl::DepthTest::less);
     EXPECT_TRUE(first.depth_write);
     EXPECT_FALSE(second.depth_write);
-    EXPECT_EQ(copies_of_depth(), 1u);
+    EXPECT_THAT(copied_areas(), SizeIs(1));
     std::vector<std::optional<float>> depths;
+    std::vector<gl::Rect> scissors;
     bool inside = false;
     for (const gl::Command& c : frame->commands().commands) {
         if (const auto* group = std::get_if<gl::BeginGroup>(&c)) inside = group->label == "lamp";
         if (std::get_if<gl::EndGroup>(&c)) inside = false;
         if (const auto* draw = std::get_if<gl::DrawTriangle>(&c); draw && inside) depths.push_back(draw->depth);
+        if (const auto* scissor = std::get_if<gl::SetScissor>(&c); scissor && inside) scissors.push_back(scissor->rect);
     }
+    EXPECT_EQ(copied_areas(), scissors) << "of as much of the picture as is drawn";
     ASSERT_THAT(depths, SizeIs(2));
     EXPECT_EQ(depths[0], depths[1]);
 }
@@ -91,7 +95,7 @@ TEST_F(Undecided, LightsEachBeginWithAllSurfaces) {
     std::size_t two = 0;
     for (const Pass& p : passes()) two += p.pipelines.size() == 2 && target_of(p) == "undecided light" ? 1 : 0;
     EXPECT_EQ(two, 3u);
-    EXPECT_EQ(copies_of_depth(), two);
+    EXPECT_THAT(copied_areas(), SizeIs(two));
 }
 
 TEST_F(Undecided, NoOtherFilterPaysForThem) {
@@ -100,7 +104,7 @@ TEST_F(Undecided, NoOtherFilterPaysForThem) {
         choose(row.id);
         step();
         EXPECT_THAT(map_labels(device, "undecided"), IsEmpty()) << row.name;
-        EXPECT_EQ(copies_of_depth(), 0u) << row.name;
+        EXPECT_THAT(copied_areas(), IsEmpty()) << row.name;
     }
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("decided"))));
 }
@@ -122,7 +126,7 @@ TEST_F(Undecided, WithoutRoomForThemOneDrawDoesAllAndNothingIsLost) {
     device.stop_failing();
     world.move(lamp, kLightPlace_m + glm::dvec3(0.1, 0.0, 0.0));
     step();
-    EXPECT_EQ(copies_of_depth(), 1u);
+    EXPECT_THAT(copied_areas(), SizeIs(1));
 }
 
 TEST_F(Undecided, WithoutTheProgramOfTheFirstDrawOneDoesAll) {

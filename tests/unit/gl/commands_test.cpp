@@ -102,6 +102,7 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            CopyTexture{{1}, {2}, 0},
                                            CopyTexture{{2}, {1}, 0},
                                            CopyTexture{{2}, {1}, 1},
+                                           CopyTexture{{2}, {1}, 1, {0, 1, 2, 3}},
                                            GenerateMips{{1}},
                                            Blit{{1}, {2}, {0, 0, 1, 1}, {0, 0, 2, 2}},
                                            BeginTimer{1},

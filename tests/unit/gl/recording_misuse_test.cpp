@@ -172,6 +172,10 @@ TEST_F(RecordingMisuse, TexturesAreCopiedLayerByLayerToTheirLikeOutsidePasses) {
     EXPECT_THAT(of({CopyTexture{map, made(larger), 0}}), ElementsAre(Misuse::copy_mismatch));
     EXPECT_THAT(of({CopyTexture{map, made(coarser), 0}}), ElementsAre(Misuse::copy_mismatch));
     EXPECT_THAT(of({CopyTexture{map, made(array), 0}}), IsEmpty()) << "layers are the faces";
+    EXPECT_THAT(of({CopyTexture{map, twin, 0, {7, 0, 1, 8}}}), IsEmpty());
+    for (const Rect& beyond :
+         {Rect{7, 0, 2, 8}, Rect{0, 1, 8, 8}, Rect{-1, 0, 2, 2}, Rect{0, 0, 2, 0}, Rect{0, 0, -1, 2}})
+        EXPECT_THAT(of({CopyTexture{map, twin, 0, beyond}}), ElementsAre(Misuse::copy_mismatch));
 }
 
 TEST_F(RecordingMisuse, OnlyBuffersToReadBackAreReadAndNothingElseIsWrittenIntoThem) {
