@@ -135,6 +135,7 @@ struct DeviceInfo {
     std::uint32_t max_layers = 0;
     std::uint32_t max_point_px = 1;  // side of the largest square that DrawPoints draws
     std::uint32_t uniform_alignment = 256;
+    std::uint64_t max_texel_bytes = ~std::uint64_t{0};  // of a buffer with BufferDesc::texels
     bool vertex_layer = false;  // vertex shaders may write gl_Layer (ARB_shader_viewport_layer_array)
 };
 

@@ -51,6 +51,7 @@ DeviceInfo read_info() {
     glGetFloatv(GL_POINT_SIZE_RANGE, points.data());
     info.max_point_px = static_cast<std::uint32_t>(std::max(points[1], 1.0f));
     info.uniform_alignment = get_unsigned(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
+    info.max_texel_bytes = std::uint64_t{get_unsigned(GL_MAX_TEXTURE_BUFFER_SIZE)} * kTexelBytes;
     info.vertex_layer = epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
     return info;
 }

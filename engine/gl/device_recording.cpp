@@ -262,6 +262,8 @@ Created<BufferHandle> RecordingDevice::create_buffer(const BufferDesc& desc, std
         return refuse<BufferHandle>(kind, desc.label, desc.size, failure.value_or(checked));
     }
     if (failure) return refuse<BufferHandle>(kind, desc.label, desc.size, *failure);
+    if (desc.texels && desc.size > info_.max_texel_bytes)
+        return refuse<BufferHandle>(kind, desc.label, desc.size, Failure::out_of_memory);
     RecordedBuffer buffer{desc, {bytes.begin(), bytes.end()}};
     buffer.bytes.resize(desc.size);
     return admit<BufferHandle>(kind, objects_.buffers, desc.label, std::move(buffer), desc.size);

@@ -3,22 +3,11 @@
 #include "shared/numerics.glsl"
 #include "shared/instances.glsl"
 #include "shared/camera_block.glsl"
+#include "shadow/caster_records.glsl"
 #include "shadow/toward_light.glsl"
 #ifdef RAY_MASKS
 #include "rays/alpha_mask.glsl"
 #endif
-
-// C++ twin: CasterTriangle in systems/extract/caster_triangles.h. `across`: the triangle beyond the edge that starts at a
-// corner; of a masked one kMaskedTriangle, and the words of its mask and of its texture coordinates.
-struct CasterTriangle {
-    vec3 a;
-    uint across_ab;
-    vec3 b;
-    uint across_bc;
-    vec3 c;
-    uint across_ca;
-};
-layout(std430, binding = 2) readonly buffer CasterTriangleBuffer { CasterTriangle caster_triangles[]; };
 
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
 const int kPasses = 0, kBlocked = 1, kUnknown = 2;
@@ -62,13 +51,13 @@ int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2)
 // cuts it out there. `texel`: the map's, metres, or tangents from a lamp.
 int caster_verdict(uvec2 shown, vec3 position_ca, float error_m, vec2 texel) {
     if (shown.y == kNoTriangle) return kUnknown;
-    InstanceRecord instance = instances[shown.x];
+    InstanceRecord instance = caster_instance(shown.x);
     vec3 ray = toward_light(position_ca);
     uint triangle = shown.y, came_from = kNoTriangle;
     float facing = 0.0;
     int verdict = kUnknown;
     for (int step = 0; step < kMostSteps && verdict == kUnknown; ++step) {
-        CasterTriangle t = caster_triangles[triangle];
+        CasterTriangle t = caster_triangle(triangle);
         vec3 a_ca = corner_ca(instance, t.a);
         vec3 a = a_ca - position_ca;
         vec3 b = corner_ca(instance, t.b) - position_ca;

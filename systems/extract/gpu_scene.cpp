@@ -63,10 +63,10 @@ InstanceRecord instance_record(const InstanceItem& item) {
 
 template <class T>
 gl::Created<gl::BufferHandle> filled_buffer(gl::Device& device, const char* label, const std::vector<T>& values,
-                                            gl::BufferUse use = gl::BufferUse::fixed) {
+                                            gl::BufferUse use = gl::BufferUse::fixed, bool texels = false) {
     static const T kNothing{};  // a buffer must have a size; an empty library draws nothing from it
     const auto bytes = values.empty() ? std::as_bytes(std::span(&kNothing, 1)) : std::as_bytes(std::span(values));
-    return device.create_buffer({label, bytes.size(), use}, bytes);
+    return device.create_buffer({label, bytes.size(), use, texels}, bytes);
 }
 
 /// What holds shapes is written again only where some bend.
@@ -192,11 +192,13 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
 }
 
 bool GpuScene::provide_caster_triangles() {
+    if (instances_ && !instances_are_texels_) return false;
     if (caster_triangles_ || !triangles_retry_.due(++triangles_asked_)) return static_cast<bool>(caster_triangles_);
     CasterTriangleList made = caster_triangles_of(*library_);
     triangle_records_ = std::move(made.triangles);
     for (const Bent& bent : bent_) put_corners(bent);
-    caster_triangles_ = filled_buffer(*device_, "caster triangles", triangle_records_, shape_use(*library_)).handle;
+    caster_triangles_ =
+        filled_buffer(*device_, "caster triangles", triangle_records_, shape_use(*library_), true).handle;
     if (caster_triangles_ && !made.masks.empty()) {
         caster_masks_ = filled_buffer(*device_, "caster masks", made.masks).handle;
         if (!caster_masks_) device_->destroy(std::exchange(caster_triangles_, {}));
@@ -215,6 +217,7 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     vertices_ = std::exchange(other.vertices_, {});
     indices_ = std::exchange(other.indices_, {});
     instances_ = std::exchange(other.instances_, {});
+    instances_are_texels_ = other.instances_are_texels_;
     triangle_normals_ = std::exchange(other.triangle_normals_, {});
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
     caster_triangles_ = std::exchange(other.caster_triangles_, {});
@@ -311,9 +314,11 @@ void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& 
     records_.resize(snapshot.gpu_slot_count);
     if (snapshot.gpu_slot_count > instance_capacity_) {
         const std::uint32_t wanted = std::bit_ceil(snapshot.gpu_slot_count);
-        const auto made = device_->create_buffer(
-            {"instances", std::uint64_t{wanted} * sizeof(InstanceRecord), gl::BufferUse::updated}, {});
+        const std::uint64_t bytes = std::uint64_t{wanted} * sizeof(InstanceRecord);
+        const bool texels = bytes <= device_->info().max_texel_bytes;
+        const auto made = device_->create_buffer({"instances", bytes, gl::BufferUse::updated, texels}, {});
         if (made) {
+            instances_are_texels_ = texels;
             device_->destroy(instances_);
             instances_ = made.handle;
             instance_capacity_ = wanted;

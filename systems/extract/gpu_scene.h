@@ -61,7 +61,8 @@ public:
     std::uint32_t bent_meshes() const { return bent_meshes_; }
 
     /// Makes caster_triangles() and caster_masks() where there are none; to be called each frame that a light reads
-    /// them. False: the device has no room; it is asked again after Retry::kFrames such frames.
+    /// them. False: the device has no room, which is asked again after Retry::kFrames such frames; or instances() are
+    /// more than it reads as texels.
     bool provide_caster_triangles();
 
     struct MeshRange {
@@ -100,11 +101,12 @@ public:
 
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }
+    /// InstanceRecord per slot; readable as texels, too, unless they are more than the device reads so.
     gl::BufferHandle instances() const { return instances_; }
     gl::BufferHandle triangle_normals() const {
         return triangle_normals_;
     }  // vec4 per triangle of `indices`, model space
-    /// CasterTriangle per triangle of `indices`; {0} until provided.
+    /// CasterTriangle per triangle of `indices`, to be read as texels; {0} until provided.
     gl::BufferHandle caster_triangles() const { return caster_triangles_; }
     /// The masks of those that are masked, as shaders/rays/alpha_mask.glsl reads them; {0}: none is, or not provided.
     gl::BufferHandle caster_masks() const { return caster_masks_; }
@@ -129,6 +131,7 @@ private:
     const assets::MeshLibrary* library_ = nullptr;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
     gl::BufferHandle caster_triangles_{}, caster_masks_{};
+    bool instances_are_texels_ = false;
     std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer
     std::vector<CasterTriangle> triangle_records_;  // of the whole library, if it has such meshes and they are provided
     std::vector<glm::vec4> normal_scratch_;

@@ -25,8 +25,8 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
     if (light.rays.nodes) bind_rays(light.rays, gpu, list);
     if (!light.triangles) return;
     list.add(gl::BindTexture{5, light.triangles, {}});
-    list.add(gl::BindStorage{0, gpu.instances()});
-    list.add(gl::BindStorage{2, gpu.caster_triangles()});
+    list.add(gl::BindTexels{9, gpu.caster_triangles()});
+    list.add(gl::BindTexels{14, gpu.instances()});
     if (gpu.caster_masks()) list.add(gl::BindStorage{7, gpu.caster_masks()});
 }
 

@@ -65,7 +65,7 @@ void ShadowSystem::provide_triangles(GpuScene& gpu) {
     for (std::size_t d = 0; d < frame_.demands.size(); ++d)
         if (frame_.sets[d].skip == Reason::none &&
             filter_row(frame_.demands[d].filter).storage == FilterStorage::depth_and_triangle &&
-            !gpu.caster_triangles() && !gpu.provide_caster_triangles())
+            !gpu.provide_caster_triangles())
             frame_.sets[d].skip = Reason::buffer_failed;
 }
 
@@ -76,8 +76,9 @@ bool ShadowSystem::lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, g
     return rays_lack_ && any && !rays_.update(scene, gpu, list);
 }
 
-/// Lights that ask by rays are looked up once, or lit, in the frame that has no room for what those walk; give_rays_up()
-/// has it from the next on. What they ask is kept as long as there is one, seen or not. `updated`: in this frame.
+/// Lights that ask by rays are looked up once, or lit, in the frame that has no room for what those walk;
+/// give_rays_up() has it from the next on. What they ask is kept as long as there is one, seen or not. `updated`: in
+/// this frame.
 void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list) {
     bool any = false, asked = false;
     const auto asks = [&](std::size_t d) { return frame_.demands[d].asks_rays; };

@@ -74,11 +74,11 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
         glBindBufferBase(GL_UNIFORM_BUFFER, kCameraBinding, buffers.camera);
     }
     if (light.row.triangles) {
-        constexpr GLuint kTrianglesUnit = 5, kInstances = 0, kCasterTriangles = 2;
+        constexpr GLuint kTrianglesUnit = 5, kCasterTriangles = 9, kInstances = 14;
         glBindTextureUnit(kTrianglesUnit, gl::gl_name(device, light.triangles));
         glBindSampler(kTrianglesUnit, 0);
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kInstances, gl::gl_name(device, scene.instances()));
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kCasterTriangles, gl::gl_name(device, scene.caster_triangles()));
+        glBindTextureUnit(kCasterTriangles, gl::gl_texels_name(device, scene.caster_triangles()));
+        glBindTextureUnit(kInstances, gl::gl_texels_name(device, scene.instances()));
         constexpr GLuint kMasks = 7;
         if (light.row.ray_masks)
             glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMasks, gl::gl_name(device, scene.caster_masks()));

@@ -1,0 +1,98 @@
+#include <epoxy/gl.h>
+
+#include <bit>
+#include <random>
+
+#include "engine/gl/shader_source.h"
+#include "shaders/embedded.h"
+#include "systems/extract/gpu_scene.h"
+#include "tests/gl/device_fixture.h"
+#include "tests/unit/math/random_seed.h"
+
+// The C++ and the GLSL views of casters, which are read as texels: no interface of a program tells those.
+namespace gnomon {
+namespace {
+
+constexpr std::uint32_t kRecords = 5, kOutBinding = 1;
+constexpr std::size_t kWords = (sizeof(CasterTriangle) + sizeof(InstanceRecord)) / sizeof(std::uint32_t);
+
+const std::string kProbe =
+    "#include \"shared/instances.glsl\"\n#include \"shadow/caster_records.glsl\"\n"
+    R"(layout(local_size_x = 1) in;
+layout(std430, binding = 1) buffer Out { uint words[]; };
+void write(uint at, vec3 v, uint n) {
+    for (int i = 0; i < 3; ++i) words[at + uint(i)] = floatBitsToUint(v[i]);
+    words[at + 3u] = n;
+}
+void write(uint at, vec4 v) { write(at, v.xyz, floatBitsToUint(v.w)); }
+void main() {
+    uint i = gl_WorkGroupID.x, at = 28u * i;
+    CasterTriangle t = caster_triangle(i);
+    write(at, t.a, t.across_ab);
+    write(at + 4u, t.b, t.across_bc);
+    write(at + 8u, t.c, t.across_ca);
+    InstanceRecord instance = caster_instance(i);
+    write(at + 12u, instance.basis_x);
+    write(at + 16u, instance.basis_y);
+    write(at + 20u, instance.basis_z);
+    write(at + 24u, instance.low);
+}
+)";
+
+class CasterTexels : public DeviceTest {
+protected:
+    template <class T>
+    gl::BufferHandle texels_of(const std::vector<T>& records) {
+        return keep(device().create_buffer({.label = "texels", .size = records.size() * sizeof(T), .texels = true},
+                                           std::as_bytes(std::span(records))));
+    }
+};
+
+TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
+    std::mt19937_64 random(print_seed());
+    std::uniform_real_distribution<float> place(-100.0f, 100.0f);
+    const auto number = [&] { return static_cast<std::uint32_t>(random()); };
+    std::vector<CasterTriangle> triangles(kRecords);
+    std::vector<InstanceRecord> instances(kRecords);
+    std::vector<std::uint32_t> written;
+    const auto append = [&](const float* v, std::size_t n) {
+        for (std::size_t i = 0; i < n; ++i) written.push_back(std::bit_cast<std::uint32_t>(v[i]));
+    };
+    for (std::uint32_t i = 0; i < kRecords; ++i) {
+        for (CasterTriangle::Corner& corner : triangles[i].corners) {
+            corner = {{place(random), place(random), place(random)}, number()};
+            append(&corner.position_ms.x, 3);
+            written.push_back(corner.across);
+        }
+        InstanceRecord& r = instances[i];
+        for (float* row : {r.basis_x_high_x, r.basis_y_high_y, r.basis_z_high_z, r.low_layers}) {
+            for (int c = 0; c < 4; ++c) row[c] = place(random);
+            append(row, 4);
+        }
+    }
+    ASSERT_EQ(written.size(), kRecords * kWords);
+
+    std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
+    files.push_back({"probe.comp", kProbe});
+    const auto text = gl::expand_shader(files, "probe.comp", {});
+    ASSERT_TRUE(text);
+    const std::uint64_t bytes = written.size() * sizeof(std::uint32_t);
+    const auto program = keep(device().create_program({.label = "probe", .compute = text.value()}));
+    const auto out = keep(device().create_buffer({.label = "out", .size = bytes}, {}));
+    const auto back =
+        keep(device().create_buffer({.label = "back", .size = bytes, .use = gl::BufferUse::read_back}, {}));
+    gl::CommandList list;
+    list.add(gl::BindTexels{9, texels_of(triangles)});
+    list.add(gl::BindTexels{14, texels_of(instances)});
+    list.add(gl::BindStorage{kOutBinding, out});
+    list.add(gl::Dispatch{program, kRecords, 1});
+    list.add(gl::CopyBuffer{out, back});
+    run(list);
+    std::vector<std::uint32_t> words(written.size());
+    glFinish();
+    EXPECT_EQ(device().read_buffer(back, std::as_writable_bytes(std::span(words))), gl::Readback::done);
+    EXPECT_EQ(words, written);
+}
+
+}  // namespace
+}  // namespace gnomon
