@@ -1,4 +1,5 @@
 gnomon_tests(NAME gl_shaders LABEL gl SOURCES
+  caster_texels_gl_test.cpp
   ray_texels_gl_test.cpp
   shader_layout_gl_test.cpp
   shader_rows_gl_test.cpp

@@ -228,7 +228,7 @@ TEST_F(LivingCasters, ShowTrianglesTheSameCornersAlsoToALightThatComesLater) {
     step();
     gl::BufferHandle triangles{};
     for (const gl::Command& c : frame->commands().commands)
-        if (const auto* bind = std::get_if<gl::BindStorage>(&c);
+        if (const auto* bind = std::get_if<gl::BindTexels>(&c);
             bind && device.buffer(bind->buffer)->label == "caster triangles")
             triangles = bind->buffer;
     const auto bytes = device.buffer_bytes(triangles);
