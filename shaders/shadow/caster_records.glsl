@@ -1,15 +1,6 @@
 // The casters' triangles and instances, read as texels: software devices find four numbers of a texel at once, those of a storage
 // buffer one by one. bench/in_double has a twin of this file, for what is compiled as C++.
-// C++ twin: CasterTriangle in systems/extract/caster_triangles.h. `across`: the triangle beyond the edge that starts at a
-// corner; of a masked one kMaskedTriangle, and the words of its mask and of its texture coordinates.
-struct CasterTriangle {
-    vec3 a;
-    uint across_ab;
-    vec3 b;
-    uint across_bc;
-    vec3 c;
-    uint across_ca;
-};
+#include "shadow/caster_triangle.glsl"
 layout(binding = 9) uniform usamplerBuffer caster_triangles;    // a corner and what lies across each
 layout(binding = 14) uniform usamplerBuffer caster_instances;   // four of an InstanceRecord each
 

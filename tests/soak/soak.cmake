@@ -10,10 +10,12 @@ gnomon_tests(NAME system_soak LABEL system SOURCES soak/soak_world.cpp system/te
 gnomon_tests(NAME gl_soak LABEL gl TIMEOUT 1800 SOURCES soak/soak_world.cpp system/test_world.cpp gl/soak_gl_test.cpp)
 gnomon_tests(NAME gl_bad_days LABEL gl SOURCES system/test_world.cpp gl/out_of_memory_gl_test.cpp)
 # The executable when its context is lost under it.
-if(GNOMON_SAMPLE AND NOT GNOMON_SANITIZE)
-  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
+if(GNOMON_SAMPLE)
   add_library(gnomon_lose_context MODULE e2e/lose_context.cpp)
   target_link_libraries(gnomon_lose_context PRIVATE gnomon_options)
+endif()
+if(GNOMON_SAMPLE AND NOT GNOMON_SANITIZE)
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
   add_test(NAME e2e_context_loss
     COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/e2e/test_context_loss.py
             $<TARGET_FILE:gnomon_game> $<TARGET_FILE:gnomon_scene_generator> $<TARGET_FILE:gnomon_lose_context>)

@@ -24,7 +24,7 @@ using oracle::Real;
 using oracle::Vector;
 
 std::uint64_t fit_count() {
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef GNOMON_SANITIZED
     constexpr std::uint64_t kShort = 2000;
 #else
     constexpr std::uint64_t kShort = 20000;

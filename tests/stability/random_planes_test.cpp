@@ -17,7 +17,7 @@ namespace gnomon {
 namespace {
 
 std::uint64_t plane_count() {
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef GNOMON_SANITIZED
     // Nine tenths of a disk's offset, which is looser than need be, fail for one plane of a thousand.
     constexpr std::uint64_t kShort = 10000, kLong = kShort;
 #else

@@ -13,14 +13,8 @@
 namespace gnomon {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef GNOMON_SANITIZED
 constexpr bool kSanitized = true;  // keeps freed memory, and is slow
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 #else
 constexpr bool kSanitized = false;
 #endif

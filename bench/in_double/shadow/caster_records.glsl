@@ -1,13 +1,6 @@
 // Takes the place of the shaders' own file where their text is compiled as C++ (exact_shaders.inc): the casters in double,
 // which no texel holds. `instances` is of shared/instances.glsl.
-struct CasterTriangle {
-    vec3 a;
-    uint across_ab;
-    vec3 b;
-    uint across_bc;
-    vec3 c;
-    uint across_ca;
-};
+#include "shadow/caster_triangle.glsl"
 StorageBuffer<CasterTriangle> caster_triangles;
 
 CasterTriangle caster_triangle(uint triangle) { return caster_triangles[triangle]; }

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 namespace limits = assets::gltf;
 
 constexpr bool kUnderAsan =
-#ifdef __SANITIZE_ADDRESS__
+#ifdef GNOMON_SANITIZED
     true;
 #else
     false;

@@ -13,6 +13,7 @@ failures=0
 # A copy with a package list of its own, and a folder of stand-ins that note how they were called.
 mkdir -p "$project" "$work/bin" "$work/elsewhere"
 cp "$launcher" "$project/gnomon"
+echo '{}' >"$project/CMakePresets.json"
 printf '%s\n' '# the list' 'here  # is installed' 'older|newer  # one of two is installed' 'absent  # must come' \
     'first|second  # only the second exists' 'slow  # test: for tests only' >"$project/packages.txt"
 
@@ -86,6 +87,9 @@ expect "play passes the game's status on" is "$status" 7
 run NINJA_SAYS='ninja: no work to do.' -- play
 expect "an up-to-date build says nothing" is "$err" ""
 expect "and builds nothing" not_called cmake
+echo '{"version": 6}' >"$project/CMakePresets.json"
+run NINJA_SAYS='ninja: no work to do.' -- play
+expect "other presets: it is configured anew" called "--preset release --fresh"
 run CXX=other++ NINJA_SAYS='ninja: no work to do.' -- play
 expect "another compiler configures afresh" called "--fresh"
 run -- play
