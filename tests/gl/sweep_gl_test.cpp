@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 
 bench::SweepRow row(const std::string& name, const std::vector<std::string>& settings,
@@ -34,7 +35,8 @@ const bench::SweepRow kDefaults = row("defaults", {}), kHard = row("hard", {"fil
 class SweepGl : public TruthTest {
 protected:
     const std::filesystem::path& root() const { return own_.path(); }
-    bench::SceneSweep sweep(const std::string& folder, std::vector<bench::SweepRow> plan, std::uint32_t rounds = 0) {
+    bench::SceneSweep sweep(const std::string& folder, std::vector<bench::SweepRow> plan, std::uint32_t rounds = 0,
+                            double budget_s = bench::SweepOptions().budget_s) {
         bench::StageOptions stage_options;
         stage_options.size_px = {160, 90};
         const auto stage = open(stage_options);
@@ -44,6 +46,7 @@ protected:
         std::filesystem::create_directories(options.folder);
         options.plan = std::move(plan);
         options.rounds = rounds;
+        options.budget_s = budget_s;
         options.progress = [this](const std::string& line) { said_.push_back(line); };
         auto found = bench::measure_sweep(*stage, options);
         if (!found) {
@@ -116,6 +119,17 @@ TEST_F(SweepGl, WhatWasFoundBeforeIsNotMeasuredAgainAndTheRestIs) {
     said_.clear();
     (void)sweep("a", {kDefaults, kHard}, 1);  // another plan begins anew
     EXPECT_THAT(said_, Contains(HasSubstr("row 1 of 2: defaults")));
+}
+
+TEST_F(SweepGl, ASpentBudgetEndsTheRoundsButForTheFirst) {
+    const auto spent = sweep("spent", {kDefaults, kHard}, 2, 0.0);
+    EXPECT_EQ(spent.rounds, 1u);
+    EXPECT_THAT(said_, Contains(HasSubstr("times, round 1")));
+    EXPECT_THAT(said_, Not(Contains(HasSubstr("times, round 2"))));
+    for (const bench::JudgedRow& judged : spent.rows)
+        for (const bench::LightRow& light : judged.lights) EXPECT_GT(light.figures.gpu_us.median, 0.0) << judged.name;
+    EXPECT_EQ(sweep("ample", {kDefaults, kHard}, 2).rounds, 2u);
+    EXPECT_THAT(said_, Contains(HasSubstr("times, round 2")));
 }
 
 TEST_F(SweepGl, LightsOfOtherKindsAreNotInARow) {
