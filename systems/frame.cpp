@@ -44,7 +44,10 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     report_.dropped = snapshot_.dropped;
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(snapshot_.sampled_depths);
-    gpu_scene_.update(snapshot_, commands_);
+    if (!gpu_scene_.update(snapshot_, commands_))
+        for (const InstanceItem& item : snapshot_.instances)
+            if (item.gpu_slot >= gpu_scene_.capacity())
+                report_.dropped.push_back({item.entity, name_of(world, item.entity), DropReason::instances_full});
     snapshot_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
     const bool sample_depths = !held && shadow::wants_sampled_depths(snapshot_, shadows);

@@ -112,6 +112,8 @@ const char* reason_code(DropReason reason) {
             return "absurd_light";
         case DropReason::absurd_camera:
             return "absurd_camera";
+        case DropReason::instances_full:
+            return "instances_full";
     }
     return "unknown";
 }

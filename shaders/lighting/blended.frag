@@ -29,7 +29,7 @@ float visible_share(vec3 geometric, uint triangle) {
 #ifdef SHADOW_RAYS
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    double distance_m = exact_distance(pixel, instances[fragment_item.x], corner_ms, triangle_normals[triangle].xyz, interpolated_m);
+    double distance_m = exact_distance(pixel, instance_record(fragment_item.x), corner_ms, triangle_normal(triangle).xyz, interpolated_m);
     return shadow_visibility_at(place_seen_at(pixel, distance_m), geometric, uvec2(fragment_item.x, triangle));
 #else
     return shadow_visibility(fragment_position_ca, geometric, kRebuiltRelative * length(fragment_position_ca));
@@ -39,7 +39,7 @@ float visible_share(vec3 geometric, uint triangle) {
 
 void main() {
     vec4 colour = material_colour(fragment_uv);
-    InstanceRecord instance = instances[fragment_item.x];
+    InstanceRecord instance = instance_record(fragment_item.x);
     uint triangle = fragment_item.y + uint(gl_PrimitiveID);
     vec3 geometric = geometric_normal(instance, triangle, fragment_position_ca);
     vec3 shading = shading_normal(fragment_normal, geometric);

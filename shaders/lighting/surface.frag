@@ -22,7 +22,7 @@ layout(location = 4) out uvec4 place_out;
 void main() {
     vec4 colour = material_colour(fragment_uv);
     if (cut_out(fragment_uv)) discard;
-    InstanceRecord instance = instances[fragment_item.x];
+    InstanceRecord instance = instance_record(fragment_item.x);
     uint triangle = fragment_item.y + uint(gl_PrimitiveID);
     vec3 geometric = geometric_normal(instance, triangle, fragment_position_ca);
     vec3 shading = shading_normal(fragment_normal, geometric);
@@ -32,7 +32,7 @@ void main() {
     picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
 #ifdef WRITE_PLACES
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    double distance_m = exact_distance(ivec2(gl_FragCoord.xy), instance, corner_ms, triangle_normals[triangle].xyz, interpolated_m);
+    double distance_m = exact_distance(ivec2(gl_FragCoord.xy), instance, corner_ms, triangle_normal(triangle).xyz, interpolated_m);
     float high_m = float(distance_m), low_m = float(distance_m - double(high_m));
     place_out = uvec4(floatBitsToUint(high_m), floatBitsToUint(low_m), fragment_item.x, triangle);
 #endif

@@ -14,7 +14,7 @@ flat out vec3 corner_ms;   // of the triangle, for lighting/exact_place.glsl
 #endif
 
 void main() {
-    InstanceRecord instance = instances[draw_item.x];
+    InstanceRecord instance = instance_record(draw_item.x);
     vec3 position_ca = position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
     fragment_position_ca = position_ca;
     fragment_normal = normal_from_model(instance, normal_ms);

@@ -48,7 +48,7 @@ float largest_side(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
 // From node n of its mesh on, until something blocks, it is through, or there is no room for what is not sure.
 bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, inout uint n) {
-    InstanceRecord record = instances[item.instance];
+    InstanceRecord record = instance_record(item.instance);
     vec3 high = vec3(record.basis_x.w, record.basis_y.w, record.basis_z.w);
     precise vec3 origin_ca = (high - camera.anchor_high.xyz) + (record.low.xyz - camera.anchor_low.xyz);
     precise vec3 origin_m = origin_ca - ray.from_ca;
@@ -88,7 +88,7 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
 bool blocks_exactly(ShadowRay ray, uvec2 slots) {
     RayInstance item = ray_instance(slots.x);
     RayTriangle t = ray_triangle(slots.y);
-    InstanceRecord record = instances[item.instance];
+    InstanceRecord record = instance_record(item.instance);
     dvec3 origin_m = exact_origin(record, camera.anchor_high.xyz, camera.anchor_low.xyz) - ray.from_ca;
     // Bases are floats, the receiver's and the caster's: so far may planes that are one be apart.
     float error_m = ray.error_m + 4.0 * kUnitRoundoff * (item.reach_m + largest_side(vec3(ray.from_ca)));

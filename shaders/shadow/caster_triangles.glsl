@@ -51,7 +51,7 @@ int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2)
 // cuts it out there. `texel`: the map's, metres, or tangents from a lamp.
 int caster_verdict(uvec2 shown, vec3 position_ca, float error_m, vec2 texel) {
     if (shown.y == kNoTriangle) return kUnknown;
-    InstanceRecord instance = caster_instance(shown.x);
+    InstanceRecord instance = instance_record(shown.x);
     vec3 ray = toward_light(position_ca);
     uint triangle = shown.y, came_from = kNoTriangle;
     float facing = 0.0;

@@ -2,7 +2,7 @@
 // Include it after row.glsl, which names one kind and one filter; SHADOW_REACH_TEXEL is the filter's footprint, and
 // SHADOW_DEPTHS is defined if it reads depths, SHADOW_MANUAL_BIAS if the light's bias is not the automatic one,
 // SHADOW_MOMENTS if it reads a prefiltered map, SHADOW_FOOTPRINT if that has mipmaps or anisotropy (then row.glsl brings
-// CameraBlock), SHADOW_TRIANGLES if it reads which triangles texels show (then CameraBlock and InstanceBuffer), SHADOW_RAYS if it
+// CameraBlock), SHADOW_TRIANGLES if it reads which triangles texels show (then CameraBlock and shared/instances.glsl), SHADOW_RAYS if it
 // asks the casters' triangles by rays (then those as well, and SHADOW_SHEETS if a map says where rays are needed). RAY_MASKS, with one of
 // these two, if some casters are masked.
 // LEAVE_UNDECIDED: the filter says `shadow_undecided` where it would take long.

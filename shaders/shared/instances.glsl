@@ -5,7 +5,7 @@ struct InstanceRecord {
     vec4 basis_z;
     vec4 low;       // xyz: low part of the translation; w: a bit per layer whose shadows it receives, and times 256 one per layer in which it casts
 };
-layout(std430, binding = 0) readonly buffer InstanceBuffer { InstanceRecord instances[]; };
+#include "shared/instance_texels.glsl"
 
 // A bit per layer, 0 to 255.
 float received_layers(InstanceRecord instance) { return instance.low.w - 256.0 * floor(instance.low.w / 256.0); }

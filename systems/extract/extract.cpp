@@ -18,11 +18,6 @@ namespace {
 
 constexpr std::uint32_t kNone = 0xffffffffu;
 
-std::string name_of(const ecs::Registry& registry, ecs::Entity e) {
-    const Name* name = registry.get<Name>(e);
-    return name && !name->text.empty() ? name->text : "entity" + std::to_string(e.index);
-}
-
 DropReason drop_reason(TransformFault fault) {
     switch (fault) {
         case TransformFault::zero_rotation:
@@ -144,6 +139,11 @@ void make_names_unique(std::vector<LightItem>& lights) {
 }
 
 }  // namespace
+
+std::string name_of(const ecs::Registry& registry, ecs::Entity e) {
+    const Name* name = registry.get<Name>(e);
+    return name && !name->text.empty() ? name->text : "entity" + std::to_string(e.index);
+}
 
 template <class T>
 bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, bool structural) {

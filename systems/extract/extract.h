@@ -11,6 +11,9 @@
 
 namespace gnomon {
 
+/// As reports name it: by its Name, or "entity" and its index.
+std::string name_of(const ecs::Registry& registry, ecs::Entity e);
+
 /// The only reader of the registry between the transform system and the picture: applies its change lists to a
 /// SceneSnapshot. To use another ECS, fill the snapshot yourself and leave this out.
 class Extractor {

@@ -134,10 +134,10 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
         return created.failure;
     };
     const gl::BufferUse use = shape_use(library);
-    gl::Failure f = keep(scene.vertices_, filled_buffer(device, "scene vertices", vertices, use));
+    gl::Failure f = keep(scene.vertices_, filled_buffer(device, "scene vertices", vertices, use, true));
     if (f == gl::Failure::none) f = keep(scene.indices_, filled_buffer(device, "scene indices", indices));
     if (f == gl::Failure::none)
-        f = keep(scene.triangle_normals_, filled_buffer(device, "triangle normals", plane_normals(library), use));
+        f = keep(scene.triangle_normals_, filled_buffer(device, "triangle normals", plane_normals(library), use, true));
     if (f != gl::Failure::none) return failed("the scene's meshes", f);
 
     const std::uint32_t stride = aligned(sizeof(MaterialRecord), device.info().uniform_alignment);
@@ -192,7 +192,6 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
 }
 
 bool GpuScene::provide_caster_triangles() {
-    if (instances_ && !instances_are_texels_) return false;
     if (caster_triangles_ || !triangles_retry_.due(++triangles_asked_)) return static_cast<bool>(caster_triangles_);
     CasterTriangleList made = caster_triangles_of(*library_);
     triangle_records_ = std::move(made.triangles);
@@ -217,7 +216,6 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     vertices_ = std::exchange(other.vertices_, {});
     indices_ = std::exchange(other.indices_, {});
     instances_ = std::exchange(other.instances_, {});
-    instances_are_texels_ = other.instances_are_texels_;
     triangle_normals_ = std::exchange(other.triangle_normals_, {});
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
     caster_triangles_ = std::exchange(other.caster_triangles_, {});
@@ -312,13 +310,13 @@ void GpuScene::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list
 
 void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& list) {
     records_.resize(snapshot.gpu_slot_count);
-    if (snapshot.gpu_slot_count > instance_capacity_) {
-        const std::uint32_t wanted = std::bit_ceil(snapshot.gpu_slot_count);
+    const std::uint64_t most = device_->info().max_texel_bytes / sizeof(InstanceRecord);
+    if (snapshot.gpu_slot_count > instance_capacity_ && instance_capacity_ < most) {
+        const auto wanted = static_cast<std::uint32_t>(
+            std::min<std::uint64_t>(std::bit_ceil(std::uint64_t{snapshot.gpu_slot_count}), most));
         const std::uint64_t bytes = std::uint64_t{wanted} * sizeof(InstanceRecord);
-        const bool texels = bytes <= device_->info().max_texel_bytes;
-        const auto made = device_->create_buffer({"instances", bytes, gl::BufferUse::updated, texels}, {});
+        const auto made = device_->create_buffer({"instances", bytes, gl::BufferUse::updated, true}, {});
         if (made) {
-            instances_are_texels_ = texels;
             device_->destroy(instances_);
             instances_ = made.handle;
             instance_capacity_ = wanted;

@@ -40,6 +40,10 @@ void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<co
 /// GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
 float most_reflected(const assets::Material& material);
 
+/// Texture units of shaders/shared/instance_texels.glsl and shaders/lighting/surface_normals.glsl: above all that maps
+/// and rays use.
+inline constexpr std::uint32_t kInstanceUnit = 14, kTriangleNormalUnit = 15;
+
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
 class GpuScene {
 public:
@@ -61,8 +65,7 @@ public:
     std::uint32_t bent_meshes() const { return bent_meshes_; }
 
     /// Makes caster_triangles() and caster_masks() where there are none; to be called each frame that a light reads
-    /// them. False: the device has no room, which is asked again after Retry::kFrames such frames; or instances() are
-    /// more than it reads as texels.
+    /// them. False: the device has no room, which is asked again after Retry::kFrames such frames.
     bool provide_caster_triangles();
 
     struct MeshRange {
@@ -101,11 +104,10 @@ public:
 
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }
-    /// InstanceRecord per slot; readable as texels, too, unless they are more than the device reads so.
+    /// InstanceRecord per slot, to be read as texels at kInstanceUnit.
     gl::BufferHandle instances() const { return instances_; }
-    gl::BufferHandle triangle_normals() const {
-        return triangle_normals_;
-    }  // vec4 per triangle of `indices`, model space
+    /// vec4 per triangle of `indices`, in model space, to be read as texels at kTriangleNormalUnit.
+    gl::BufferHandle triangle_normals() const { return triangle_normals_; }
     /// CasterTriangle per triangle of `indices`, to be read as texels; {0} until provided.
     gl::BufferHandle caster_triangles() const { return caster_triangles_; }
     /// The masks of those that are masked, as shaders/rays/alpha_mask.glsl reads them; {0}: none is, or not provided.
@@ -131,7 +133,6 @@ private:
     const assets::MeshLibrary* library_ = nullptr;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
     gl::BufferHandle caster_triangles_{}, caster_masks_{};
-    bool instances_are_texels_ = false;
     std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer
     std::vector<CasterTriangle> triangle_records_;  // of the whole library, if it has such meshes and they are provided
     std::vector<glm::vec4> normal_scratch_;

@@ -103,7 +103,8 @@ enum class DropReason : std::uint8_t {
     unknown_mesh,
     zero_scale,
     absurd_light,
-    absurd_camera
+    absurd_camera,
+    instances_full,  // the device holds no record of it: not drawn, and lights whose caster it is are lit
 };
 const char* reason_code(DropReason reason);
 

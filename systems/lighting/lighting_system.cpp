@@ -185,8 +185,8 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
 void LightingSystem::bind_scene(const GpuScene& gpu, gl::CommandList& list) const {
     list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
     list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
-    list.add(gl::BindStorage{0, gpu.instances()});
-    list.add(gl::BindStorage{1, gpu.triangle_normals()});
+    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
+    list.add(gl::BindTexels{kTriangleNormalUnit, gpu.triangle_normals()});
     list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
 }
 

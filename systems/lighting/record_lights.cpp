@@ -6,7 +6,7 @@ namespace gnomon::lighting {
 
 void LightingSystem::bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const {
     list.add(gl::BindTexture{6, targets_.places, point_sampler_});
-    list.add(gl::BindStorage{0, gpu.instances()});
+    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
     list.add(gl::BindTexels{10, rays.nodes});
     list.add(gl::BindTexels{11, rays.triangles});
     list.add(gl::BindTexels{12, rays.top});
@@ -26,7 +26,7 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
     if (!light.triangles) return;
     list.add(gl::BindTexture{5, light.triangles, {}});
     list.add(gl::BindTexels{9, gpu.caster_triangles()});
-    list.add(gl::BindTexels{14, gpu.instances()});
+    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
     if (gpu.caster_masks()) list.add(gl::BindStorage{7, gpu.caster_masks()});
 }
 

@@ -217,7 +217,7 @@ void DepthRecorder::begin_pass_into(gl::TargetHandle target, const GpuScene& gpu
     const std::size_t records = pass.layered ? kFaces : 1;
     list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
-    list.add(gl::BindStorage{0, gpu.instances()});
+    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
     list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
 }
 

@@ -26,7 +26,7 @@ std::uint64_t hash_of(const T& value, std::uint64_t from) {
 /// What the device is set to while a depth pass is drawn.
 struct Bound {
     gl::BindUniforms view;
-    gl::BindStorage instances;
+    gl::BindTexels instances;
     gl::BindMeshes meshes;
     gl::PipelineState pipeline;
     gl::Rect viewport;
@@ -69,7 +69,7 @@ void MapContents::draw(const gl::CommandList& list, const gl::RecordingDevice& d
             layers_[{copy->destination.id, layer}] = layers_[{copy->source.id, layer}];
         }
         if (const auto* b = std::get_if<gl::BindUniforms>(&command); b && b->binding == 0) bound.view = *b;
-        if (const auto* b = std::get_if<gl::BindStorage>(&command); b && b->binding == 0) bound.instances = *b;
+        if (const auto* b = std::get_if<gl::BindTexels>(&command); b && b->unit == kInstanceUnit) bound.instances = *b;
         if (const auto* b = std::get_if<gl::BindMeshes>(&command)) bound.meshes = *b;
         if (const auto* p = std::get_if<gl::SetPipeline>(&command)) bound.pipeline = p->state;
         const auto* draw = std::get_if<gl::DrawMeshes>(&command);

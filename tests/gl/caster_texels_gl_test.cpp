@@ -9,15 +9,17 @@
 #include "tests/gl/device_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
-// The C++ and the GLSL views of casters, which are read as texels: no interface of a program tells those.
+// The C++ and the GLSL views of casters and instances, which are read as texels: no interface of a program tells those.
 namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kRecords = 5, kOutBinding = 1;
-constexpr std::size_t kWords = (sizeof(CasterTriangle) + sizeof(InstanceRecord)) / sizeof(std::uint32_t);
+constexpr std::size_t kWords =
+    (sizeof(CasterTriangle) + sizeof(InstanceRecord) + sizeof(glm::vec4)) / sizeof(std::uint32_t);
 
 const std::string kProbe =
     "#include \"shared/instances.glsl\"\n#include \"shadow/caster_records.glsl\"\n"
+    "#include \"shared/camera_block.glsl\"\n#include \"lighting/surface_normals.glsl\"\n"
     R"(layout(local_size_x = 1) in;
 layout(std430, binding = 1) buffer Out { uint words[]; };
 void write(uint at, vec3 v, uint n) {
@@ -26,16 +28,17 @@ void write(uint at, vec3 v, uint n) {
 }
 void write(uint at, vec4 v) { write(at, v.xyz, floatBitsToUint(v.w)); }
 void main() {
-    uint i = gl_WorkGroupID.x, at = 28u * i;
+    uint i = gl_WorkGroupID.x, at = 32u * i;
     CasterTriangle t = caster_triangle(i);
     write(at, t.a, t.across_ab);
     write(at + 4u, t.b, t.across_bc);
     write(at + 8u, t.c, t.across_ca);
-    InstanceRecord instance = caster_instance(i);
+    InstanceRecord instance = instance_record(i);
     write(at + 12u, instance.basis_x);
     write(at + 16u, instance.basis_y);
     write(at + 20u, instance.basis_z);
     write(at + 24u, instance.low);
+    write(at + 28u, triangle_normal(i));
 }
 )";
 
@@ -54,6 +57,7 @@ TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
     const auto number = [&] { return static_cast<std::uint32_t>(random()); };
     std::vector<CasterTriangle> triangles(kRecords);
     std::vector<InstanceRecord> instances(kRecords);
+    std::vector<glm::vec4> normals(kRecords);
     std::vector<std::uint32_t> written;
     const auto append = [&](const float* v, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i) written.push_back(std::bit_cast<std::uint32_t>(v[i]));
@@ -69,6 +73,8 @@ TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
             for (int c = 0; c < 4; ++c) row[c] = place(random);
             append(row, 4);
         }
+        normals[i] = {place(random), place(random), place(random), place(random)};
+        append(&normals[i].x, 4);
     }
     ASSERT_EQ(written.size(), kRecords * kWords);
 
@@ -83,7 +89,8 @@ TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
         keep(device().create_buffer({.label = "back", .size = bytes, .use = gl::BufferUse::read_back}, {}));
     gl::CommandList list;
     list.add(gl::BindTexels{9, texels_of(triangles)});
-    list.add(gl::BindTexels{14, texels_of(instances)});
+    list.add(gl::BindTexels{kInstanceUnit, texels_of(instances)});
+    list.add(gl::BindTexels{kTriangleNormalUnit, texels_of(normals)});
     list.add(gl::BindStorage{kOutBinding, out});
     list.add(gl::Dispatch{program, kRecords, 1});
     list.add(gl::CopyBuffer{out, back});

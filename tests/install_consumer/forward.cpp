@@ -73,19 +73,19 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
         glNamedBufferSubData(buffers.camera, 0, sizeof inputs.camera, &inputs.camera);
         glBindBufferBase(GL_UNIFORM_BUFFER, kCameraBinding, buffers.camera);
     }
+    if (light.row.triangles || light.row.rays)
+        glBindTextureUnit(kInstanceUnit, gl::gl_texels_name(device, scene.instances()));
     if (light.row.triangles) {
-        constexpr GLuint kTrianglesUnit = 5, kCasterTriangles = 9, kInstances = 14;
+        constexpr GLuint kTrianglesUnit = 5, kCasterTriangles = 9;
         glBindTextureUnit(kTrianglesUnit, gl::gl_name(device, light.triangles));
         glBindSampler(kTrianglesUnit, 0);
         glBindTextureUnit(kCasterTriangles, gl::gl_texels_name(device, scene.caster_triangles()));
-        glBindTextureUnit(kInstances, gl::gl_texels_name(device, scene.instances()));
         constexpr GLuint kMasks = 7;
         if (light.row.ray_masks)
             glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMasks, gl::gl_name(device, scene.caster_masks()));
     }
     if (light.row.rays) {
         const visibility::RayBuffers& rays = light.rays;
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, gl::gl_name(device, scene.instances()));
         GLuint unit = 10;
         for (const gl::BufferHandle texels : {rays.nodes, rays.triangles, rays.top, rays.instances})
             glBindTextureUnit(unit++, gl::gl_texels_name(device, texels));

@@ -113,10 +113,39 @@ TEST_F(BadEntities, AnotherThatMovesInTheFrameOfAFaultIsStillUploaded) {
     EXPECT_EQ(item(victim), nullptr);
     gl::BufferHandle instances{};
     for (const gl::Command& c : frame->commands().commands)
-        if (const auto* b = std::get_if<gl::BindStorage>(&c); b && b->binding == 0) instances = b->buffer;
+        if (const auto* b = std::get_if<gl::BindTexels>(&c); b && b->unit == kInstanceUnit) instances = b->buffer;
     InstanceRecord record;
     std::memcpy(&record, device.buffer_bytes(instances).data() + slot_of(stage.box) * sizeof record, sizeof record);
     EXPECT_EQ(record.basis_x_high_x[3], 0.25f);
+}
+
+TEST_F(BadEntities, OfMoreThanTheDeviceReadsAsTexelsAsManyAreDrawnAsItDoes) {
+    for (int i = 0; i < 1000; ++i) world.add_mesh(kBox, {0.001 * i, 1, 0}, i >= 600);
+    gl::DeviceInfo info = gl::RecordingDevice::default_info();
+    for (const std::uint32_t slots : {600u, 1024u}) {
+        info.max_texel_bytes = slots * sizeof(InstanceRecord);
+        gl::RecordingDevice few(info);
+        auto made = Frame::create(few, library);
+        ASSERT_TRUE(made);
+        const std::unique_ptr<Frame> own = std::move(made).value();
+        for (int i = 0; i < 2; ++i) own->run(world.registry, settings);
+        std::uint32_t drawn = 0, buffers = 0;
+        for (const Pass& p : passes_of(own->commands(), few))
+            if (p.group == "surfaces")
+                for (const gl::DrawMeshes& d : p.draws) drawn += d.item_count;
+        for (const gl::ResourceCall& call : few.resource_calls()) buffers += call.label == "instances" ? 1 : 0;
+        const bool all = slots == 1024u;
+        EXPECT_EQ(drawn, all ? 1003u : 600u);
+        EXPECT_EQ(buffers, 1u) << "it is not tried again in vain";
+        ASSERT_THAT(own->report().lights, SizeIs(1));
+        EXPECT_EQ(own->report().lights[0].reason, all ? Reason::content_unchanged : Reason::buffer_failed);
+        ASSERT_THAT(own->report().dropped, SizeIs(all ? 0 : 403));
+        for (const DroppedEntity& d : own->report().dropped) {
+            EXPECT_EQ(d.reason, DropReason::instances_full);
+            EXPECT_TRUE(world.registry.alive(d.entity));
+        }
+        EXPECT_THAT(few.findings(), IsEmpty());
+    }
 }
 
 TEST_F(BadEntities, AnUnknownMeshIsDropped) {

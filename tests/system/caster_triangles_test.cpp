@@ -62,7 +62,7 @@ TEST_F(CasterTriangles, LightsOfEveryOtherRowMakeBindAndDrawNothingOfThem) {
         if (row.storage == shadow::FilterStorage::depth) add_light(LightKind::spot, std::string(row.name), row.id);
     step();
     EXPECT_THAT(triangle_labels(), IsEmpty());
-    EXPECT_THAT(bindings().units, Not(Contains(AnyOf(5u, 9u, 14u))));
+    EXPECT_THAT(bindings().units, Not(Contains(AnyOf(5u, 9u))));
     EXPECT_THAT(program_labels(), Not(Contains(::testing::HasSubstr("triangles"))));
     for (const LightReport& light : frame->report().lights) EXPECT_EQ(light.bytes, light.texels * kDepthBytes);
 }
@@ -73,7 +73,7 @@ TEST_F(CasterTriangles, AreOneBufferForAllLightsThatReadThem) {
     add_light(LightKind::point, "bulb", ShadowFilter::triangles);
     step();
     EXPECT_THAT(triangle_labels(), SizeIs(1));
-    EXPECT_THAT(bindings().units, IsSupersetOf({5u, 9u, 14u}));
+    EXPECT_THAT(bindings().units, IsSupersetOf({5u, 9u}));
     EXPECT_THAT(program_labels(), Each(::testing::HasSubstr("triangles")));
     for (const LightReport& light : frame->report().lights) {
         EXPECT_EQ(light.state, LightState::rendered) << light.name;
@@ -171,29 +171,6 @@ TEST_F(CasterTriangles, WithoutRoomForThemTheLightIsLitAndTriedAgain) {
     device.stop_failing();
     for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();
     EXPECT_EQ(light("lamp").state, LightState::rendered);
-}
-
-TEST_F(CasterTriangles, BesideMoreInstancesThanTheDeviceReadsAsTexelsLeaveTheLightLit) {
-    add_light(LightKind::spot, "lamp", ShadowFilter::triangles);
-    add_light(LightKind::spot, "other", ShadowFilter::hard);
-    // Of each triangle there is room, but not of the instances: the stage and these.
-    for (int i = 0; i < 1000; ++i) world.add_mesh(kBox, {i, 1, 0}, true);
-    gl::DeviceInfo info = gl::RecordingDevice::default_info();
-    for (const std::uint32_t slots : {512u, 1024u}) {
-        info.max_texel_bytes = slots * sizeof(InstanceRecord);
-        gl::RecordingDevice few(info);
-        auto made = Frame::create(few, library);
-        ASSERT_TRUE(made);
-        const std::unique_ptr<Frame> own = std::move(made).value();
-        own->run(world.registry, settings);
-        ASSERT_THAT(own->report().lights, SizeIs(2));
-        for (const LightReport& light : own->report().lights) {
-            const bool lit = light.name == "lamp" && slots == 512u;
-            EXPECT_EQ(light.state, lit ? LightState::skipped : LightState::rendered) << light.name << " " << slots;
-            EXPECT_EQ(light.reason, lit ? Reason::buffer_failed : Reason::none) << light.name << " " << slots;
-        }
-        EXPECT_THAT(few.findings(), IsEmpty());
-    }
 }
 
 TEST(CasterTriangleRecords, HoldTheCornersAndCountNeighboursOverAllMeshes) {

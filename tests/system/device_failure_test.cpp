@@ -263,6 +263,9 @@ TEST_P(DeviceFailure, AnInstanceBufferThatCannotGrowDropsTheNewInstancesOnly) {
             if (p.group == "surfaces")
                 for (const gl::DrawMeshes& d : p.draws) drawn += d.item_count;
         EXPECT_EQ(drawn, 2u);
+        ASSERT_EQ(frame->report().dropped.size(), 1u);
+        EXPECT_EQ(frame->report().dropped[0].entity, newcomer);
+        EXPECT_EQ(frame->report().dropped[0].reason, DropReason::instances_full);
     }
     world.registry.destroy(newcomer);
     const ecs::Entity caster = world.add_mesh(kBox, {1.5, 1, 0}, true);
@@ -276,6 +279,7 @@ TEST_P(DeviceFailure, AnInstanceBufferThatCannotGrowDropsTheNewInstancesOnly) {
         if (p.group == "surfaces")
             for (const gl::DrawMeshes& d : p.draws) drawn += d.item_count;
     EXPECT_EQ(drawn, 4u);
+    EXPECT_TRUE(frame->report().dropped.empty());
 }
 
 TEST_P(DeviceFailure, NoInstanceBufferAtAllIsStillAFrame) {

@@ -28,7 +28,7 @@ void main() {
 #ifdef LAYERED
     DepthView depth_view = depth_views[face];
 #endif
-    vec3 position_as = position_from_anchor(instances[draw_item.x], position_ms, depth_view.anchor_high.xyz,
+    vec3 position_as = position_from_anchor(instance_record(draw_item.x), position_ms, depth_view.anchor_high.xyz,
                                             depth_view.anchor_low.xyz);
     precise vec4 position_cs = depth_view.clip_from_anchor * vec4(position_as, 1.0);
     gl_Position = position_cs;

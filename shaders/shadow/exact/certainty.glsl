@@ -11,6 +11,6 @@ bool receiver_casts(uvec2 receiver) {
 #ifdef LIGHT_PASS
     return false;
 #else
-    return receiver != kNoReceiver && (cast_layers(instances[receiver.x]) & uint(light.to_light.w + 0.5)) != 0u;
+    return receiver != kNoReceiver && (cast_layers(instance_record(receiver.x)) & uint(light.to_light.w + 0.5)) != 0u;
 #endif
 }

@@ -6,8 +6,13 @@
 struct SheetItem {
     uint instance, a, b, c;   // vertices of the common buffer
 };
-layout(std430, binding = 1) readonly buffer VertexBuffer { float scene_vertices[]; };   // eight each, position first
-layout(std430, binding = 2) readonly buffer SheetItemBuffer { SheetItem sheet_items[]; };
+layout(binding = 12) uniform usamplerBuffer sheet_items;
+layout(binding = 13) uniform usamplerBuffer scene_vertices;   // two texels each, position first
+
+SheetItem sheet_item(int place) {
+    uvec4 item = texelFetch(sheet_items, place);
+    return SheetItem(item.x, item.y, item.z, item.w);
+}
 
 struct Corner {
     vec4 place;   // in clip space, as depth.vert has it
@@ -17,7 +22,7 @@ struct Corner {
 mat4 absolute(mat4 m) { return mat4(abs(m[0]), abs(m[1]), abs(m[2]), abs(m[3])); }
 
 Corner corner_of(InstanceRecord instance, uint vertex) {
-    vec3 position_ms = vec3(scene_vertices[8u * vertex], scene_vertices[8u * vertex + 1u], scene_vertices[8u * vertex + 2u]);
+    vec3 position_ms = uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz);
     vec3 position_as = position_from_anchor(instance, position_ms, depth_view.anchor_high.xyz, depth_view.anchor_low.xyz);
     precise vec4 place = depth_view.clip_from_anchor * vec4(position_as, 1.0);
     vec3 high = vec3(instance.basis_x.w, instance.basis_y.w, instance.basis_z.w), size_ms = abs(position_ms);

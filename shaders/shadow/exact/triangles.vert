@@ -89,8 +89,8 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
 }
 
 void main() {
-    SheetItem item = sheet_items[gl_VertexID / kVertices];
-    InstanceRecord instance = instances[item.instance];
+    SheetItem item = sheet_item(gl_VertexID / kVertices);
+    InstanceRecord instance = instance_record(item.instance);
     Corner a = corner_of(instance, item.a), b = corner_of(instance, item.b), c = corner_of(instance, item.c);
     gl_Position = nowhere();
     edge_ab = edge_bc = edge_ca = depth_plane = inverse_w = box_texel = errors = vec4(0.0);

@@ -15,6 +15,9 @@ namespace {
 
 /// Corners of a quad's two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
+/// Texture units of shaders/shadow/exact/sheet_item.glsl.
+constexpr std::uint32_t kItemUnit = 12, kVertexUnit = 13;
+static_assert(sizeof(assets::Vertex) == 2 * gl::kTexelBytes && sizeof(SheetItem) == gl::kTexelBytes);
 /// Nothing ends there: behind all that depth can be.
 constexpr float kNoContour = -1.0f;
 
@@ -30,7 +33,7 @@ SheetRecorder::SheetRecorder(gl::Device& device, const Options& options)
     : device_(device),
       with_margins_(options.with_margins),
       gatherer_(options.with_points ? device.info().max_point_px : 0),
-      items_(device, "shadow sheet items"),
+      items_(device, "shadow sheet items", true),
       view_records_(device, "shadow sheet views") {}
 
 SheetRecorder::~SheetRecorder() {
@@ -130,9 +133,9 @@ void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu,
     list.add(
         gl::BeginPass{slot.bounds_target, {0, 0, size, size}, false, 0.0f, true, {kNoContour, cleared, 0.0f, 0.0f}});
     list.add(gl::BindUniforms{0, view_records_.handle(), offset, sizeof(DepthViewRecord)});
-    list.add(gl::BindStorage{0, gpu.instances()});
-    list.add(gl::BindStorage{1, gpu.vertices()});
-    list.add(gl::BindStorage{2, items_.handle()});
+    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
+    list.add(gl::BindTexels{kVertexUnit, gpu.vertices()});
+    list.add(gl::BindTexels{kItemUnit, items_.handle()});
     for (std::size_t which = 0; which < kPrograms; ++which) {
         const std::uint32_t first = drawn.first[which], count = drawn.count[which];
         if (count == 0) continue;
