@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "bench/edge_bounds.h"
+#include "bench/other_surfaces.h"
 #include "systems/shadow/predicted_error.h"
 
 namespace gnomon::bench {
@@ -96,9 +97,11 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     const ConsumerItem& camera = snapshot.consumers.front();
     const oracle::ReferenceTracer tracer(snapshot, stage.library(), camera.position_ws_m);
     const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+    const auto other = other_surfaces(stage, tracer, hits);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         const LightItem& light = snapshot.lights[indices[k]];
         accuracy.lights[k].truth = tracer.trace_light(hits, light, options.with_ambiguous);
+        if (other) accuracy.lights[k].other_surface = leave_out(*other, accuracy.lights[k].truth);
         if (oracle::source_size(light) > 0.0) judge_source(tracer, hits, light, accuracy.lights[k]);
     }
     accuracy.trace_s = seconds_since(start);

@@ -28,7 +28,8 @@ struct LightAccuracy {
     LightReport report;  // of the frame that was measured
     oracle::Metrics metrics;
     std::vector<float> measured;  // as of --visibility
-    oracle::LightTruth truth;
+    oracle::LightTruth truth;               // ambiguous as well where other_surfaces() are
+    std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
     oracle::EdgeExceptions exceptions;  // edges farther off than predicted there, by name
     oracle::EdgeExceptions contract;    // farther off than max_error_px allows, where the report says it is kept
     oracle::FarErrors far;              // wrong pixels that neither an edge nor the map's texels there explain

@@ -49,6 +49,7 @@ Json to_json(const LightAccuracy& light) {
     json["false_shadow_crease_px"] = light.far.crease_shadow;
     json["false_light_crease_px"] = light.far.crease_light;
     json["ambiguous_px"] = m.ambiguous;
+    json["other_surface_px"] = light.other_surface ? Json(*light.other_surface) : Json(nullptr);
     json["coverage_mismatch_px"] = m.coverage_mismatch;
     json["wrong"] = m.fraction(m.wrong);
     json["acne"] = m.fraction(m.acne);

@@ -13,8 +13,11 @@ using Figure = std::optional<double>;
 struct RowFigures {
     Figure taps, views, texels, bytes, draws;
     /// Against the truth about a point, of scored pixels; none of filters that soften by the source's size.
-    Figure scored_px, wrong, false_shadow, false_light, acne, leak, mean_error;
+    Figure scored_px, other_surface_px, wrong, false_shadow, false_light, acne, leak, mean_error;
     Figure edge_places, edge_lost, edge_p50_px, edge_p95_px, edge_p99_px, edge_max_px;
+    /// Of false shadow and false light the share that neither an edge nor the map's texels there explain
+    /// (oracle::FarErrors).
+    Figure false_shadow_far, false_light_far;
     /// What the fit states, and how many places are farther off than is predicted there, by the reason.
     Figure predicted_px, sub_texel_caster, truth_ambiguous, other_bias, unexplained;
     /// Against the truth about disk_source().

@@ -101,14 +101,31 @@ std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::str
     const std::vector<Choice> all = choices(sweep, light, SweepTruth::point, cost);
     const auto defaults = std::find_if(all.begin(), all.end(),
                                        [&](const Choice& c) { return sweep.plan[c.row].name == kDefaultsRow; });
-    if (defaults == all.end() || defaults->error <= kMostWrongByDefault) return std::nullopt;
-    Missed missed;
+    if (defaults == all.end()) return std::nullopt;
+    const auto judged = [&](const Choice& choice) {
+        const RowFigures& figures = find_row(sweep, choice.row, light)->figures;
+        Missed missed;
+        missed.wrong = choice.error > kMostWrongByDefault;
+        missed.leaks = figures.leak.value_or(0.0);
+        missed.leak = missed.leaks > kMostLeakByDefault;
+        missed.acne = figures.acne.value_or(0.0) > 0.0;
+        return missed;
+    };
+    const auto keeps_all = [&](const Choice& choice) {
+        const Missed missed = judged(choice);
+        return !missed.wrong && !missed.leak && !missed.acne;
+    };
+    if (keeps_all(*defaults)) return std::nullopt;
+    Missed missed = judged(*defaults);
     missed.defaults = *defaults;
     const RowFigures& figures = find_row(sweep, defaults->row, light)->figures;
+    missed.leaks_far = figures.false_light_far.value_or(0.0);
     missed.sub_texel = figures.sub_texel_caster.value_or(0.0);
     for (const Figure& count : {figures.sub_texel_caster, figures.truth_ambiguous, figures.unexplained})
         missed.beyond += count.value_or(0.0);
-    if (const Choice* reached = cheapest(all, kMostWrongByDefault)) missed.reached = *reached;
+    // They are sorted by cost.
+    const auto reached = std::find_if(all.begin(), all.end(), keeps_all);
+    if (reached != all.end()) missed.reached = *reached;
     return missed;
 }
 

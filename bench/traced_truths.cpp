@@ -3,6 +3,8 @@
 #include <chrono>
 
 #include "bench/filter_variants.h"
+#include "bench/other_surfaces.h"
+#include "tests/oracle/far_errors.h"
 
 namespace gnomon::bench {
 
@@ -23,6 +25,8 @@ Result<TracedTruths> trace_truths(Stage& stage, bool disks) {
     TracedTruths truths;
     truths.tracer = std::make_unique<oracle::ReferenceTracer>(scene, stage.library(), camera.position_ws_m);
     truths.hits = truths.tracer->trace_primary(camera);
+    truths.creases = oracle::creases(truths.hits);
+    const auto other = other_surfaces(stage, *truths.tracer, truths.hits);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
         if (!light.has_shadow) continue;
@@ -31,6 +35,7 @@ Result<TracedTruths> trace_truths(Stage& stage, bool disks) {
         traced.name = light.name;
         traced.kind = light.kind;
         traced.point = truths.tracer->trace_light(truths.hits, light, true);
+        if (other) traced.other_surface = leave_out(*other, traced.point);
         if (disks) traced.disk = truths.tracer->trace_source(truths.hits, light, {});
     }
     truths.trace_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

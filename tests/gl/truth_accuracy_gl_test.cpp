@@ -25,8 +25,15 @@ void expect_right(const bench::Accuracy& accuracy, std::size_t lights) {
         EXPECT_GE(light.metrics.scored, kLeastScored);
         EXPECT_GE(shadowed_px(light), kLeastShadowed) << "nothing to get wrong";
         EXPECT_LE(wrong_share(light.metrics), kMostWrong);
-        EXPECT_LE(false_shape_share(light.metrics), kMostAcneAndLeak)
-            << "acne " << light.metrics.acne << ", leak " << light.metrics.leak << " of " << light.metrics.scored;
+        // A texel of the map is many pixels where the light grazes a surface, and some where a picture shows little at all.
+        if (light.metrics.acne > 0) {
+            EXPECT_LE(light.metrics.acne, 1u);
+            EXPECT_EQ(light.far.false_shadow + light.far.crease_shadow, 0u) << "not for want of texels alone";
+        }
+        if (light.metrics.fraction(light.metrics.leak) > kMostLeak) {
+            EXPECT_EQ(light.far.false_light + light.far.crease_light, 0u)
+                << "leak " << light.metrics.leak << " of " << light.metrics.scored << ", not for want of texels alone";
+        }
         EXPECT_NE(light.report.state, LightState::skipped) << reason_code(light.report.reason);
     }
 }

@@ -1,5 +1,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "bench/audit.h"
 #include "tests/gl/truth_scenes.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"
@@ -9,9 +10,6 @@ namespace gnomon {
 namespace {
 
 constexpr glm::uvec2 kSize_px{640, 360};
-// Where nothing casts, a surface can still be dark by mistake: at a silhouette, and in the cut-out leaves of the tree,
-// picture and ray may see two different surfaces in one pixel, of which one faces away. Rare, and never more than this.
-constexpr double kMostOtherSurface = 0.001;
 
 class TruthControls : public TruthTest {
 protected:
@@ -47,11 +45,13 @@ TEST_F(TruthControls, WithoutCastersEverySurfaceThatFacesALightIsLit) {
         for (std::size_t p = 0; p < light.measured.size(); ++p)
             dark += light.truth.scored[p] && !light.truth.ambiguous[p] && light.measured[p] >= 0.0f &&
                     light.measured[p] != 1.0f;
-        EXPECT_LE(light.metrics.fraction(dark), kMostOtherSurface);
+        EXPECT_EQ(dark, 0u) << "not even where the picture shows another surface, of which one faces away: left out";
+        ASSERT_TRUE(light.other_surface);
+        EXPECT_LE(light.metrics.fraction(*light.other_surface), bench::kMostOtherSurface);
         EXPECT_EQ(light.metrics.false_light, 0u);
         const auto blind = against(full.lights[i], light.measured);
         expect_caught(blind);
-        EXPECT_LE(blind.fraction(blind.false_shadow), kMostOtherSurface);
+        EXPECT_EQ(blind.false_shadow, 0u);
     }
 }
 
@@ -64,7 +64,7 @@ TEST_F(TruthControls, ShadowsSwitchedOffAreFalseLight) {
     for (const bench::LightAccuracy& light : accuracy.lights) {
         SCOPED_TRACE(light.report.name);
         expect_caught(light.metrics);
-        EXPECT_LE(light.metrics.fraction(light.metrics.false_shadow), kMostOtherSurface);
+        EXPECT_EQ(light.metrics.false_shadow, 0u);
         EXPECT_GT(light.metrics.fraction(light.metrics.leak), 10.0 * kMostAcneAndLeak);
     }
 }

@@ -111,6 +111,23 @@ TEST(SweepFindings, DefaultsAboveTheirBoundSayWhyAndWhatReachingItTakes) {
     EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("no row of this sweep reaches it."));
 }
 
+TEST(SweepFindings, DefaultsThatLeakOrHaveAcneSaySoAndWhichRowDoesNot) {
+    SceneSweep sweep = made_up_sweep({{"defaults", 0.0004, 1.0}, {"leaks", 0.0001, 2.0}, {"tight", 0.0003, 3.0}});
+    sweep.rows[0].lights[0].figures.leak = 0.00012;
+    sweep.rows[1].lights[0].figures.leak = 0.00011;
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("Light leaks into 0.012 %, above the 0.01 %"));
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("nearer to a true edge than a texel"));
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("reaching it takes × 3 their time, by “tight” (0.03 %)."));
+    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("0.05 %"))) << "of wrong pixels it has few enough";
+    sweep.rows[0].lights[0].figures.false_light_far = 1.0e-5;
+    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("nearer to a true edge")));
+    sweep.rows[0].lights[0].figures.leak = 0.0001;
+    EXPECT_FALSE(missed_by_defaults(sweep, "sun", kDrawn));
+    sweep.rows[0].lights[0].figures.acne = 1.0e-6;
+    ASSERT_TRUE(missed_by_defaults(sweep, "sun", kDrawn));
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("There is acne"));
+}
+
 TEST(SweepFindings, DefaultsWithinTheirBoundMissNothing) {
     const SceneSweep sweep = made_up_sweep({{"defaults", 0.0005, 1.0}, {"fine", 0.0001, 3.0}});
     EXPECT_FALSE(missed_by_defaults(sweep, "sun", kDrawn));
