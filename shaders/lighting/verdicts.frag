@@ -9,10 +9,10 @@
 #include "lighting/ray_list.glsl"
 layout(location = 0) out uint verdict_out;
 
-Certainty certainty_of(Surface surface) {
+int verdict_of(Surface surface) {
     LightSample incoming = light_at(surface.position_ca);
-    if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return Certainty(kCertainlyDark, 0.0);
-    if (!takes_shadow(surface.shadow_layers)) return Certainty(kCertainlyLit, 0.0);
+    if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return kCertainlyDark;
+    if (!takes_shadow(surface.shadow_layers)) return kCertainlyLit;
     return certainty(surface.seen_ca, surface.geometric_normal, surface.seen_error_m, surface.triangle);
 }
 
@@ -20,10 +20,12 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = read_surface(pixel);
     if (!surface.exists) discard;
-    Certainty found = certainty_of(surface);
-    verdict_out = uint(found.verdict);
-    if (found.verdict != kUncertain) return;
-    uint place = atomicAdd(ray_count, 1u);
-    listed_rays[place] = ListedRay(uint(pixel.x) | uint(pixel.y) << 16, found.reach);
-    verdict_out = kListed + place;
+    int verdict = verdict_of(surface);
+    verdict_out = uint(verdict);
+    // A loop, because software devices run what is in an if for every pixel, but no round of a loop that none needs.
+    for (int lists = verdict == kUncertain ? 1 : 0; lists > 0; --lists) {
+        uint place = atomicAdd(ray_count, 1u);
+        listed_pixels[place] = uint(pixel.x) | uint(pixel.y) << 16;
+        verdict_out = kListed + place;
+    }
 }

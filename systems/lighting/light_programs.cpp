@@ -65,8 +65,7 @@ LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ProgramRow& wa
     shadow::ProgramRow row = wanted;
     const bool reads_answers = row.sheets && (output == RowOutput::picture || output == RowOutput::visibility);
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
-    row.sheets = wanted.sheets && output != RowOutput::rays;
-    if (output == RowOutput::rays) row.depths = false;
+    row.sheets = wanted.sheets;
     const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
         return e.output == output && e.fragment == fragment && e.row == row;
     });

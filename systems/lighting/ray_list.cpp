@@ -10,7 +10,7 @@ namespace {
 constexpr std::uint32_t kBinding = 1;
 /// In shaders/lighting/answers.glsl.
 constexpr std::uint32_t kVerdictUnit = 5, kAnswerUnit = 7;
-constexpr std::uint64_t kWord = sizeof(std::uint32_t), kWordsPerRay = 2;
+constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 /// Two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
 
@@ -39,7 +39,7 @@ bool RayList::make(glm::uvec2 size_px, gl::TextureHandle depth) {
         bytes_ += std::uint64_t{gl::texel_bytes(format)} * size_px.x * size_px.y;
         return device_.create_texture({label, gl::TextureKind::flat, format, size_px.x, size_px.y}, {}).handle;
     };
-    const std::uint64_t words = 1 + std::uint64_t{kWordsPerRay} * size_px.x * size_px.y;
+    const std::uint64_t words = 1 + std::uint64_t{size_px.x} * size_px.y;
     bytes_ = words * kWord;
     verdicts_ = texture("verdicts of maps", gl::Format::r32ui);
     if (verdicts_) answers_ = texture("answers of rays", gl::Format::r8);

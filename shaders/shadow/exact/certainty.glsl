@@ -1,11 +1,6 @@
 // What the light's map of sheets is certain of, as its middle sees the place.
 #include "shadow/exact/verdict.glsl"
 
-struct Certainty {
-    int verdict;
-    float reach;   // ShadowRay::reach of the ray to its middle, if that has to decide
-};
-
 // Whether the receiver's own surface is drawn into the map, as what is seen of all that casts is; a blended one is not.
 bool receiver_casts(uvec2 receiver) {
 #ifdef LIGHT_PASS

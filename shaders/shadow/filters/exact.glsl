@@ -11,10 +11,13 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
 #include "shadow/exact/certainty.glsl"
 
 // `error_m`: how far position_ca may be off the surface.
-Certainty certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
-    ShadowPoint point = shadow_point(0, position_ca, normal, error_m, 0.0);
-    int verdict = sheet_verdict(point, position_ca, error_m, receiver_casts(receiver));
-    return Certainty(verdict, verdict == kUncertain ? sheet_reach(point, position_ca, error_m) : kNoEnd);
+int certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
+    return sheet_verdict(shadow_point(0, position_ca, normal, error_m, 0.0), position_ca, error_m, receiver_casts(receiver));
+}
+
+// ShadowRay::reach, where that is uncertain.
+float uncertain_reach(vec3 position_ca, vec3 normal, float error_m) {
+    return sheet_reach(shadow_point(0, position_ca, normal, error_m, 0.0), position_ca, error_m);
 }
 #endif
 #include "shadow/exact/traced.glsl"

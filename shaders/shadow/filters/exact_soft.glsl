@@ -27,9 +27,10 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
 #include "shadow/exact/soft_verdict.glsl"
 
 // `error_m`: how far position_ca may be off the surface.
-Certainty certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
-    ShadowPoint point = shadow_point(0, position_ca, normal, error_m, 0.0);
-    return Certainty(soft_verdict(point, position_ca, error_m, receiver_casts(receiver)), kNoEnd);
+int certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
+    return soft_verdict(shadow_point(0, position_ca, normal, error_m, 0.0), position_ca, error_m, receiver_casts(receiver));
 }
+
+float uncertain_reach(vec3 position_ca, vec3 normal, float error_m) { return kNoEnd; }
 #endif
 #include "shadow/exact/traced.glsl"
