@@ -45,19 +45,28 @@ int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2)
 }
 #endif
 
-// Starts at the triangle that a texel shows (instance, triangle) and walks the mesh toward the receiver's ray, as long as it
-// faces the light the same way: past a contour or a boundary the sheet is over, and the ray passes it.
-// Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than rounding, and no mask
-// cuts it out there. `texel`: the map's, metres, or tangents from a lamp.
-int caster_verdict(uvec2 shown, vec3 position_ca, float error_m, vec2 texel) {
-    if (shown.y == kNoTriangle) return kUnknown;
-    InstanceRecord instance = instance_record(shown.x);
+// One of four triangles that texels show, by its bit.
+uvec2 shown_at(FourTriangles shown, int bits) {
+    int i = (bits & 1) != 0 ? 0 : ((bits & 2) != 0 ? 1 : ((bits & 4) != 0 ? 2 : 3));
+    return uvec2(shown.instance[i], shown.triangle[i]);
+}
+
+// Of those of `shown` whose bits are in `left`, one after the other. Starts at the triangle that a texel shows and walks the
+// mesh toward the receiver's ray, as long as it faces the light the same way: past a contour or a boundary the sheet is over, and
+// the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than
+// rounding, and no mask cuts it out there. `texel`: the map's, metres, or tangents from a lamp. kUnknown: some walk came to no end,
+// and none was blocked.
+// One loop for all steps of all walks: neighbouring pixels go in step, and none then waits for another's walk to end before its next.
+int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca);
-    uint triangle = shown.y, came_from = kNoTriangle;
+    bool blocked = false, unknown = false;
+    uvec2 at = shown_at(shown, left);   // instance, triangle
+    uint came_from = kNoTriangle;
     float facing = 0.0;
-    int verdict = kUnknown;
-    for (int step = 0; step < kMostSteps && verdict == kUnknown; ++step) {
-        CasterTriangle t = caster_triangle(triangle);
+    int steps = 0;
+    while (left != 0 && !blocked) {
+        InstanceRecord instance = instance_record(at.x);
+        CasterTriangle t = caster_triangle(at.y == kNoTriangle ? 0u : at.y);
         vec3 a_ca = corner_ca(instance, t.a);
         vec3 a = a_ca - position_ca;
         vec3 b = corner_ca(instance, t.b) - position_ca;
@@ -76,16 +85,27 @@ int caster_verdict(uvec2 shown, vec3 position_ca, float error_m, vec2 texel) {
         uint next = inside.x == least ? across.x : (inside.y == least ? across.y : across.z);
         float behind = side * dot(normal, a);
         float rounding = error_m * length(normal) + kPlaneRounding * length(ab) * length(ac) * length(a);
-#ifdef RAY_MASKS
-        if (t.across_ab == kMaskedTriangle)
-            return behind > rounding ? masked_verdict(t, inside, abs(dot(normal, ray)) / length(ray), texel_area_m2(texel, to_light)) : kPasses;
-#endif
+        ++steps;
+        int verdict = kUnknown;
         if (facing * faces < 0.0) verdict = kPasses;
         else if (least >= 0.0) verdict = behind > rounding ? kBlocked : kPasses;
         else if (next == kNoTriangle) verdict = kPasses;
-        facing = faces;
-        came_from = triangle;
-        triangle = next;
+#ifdef RAY_MASKS
+        if (t.across_ab == kMaskedTriangle)
+            verdict = behind > rounding ? masked_verdict(t, inside, abs(dot(normal, ray)) / length(ray), texel_area_m2(texel, to_light)) : kPasses;
+        bool ends = verdict != kUnknown || t.across_ab == kMaskedTriangle;
+#else
+        bool ends = verdict != kUnknown;
+#endif
+        if (at.y == kNoTriangle) verdict = kUnknown;
+        ends = ends || at.y == kNoTriangle || steps == kMostSteps;
+        blocked = verdict == kBlocked;
+        unknown = unknown || (ends && verdict == kUnknown);
+        came_from = ends ? kNoTriangle : at.y;
+        facing = ends ? 0.0 : faces;
+        steps = ends ? 0 : steps;
+        left = ends ? left & (left - 1) : left;
+        at = ends ? shown_at(shown, left) : uvec2(at.x, next);
     }
-    return verdict;
+    return blocked ? kBlocked : (unknown ? kUnknown : kPasses);
 }

@@ -47,16 +47,9 @@ float shadow_filter(ShadowPoint point) {
 #endif
     for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
         FourTriangles shown = shadow_triangles_around(point, four.corner);
-        int left = different(four, may, shown);
-        bool unknown = false;
-        lit = true;
-        while (left != 0 && lit) {
-            int i = (left & 1) != 0 ? 0 : ((left & 2) != 0 ? 1 : ((left & 4) != 0 ? 2 : 3));
-            left &= left - 1;
-            int verdict = caster_verdict(uvec2(shown.instance[i], shown.triangle[i]), point.position_ca, point.error_m, shadow_texel_sides(point));
-            unknown = unknown || verdict == kUnknown;
-            lit = verdict != kBlocked;
-        }
+        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.error_m, shadow_texel_sides(point));
+        bool unknown = verdict == kUnknown;
+        lit = verdict != kBlocked;
         for (int votes = unknown && lit ? 1 : 0; votes > 0; --votes) {
             vec2 middle = floor(four.place) + 0.5;
             lit = lit_at(point, four.place, middle, shadow_depth(point, middle)) > 0.0;
