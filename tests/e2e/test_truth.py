@@ -49,8 +49,14 @@ class Truth(GameTest):
             self.assertEqual(sorted(mine), sorted(theirs))
             for name, light in mine.items():
                 self.assertGreater(light["scored_px"], 1000, name)
+                # The bench leaves out where the picture shows another surface than the ray meets; the game cannot tell.
+                other = theirs[name]["other_surface_px"]
+                self.assertLess(other, SILHOUETTES * light["scored_px"], name)
+                self.assertEqual(light["scored_px"], theirs[name]["scored_px"] + other, name)
+                self.assertEqual(light["ambiguous_px"], theirs[name]["ambiguous_px"] - other, name)
                 for key in COUNTS:
-                    self.assertEqual(light[key], theirs[name][key], "%s of %s, %s" % (key, name, settings))
+                    apart = abs(light[key] - theirs[name][key])
+                    self.assertLessEqual(apart, other, "%s of %s, %s" % (key, name, settings))
                 for key, value in light["edge"].items():
                     self.assertAlmostEqual(value, theirs[name]["edge"][key], 6, "%s of %s" % (key, name))
 

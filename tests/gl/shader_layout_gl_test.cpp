@@ -166,7 +166,7 @@ std::vector<Block> expected_blocks() {
         {GL_SHADER_STORAGE_BLOCK,
          "RayListBuffer",
          1,
-         2 * sizeof(std::uint32_t),
+         sizeof(std::uint32_t),
          {{"ray_count", 0},
           {"listed_pixels[0]", sizeof(std::uint32_t)}}},
         {GL_SHADER_STORAGE_BLOCK, "SheetEndBuffer", 2, shadow::ends_bytes(1, 1), {{"sheet_ends[0]", 0}}},
