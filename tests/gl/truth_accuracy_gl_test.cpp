@@ -58,6 +58,30 @@ TEST_F(TruthAccuracy, TheBuiltInSceneIsRightFromItsOtherCamerasAndTimes) {
     }
 }
 
+/// The far end: of what is scored and not ambiguous, nothing is wrong, and next to nothing is ambiguous.
+void expect_exact(const bench::Accuracy& accuracy, std::size_t lights) {
+    constexpr double kMostAmbiguous = 0.001;
+    ASSERT_EQ(accuracy.lights.size(), lights);
+    for (const bench::LightAccuracy& light : accuracy.lights) {
+        SCOPED_TRACE(accuracy.scene + ", " + light.report.name);
+        EXPECT_GE(light.metrics.scored, kLeastScored);
+        EXPECT_GE(shadowed_px(light), kLeastShadowed) << "nothing to get wrong";
+        EXPECT_EQ(light.metrics.wrong, 0u);
+        EXPECT_LE(light.metrics.fraction(light.metrics.ambiguous), kMostAmbiguous);
+        EXPECT_NE(light.report.state, LightState::degraded) << reason_code(light.report.reason);
+    }
+}
+
+TEST_F(TruthAccuracy, ExactErrsInNoPixelOfTheBuiltInScenes) {
+    for (const char* camera : {"main", "top", "low"}) {
+        SCOPED_TRACE(camera);
+        bench::StageOptions options;
+        options.camera = camera;
+        options.settings = {"filter=exact"};
+        expect_exact(measure(options), 3);
+    }
+}
+
 TEST_F(TruthAccuracy, TrianglesErrByLessThanAThousandthWhereVotesOfAsManyTexelsErrByMore) {
     constexpr double kThousandth = 0.001;
     for (const char* filter : {"filter=triangles", "filter=sharp_4x4"}) {
@@ -100,6 +124,8 @@ TEST_P(TruthOfFiles, TheirSunShadowsAreRight) {
     bench::StageOptions options;
     options.scene = file;
     expect_right(measure(options), 1, 1);
+    options.settings = {"filter=exact"};
+    expect_exact(measure(options), 1);
 }
 INSTANTIATE_TEST_SUITE_P(Data, TruthOfFiles,
                          ::testing::Values(SceneFile{"Sponza", "sponza-crytek/Sponza.gltf"},
