@@ -3,9 +3,9 @@
 #include <chrono>
 #include <cstring>
 
+#include "bench/beyond_texels.h"
 #include "bench/edge_bounds.h"
 #include "bench/other_surfaces.h"
-#include "systems/shadow/predicted_error.h"
 
 namespace gnomon::bench {
 namespace {
@@ -68,20 +68,6 @@ void judge_edges(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHit
     }
 }
 
-/// On planes the bias is proven; what its filter reads may show an edge half a texel and E from the true one.
-void judge_planes(const oracle::PrimaryHits& hits, const std::vector<std::uint8_t>& creases, const EdgeBounds& bounds,
-                  std::uint32_t index, glm::uvec2 size_px, const oracle::LitBetween& lit, LightAccuracy& light) {
-    const double picture_px = shadow::edge_error_px(0.0, 0.0);
-    std::vector<float> allowed_px(hits.count(), 0.0f);
-    for (std::size_t i = 0; i < hits.count(); ++i)
-        if (light.truth.scored[i] != 0)
-            allowed_px[i] =
-                static_cast<float>(bounds.at(index, hits.position_rel_m[i], hits.normal_ws[i]).error_px - picture_px);
-    light.far =
-        oracle::far_errors({size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous},
-                           creases, allowed_px, lit);
-}
-
 void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const LightItem& light,
                   LightAccuracy& accuracy) {
     SoftAccuracy& soft = accuracy.soft.emplace();
@@ -113,8 +99,8 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
         judge_edges(tracer, hits, snapshot, bounds, indices[k], options, light);
-        judge_planes(hits, creases, bounds, indices[k], accuracy.size_px,
-                     oracle::lit_between(tracer, hits, camera, snapshot.lights[indices[k]]), light);
+        light.far =
+            errors_beyond_texels({tracer, hits, creases, snapshot, indices[k], light.truth}, bounds, light.measured);
     }
 }
 

@@ -27,16 +27,16 @@ struct SoftAccuracy {
 struct LightAccuracy {
     LightReport report;  // of the frame that was measured
     oracle::Metrics metrics;
-    std::vector<float> measured;  // as of --visibility
-    oracle::LightTruth truth;               // ambiguous as well where other_surfaces() are
+    std::vector<float> measured;               // as of --visibility
+    oracle::LightTruth truth;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
-    oracle::EdgeExceptions exceptions;  // edges farther off than predicted there, by name
-    oracle::EdgeExceptions contract;    // farther off than max_error_px allows, where the report says it is kept
-    oracle::FarErrors far;              // wrong pixels that neither an edge nor the map's texels there explain
-    std::size_t beyond_stated = 0;      // scored pixels with a larger bound than their view states for their slope: 0
-    std::optional<SoftAccuracy> soft;   // of lights whose source has a size
-    Spread gpu_us, cpu_us;              // shadow and lighting pass, economy off: every view drawn in every frame
-    std::size_t redrawn_differs = 0;    // pixels that changed when every view was drawn anew; must be 0
+    oracle::EdgeExceptions exceptions;         // edges farther off than predicted there, by name
+    oracle::EdgeExceptions contract;           // farther off than max_error_px allows, where the report says it is kept
+    oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
+    std::size_t beyond_stated = 0;     // scored pixels with a larger bound than their view states for their slope: 0
+    std::optional<SoftAccuracy> soft;  // of lights whose source has a size
+    Spread gpu_us, cpu_us;             // shadow and lighting pass, economy off: every view drawn in every frame
+    std::size_t redrawn_differs = 0;   // pixels that changed when every view was drawn anew; must be 0
 };
 
 struct Accuracy {

@@ -73,9 +73,11 @@ std::string accuracy_table(const Accuracy& accuracy) {
         "filter's\n"
         "half-width from true edges and from creases of the surface; cr: near creases alone. edge, p95, max, predict: "
         "distance of shadow edges from the true ones in pixels; lost: places with\n"
-        "no edge within 8 px. ambig: left out, the truth hangs on the last digits, or the picture shows another surface "
+        "no edge within 8 px. ambig: left out, the truth hangs on the last digits, or the picture shows another "
+        "surface "
         "than\n"
-        "the pixel's ray meets. uncov: no surface measured, counted as wrong. cover: the same over the whole picture. ms: depth and lighting pass, every view drawn anew.\n";
+        "the pixel's ray meets. uncov: no surface measured, counted as wrong. cover: the same over the whole picture. "
+        "ms: depth and lighting pass, every view drawn anew.\n";
     append_soft(accuracy, text);
     for (const LightAccuracy& light : accuracy.lights)
         if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
@@ -85,11 +87,12 @@ std::string accuracy_table(const Accuracy& accuracy) {
                 light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster, e.truth_ambiguous,
                 e.unexplained);
     for (const LightAccuracy& light : accuracy.lights)
-        text += light.other_surface
-                    ? formatted("%s: %zu pixels show another surface than their ray meets (gnomon bench audit lists them).\n",
-                                light.report.name.c_str(), *light.other_surface)
-                    : formatted("%s: this device does not tell which triangle a pixel shows.\n",
-                                light.report.name.c_str());
+        text +=
+            light.other_surface
+                ? formatted(
+                      "%s: %zu pixels show another surface than their ray meets (gnomon bench audit lists them).\n",
+                      light.report.name.c_str(), *light.other_surface)
+                : formatted("%s: this device does not tell which triangle a pixel shows.\n", light.report.name.c_str());
     for (const LightAccuracy& light : accuracy.lights)
         if (light.redrawn_differs > 0)
             text += formatted("%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),

@@ -4,11 +4,10 @@
 #include <cmath>
 #include <exception>
 
+#include "bench/beyond_texels.h"
 #include "bench/edge_bounds.h"
 #include "systems/shadow/filter_table.h"
-#include "systems/shadow/predicted_error.h"
 #include "tests/oracle/edge_exceptions.h"
-#include "tests/oracle/far_errors.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/soft_metrics.h"
 
@@ -51,22 +50,12 @@ void judge_edges(Stage& stage, const TracedTruths& truths, const TracedLight& li
     figures.unexplained = own_bias ? others : 0.0;
 }
 
-/// As judge_planes() in accuracy.cpp, of wrong pixels alone.
 void judge_far(Stage& stage, const TracedTruths& truths, const TracedLight& light, const std::vector<float>& measured,
                RowFigures& figures) {
     const SceneSnapshot& scene = stage.frame().snapshot();
     const EdgeBounds bounds(scene, stage.device().info(), stage.frame().held_fits());
-    const double picture_px = shadow::edge_error_px(0.0, 0.0);
-    std::vector<float> allowed_px(truths.hits.count(), 0.0f);
-    for (std::size_t i = 0; i < truths.hits.count(); ++i) {
-        if (!light.point.scored[i] || (measured[i] >= 0.5f) == (light.point.visibility[i] >= 0.5f)) continue;
-        const glm::dvec3 &point = truths.hits.position_rel_m[i], &normal = truths.hits.normal_ws[i];
-        allowed_px[i] = static_cast<float>(bounds.at(light.index, point, normal).error_px - picture_px);
-    }
-    const oracle::FarErrors far = oracle::far_errors(
-        {truths.hits.size_px, measured, light.point.visibility, light.point.scored, light.point.ambiguous},
-        truths.creases, allowed_px,
-        oracle::lit_between(*truths.tracer, truths.hits, scene.consumers.front(), scene.lights[light.index]));
+    const oracle::FarErrors far = errors_beyond_texels(
+        {*truths.tracer, truths.hits, truths.creases, scene, light.index, light.point}, bounds, measured);
     const double scored = std::max(figures.scored_px.value_or(0.0), 1.0);
     figures.false_shadow_far = static_cast<double>(far.false_shadow + far.crease_shadow) / scored;
     figures.false_light_far = static_cast<double>(far.false_light + far.crease_light) / scored;

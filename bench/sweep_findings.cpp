@@ -99,8 +99,8 @@ HalvingCost halving_cost(const SceneSweep& sweep, const std::string& light, Swee
 
 std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::string& light, SweepCost cost) {
     const std::vector<Choice> all = choices(sweep, light, SweepTruth::point, cost);
-    const auto defaults = std::find_if(all.begin(), all.end(),
-                                       [&](const Choice& c) { return sweep.plan[c.row].name == kDefaultsRow; });
+    const auto defaults =
+        std::find_if(all.begin(), all.end(), [&](const Choice& c) { return sweep.plan[c.row].name == kDefaultsRow; });
     if (defaults == all.end()) return std::nullopt;
     const auto judged = [&](const Choice& choice) {
         const RowFigures& figures = find_row(sweep, choice.row, light)->figures;

@@ -16,7 +16,7 @@ struct TracedLight {
     LightKind kind = LightKind::point;
     oracle::LightTruth point;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
-    oracle::SoftTruth disk;  // about disk_source(); empty if it was not asked for
+    oracle::SoftTruth disk;                    // about disk_source(); empty if it was not asked for
 };
 
 /// What every row is held against: of a scene that stands still, traced once.
@@ -24,7 +24,7 @@ struct TracedTruths {
     std::unique_ptr<oracle::ReferenceTracer> tracer;
     oracle::PrimaryHits hits;
     std::vector<std::uint8_t> creases;  // oracle::creases(hits)
-    std::vector<TracedLight> lights;  // those with a LightShadow
+    std::vector<TracedLight> lights;    // those with a LightShadow
     double trace_s = 0.0;
     std::vector<std::uint32_t> indices() const;  // of the lights
 };

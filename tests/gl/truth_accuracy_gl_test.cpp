@@ -25,7 +25,8 @@ void expect_right(const bench::Accuracy& accuracy, std::size_t lights, std::size
         EXPECT_GE(light.metrics.scored, kLeastScored);
         EXPECT_GE(shadowed_px(light), kLeastShadowed) << "nothing to get wrong";
         EXPECT_LE(wrong_share(light.metrics), kMostWrong);
-        // A texel of the map is many pixels where the light grazes a surface, and some where a picture shows little at all.
+        // A texel of the map is many pixels where the light grazes a surface, and some where a picture shows little at
+        // all.
         if (light.metrics.acne > 0) {
             EXPECT_LE(light.metrics.acne, most_acne_px);
             EXPECT_EQ(light.far.false_shadow + light.far.crease_shadow, 0u) << "not for want of texels alone";

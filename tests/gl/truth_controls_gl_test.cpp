@@ -20,8 +20,7 @@ protected:
         return options;
     }
     static oracle::Metrics against(const bench::LightAccuracy& truth, const std::vector<float>& measured) {
-        return oracle::compare(
-            {kSize_px, measured, truth.truth.visibility, truth.truth.scored, truth.truth.ambiguous});
+        return oracle::compare({kSize_px, measured, truth.truth.visibility, truth.truth.scored, truth.truth.ambiguous});
     }
     /// Fails if the measured picture would pass for the truth.
     static void expect_caught(const oracle::Metrics& metrics) {
@@ -84,8 +83,10 @@ TEST_F(TruthControls, ALightFromElsewhereIsCaught) {
         // The sun turned half around the vertical; the lamps moved across the yard.
         LightItem moved = real;
         const glm::dmat3 half_turn(glm::dvec3(-1.0, 0.0, 0.0), glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0));
-        if (moved.kind == LightKind::directional) moved.rotation_ws = half_turn * moved.rotation_ws;
-        else moved.position_ws_m += glm::dvec3(1.0, 0.5, 1.0);
+        if (moved.kind == LightKind::directional)
+            moved.rotation_ws = half_turn * moved.rotation_ws;
+        else
+            moved.position_ws_m += glm::dvec3(1.0, 0.5, 1.0);
         const oracle::LightTruth truth = tracer.trace_light(hits, moved, true);
         const auto metrics =
             oracle::compare({kSize_px, light->measured, truth.visibility, truth.scored, truth.ambiguous});
