@@ -74,8 +74,7 @@ std::string accuracy_table(const Accuracy& accuracy) {
         "half-width from true edges and from creases of the surface; cr: near creases alone. edge, p95, max, predict: "
         "distance of shadow edges from the true ones in pixels; lost: places with\n"
         "no edge within 8 px. ambig: left out, the truth hangs on the last digits, or the picture shows another "
-        "surface "
-        "than\n"
+        "surface than\n"
         "the pixel's ray meets. uncov: no surface measured, counted as wrong. cover: the same over the whole picture. "
         "ms: depth and lighting pass, every view drawn anew.\n";
     append_soft(accuracy, text);

@@ -119,7 +119,7 @@ std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::str
     Missed missed = judged(*defaults);
     missed.defaults = *defaults;
     const RowFigures& figures = find_row(sweep, defaults->row, light)->figures;
-    missed.leaks_far = figures.false_light_far.value_or(0.0);
+    missed.leaks_far = figures.false_light_far;
     missed.sub_texel = figures.sub_texel_caster.value_or(0.0);
     for (const Figure& count : {figures.sub_texel_caster, figures.truth_ambiguous, figures.unexplained})
         missed.beyond += count.value_or(0.0);

@@ -52,7 +52,8 @@ inline constexpr double kMostWrongByDefault = 0.0005, kMostLeakByDefault = 0.000
 struct Missed {
     Choice defaults;
     bool wrong = false, leak = false, acne = false;  // what they have too much of
-    double leaks = 0.0, leaks_far = 0.0;             // shares; the latter of light that the map's texels do not explain
+    double leaks = 0.0;                              // share
+    Figure leaks_far;  // and that of light which the map's texels do not explain; empty: nobody asked
     double beyond = 0.0, sub_texel = 0.0;  // places on edges farther off than predicted, and the narrow ones of them
     std::optional<Choice> reached;         // the cheapest row that keeps all three; none: no row
 };

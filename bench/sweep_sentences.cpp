@@ -19,11 +19,11 @@ std::string missed_words(const SceneSweep& sweep, const std::string& light) {
         if (is_missed) text += (text.empty() ? " " : "; ") + what;
     };
     complain(missed->wrong, "That is above the " + percent_words(kMostWrongByDefault) + " that defaults are to keep");
-    complain(
-        missed->leak,
-        "Light leaks into " + percent_words(missed->leaks) + ", above the " + percent_words(kMostLeakByDefault) +
-            " that defaults are to keep" +
-            (missed->leaks_far > 0.0 ? "" : ", all of it nearer to a true edge than a texel of the map is wide there"));
+    complain(missed->leak,
+             "Light leaks into " + percent_words(missed->leaks) + ", above the " + percent_words(kMostLeakByDefault) +
+                 " that defaults are to keep" +
+                 (missed->leaks_far == 0.0 ? ", all of it nearer to a true edge than a texel of the map is wide there"
+                                           : ""));
     complain(missed->acne, "There is acne, of which defaults are to have none");
     if (missed->sub_texel > 0.0)
         text += ": of the " + count_words(missed->beyond) + " places on edges that are farther off than predicted, " +

@@ -90,15 +90,14 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error
         if (facing * faces < 0.0) verdict = kPasses;
         else if (least >= 0.0) verdict = behind > rounding ? kBlocked : kPasses;
         else if (next == kNoTriangle) verdict = kPasses;
+        bool ends = verdict != kUnknown || at.y == kNoTriangle || steps == kMostSteps;
 #ifdef RAY_MASKS
-        if (t.across_ab == kMaskedTriangle)
+        if (t.across_ab == kMaskedTriangle) {
             verdict = behind > rounding ? masked_verdict(t, inside, abs(dot(normal, ray)) / length(ray), texel_area_m2(texel, to_light)) : kPasses;
-        bool ends = verdict != kUnknown || t.across_ab == kMaskedTriangle;
-#else
-        bool ends = verdict != kUnknown;
+            ends = true;
+        }
 #endif
         if (at.y == kNoTriangle) verdict = kUnknown;
-        ends = ends || at.y == kNoTriangle || steps == kMostSteps;
         blocked = verdict == kBlocked;
         unknown = unknown || (ends && verdict == kUnknown);
         came_from = ends ? kNoTriangle : at.y;

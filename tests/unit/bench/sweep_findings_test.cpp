@@ -116,6 +116,8 @@ TEST(SweepFindings, DefaultsThatLeakOrHaveAcneSaySoAndWhichRowDoesNot) {
     sweep.rows[0].lights[0].figures.leak = 0.00012;
     sweep.rows[1].lights[0].figures.leak = 0.00011;
     EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("Light leaks into 0.012 %, above the 0.01 %"));
+    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("nearer to a true edge"))) << "nobody looked";
+    sweep.rows[0].lights[0].figures.false_light_far = 0.0;
     EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("nearer to a true edge than a texel"));
     EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("reaching it takes × 3 their time, by “tight” (0.03 %)."));
     EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("0.05 %"))) << "of wrong pixels it has few enough";
