@@ -10,9 +10,14 @@
 #endif
 
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
+const uint kNowhere = 0xfffffffdu;   // where a walk that begins has come from
 const int kPasses = 0, kBlocked = 1, kUnknown = 2;
-// A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on.
+// Of one sheet: a texel's triangle and the one above the receiver are neighbours, or few apart. Meshes finer than texels are voted on.
 const int kMostSteps = 8;
+// Where a sheet ends its mesh goes on: a ledge has an underside, and below that stands the next ledge, narrower perhaps than a texel.
+// Two of them, one below the other, are four folds.
+const int kMostFolds = 4;
+const float kLeastSide_m = 1e-30;   // of a triangle whose corners are one
 // Rounding of a difference, a cross product and a dot product, with their sums.
 const float kPlaneRounding = 12.0 * kUnitRoundoff;
 
@@ -52,18 +57,20 @@ uvec2 shown_at(FourTriangles shown, int bits) {
 }
 
 // Of those of `shown` whose bits are in `left`, one after the other. Starts at the triangle that a texel shows and walks the
-// mesh toward the receiver's ray, as long as it faces the light the same way: past a contour or a boundary the sheet is over, and
-// the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more than
-// rounding, and no mask cuts it out there. `texel`: the map's, metres, or tangents from a lamp. kUnknown: some walk came to no end,
-// and none was blocked.
+// mesh toward the receiver's ray. Where it faces the light the other way from there on, the surface folds back, away from the ray: the
+// walk goes on over the edge that is nearest to the ray, a few folds far, since what comes next may turn toward it again. At a boundary
+// the mesh is over, and the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more
+// than rounding, and no mask cuts it out there: whatever way a walk takes, what it finds stands between receiver and light. `texel`: the
+// map's, metres, or tangents from a lamp. kUnknown: some walk came to no end before any fold, and none was blocked.
 // One loop for all steps of all walks: neighbouring pixels go in step, and none then waits for another's walk to end before its next.
 int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca);
     bool blocked = false, unknown = false;
     uvec2 at = shown_at(shown, left);   // instance, triangle
-    uint came_from = kNoTriangle;
+    uint came_from = kNowhere;
+    bool toward = true;   // over an edge beyond which the ray passes
     float facing = 0.0;
-    int steps = 0;
+    int steps = 0, folds = 0;
     while (left != 0 && !blocked) {
         InstanceRecord instance = instance_record(at.x);
         CasterTriangle t = caster_triangle(at.y == kNoTriangle ? 0u : at.y);
@@ -76,20 +83,26 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error
         vec3 to_light = toward_light(a_ca);
         float faces = dot(normal, to_light);
         float side = faces < 0.0 ? -1.0 : 1.0;
-        // Above 0: the ray passes on the inner side of the edge. That one came over it counts as such.
+        // Above 0: the ray passes on the inner side of the edge.
         vec3 inside = side * vec3(dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a)));
         uvec3 across = uvec3(t.across_ab, t.across_bc, t.across_ca);
-        if (came_from != kNoTriangle)
-            inside = vec3(across.x == came_from ? 0.0 : inside.x, across.y == came_from ? 0.0 : inside.y, across.z == came_from ? 0.0 : inside.z);
-        float least = min(inside.x, min(inside.y, inside.z));
-        uint next = inside.x == least ? across.x : (inside.y == least ? across.y : across.z);
+        vec3 sides = max(vec3(length(ab), length(c - b), length(ac)), vec3(kLeastSide_m));
+        vec3 ways = inside / sides;   // how far beside each edge, in lengths of `ray`
+        const float kBack = 3.0e38;
+        ways = vec3(across.x == came_from ? kBack : ways.x, across.y == came_from ? kBack : ways.y, across.z == came_from ? kBack : ways.z);
+        float way = min(ways.x, min(ways.y, ways.z));
+        uint next = ways.x == way ? across.x : (ways.y == way ? across.y : across.z);
+        bool turns = facing * faces < 0.0;
+        folds += turns ? 1 : 0;
+        // The edge it came over is none to ask about again, where the ray passes beyond it: rounding might say otherwise.
+        bool met = way >= 0.0 && ((toward && !turns) || min(inside.x, min(inside.y, inside.z)) >= 0.0);
         float behind = side * dot(normal, a);
-        float rounding = error_m * length(normal) + kPlaneRounding * length(ab) * length(ac) * length(a);
-        ++steps;
+        float rounding = error_m * length(normal) + kPlaneRounding * sides.x * sides.z * length(a);
+        steps = turns ? 1 : steps + 1;
         int verdict = kUnknown;
-        if (facing * faces < 0.0) verdict = kPasses;
-        else if (least >= 0.0) verdict = behind > rounding ? kBlocked : kPasses;
-        else if (next == kNoTriangle) verdict = kPasses;
+        if (folds > kMostFolds) verdict = kPasses;
+        else if (met) verdict = behind > rounding ? kBlocked : kPasses;
+        else if (next == kNoTriangle || (steps == kMostSteps && folds > 0)) verdict = kPasses;
         bool ends = verdict != kUnknown || at.y == kNoTriangle || steps == kMostSteps;
 #ifdef RAY_MASKS
         if (t.across_ab == kMaskedTriangle) {
@@ -100,9 +113,11 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error
         if (at.y == kNoTriangle) verdict = kUnknown;
         blocked = verdict == kBlocked;
         unknown = unknown || (ends && verdict == kUnknown);
-        came_from = ends ? kNoTriangle : at.y;
+        came_from = ends ? kNowhere : at.y;
+        toward = ends || way < 0.0;
         facing = ends ? 0.0 : faces;
         steps = ends ? 0 : steps;
+        folds = ends ? 0 : folds;
         left = ends ? left & (left - 1) : left;
         at = ends ? shown_at(shown, left) : uvec2(at.x, next);
     }

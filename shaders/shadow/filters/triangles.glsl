@@ -7,7 +7,7 @@
 // A texel that shows the receiver's own surface is off the receiver's plane by less than this, in slopes per texel: a curved
 // mesh bends. What lies farther below the plane, but above the receiver, is another surface, before which a plane that the
 // light grazes has come to lie within part of a texel.
-const float kOwnSurface_texel = 0.25;
+const float kOwnSurface_texel = 0.1;
 
 // Which of the four may show what darkens the receiver.
 bvec4 may_darken(ShadowPoint point, FourTexels four) {
