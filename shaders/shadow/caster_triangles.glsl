@@ -12,7 +12,8 @@
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
 const uint kNowhere = 0xfffffffdu;   // where a walk that begins has come from
 const int kPasses = 0, kBlocked = 1, kUnknown = 2;
-// Of one sheet: a texel's triangle and the one above the receiver are neighbours, or few apart. Meshes finer than texels are voted on.
+// A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on. As many again
+// beyond the first fold.
 const int kMostSteps = 8;
 // Where a sheet ends its mesh goes on: a ledge has an underside, and below that stands the next ledge, narrower perhaps than a texel.
 // Two of them, one below the other, are four folds.
@@ -98,7 +99,7 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error
         bool met = way >= 0.0 && ((toward && !turns) || min(inside.x, min(inside.y, inside.z)) >= 0.0);
         float behind = side * dot(normal, a);
         float rounding = error_m * length(normal) + kPlaneRounding * sides.x * sides.z * length(a);
-        steps = turns ? 1 : steps + 1;
+        steps = turns && folds == 1 ? 1 : steps + 1;
         int verdict = kUnknown;
         if (folds > kMostFolds) verdict = kPasses;
         else if (met) verdict = behind > rounding ? kBlocked : kPasses;

@@ -4,17 +4,17 @@
 #include "shadow/filters/votes.glsl"
 #include "shadow/caster_triangles.glsl"
 
-// A texel that shows the receiver's own surface is off the receiver's plane by less than this, in slopes per texel: a curved
-// mesh bends. What lies farther below the plane, but above the receiver, is another surface, before which a plane that the
+// A texel that shows the receiver's own surface is off the receiver's plane by less than this, in slopes per texel, to either side: a
+// curved mesh bends. What lies farther below the plane, but above the receiver, is another surface, before which a plane that the
 // light grazes has come to lie within part of a texel.
-const float kOwnSurface_texel = 0.1;
+const float kOwnSurface_texel = 0.05;
 
 // Which of the four may show what darkens the receiver.
 bvec4 may_darken(ShadowPoint point, FourTexels four) {
     vec4 below = four.plane - four.stored;
     float own = kOwnSurface_texel * (abs(point.slope.x) + abs(point.slope.y));
     bvec4 other;
-    for (int i = 0; i < 4; ++i) other[i] = below[i] < 0.0 || (below[i] > own && four.stored[i] > point.reference);
+    for (int i = 0; i < 4; ++i) other[i] = below[i] < -own || (below[i] > own && four.stored[i] > point.reference);
     return other;
 }
 
