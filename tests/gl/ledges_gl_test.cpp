@@ -4,14 +4,14 @@
 
 #include "tests/gl/traced_frame_fixture.h"
 
-/// Mouldings: ledges one below the other, each narrower than a texel of the map, so that some show in no texel near what
-/// they darken. Walks from those that do go on over undersides (shaders/shadow/caster_triangles.glsl).
+/// Mouldings: ledges one below the other, each narrower than a texel of the map, so that some show in no texel near
+/// what they darken. Walks from those that do go on over undersides (shaders/shadow/caster_triangles.glsl).
 namespace gnomon {
 namespace {
 
 /// A kind of light, a map too coarse for the ledges, and what of the picture may be lit falsely through it. Walks that
-/// end at the first fold leave 0.41, 0.10 and 0.24 %; these 0.08, 0.04 and 0.13 %, of a point nearly all of it where four
-/// texels agree wrongly.
+/// end at the first fold leave 0.41, 0.10 and 0.24 %; these 0.08, 0.04 and 0.13 %, of a point nearly all of it where
+/// four texels agree wrongly.
 struct Coarse {
     LightKind kind;
     std::uint32_t resolution_px;
@@ -42,15 +42,14 @@ protected:
         settings.viewport_px = {320, 200};
         add_camera({.fov_y_rad = 0.5, .near_m = 0.1, .far_m = 20.0}, {1.6, -0.1, 0.7}, {-1.6, 0.2, -0.7});
         const glm::dvec3 at_m(0.1 + 0.8 * part(random), 1.0 + 2.0 * part(random), -1.0 + 2.0 * part(random));
-        add_light_of(
-            GetParam().kind, at_m,
-            {.filter = ShadowFilter::triangles, .resolution_px = GetParam().resolution_px, .cascades = 1});
+        add_light_of(GetParam().kind, at_m,
+                     {.filter = ShadowFilter::triangles, .resolution_px = GetParam().resolution_px, .cascades = 1});
     }
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Ledges,
-                         ::testing::Values(Coarse{LightKind::directional, 64, 0.0016}, Coarse{LightKind::spot, 256, 0.0006},
-                                           Coarse{LightKind::point, 256, 0.0017}),
+                         ::testing::Values(Coarse{LightKind::directional, 64, 0.0016},
+                                           Coarse{LightKind::spot, 256, 0.0006}, Coarse{LightKind::point, 256, 0.0017}),
                          [](const auto& test) { return kind_name(test.param.kind); });
 
 TEST_P(Ledges, DarkenWhatIsBelowThemThroughTexelsWiderThanThey) {
