@@ -11,7 +11,7 @@ struct Camera {
     double fov_y_rad = 0.9;       // perspective: full vertical angle, (0, pi)
     double half_height_m = 5.0;   // orthographic: half of the visible height
     double near_m = 0.05;         // > 0 for perspective
-    double far_m = 1.0e9;         // > near; infinity is allowed for perspective
+    double far_m = 1.0e9;         // > near; infinity is allowed for perspective. Orthographic views end with what they show
     bool active = true;
 };
 

@@ -11,6 +11,7 @@
 #include "components/name.h"
 #include "components/shadow_caster.h"
 #include "engine/math/frustum.h"
+#include "systems/extract/flat_range.h"
 #include "systems/extract/scene_tree.h"
 
 namespace gnomon {
@@ -135,6 +136,19 @@ void make_names_unique(std::vector<LightItem>& lights) {
     for (LightItem& light : lights) {
         const std::string wish = light.name;
         for (int n = 1; !taken.insert(light.name).second; ++n) light.name = wish + "." + std::to_string(n);
+    }
+}
+
+/// Orthographic cameras look no farther than there is something to see.
+void narrow_flat_views(const ecs::Registry& registry, SceneSnapshot& snapshot) {
+    for (ConsumerItem& consumer : snapshot.consumers) {
+        if (consumer.projection != CameraProjection::orthographic) continue;
+        const Camera& camera = *registry.get<Camera>(consumer.entity);
+        consumer.near_m = camera.near_m;
+        consumer.far_m = camera.far_m;
+        const ViewRange range = flat_range(snapshot, consumer);
+        consumer.near_m = range.near_m;
+        consumer.far_m = range.far_m;
     }
 }
 
@@ -323,7 +337,8 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     anew |= read_changes<Name>(registry, cursors_.name, true);
     anew |= read_changes<Skin>(registry, cursors_.skin, true);
     anew |= read_changes<MorphWeights>(registry, cursors_.weights, false);
-    if (viewport_px != viewport_px_) {
+    const bool resized = viewport_px != viewport_px_;
+    if (resized) {
         viewport_px_ = viewport_px;
         for (ConsumerItem& consumer : snapshot.consumers) consumer.viewport_px = viewport_px;
         snapshot.tree_version = ++snapshot.version;
@@ -335,7 +350,10 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
         const bool placed = world && registry.has<MeshRef>(e) && !registry.has<Skin>(e);
         if (placed && listed != (glm::determinant(world->basis) != 0.0)) anew = true;
     }
-    if (!anew && moved_.empty()) return;
+    if (!anew && moved_.empty()) {
+        if (resized) narrow_flat_views(registry, snapshot);
+        return;
+    }
     started_ = true;
     quarantined_ = transforms.quarantined;
     ++snapshot.version;
@@ -349,6 +367,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     } else {
         refit_tree(snapshot);
     }
+    narrow_flat_views(registry, snapshot);
     std::sort(snapshot.changed_instances.begin(), snapshot.changed_instances.end(),
               [&](std::uint32_t a, std::uint32_t b) {
                   return snapshot.instances[a].gpu_slot < snapshot.instances[b].gpu_slot;

@@ -32,7 +32,7 @@ struct ConsumerItem {
     double fov_y_rad = 0.9;
     double half_height_m = 5.0;
     double near_m = 0.05;
-    double far_m = 1.0e9;  // may be infinite for perspective
+    double far_m = 1.0e9;  // may be infinite for perspective; else depths are spread over all of it (flat_range.h)
     glm::uvec2 viewport_px{1280, 720};
     bool operator==(const ConsumerItem&) const = default;
 };
