@@ -1,10 +1,9 @@
 // The two normals of a fragment. The geometric one comes from the triangle's own plane, computed once on the
 // CPU in double: screen-space derivatives would be noisy on large triangles and the bias rests on it.
+#include "shared/to_camera.glsl"
 layout(binding = 15) uniform usamplerBuffer normal_texels;   // of each triangle
 
 vec4 triangle_normal(uint triangle) { return uintBitsToFloat(texelFetch(normal_texels, int(triangle))); }
-
-vec3 to_camera(vec3 position_ca) { return camera.back.w > 0.5 ? camera.back.xyz : -position_ca; }
 
 vec3 geometric_normal(InstanceRecord instance, uint triangle, vec3 position_ca) {
     vec3 n = normalize(normal_from_model(instance, triangle_normal(triangle).xyz));

@@ -1,6 +1,7 @@
 // The surface buffers as the light passes read them.
 #include "shared/view_distance.glsl"
 #include "shared/pixel_ray.glsl"
+#include "shared/to_camera.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/numerics.glsl"
 layout(binding = 0) uniform sampler2D surface_depth;
@@ -32,12 +33,15 @@ struct Surface {
 
 vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel, view_distance(depth)); }
 
-// Rebuilding rounds; and the rasteriser may have moved the triangle by half a sub-pixel step (2^-9 pixel).
+// Rebuilding rounds; and the rasteriser may have moved corners by half a sub-pixel step (2^-9 pixel) each way, so by half its diagonal.
+const float kHalfDiagonal = 0.70711;   // of a square, of its side
 float surface_error_m(vec3 position_ca) {
+    bool orthographic = camera.back.w > 0.5;
     float distance_m = length(position_ca);
     float pixel = 2.0 * camera.up.w / camera.unproject.w;
-    float pixel_m = camera.back.w > 0.5 ? pixel : pixel * distance_m;
-    return kRebuiltRelative * distance_m + pixel_m * (0.5 * kRasterSnap_texel);
+    float pixel_m = orthographic ? pixel : pixel * distance_m;
+    float depth_m = orthographic ? kFlatRebuiltRelative * camera.unproject.y : 0.0;
+    return kRebuiltRelative * distance_m + depth_m + pixel_m * (kHalfDiagonal * kRasterSnap_texel);
 }
 
 Surface read_surface(ivec2 pixel) {
@@ -45,7 +49,7 @@ Surface read_surface(ivec2 pixel) {
     float depth = texelFetch(surface_depth, pixel, 0).r;
     s.exists = depth > 0.0;
     s.position_ca = surface_position(pixel, depth);
-    s.to_viewer = camera.back.w > 0.5 ? camera.back.xyz : -normalize(s.position_ca);
+    s.to_viewer = normalize(to_camera(s.position_ca));
     vec4 normals = texelFetch(surface_normals, pixel, 0);
     s.shading_normal = unit_from_octahedral(normals.xy);
     s.geometric_normal = unit_from_octahedral(normals.zw);

@@ -2,7 +2,7 @@
 // own corners decide, so that no texel's size enters. RAY_MASKS: some of them are masked.
 #include "shared/numerics.glsl"
 #include "shared/instances.glsl"
-#include "shared/camera_block.glsl"
+#include "shared/to_camera.glsl"
 #include "shadow/caster_records.glsl"
 #include "shadow/toward_light.glsl"
 #ifdef RAY_MASKS
@@ -24,6 +24,12 @@ const float kPlaneRounding = 12.0 * kUnitRoundoff;
 
 vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
     return position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
+}
+
+// A place is rebuilt along the view. Where its surface is seen aslant, it is farther off in that direction, and thus from the planes of
+// others, than error_m off its own: beside a crease it may lie behind what it meets there.
+float error_along_view_m(vec3 position_ca, vec3 normal, float error_m) {
+    return error_m / max(abs(dot(normal, normalize(to_camera(position_ca)))), kNormalError_rad);
 }
 
 #ifdef RAY_MASKS

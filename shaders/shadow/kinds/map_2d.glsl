@@ -27,7 +27,7 @@ struct ShadowPoint {
     LookupFacts facts;
 #endif
 #ifdef SHADOW_TRIANGLES
-    float error_m;        // how far position_ca may be off the true surface
+    float error_m;      // how far position_ca may be off, along the view
 #endif
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_MOMENTS)
     float reference;    // map.z
