@@ -12,9 +12,9 @@
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
 const uint kNowhere = 0xfffffffdu;   // where a walk that begins has come from
 const int kPasses = 0, kBlocked = 1, kUnknown = 2;
-// A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on. As many again
-// beyond the first fold.
-const int kMostSteps = 8;
+// A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on. Half as
+// many again beyond the first fold.
+const int kMostSteps = 16, kMostStepsBeyond = 8;
 // Where a sheet ends its mesh goes on: a ledge has an underside, and below that stands the next ledge, narrower perhaps than a texel.
 // Two of them, one below the other, are four folds.
 const int kMostFolds = 4;
@@ -109,7 +109,7 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error
         int verdict = kUnknown;
         if (folds > kMostFolds) verdict = kPasses;
         else if (met) verdict = behind > rounding ? kBlocked : kPasses;
-        else if (next == kNoTriangle || (steps == kMostSteps && folds > 0)) verdict = kPasses;
+        else if (next == kNoTriangle || (steps == kMostStepsBeyond && folds > 0)) verdict = kPasses;
         bool ends = verdict != kUnknown || at.y == kNoTriangle || steps == kMostSteps;
 #ifdef RAY_MASKS
         if (t.across_ab == kMaskedTriangle) {

@@ -56,22 +56,16 @@ TEST_P(Ledges, DarkenWhatIsBelowThemThroughTexelsWiderThanThey) {
     constexpr int kWalls = 20;
     constexpr double kLeastDark = 0.2, kMostFalseShadow = 0.0001;
     std::mt19937 random(5);
-    double scored = 0.0, dark = 0.0, false_light = 0.0, false_shadow = 0.0;
+    Tally walls;
     for (int wall = 0; wall < kWalls; ++wall) {
         make_wall(random);
         draw();
-        const Judged judged = judge();
-        scored += static_cast<double>(judged.metrics.scored);
-        false_light += static_cast<double>(judged.metrics.false_light);
-        false_shadow += static_cast<double>(judged.metrics.false_shadow);
-        for (std::size_t i = 0; i < judged.truth.size(); ++i)
-            dark += judged.measured[i] >= 0.0f && judged.truth[i] < 0.5f ? 1.0 : 0.0;
+        walls.add(judge());
     }
-    std::cout << "false light in " << 100.0 * false_light / scored << " %, false shadow in "
-              << 100.0 * false_shadow / scored << " %\n";
-    EXPECT_GT(dark, kLeastDark * scored) << "nothing to lose";
-    EXPECT_LE(false_light, GetParam().most_false_light * scored);
-    EXPECT_LE(false_shadow, kMostFalseShadow * scored);
+    std::cout << walls.text() << "\n";
+    EXPECT_GT(walls.dark, kLeastDark * walls.scored) << "nothing to lose";
+    EXPECT_LE(walls.false_light, GetParam().most_false_light * walls.scored);
+    EXPECT_LE(walls.false_shadow, kMostFalseShadow * walls.scored);
 }
 
 }  // namespace

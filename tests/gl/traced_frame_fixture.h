@@ -1,4 +1,6 @@
 #pragma once
+#include <sstream>
+
 #include "engine/assets/mesh_topology.h"
 #include "tests/gl/frame_fixture.h"
 #include "tests/oracle/metrics.h"
@@ -22,6 +24,23 @@ protected:
     struct Judged {
         oracle::Metrics metrics;
         std::vector<float> measured, truth;
+        std::size_t truly_dark = 0;  // of the pixels that are scored
+    };
+    /// Pixels of many pictures.
+    struct Tally {
+        double scored = 0.0, dark = 0.0, false_light = 0.0, false_shadow = 0.0;
+        void add(const Judged& judged) {
+            scored += static_cast<double>(judged.metrics.scored);
+            dark += static_cast<double>(judged.truly_dark);
+            false_light += static_cast<double>(judged.metrics.false_light);
+            false_shadow += static_cast<double>(judged.metrics.false_shadow);
+        }
+        std::string text() const {
+            std::ostringstream line;
+            line << scored << " pixels, " << 100.0 * dark / scored << " % truly dark; false light in "
+                 << 100.0 * false_light / scored << " %, false shadow in " << 100.0 * false_shadow / scored << " %";
+            return line.str();
+        }
     };
     /// The light as drawn, against the snapshot that was drawn, or against `claimed`.
     Judged judge(std::uint32_t light, const SceneSnapshot& claimed) {
@@ -30,8 +49,10 @@ protected:
         const oracle::PrimaryHits hits = tracer.trace_primary(camera);
         const oracle::LightTruth truth = tracer.trace_light(hits, claimed.lights.at(light), true);
         const std::vector<float> measured = visibility(light);
+        std::size_t truly_dark = 0;
+        for (std::size_t i = 0; i < measured.size(); ++i) truly_dark += truth.scored[i] && truth.visibility[i] < 0.5f;
         return {oracle::compare({hits.size_px, measured, truth.visibility, truth.scored, truth.ambiguous}), measured,
-                truth.visibility};
+                truth.visibility, truly_dark};
     }
     Judged judge(std::uint32_t light = 0) { return judge(light, frame().snapshot()); }
 };
