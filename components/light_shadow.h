@@ -133,7 +133,7 @@ struct LightShadow {
     CubeRoute cube_route = CubeRoute::automatic;
     DepthFormat depth_format = DepthFormat::d32f;
     ShadowFit fit = ShadowFit::quantised;  // of a sun's cascades; docs/fits.md compares them
-    std::uint32_t cascades = 0;        // of a sun; 0: four, or fewer that keep max_error_px; at most kMaxCascades
+    std::uint32_t cascades = 0;        // of a sun; 0: as few as serve, one to four; at most kMaxCascades
     CascadeSplits splits = CascadeSplits::practical;
     float split_lambda = 0.7f;  // 0: uniform, 1: logarithmic
     /// CascadeSplits::manual: metres along the view, rising; 0 ends the list. One cascade more than distances.

@@ -1,6 +1,7 @@
 # The real pipeline against the ray tracer, through the bench's own measurement.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_truth LABEL gl SOURCES
+    any_world_gl_test.cpp
     audit_gl_test.cpp
     error_gate_gl_test.cpp
     recorded_errors.cpp
