@@ -66,12 +66,12 @@ uvec2 shown_at(FourTriangles shown, int bits) {
 // Of those of `shown` whose bits are in `left`, one after the other. Starts at the triangle that a texel shows and walks the
 // mesh toward the receiver's ray. Where it faces the light the other way from there on, the surface folds back, away from the ray: the
 // walk goes on over the edge that is nearest to the ray, a few folds far, since what comes next may turn toward it again. At a boundary
-// the mesh is over, and the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane by more
-// than rounding, and no mask cuts it out there: whatever way a walk takes, what it finds stands between receiver and light. `texel`: the
+// the mesh is over, and the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane, by more
+// than rounding or by what the camera sees of it, and no mask cuts it out there: whatever way a walk takes, what it finds stands between receiver and light. `texel`: the
 // map's, metres, or tangents from a lamp. kUnknown: some walk came to no end before any fold, and none was blocked.
 // One loop for all steps of all walks: neighbouring pixels go in step, and none then waits for another's walk to end before its next.
-int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error_m, vec2 texel) {
-    vec3 ray = toward_light(position_ca);
+int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
+    vec3 ray = toward_light(position_ca), view = to_camera(position_ca);
     bool blocked = false, unknown = false;
     uvec2 at = shown_at(shown, left);   // instance, triangle
     uint came_from = kNowhere;
@@ -107,8 +107,13 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, float error
         float rounding = error_m * length(normal) + kPlaneRounding * sides.x * sides.z * length(a);
         steps = turns && folds == 1 ? 1 : steps + 1;
         int verdict = kUnknown;
+        // Too near to its plane to tell on which side: on the one that the camera sees, since the receiver shows. Unless all of it lies
+        // below the receiver's own plane, as what a silhouette hides.
+        bool averted = faces * dot(normal, view) < 0.0;
+        float above = max(dot(receiver_normal, a), max(dot(receiver_normal, b), dot(receiver_normal, c)));
+        bool darkens = behind > rounding || (behind > -rounding && averted && above > error_m);
         if (folds > kMostFolds) verdict = kPasses;
-        else if (met) verdict = behind > rounding ? kBlocked : kPasses;
+        else if (met) verdict = darkens ? kBlocked : kPasses;
         else if (next == kNoTriangle || (steps == kMostStepsBeyond && folds > 0)) verdict = kPasses;
         bool ends = verdict != kUnknown || at.y == kNoTriangle || steps == kMostSteps;
 #ifdef RAY_MASKS

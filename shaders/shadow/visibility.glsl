@@ -39,6 +39,7 @@ float filtered(ShadowPoint point, vec3 position_ca, vec3 normal, float error_m) 
     point = compared_point(point, normal);
     point.slope = shadow_slope(point, normal);
 #ifdef SHADOW_TRIANGLES
+    point.normal = normal;
     point.error_m = error_along_view_m(position_ca, normal, error_m);
 #endif
     return shadow_filter(point);

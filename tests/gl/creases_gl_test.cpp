@@ -1,3 +1,4 @@
+#include <iostream>
 #include <random>
 #include <vector>
 
@@ -8,10 +9,13 @@
 namespace gnomon {
 namespace {
 
-/// A kind of light, and a map whose texels are no wider than folds.
+/// A kind of light, a map whose texels are no wider than folds, and what of the picture may be lit falsely in a gutter:
+/// taken to be before whatever it is near to, a receiver is in 0.024, 0.046 and 0.052 %; by the side that shows, in
+/// 0.004, 0.027 and 0.033 %, for reasons that are the texels'.
 struct Fine {
     LightKind kind;
     std::uint32_t resolution_px;
+    double most_false_light;
 };
 
 class Creases : public TracedFrameTest, public ::testing::WithParamInterface<Fine> {
@@ -33,25 +37,56 @@ protected:
         profile.emplace_back(-1.1, -0.5);
         return game::make_extrusion(profile, 2.0);
     }
-    /// Lit from so far above that no fold darkens another, and seen from aside, so near that all of the picture shows
-    /// it.
-    void make_sheet(CameraProjection projection, Random& random) {
+    /// Along z, open above, of sheet that is seen from both sides.
+    static game::Shape gutter(Random& random) {
+        const int facets = static_cast<int>(between(20.0, 50.0, random));
+        game::Shape shape;
+        for (int i = 0; i <= facets; ++i) {
+            const double angle = 3.14159265 * i / facets;
+            const glm::vec3 out(std::cos(angle), -std::sin(angle), 0.0);
+            for (const float z : {-1.0f, 1.0f}) {
+                shape.positions.push_back(0.5f * out + glm::vec3(0.0f, 0.0f, z));
+                shape.normals.push_back(-out);
+                shape.uvs.emplace_back(0.0f);
+            }
+            if (i == facets) break;
+            const auto first = static_cast<std::uint32_t>(2 * i);
+            for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) shape.indices.push_back(first + corner);
+        }
+        return shape;
+    }
+    void add_view(CameraProjection projection, const glm::dvec3& eye_m, const glm::dvec3& target_m) {
+        settings.viewport_px = {960, 600};
+        // An orthographic view's depths are spread over its range, which ends where nobody said.
+        add_camera({.projection = projection, .fov_y_rad = 0.3, .half_height_m = 0.2, .near_m = 0.1}, eye_m,
+                   target_m - eye_m);
+    }
+    void add_light_at(const glm::dvec3& at_m) {
+        add_light_of(GetParam().kind, at_m,
+                     {.filter = ShadowFilter::triangles, .resolution_px = GetParam().resolution_px, .cascades = 1});
+    }
+    /// Seen from aside, so near that all of the picture shows it.
+    void make_sheet(CameraProjection projection, const glm::dvec3& light_at_m, Random& random) {
         start_anew();
         place(add_analysed(folded_sheet(random)));
-        settings.viewport_px = {960, 600};
         const double azimuth = between(0.0, 6.283, random), elevation = between(0.6, 1.2, random);
         const glm::dvec3 eye_m = 1.5 * glm::dvec3(std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
                                                   std::cos(elevation) * std::sin(azimuth));
-        // An orthographic view's depths are spread over its range, which ends where nobody said.
-        add_camera({.projection = projection, .fov_y_rad = 0.3, .half_height_m = 0.2, .near_m = 0.1}, eye_m, -eye_m);
-        add_light_of(GetParam().kind, {between(-0.8, 0.8, random), 8.0, between(-8.0, 8.0, random)},
-                     {.filter = ShadowFilter::triangles, .resolution_px = GetParam().resolution_px, .cascades = 1});
+        add_view(projection, eye_m, {});
+        add_light_at(light_at_m);
+    }
+    /// Its half that is averted from the light, and what lies in its shadow, seen from the other rim.
+    void make_gutter(CameraProjection projection, Random& random) {
+        start_anew();
+        place(add_analysed(gutter(random)));
+        add_view(projection, {-0.7, between(0.3, 0.8, random), between(-0.4, 0.4, random)}, {0.3, -0.35, 0.0});
+        add_light_at({8.0, between(2.0, 8.0, random), between(-3.0, 3.0, random)});
     }
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Creases,
-                         ::testing::Values(Fine{LightKind::directional, 256}, Fine{LightKind::spot, 256},
-                                           Fine{LightKind::point, 2048}),
+                         ::testing::Values(Fine{LightKind::directional, 1024, 0.00010},
+                                           Fine{LightKind::spot, 1024, 0.00036}, Fine{LightKind::point, 2048, 0.00042}),
                          [](const auto& test) { return kind_name(test.param.kind); });
 
 // Sides rise by 3 in 2 at most, and the light stands higher than 4 in 1 above every one of them.
@@ -61,12 +96,31 @@ TEST_P(Creases, AreLitWhereNothingDarkensThem) {
     for (const CameraProjection projection : {CameraProjection::perspective, CameraProjection::orthographic}) {
         std::size_t dark = 0;
         for (int sheet = 0; sheet < kSheets; ++sheet) {
-            make_sheet(projection, random);
+            make_sheet(projection, {between(-0.8, 0.8, random), 8.0, between(-8.0, 8.0, random)}, random);
             draw();
             for (const float visible : visibility(0)) dark += visible < 1.0f;
         }
         EXPECT_EQ(dark, 0u) << "projection " << static_cast<int>(projection);
     }
+}
+
+// The inner side of a gutter under a low light: beyond where it turns from the light lies what its last averted facets
+// darken, and a receiver there is no farther from their planes than rounding.
+TEST_P(Creases, AreDarkWhereTheirNeighbourDarkensThem) {
+    constexpr int kGutters = 10;
+    constexpr double kNearlyAll = 0.99;
+    Random random(5);
+    Tally gutters;
+    for (const CameraProjection projection : {CameraProjection::perspective, CameraProjection::orthographic})
+        for (int gutter = 0; gutter < kGutters; ++gutter) {
+            make_gutter(projection, random);
+            draw();
+            gutters.add(judge());
+        }
+    std::cout << gutters.text() << "\n";
+    EXPECT_GT(gutters.dark, kNearlyAll * gutters.scored) << "not averted";
+    EXPECT_LE(gutters.false_light, GetParam().most_false_light * gutters.scored);
+    EXPECT_EQ(gutters.false_shadow, 0.0);
 }
 
 }  // namespace

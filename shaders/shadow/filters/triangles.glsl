@@ -48,7 +48,7 @@ float shadow_filter(ShadowPoint point) {
 #endif
     for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
         FourTriangles shown = shadow_triangles_around(point, four.corner);
-        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.error_m, shadow_texel_sides(point));
+        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.normal, point.error_m, shadow_texel_sides(point));
         bool unknown = verdict == kUnknown;
         lit = verdict != kBlocked;
         for (int votes = unknown && lit ? 1 : 0; votes > 0; --votes) {

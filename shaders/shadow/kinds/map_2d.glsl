@@ -19,7 +19,7 @@ struct ShadowPoint {
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec3 position_ca;   // what was asked for
-#ifdef SHADOW_FOOTPRINT
+#if defined(SHADOW_FOOTPRINT) || defined(SHADOW_TRIANGLES)
     vec3 normal;        // of the receiver
 #endif
     float reads_texel;  // how far from it texels are read

@@ -28,7 +28,7 @@ struct ShadowPoint {
     float bias_depth;
     vec2 spread_texel;    // half-width of a disk of taps
     vec3 position_ca;     // what was asked for
-#ifdef SHADOW_FOOTPRINT
+#if defined(SHADOW_FOOTPRINT) || defined(SHADOW_TRIANGLES)
     vec3 normal;          // of the receiver
 #endif
 #ifdef SHADOW_TRIANGLES
