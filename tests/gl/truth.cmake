@@ -11,10 +11,12 @@ if(GNOMON_SAMPLE)
     truth_accuracy_gl_test.cpp
     truth_contract_gl_test.cpp
     truth_controls_gl_test.cpp
+    truth_data_gl_test.cpp
     truth_edges_gl_test.cpp
     truth_planes_gl_test.cpp
     truth_source_gl_test.cpp
     truth_warp_gl_test.cpp
+    ../data/data_files.cpp
     LIBRARIES gnomon_bench_parts gnomon_hard_cases)
 endif()
 # What claims to have no wrong pixel.
