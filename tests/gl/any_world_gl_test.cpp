@@ -101,7 +101,7 @@ TEST_F(AnyWorld, IsShadowedRightWithNothingTuned) {
     constexpr std::size_t kManyPixels = 2000;
     Random random(print_seed());
     Tally worlds;
-    for (int world = 0; world < kWorlds; ++world) {
+    for (int number = 0; number < kWorlds; ++number) {
         make_world(random);
         draw();
         for (std::uint32_t i = 0; i < 3; ++i) {
@@ -110,7 +110,7 @@ TEST_F(AnyWorld, IsShadowedRightWithNothingTuned) {
             const std::size_t wrong = judged.metrics.false_shadow + judged.metrics.false_light;
             if (judged.metrics.scored < kManyPixels) continue;
             EXPECT_LE(static_cast<double>(wrong), kMostWrongOfOne * static_cast<double>(judged.metrics.scored))
-                << "world " << world << ", light " << i << ": " << what_;
+                << "world " << number << ", light " << i << ": " << what_;
         }
     }
     std::cout << worlds.text() << "\n";
