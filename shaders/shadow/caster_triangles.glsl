@@ -107,11 +107,11 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         float rounding = error_m * length(normal) + kPlaneRounding * sides.x * sides.z * length(a);
         steps = turns && folds == 1 ? 1 : steps + 1;
         int verdict = kUnknown;
-        // Too near to its plane to tell on which side: on the one that the camera sees, since the receiver shows. Unless all of it lies
-        // below the receiver's own plane, as what a silhouette hides.
+        // Behind its plane by less than rounding: so it is if that is the side that the camera sees, since the receiver shows. Unless all
+        // of the triangle lies below the receiver's own plane, as what a silhouette hides.
         bool averted = faces * dot(normal, view) < 0.0;
         float above = max(dot(receiver_normal, a), max(dot(receiver_normal, b), dot(receiver_normal, c)));
-        bool darkens = behind > rounding || (behind > -rounding && averted && above > error_m);
+        bool darkens = behind > rounding || (behind > 0.0 && averted && above > error_m);
         if (folds > kMostFolds) verdict = kPasses;
         else if (met) verdict = darkens ? kBlocked : kPasses;
         else if (next == kNoTriangle || (steps == kMostStepsBeyond && folds > 0)) verdict = kPasses;
