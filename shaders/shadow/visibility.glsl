@@ -34,19 +34,19 @@ ShadowPoint compared_point(ShadowPoint point, vec3 normal) {
 #ifdef SHADOW_DEPTHS
 // Compares on the receiver's own plane: of the offset, only what snapping and rounding need is left.
 float shadow_bias_texel() { return 0.0; }
-float filtered(ShadowPoint point, vec3 position_ca, vec3 normal, float error_m) {
+float filtered(ShadowPoint point, vec3 normal, float error_m) {
     if (!may_be_dark(point)) return 1.0;
     point = compared_point(point, normal);
     point.slope = shadow_slope(point, normal);
 #ifdef SHADOW_TRIANGLES
     point.normal = normal;
-    point.error_m = error_along_view_m(position_ca, normal, error_m);
+    point.error_m = error_along_view_m(point.position_ca, normal, error_m);
 #endif
     return shadow_filter(point);
 }
 #else
 float shadow_bias_texel() { return SHADOW_REACH_TEXEL; }
-float filtered(ShadowPoint point, vec3 position_ca, vec3 normal, float error_m) {
+float filtered(ShadowPoint point, vec3 normal, float error_m) {
 #ifdef SHADOW_FOOTPRINT
     point.normal = normal;
 #endif
@@ -70,7 +70,7 @@ float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
     // Where the first lookup fades into a second one, two rounds. A loop, because software devices run both sides of an `if`.
     do {
         ShadowPoint point = shadow_point(lookup, position_ca, normal, error_m, reach_texel);
-        float found = filtered(point, position_ca, normal, error_m);
+        float found = filtered(point, normal, error_m);
 #ifdef SHADOW_FADES
         if (lookup > 0 && !shadow_fades_into(point)) share = 0.0;
 #endif
