@@ -67,11 +67,13 @@ uvec2 shown_at(FourTriangles shown, int bits) {
 // mesh toward the receiver's ray. Where it faces the light the other way from there on, the surface folds back, away from the ray: the
 // walk goes on over the edge that is nearest to the ray, a few folds far, since what comes next may turn toward it again. At a boundary
 // the mesh is over, and the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane, by more
-// than rounding or by what the camera sees of it, and no mask cuts it out there: whatever way a walk takes, what it finds stands between receiver and light. `texel`: the
-// map's, metres, or tangents from a lamp. kUnknown: some walk came to no end before any fold, and none was blocked.
+// than rounding or by what the camera sees of it, and no mask cuts it out there: whatever way a walk takes, what it finds stands between
+// receiver and light. `texel`: the map's, metres, or tangents from a lamp. kUnknown: some walk came to no end before any fold, and none
+// was blocked.
 // One loop for all steps of all walks: neighbouring pixels go in step, and none then waits for another's walk to end before its next.
 int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca), view = to_camera(position_ca);
+    bool shows = dot(receiver_normal, view) > 0.0;   // to the camera: what asks of other places has nothing to tell sides by
     bool blocked = false, unknown = false;
     uvec2 at = shown_at(shown, left);   // instance, triangle
     uint came_from = kNowhere;
@@ -109,7 +111,7 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         int verdict = kUnknown;
         // Behind its plane by less than rounding: so it is if that is the side that the camera sees, since the receiver shows. Unless all
         // of the triangle lies below the receiver's own plane, as what a silhouette hides.
-        bool averted = faces * dot(normal, view) < 0.0;
+        bool averted = shows && faces * dot(normal, view) < 0.0;
         float above = max(dot(receiver_normal, a), max(dot(receiver_normal, b), dot(receiver_normal, c)));
         bool darkens = behind > rounding || (behind > 0.0 && averted && above > error_m);
         if (folds > kMostFolds) verdict = kPasses;
