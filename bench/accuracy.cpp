@@ -6,6 +6,7 @@
 #include "bench/beyond_texels.h"
 #include "bench/edge_bounds.h"
 #include "bench/other_surfaces.h"
+#include "systems/shadow/filter_table.h"
 
 namespace gnomon::bench {
 namespace {
@@ -76,6 +77,13 @@ void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHi
     soft.metrics = oracle::compare_soft(hits, soft.truth, accuracy.measured);
 }
 
+PromisedErrors promised_errors(const LightAccuracy& light) {
+    const oracle::Metrics& m = light.metrics;
+    const oracle::FarErrors& far = light.far;
+    return {m.fraction(m.wrong), m.fraction(m.leak), m.fraction(m.acne),
+            m.fraction(far.false_shadow + far.crease_shadow), m.fraction(far.false_light + far.crease_light)};
+}
+
 void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector<std::uint32_t>& indices,
                  Accuracy& accuracy) {
     const auto start = std::chrono::steady_clock::now();
@@ -101,6 +109,8 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         judge_edges(tracer, hits, snapshot, bounds, indices[k], options, light);
         light.far =
             errors_beyond_texels({tracer, hits, creases, snapshot, indices[k], light.truth}, bounds, light.measured);
+        if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
+            light.promised = promised_errors(light);
     }
 }
 

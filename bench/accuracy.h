@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/promise.h"
 #include "bench/spread.h"
 #include "bench/stage.h"
 #include "engine/core/result.h"
@@ -33,6 +34,7 @@ struct LightAccuracy {
     oracle::EdgeExceptions exceptions;         // edges farther off than predicted there, by name
     oracle::EdgeExceptions contract;           // farther off than max_error_px allows, where the report says it is kept
     oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
+    std::optional<PromisedErrors> promised;  // as defaults are judged; none of filters that soften by the source's size
     std::size_t beyond_stated = 0;     // scored pixels with a larger bound than their view states for their slope: 0
     std::optional<SoftAccuracy> soft;  // of lights whose source has a size
     Spread gpu_us, cpu_us;             // shadow and lighting pass, economy off: every view drawn in every frame

@@ -86,6 +86,10 @@ std::string accuracy_table(const Accuracy& accuracy) {
                 light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster, e.truth_ambiguous,
                 e.unexplained);
     for (const LightAccuracy& light : accuracy.lights)
+        if (const std::string above = light.promised ? promise_words(*light.promised) : ""; !above.empty())
+            text += light.report.name + ": above what defaults are to keep: " + above +
+                    ". What reaching it takes: --sweep full.\n";
+    for (const LightAccuracy& light : accuracy.lights)
         text +=
             light.other_surface
                 ? formatted(

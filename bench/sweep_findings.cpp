@@ -102,24 +102,16 @@ std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::str
     const auto defaults =
         std::find_if(all.begin(), all.end(), [&](const Choice& c) { return sweep.plan[c.row].name == kDefaultsRow; });
     if (defaults == all.end()) return std::nullopt;
-    const auto judged = [&](const Choice& choice) {
+    const auto errors_of = [&](const Choice& choice) {
         const RowFigures& figures = find_row(sweep, choice.row, light)->figures;
-        Missed missed;
-        missed.wrong = choice.error > kMostWrongByDefault;
-        missed.leaks = figures.leak.value_or(0.0);
-        missed.leak = missed.leaks > kMostLeakByDefault;
-        missed.acne = figures.acne.value_or(0.0) > 0.0;
-        return missed;
+        return PromisedErrors{choice.error, figures.leak.value_or(0.0), figures.acne.value_or(0.0),
+                              figures.false_shadow_far, figures.false_light_far};
     };
-    const auto keeps_all = [&](const Choice& choice) {
-        const Missed missed = judged(choice);
-        return !missed.wrong && !missed.leak && !missed.acne;
-    };
+    const auto keeps_all = [&](const Choice& choice) { return keeps_promise(errors_of(choice)); };
     if (keeps_all(*defaults)) return std::nullopt;
-    Missed missed = judged(*defaults);
-    missed.defaults = *defaults;
+    Missed missed;
+    missed.errors = errors_of(*defaults);
     const RowFigures& figures = find_row(sweep, defaults->row, light)->figures;
-    missed.leaks_far = figures.false_light_far;
     missed.sub_texel = figures.sub_texel_caster.value_or(0.0);
     for (const Figure& count : {figures.sub_texel_caster, figures.truth_ambiguous, figures.unexplained})
         missed.beyond += count.value_or(0.0);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/promise.h"
 #include "bench/sweep.h"
 
 /// What a sweep says, light by light.
@@ -44,20 +45,13 @@ struct HalvingCost {
 /// An error of less than half a pixel of those that are scored counts as that.
 HalvingCost halving_cost(const SceneSweep& sweep, const std::string& light, SweepTruth truth, SweepCost cost);
 
-/// What the defaults promise of every light in every scene, as shares of the pixels that are scored: the bounds of
-/// docs/cost.md; and no acne. They cannot be had where shadows are narrower than their map's texels.
-inline constexpr double kMostWrongByDefault = 0.0005, kMostLeakByDefault = 0.0001;
-
-/// Of defaults that are above those: what kept them from it, and what reaching it takes.
+/// Of defaults that do not keep their promise (promise.h): what kept them from it, and what reaching it takes.
 struct Missed {
-    Choice defaults;
-    bool wrong = false, leak = false, acne = false;  // what they have too much of
-    double leaks = 0.0;                              // share
-    Figure leaks_far;  // and that of light which the map's texels do not explain; empty: nobody asked
+    PromisedErrors errors;
     double beyond = 0.0, sub_texel = 0.0;  // places on edges farther off than predicted, and the narrow ones of them
-    std::optional<Choice> reached;         // the cheapest row that keeps all three; none: no row
+    std::optional<Choice> reached;         // the cheapest row that keeps it; none: no row
 };
-/// Empty: the defaults are within them, or not known.
+/// Empty: the defaults keep it, or are not known.
 std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::string& light, SweepCost cost);
 
 /// A tutorial's row, and the best that no more time buys.

@@ -14,23 +14,13 @@ std::string named(const SceneSweep& sweep, const Choice& choice) {
 std::string missed_words(const SceneSweep& sweep, const std::string& light) {
     const auto missed = missed_by_defaults(sweep, light, SweepCost::drawn);
     if (!missed) return {};
-    std::string text;
-    const auto complain = [&text](bool is_missed, const std::string& what) {
-        if (is_missed) text += (text.empty() ? " " : "; ") + what;
-    };
-    complain(missed->wrong, "That is above the " + percent_words(kMostWrongByDefault) + " that defaults are to keep");
-    complain(missed->leak,
-             "Light leaks into " + percent_words(missed->leaks) + ", above the " + percent_words(kMostLeakByDefault) +
-                 " that defaults are to keep" +
-                 (missed->leaks_far == 0.0 ? ", all of it nearer to a true edge than a texel of the map is wide there"
-                                           : ""));
-    complain(missed->acne, "There is acne, of which defaults are to have none");
+    std::string text = " Above what defaults are to keep: " + promise_words(missed->errors);
     if (missed->sub_texel > 0.0)
-        text += ": of the " + count_words(missed->beyond) + " places on edges that are farther off than predicted, " +
+        text += "; of the " + count_words(missed->beyond) + " places on edges that are farther off than predicted, " +
                 count_words(missed->sub_texel) + " belong to shadows or lights narrower than a texel";
-    text += "; ";
-    if (!missed->reached) return text + "no row of this sweep reaches it.";
-    return text + "reaching it takes × " + factor_words(missed->reached->cost) + " their time, by “" +
+    text += ". ";
+    if (!missed->reached) return text + "No row of this sweep reaches it.";
+    return text + "Reaching it takes × " + factor_words(missed->reached->cost) + " their time, by “" +
            sweep.plan[missed->reached->row].name + "” (" + percent_words(missed->reached->error) + ").";
 }
 

@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "bench/accuracy.h"
+#include "bench/promise.h"
 #include "bench/stage.h"
-#include "bench/sweep_findings.h"
 #include "sample_game/picture_files.h"
 #include "sample_game/scene_generator/courtyard.h"
 #include "tests/own_folder.h"
 
 namespace gnomon {
 
-// The bounds that every light of every scene must meet with default settings, and no acne (bench/sweep_findings.h).
+// The bounds that every light of every scene must meet with default settings, and no acne (bench/promise.h).
 inline constexpr double kMostWrong = bench::kMostWrongByDefault, kMostLeak = bench::kMostLeakByDefault;
 
 /// A folder that is gone at the end of the test.

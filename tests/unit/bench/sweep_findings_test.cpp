@@ -104,30 +104,31 @@ TEST(SweepFindings, DefaultsAboveTheirBoundSayWhyAndWhatReachingItTakes) {
     ASSERT_TRUE(missed->reached);
     EXPECT_EQ(sweep.plan[missed->reached->row].name, "fine");
     const std::string said = halving_sentences(sweep).at(0);
-    EXPECT_THAT(said, HasSubstr("above the 0.05 % that defaults are to keep: of the 42 places"));
+    EXPECT_THAT(said, HasSubstr("Above what defaults are to keep: 0.11 % wrong (0.05 %); of the 42 places"));
     EXPECT_THAT(said, HasSubstr("40 belong to shadows or lights narrower than a texel"));
-    EXPECT_THAT(said, HasSubstr("reaching it takes × 3 their time, by “fine” (0.04 %)."));
+    EXPECT_THAT(said, HasSubstr("Reaching it takes × 3 their time, by “fine” (0.04 %)."));
     sweep.rows[1] = sweep.rows[2] = JudgedRow{};
-    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("no row of this sweep reaches it."));
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("No row of this sweep reaches it."));
 }
 
 TEST(SweepFindings, DefaultsThatLeakOrHaveAcneSaySoAndWhichRowDoesNot) {
     SceneSweep sweep = made_up_sweep({{"defaults", 0.0004, 1.0}, {"leaks", 0.0001, 2.0}, {"tight", 0.0003, 3.0}});
     sweep.rows[0].lights[0].figures.leak = 0.00012;
     sweep.rows[1].lights[0].figures.leak = 0.00011;
-    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("Light leaks into 0.012 %, above the 0.01 %"));
-    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("nearer to a true edge"))) << "nobody looked";
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("0.012 % leak (0.01 %). "));
+    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("true edge"))) << "nobody looked";
     sweep.rows[0].lights[0].figures.false_light_far = 0.0;
-    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("nearer to a true edge than a texel"));
-    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("reaching it takes × 3 their time, by “tight” (0.03 %)."));
+    EXPECT_THAT(halving_sentences(sweep).at(0),
+                HasSubstr("0.012 % leak (0.01 %), all of that within half a texel of the map of a true edge."));
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("Reaching it takes × 3 their time, by “tight” (0.03 %)."));
     EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("0.05 %"))) << "of wrong pixels it has few enough";
-    sweep.rows[0].lights[0].figures.false_light_far = 1.0e-5;
-    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("nearer to a true edge")));
+    sweep.rows[0].lights[0].figures.false_light_far = 3.0e-5;
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("(0.01 %), 75 % of that within half a texel"));
     sweep.rows[0].lights[0].figures.leak = 0.0001;
     EXPECT_FALSE(missed_by_defaults(sweep, "sun", kDrawn));
     sweep.rows[0].lights[0].figures.acne = 1.0e-6;
     ASSERT_TRUE(missed_by_defaults(sweep, "sun", kDrawn));
-    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("There is acne"));
+    EXPECT_THAT(halving_sentences(sweep).at(0), HasSubstr("0.0001 % acne (none)"));
 }
 
 TEST(SweepFindings, DefaultsWithinTheirBoundMissNothing) {
