@@ -29,7 +29,7 @@ float visible_share(vec3 geometric, uint triangle) {
 #ifdef SHADOW_RAYS
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    double distance_m = exact_distance(pixel, instance_record(fragment_item.x), corner_ms, triangle_normal(triangle).xyz, interpolated_m);
+    double distance_m = exact_distance(pixel, instance_record(fragment_item.x), corner_ms, triangle, interpolated_m);
     return shadow_visibility_at(place_seen_at(pixel, distance_m), geometric, uvec2(fragment_item.x, triangle));
 #else
     return shadow_visibility(fragment_position_ca, geometric, kRebuiltRelative * length(fragment_position_ca));

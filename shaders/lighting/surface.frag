@@ -32,7 +32,7 @@ void main() {
     picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
 #ifdef WRITE_PLACES
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    double distance_m = exact_distance(ivec2(gl_FragCoord.xy), instance, corner_ms, triangle_normal(triangle).xyz, interpolated_m);
+    double distance_m = exact_distance(ivec2(gl_FragCoord.xy), instance, corner_ms, triangle, interpolated_m);
     float high_m = float(distance_m), low_m = float(distance_m - double(high_m));
     place_out = uvec4(floatBitsToUint(high_m), floatBitsToUint(low_m), fragment_item.x, triangle);
 #endif

@@ -22,6 +22,9 @@ struct ShadowRay {
     uvec2 receiver;  // instance and triangle of that; kNoReceiver: not known
     uint layers;     // of the light
 };
+// How far a place may be off its triangle's plane, of an instance's reach: 2^-35 along each axis of the normal (lighting/exact_place.glsl),
+// as far from its corner as twice the reach along each axis, is 6 times that; twice as much for bases that stretch.
+const float kPlacedRelative = 12.0 * 2.9103830e-11;
 const uvec2 kNoReceiver = uvec2(0xffffffffu);
 
 // The same in floats.
@@ -90,8 +93,9 @@ bool blocks_exactly(ShadowRay ray, uvec2 slots) {
     RayTriangle t = ray_triangle(slots.y);
     InstanceRecord record = instance_record(item.instance);
     dvec3 origin_m = exact_origin(record, camera.anchor_high.xyz, camera.anchor_low.xyz) - ray.from_ca;
-    // Bases are floats, the receiver's and the caster's: so far may planes that are one be apart.
-    float error_m = ray.error_m + 4.0 * kUnitRoundoff * (item.reach_m + largest_side(vec3(ray.from_ca)));
+    // Bases are floats, the receiver's and the caster's: so far may planes that are one be apart. Within one instance they are the same.
+    float units = item.instance == ray.receiver.x ? kPlacedRelative : 4.0 * kUnitRoundoff;
+    float error_m = ray.error_m + units * (item.reach_m + largest_side(vec3(ray.from_ca)));
     ExactHit hit = meets_exactly(ray.along, ray.last, origin_m + exact_image(record, t.a), origin_m + exact_image(record, t.b),
                                  origin_m + exact_image(record, t.c), error_m);
 #ifdef RAY_MASKS

@@ -13,7 +13,7 @@ dvec3 exact_image(InstanceRecord instance, vec3 along_ms) {
 }
 
 // Not turned to any side, of any length.
-dvec3 exact_normal(InstanceRecord instance, vec3 normal_ms) {
+dvec3 exact_normal(InstanceRecord instance, dvec3 normal_ms) {
     dvec3 x = dvec3(instance.basis_x.xyz), y = dvec3(instance.basis_y.xyz), z = dvec3(instance.basis_z.xyz);
-    return cross(y, z) * double(normal_ms.x) + cross(z, x) * double(normal_ms.y) + cross(x, y) * double(normal_ms.z);
+    return cross(y, z) * normal_ms.x + cross(z, x) * normal_ms.y + cross(x, y) * normal_ms.z;
 }

@@ -76,6 +76,19 @@ gl::BufferUse shape_use(const assets::MeshLibrary& library) {
     return bends ? gl::BufferUse::updated : gl::BufferUse::fixed;
 }
 
+/// What float took from a unit normal: half a unit of 2^-24 at most, along each axis.
+float packed_residual(const glm::dvec3& exact, const glm::vec3& rounded) {
+    constexpr int kBits = 10, kMost = (1 << (kBits - 1)) - 1;
+    constexpr double kStep = 0x1p-25 / kMost;
+    std::uint32_t bits = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double off = (exact[axis] - static_cast<double>(rounded[axis])) / kStep;
+        const auto steps = std::clamp(static_cast<int>(std::lround(off)), -kMost, kMost);
+        bits |= (static_cast<std::uint32_t>(steps) & ((1u << kBits) - 1u)) << (kBits * axis);
+    }
+    return std::bit_cast<float>(bits);
+}
+
 }  // namespace
 
 void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
@@ -86,7 +99,9 @@ void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<co
         const glm::dvec3 c(vertices[indices[i + 2]].position_ms);
         const glm::dvec3 n = glm::cross(b - a, c - a);
         const double size = glm::length(n);
-        normals.emplace_back(size > 0.0 ? glm::vec3(n / size) : glm::vec3(0.0f), 0.0f);
+        const glm::dvec3 unit = size > 0.0 ? n / size : glm::dvec3(0.0);
+        const glm::vec3 rounded(unit);
+        normals.emplace_back(rounded, packed_residual(unit, rounded));
     }
 }
 

@@ -31,8 +31,10 @@ struct MaterialRecord {
 };
 static_assert(sizeof(MaterialRecord) == 48);
 
-/// What the surfaces' geometric normals come from: of each triangle of `indices`, zero where it has no area, w unused.
-/// In double: the cross product of float edges is exact enough that the normal is right to float rounding.
+/// What the surfaces' geometric normals come from: of each triangle of `indices`, zero where it has no area. In double:
+/// the cross product of float edges is exact enough that the normal is right to float rounding. The bits of w say what
+/// that rounded away, to 2^-35 along each axis: three signed whole numbers of 10 bits, x lowest, of which 511 are
+/// 2^-25 (plane_normal() in shaders/lighting/exact_place.glsl).
 void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
                           std::vector<glm::vec4>& normals);
 

@@ -31,6 +31,39 @@ protected:
         return add_light({.kind = GetParam(), .intensity = 1000.0f, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at + from,
                          -from, shadow);
     }
+    /// The inner side of a short pipe along z that is open above, in facets across.
+    static game::Shape gutter(int facets) {
+        game::Shape shape;
+        for (int i = 0; i <= facets; ++i) {
+            const double angle = 3.14159265 * i / facets;
+            const glm::vec3 out(std::cos(angle), -std::sin(angle), 0.0);
+            for (const float z : {-0.2f, 0.2f}) {
+                shape.positions.push_back(0.5f * out + glm::vec3(0.0f, 0.0f, z));
+                shape.normals.push_back(-out);
+                shape.uvs.emplace_back(0.0f);
+            }
+            if (i == facets) break;
+            const auto first = static_cast<std::uint32_t>(2 * i);
+            for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) shape.indices.push_back(first + corner);
+        }
+        return shape;
+    }
+    /// Two quads of the plane z = 3.5 x + 1.5 y, with corners that floats hold, one upon a part of the other.
+    static game::Shape slanted_quads() {
+        game::Shape shape;
+        const auto add_quad = [&shape](float low, float high) {
+            const auto first = static_cast<std::uint32_t>(shape.positions.size());
+            for (const glm::vec2 corner : {glm::vec2(low, low), {high, low}, {low, high}, {high, high}}) {
+                shape.positions.emplace_back(corner.x, corner.y, 3.5f * corner.x + 1.5f * corner.y);
+                shape.normals.push_back(glm::normalize(glm::vec3(-3.5f, -1.5f, 1.0f)));
+                shape.uvs.emplace_back(0.0f);
+            }
+            for (const std::uint32_t corner : {0u, 1u, 2u, 2u, 1u, 3u}) shape.indices.push_back(first + corner);
+        };
+        add_quad(-1.0f, 1.0f);
+        add_quad(-0.375f, 0.5f);
+        return shape;
+    }
     oracle::Exactness judged(const SceneSnapshot& claimed, std::uint32_t light = 0) {
         const ConsumerItem& camera = claimed.consumers.at(0);
         const oracle::ReferenceTracer tracer(claimed, library, camera.position_ws_m);
@@ -164,6 +197,41 @@ TEST_P(ExactWorlds, WhatMovedIsWhereItIs) {
         EXPECT_EQ(found.wrong, 0u) << x;
         EXPECT_GT(judged(before).wrong, kLeast) << x << ": the picture does not tell where it is";
     }
+}
+
+/// Facets so narrow that beside the terminator a receiver lies behind its neighbour's plane by less than a float tells
+/// apart: the place comes from the triangle's own plane in double, and the basis is the same.
+TEST_P(ExactWorlds, FacetsThatHardlyBendDarkenTheirNeighbours) {
+    for (const double turn : {0.0, 0.7}) {
+        start_anew();
+        const glm::dquat rotation = glm::angleAxis(turn, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
+        place(add_mesh(gutter(2000)), {.translation_m = at, .rotation = rotation});
+        const glm::dvec3 eye = rotation * glm::dvec3(0.05, 0.5, 0.2), target = rotation * glm::dvec3(0.05, -0.45, 0.0);
+        const glm::dvec3 from = rotation * glm::dvec3(6.0, 3.0, 1.0);
+        add_camera({.fov_y_rad = 0.6, .near_m = 0.05}, at + eye, target - eye);
+        add_light({.kind = GetParam(), .intensity = 1000.0f, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at + from, -from,
+                  {.filter = ShadowFilter::exact});
+        draw();
+        SCOPED_TRACE(turn);
+        expect_exact(judged());
+    }
+}
+
+/// Of a normal that was rounded to floats a place would lie off the plane that both quads are in, behind the other one.
+TEST_P(ExactWorlds, FacesThatAreOneDoNotDarkenEachOther) {
+    constexpr std::uint32_t kFew_px = 64;  // texels as wide as the bars are apart: rays for most
+    const glm::dquat rotation = glm::angleAxis(0.7, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
+    const glm::dvec3 normal = rotation * glm::normalize(glm::dvec3(-3.5, -1.5, 1.0));
+    place(add_mesh(slanted_quads()), {.translation_m = at, .rotation = rotation});
+    for (int i = -4; i <= 4; ++i)
+        place(box({-2.0, -0.02, 0.2 * i - 0.02}, {2.0, 0.02, 0.2 * i + 0.02}), {.translation_m = at + 0.6 * normal});
+    const glm::dvec3 eye = 3.0 * normal + rotation * glm::dvec3(1.0, 0.0, 1.0);
+    const glm::dvec3 from = 4.0 * normal + rotation * glm::dvec3(0.5, 1.0, 0.0);
+    add_camera({.fov_y_rad = 0.9, .near_m = 0.05}, at + eye, -eye);
+    add_light({.kind = GetParam(), .intensity = 1000.0f, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at + from, -from,
+              {.filter = ShadowFilter::exact, .resolution_px = kFew_px});
+    draw();
+    expect_exact(judged());
 }
 
 }  // namespace

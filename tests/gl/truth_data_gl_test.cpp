@@ -1,4 +1,5 @@
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 #include <map>
 
@@ -19,34 +20,58 @@ protected:
         const auto found = kFiner.find(name);
         return found == kFiner.end() ? kMostWrong : found->second;
     }
+    /// Skips the test if there are none, or no time for them.
+    static void for_each_light(
+        const std::vector<std::string>& settings,
+        const std::function<void(const std::string& name, const bench::LightAccuracy& light)>& judge) {
+        if (!std::getenv("GNOMON_LONG")) GTEST_SKIP() << "takes a minute: with GNOMON_LONG only";
+        if (test::data_files().empty()) GTEST_SKIP() << "no test data at " << test::data_folder();
+        for (const auto& [name, verdict] : test::recorded_verdicts()) {
+            if (verdict != test::kSeen) continue;
+            bench::StageOptions options;
+            options.scene = test::data_folder() / name;
+            options.size_px = {640, 360};
+            options.settings = settings;
+            const bench::Accuracy accuracy = measure(options);
+            for (const bench::LightAccuracy& light : accuracy.lights) judge(name, light);
+        }
+    }
 };
 
 TEST_F(TruthData, EveryFileIsShadowedRight) {
-    if (!std::getenv("GNOMON_LONG")) GTEST_SKIP() << "takes a minute: with GNOMON_LONG only";
-    const std::vector<std::string> files = test::data_files();
-    if (files.empty()) GTEST_SKIP() << "no test data at " << test::data_folder();
     constexpr double kMostWrongOfAll = 5.0e-5;
     // In a small picture a pixel or two are more than a share that is meant for large ones.
     constexpr double kFew_px = 3.0;
     std::size_t lights = 0;
     double scored = 0.0, wrong = 0.0;
-    for (const auto& [name, verdict] : test::recorded_verdicts()) {
-        if (verdict != test::kSeen) continue;
-        bench::StageOptions options;
-        options.scene = test::data_folder() / name;
-        options.size_px = {640, 360};
-        const bench::Accuracy accuracy = measure(options);
-        for (const bench::LightAccuracy& light : accuracy.lights) {
-            const auto pixels = static_cast<double>(light.metrics.scored);
-            const auto wrong_pixels = static_cast<double>(light.metrics.wrong);
-            EXPECT_LE(wrong_pixels, most_wrong(name) * pixels + kFew_px) << name << ", " << light.report.name;
-            scored += pixels;
-            wrong += wrong_pixels;
-            ++lights;
-        }
-    }
+    for_each_light({}, [&](const std::string& name, const bench::LightAccuracy& light) {
+        const auto pixels = static_cast<double>(light.metrics.scored);
+        const auto wrong_pixels = static_cast<double>(light.metrics.wrong);
+        EXPECT_LE(wrong_pixels, most_wrong(name) * pixels + kFew_px) << name << ", " << light.report.name;
+        scored += pixels;
+        wrong += wrong_pixels;
+        ++lights;
+    });
+    if (IsSkipped()) return;
     std::cout << lights << " lights, " << scored << " pixels, " << 100.0 * wrong / scored << " % wrong\n";
     EXPECT_LE(wrong, kMostWrongOfAll * scored);
+}
+
+TEST_F(TruthData, NoPixelOfAnyFileIsWrongWithTheExactFilter) {
+    constexpr double kMostAmbiguous = 0.001;
+    constexpr std::size_t kLeastLights = 200;
+    std::size_t lights = 0;
+    double scored = 0.0, ambiguous = 0.0;
+    for_each_light({"filter=exact"}, [&](const std::string& name, const bench::LightAccuracy& light) {
+        EXPECT_EQ(light.metrics.wrong, 0u) << name << ", " << light.report.name;
+        scored += static_cast<double>(light.metrics.scored);
+        ambiguous += static_cast<double>(light.metrics.ambiguous);
+        ++lights;
+    });
+    if (IsSkipped()) return;
+    std::cout << lights << " lights, " << scored << " pixels, " << 100.0 * ambiguous / scored << " % ambiguous\n";
+    EXPECT_GT(lights, kLeastLights);
+    EXPECT_LE(ambiguous, kMostAmbiguous * scored);
 }
 
 }  // namespace
