@@ -5,8 +5,7 @@
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
-#include "systems/extract/scene_tree.h"
-#include "tests/system/test_world.h"
+#include "tests/unit/extract/extracted_world.h"
 
 namespace gnomon {
 namespace {
@@ -15,13 +14,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-class ExtractTest : public ::testing::Test {
+class ExtractTest : public ExtractedWorldTest {
 protected:
-    void update() {
-        const TransformReport& report = transforms.update(world.registry);
-        extractor.update(world.registry, library, report, viewport_px, snapshot);
-        world.registry.discard_changes();
-    }
     const InstanceItem& item(ecs::Entity e) const {
         static const InstanceItem kNone{};
         for (const InstanceItem& i : snapshot.instances)
@@ -34,12 +28,6 @@ protected:
         for (const std::uint32_t i : snapshot.changed_instances) entities.push_back(snapshot.instances[i].entity);
         return entities;
     }
-    TestWorld world;
-    assets::MeshLibrary library = test_library();
-    TransformSystem transforms;
-    Extractor extractor;
-    SceneSnapshot snapshot;
-    glm::uvec2 viewport_px{640, 360};
 };
 
 TEST_F(ExtractTest, AnUnchangedWorldChangesNothing) {
@@ -182,7 +170,8 @@ TEST_F(ExtractTest, EveryChangeOfALightIsSeen) {
     };
     expect_aged(version_after([&] { world.registry.patch<Light>(lamp, [](Light& l) { l.intensity = 3.0f; }); }));
     EXPECT_EQ(snapshot.lights[0].intensity, 3.0f);
-    expect_aged(version_after([&] { world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px = 99; }); }));
+    expect_aged(
+        version_after([&] { world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px = 99; }); }));
     EXPECT_EQ(snapshot.lights[0].shadow.resolution_px, 99u);
     expect_aged(version_after([&] { world.move(lamp, {0, 9, 0}); }));
     EXPECT_EQ(snapshot.lights[0].position_ws_m, glm::dvec3(0, 9, 0));
@@ -242,7 +231,9 @@ std::vector<std::uint32_t> found_at(const SceneSnapshot& scene, const glm::dvec3
     std::vector<std::uint32_t> found;
     visit_instances(
         scene,
-        [&](const math::Aabb& box) { return math::overlaps(box, around) ? math::Overlap::partial : math::Overlap::outside; },
+        [&](const math::Aabb& box) {
+            return math::overlaps(box, around) ? math::Overlap::partial : math::Overlap::outside;
+        },
         [&](std::uint32_t i) { found.push_back(i); });
     return found;
 }

@@ -4,10 +4,8 @@
 
 #include <random>
 
-#include "systems/extract/extract.h"
-#include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
-#include "tests/system/test_world.h"
+#include "tests/unit/extract/extracted_world.h"
 #include "tests/unit/math/random_seed.h"
 
 namespace gnomon {
@@ -144,20 +142,10 @@ TEST(FlatRange, HoldsAllThatIsSeenOfRandomScenesAndLittleElse) {
     EXPECT_GT(seen, 200u);
 }
 
-class FlatViews : public ::testing::Test {
+class FlatViews : public ExtractedWorldTest {
 protected:
-    void update() {
-        const TransformReport& report = transforms.update(world.registry);
-        extractor.update(world.registry, library, report, viewport_px, snapshot);
-        world.registry.discard_changes();
-    }
+    FlatViews() { viewport_px = {100, 100}; }
     double far_m() const { return snapshot.consumers.at(0).far_m; }
-    TestWorld world;
-    assets::MeshLibrary library = test_library();
-    TransformSystem transforms;
-    Extractor extractor;
-    SceneSnapshot snapshot;
-    glm::uvec2 viewport_px{100, 100};
 };
 
 TEST_F(FlatViews, FollowWhatMovesAndWhatThePictureHolds) {

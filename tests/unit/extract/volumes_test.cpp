@@ -33,7 +33,8 @@ TEST(Volumes, TheFrustumHoldsWhatTheCameraSeesAndNothingElse) {
         return math::may_overlap(consumer_frustum(c), {p - reach, p + reach});
     };
     EXPECT_TRUE(sees({9.9, 0, -5}) && sees({0, 4.9, -5}) && sees({0, 0, -9.9}));
-    EXPECT_FALSE(sees({10.1, 0, -5}) || sees({0, 5.1, -5}) || sees({0, 0, -10.1}) || sees({0, 0, 1}) || sees({0, 0, -0.01}));
+    EXPECT_FALSE(sees({10.1, 0, -5}) || sees({0, 5.1, -5}) || sees({0, 0, -10.1}) || sees({0, 0, 1}) ||
+                 sees({0, 0, -0.01}));
     c.projection = CameraProjection::orthographic;
     c.half_height_m = 2.0;
     EXPECT_TRUE(sees({3.9, 1.9, -5}));
