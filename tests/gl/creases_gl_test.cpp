@@ -2,6 +2,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/gl/gutter.h"
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
@@ -37,24 +38,6 @@ protected:
         profile.emplace_back(-1.1, -0.5);
         return game::make_extrusion(profile, 2.0);
     }
-    /// Along z, open above, of sheet that is seen from both sides.
-    static game::Shape gutter(Random& random) {
-        const int facets = static_cast<int>(between(20.0, 50.0, random));
-        game::Shape shape;
-        for (int i = 0; i <= facets; ++i) {
-            const double angle = 3.14159265 * i / facets;
-            const glm::vec3 out(std::cos(angle), -std::sin(angle), 0.0);
-            for (const float z : {-1.0f, 1.0f}) {
-                shape.positions.push_back(0.5f * out + glm::vec3(0.0f, 0.0f, z));
-                shape.normals.push_back(-out);
-                shape.uvs.emplace_back(0.0f);
-            }
-            if (i == facets) break;
-            const auto first = static_cast<std::uint32_t>(2 * i);
-            for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) shape.indices.push_back(first + corner);
-        }
-        return shape;
-    }
     void add_view(CameraProjection projection, const glm::dvec3& eye_m, const glm::dvec3& target_m) {
         settings.viewport_px = {960, 600};
         // An orthographic view's depths are spread over its range, which ends where nobody said.
@@ -78,7 +61,8 @@ protected:
     /// Its half that is averted from the light, and what lies in its shadow, seen from the other rim.
     void make_gutter(CameraProjection projection, Random& random) {
         start_anew();
-        place(add_analysed(gutter(random)));
+        const int facets = static_cast<int>(between(20.0, 50.0, random));
+        place(add_analysed(gutter_shape(facets, 1.0f)));
         add_view(projection, {-0.7, between(0.3, 0.8, random), between(-0.4, 0.4, random)}, {0.3, -0.35, 0.0});
         add_light_at({8.0, between(2.0, 8.0, random), between(-3.0, 3.0, random)});
     }

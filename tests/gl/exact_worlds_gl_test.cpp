@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <random>
 
+#include "tests/gl/gutter.h"
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/oracle/exactness.h"
 
@@ -30,23 +31,6 @@ protected:
         const glm::dvec3 from(1.7, 4.0, -1.3);
         return add_light({.kind = GetParam(), .intensity = 1000.0f, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at + from,
                          -from, shadow);
-    }
-    /// The inner side of a short pipe along z that is open above, in facets across.
-    static game::Shape gutter(int facets) {
-        game::Shape shape;
-        for (int i = 0; i <= facets; ++i) {
-            const double angle = 3.14159265 * i / facets;
-            const glm::vec3 out(std::cos(angle), -std::sin(angle), 0.0);
-            for (const float z : {-0.2f, 0.2f}) {
-                shape.positions.push_back(0.5f * out + glm::vec3(0.0f, 0.0f, z));
-                shape.normals.push_back(-out);
-                shape.uvs.emplace_back(0.0f);
-            }
-            if (i == facets) break;
-            const auto first = static_cast<std::uint32_t>(2 * i);
-            for (const std::uint32_t corner : {0u, 2u, 1u, 1u, 2u, 3u}) shape.indices.push_back(first + corner);
-        }
-        return shape;
     }
     /// Two quads of the plane z = 3.5 x + 1.5 y, with corners that floats hold, one upon a part of the other.
     static game::Shape slanted_quads() {
@@ -205,7 +189,7 @@ TEST_P(ExactWorlds, FacetsThatHardlyBendDarkenTheirNeighbours) {
     for (const double turn : {0.0, 0.7}) {
         start_anew();
         const glm::dquat rotation = glm::angleAxis(turn, glm::normalize(glm::dvec3(1.0, 2.0, 0.5)));
-        place(add_mesh(gutter(2000)), {.translation_m = at, .rotation = rotation});
+        place(add_mesh(gutter_shape(2000, 0.2f)), {.translation_m = at, .rotation = rotation});
         const glm::dvec3 eye = rotation * glm::dvec3(0.05, 0.5, 0.2), target = rotation * glm::dvec3(0.05, -0.45, 0.0);
         const glm::dvec3 from = rotation * glm::dvec3(6.0, 3.0, 1.0);
         add_camera({.fov_y_rad = 0.6, .near_m = 0.05}, at + eye, target - eye);
