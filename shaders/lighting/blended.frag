@@ -21,16 +21,15 @@ layout(location = 0) out vec4 colour_out;
 #endif
 #ifdef SHADOW_RAYS
 #include "lighting/exact_place.glsl"
-flat in vec3 corner_ms;
+flat in uint corner;
 #endif
 
 #ifdef LIGHT_PASS
 float visible_share(vec3 geometric, uint triangle) {
 #ifdef SHADOW_RAYS
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    double distance_m = exact_distance(pixel, instance_record(fragment_item.x), corner_ms, triangle, interpolated_m);
-    return shadow_visibility_at(place_seen_at(pixel, distance_m), geometric, uvec2(fragment_item.x, triangle));
+    dvec3 place_ca = exact_place(ivec2(gl_FragCoord.xy), SurfacePlace(interpolated_m, corner, fragment_item.x, triangle));
+    return shadow_visibility_at(place_ca, geometric, uvec2(fragment_item.x, triangle));
 #else
     return shadow_visibility(fragment_position_ca, geometric, kRebuiltRelative * length(fragment_position_ca));
 #endif

@@ -2,6 +2,7 @@
 // a slanted plane carries into depth, and by more than a float's rounding.
 #include "shared/exact_pixel_ray.glsl"
 #include "shared/exact_instances.glsl"
+#include "lighting/surface_place.glsl"
 
 const double kResidualStep = 5.83215702303235e-11lf;   // 2^-25 / 511
 
@@ -14,14 +15,13 @@ dvec3 plane_normal(uint triangle) {
     return dvec3(rounded.xyz) + dvec3(residual) * kResidualStep;
 }
 
-// Distance along the view at which the pixel's ray meets the plane of a triangle, one of whose corners this is, of the model;
-// what the rasteriser says where that is seen edge-on or is none.
-double exact_distance(ivec2 pixel, InstanceRecord instance, vec3 corner_ms, uint triangle, float interpolated_m) {
+// Where the pixel's ray meets the triangle's plane.
+dvec3 exact_place(ivec2 pixel, SurfacePlace place) {
+    InstanceRecord instance = instance_record(place.instance);
     PixelRay ray = pixel_ray(pixel);
-    dvec3 corner = exact_origin(instance, camera.anchor_high.xyz, camera.anchor_low.xyz) + exact_image(instance, corner_ms);
-    dvec3 normal = exact_normal(instance, plane_normal(triangle));
-    double distance_m = dot(normal, corner - ray.origin) / dot(normal, ray.along);
-    const float kMostOff = 0.5;   // of the distance
-    float off_m = abs(float(distance_m) - interpolated_m);
-    return off_m <= kMostOff * interpolated_m ? distance_m : double(interpolated_m);
+    dvec3 corner_ca = exact_origin(instance, camera.anchor_high.xyz, camera.anchor_low.xyz) + exact_image(instance, vertex_position(place.corner));
+    dvec3 normal = exact_normal(instance, plane_normal(place.triangle));
+    double distance_m = dot(normal, corner_ca - ray.origin) / dot(normal, ray.along);
+    if (!is_believed(float(distance_m), place.interpolated_m)) distance_m = double(place.interpolated_m);
+    return ray.origin + ray.along * distance_m;
 }

@@ -13,9 +13,9 @@ layout(location = 0) out vec4 colour_out;
 layout(location = 1) out vec4 normals_out;
 layout(location = 2) out vec4 material_out;
 layout(location = 3) out vec4 picture_out;
-#ifdef WRITE_PLACES   // for lights that are asked by rays: see surface_targets.glsl
-#include "lighting/exact_place.glsl"
-flat in vec3 corner_ms;
+#ifdef WRITE_PLACES   // for lights that are asked by rays
+#include "lighting/surface_place.glsl"
+flat in uint corner;
 layout(location = 4) out uvec4 place_out;
 #endif
 
@@ -32,8 +32,6 @@ void main() {
     picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
 #ifdef WRITE_PLACES
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    double distance_m = exact_distance(ivec2(gl_FragCoord.xy), instance, corner_ms, triangle, interpolated_m);
-    float high_m = float(distance_m), low_m = float(distance_m - double(high_m));
-    place_out = uvec4(floatBitsToUint(high_m), floatBitsToUint(low_m), fragment_item.x, triangle);
+    place_out = packed_place(SurfacePlace(interpolated_m, corner, fragment_item.x, triangle));
 #endif
 }

@@ -10,7 +10,7 @@ out vec3 fragment_normal;
 out vec2 fragment_uv;
 flat out uvec2 fragment_item;
 #if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
-flat out vec3 corner_ms;   // of the triangle, for lighting/exact_place.glsl
+flat out uint corner;   // a vertex of the triangle, for lighting/surface_place.glsl
 #endif
 
 void main() {
@@ -21,7 +21,7 @@ void main() {
     fragment_uv = uv;
     fragment_item = draw_item;
 #if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
-    corner_ms = position_ms;
+    corner = uint(gl_VertexID);
 #endif
     gl_Position = camera.clip_from_anchor * vec4(position_ca, 1.0);
 }

@@ -9,8 +9,7 @@ layout(binding = 1) uniform sampler2D surface_colour;
 layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
 layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255
 #ifdef SHADOW_RAYS
-#include "shared/exact_pixel_ray.glsl"
-layout(binding = 6) uniform usampler2D surface_places;     // bits of the distance along the view, high and low part; instance, triangle
+layout(binding = 6) uniform usampler2D surface_places;     // see lighting/surface_place.glsl
 #endif
 
 struct Surface {
@@ -24,10 +23,7 @@ struct Surface {
     float shadow_layers;  // those it receives, as an integer
     float error_m;        // how far position_ca may be off the true surface
 #ifdef SHADOW_RAYS
-    dvec3 place_ca;       // the same exactly (lighting/exact_place.glsl)
-    vec3 seen_ca;         // and in float, off by seen_error_m
-    float seen_error_m;
-    uvec2 triangle;       // instance, and triangle of the common index buffer
+    uvec4 place;          // packed
 #endif
 };
 
@@ -60,11 +56,7 @@ Surface read_surface(ivec2 pixel) {
     s.shadow_layers = m.b * 255.0;
     s.error_m = surface_error_m(s.position_ca);
 #ifdef SHADOW_RAYS
-    uvec4 place = texelFetch(surface_places, pixel, 0);
-    s.seen_ca = position_seen_at(pixel, uintBitsToFloat(place.x));
-    s.seen_error_m = kRebuiltRelative * length(s.seen_ca);
-    s.place_ca = place_seen_at(pixel, double(uintBitsToFloat(place.x)) + double(uintBitsToFloat(place.y)));
-    s.triangle = place.zw;
+    s.place = texelFetch(surface_places, pixel, 0);
 #endif
     return s;
 }

@@ -1,26 +1,29 @@
 // One light over its screen rectangle: what its map is certain of, pixel by pixel; all others are listed for rays. Those would
 // cost their neighbours as much if they were asked at once: pixels go in step.
 #include "lighting/surface_targets.glsl"
+#include "lighting/seen_place.glsl"
 #include "row.glsl"
 #include "shadow/light_block.glsl"
 #include "shadow/layers.glsl"
 #include "lighting/light_at.glsl"
 #include "lighting/listed.glsl"
 #include "lighting/ray_list.glsl"
+layout(early_fragment_tests) in;   // by depth, so that there is a surface
 layout(location = 0) out uint verdict_out;
 
-int verdict_of(Surface surface) {
+int verdict_of(ivec2 pixel, Surface surface) {
     LightSample incoming = light_at(surface.position_ca);
     if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return kCertainlyDark;
     if (!takes_shadow(surface.shadow_layers)) return kCertainlyLit;
-    return certainty(surface.seen_ca, surface.geometric_normal, surface.seen_error_m, surface.triangle);
+    SurfacePlace place = unpacked_place(surface.place);
+    SeenPlace seen = seen_place(pixel, place);
+    return certainty(seen.position_ca, seen.error_m, receiver_of(place));
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = read_surface(pixel);
-    if (!surface.exists) discard;
-    int verdict = verdict_of(surface);
+    int verdict = verdict_of(pixel, surface);
     verdict_out = uint(verdict);
     // A loop, because software devices run what is in an if for every pixel, but no round of a loop that none needs.
     for (int lists = verdict == kUncertain ? 1 : 0; lists > 0; --lists) {

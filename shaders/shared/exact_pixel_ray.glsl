@@ -12,8 +12,3 @@ PixelRay pixel_ray(ivec2 pixel) {
     dvec3 ahead = -dvec3(camera.back.xyz);
     return camera.back.w > 0.5 ? PixelRay(lateral, ahead) : PixelRay(dvec3(0.0), lateral + ahead);
 }
-
-dvec3 place_seen_at(ivec2 pixel, double distance_m) {
-    PixelRay ray = pixel_ray(pixel);
-    return ray.origin + ray.along * distance_m;
-}

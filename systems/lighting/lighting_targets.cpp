@@ -3,7 +3,7 @@
 namespace gnomon::lighting {
 namespace {
 
-/// Depth along the view, which triangle of which instance (shaders/lighting/exact_place.glsl).
+/// SurfacePlace of shaders/lighting/surface_place.glsl.
 constexpr gl::Format kPlaceFormat = gl::Format::rgba32ui;
 constexpr gl::Format kDepthFormat = gl::Format::d32f;
 

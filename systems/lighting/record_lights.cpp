@@ -7,6 +7,8 @@ namespace gnomon::lighting {
 void LightingSystem::bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const {
     list.add(gl::BindTexture{6, targets_.places, point_sampler_});
     list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
+    list.add(gl::BindTexels{kTriangleNormalUnit, gpu.triangle_normals()});
+    list.add(gl::BindTexels{9, gpu.vertices()});
     list.add(gl::BindTexels{10, rays.nodes});
     list.add(gl::BindTexels{11, rays.triangles});
     list.add(gl::BindTexels{12, rays.top});
@@ -65,10 +67,10 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
 /// that area of the picture; of surfaces before that depth alone, if it is given.
 void LightingSystem::record_rays(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
                                  std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
-    const gl::DepthTest test = depth ? gl::DepthTest::less : gl::DepthTest::off;
     ray_list_.begin_verdicts(list);
     list.add(gl::SetScissor{area});
-    list.add(gl::SetPipeline{{light.verdicts_program, gl::CullMode::none, false, test, false, false, gl::Blend::off}});
+    list.add(gl::SetPipeline{
+        {light.verdicts_program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::off}});
     bind_surface_textures(list);
     bind_light(light, index, gpu, list);
     list.add(gl::DrawTriangle{depth});

@@ -1,6 +1,7 @@
 # What decides a pixel's shadow exactly.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_sheets LABEL gl SOURCES
+    seen_places_gl_test.cpp
     sheets_gl_test.cpp
     sheets_of_scenes_gl_test.cpp
     soft_sheets_gl_test.cpp

@@ -201,11 +201,12 @@ private:
             "layout(location = 0) out float verdict;\n"
             "void main() {\n"
             "    vec4 place = places[int(gl_FragCoord.y) * 256 + int(gl_FragCoord.x)];\n"
-            "    ShadowPoint point = shadow_point(0, place.xyz, vec3(0.0, 1.0, 0.0), place.w, 0.0);\n"
+            "    SheetPlace at = sheet_place(place.xyz, place.w);\n"
             "    verdict = float(" +
-            (ask == Ask::reach ? "sheet_reach(point, place.xyz, place.w"
-                               : std::string(is_of_source(ask) ? "soft" : "sheet") +
-                                     "_verdict(point, place.xyz, place.w, " + (receivers_cast ? "true" : "false")) +
+            (ask == Ask::reach
+                 ? "sheet_reach(at"
+                 : std::string(is_of_source(ask) ? "soft_verdict(at, place.xyz, " : "sheet_verdict(at, ") +
+                       (receivers_cast ? "true" : "false")) +
             "));\n}\n";
         files.push_back({"verdict.frag", text});
         std::vector<std::string> defines{"SHADOWED 1", "SHADOW_DEPTHS 1", "SHADOW_REACH_TEXEL 0.0",

@@ -10,9 +10,7 @@ const float kRoundings = 1.0;         // share of all that follows from rounding
 const float kTexelHalf = 0.516;       // half of a texel, and how far off a receiver's place may be, in texels
 const float kDepartureFactor = 1.13;
 #endif
-const float kPlacedUnits = 6.0;       // of 2^-24: a vertex, before it is projected
-const float kProjectedUnits = 4.0;    // and a row of the projection
-const float kSplitUnits = 3.5527137e-15;   // of a position given as two floats, 2^-48
+const float kProjectedUnits = 4.0;    // of 2^-24: a row of the projection
 const float kMostMoved_texel = 0.05;  // by rounding, across the map
 const float kStoredUnits = 8.0;       // a depth as it is interpolated, stored and compared
 const float kFloorTangent = 4.0;      // between normal and light, up to which no facet is drawn (SheetFloor)

@@ -1,6 +1,6 @@
 // What passes over sheets pull: a triangle or an edge, as it is projected, and how far rounding may have taken it.
 // C++ twin: SheetItem in systems/shadow/exact/sheet_items.h.
-#include "shared/instances.glsl"
+#include "shared/placed_error.glsl"
 #include "shadow/depth/depth_view_block.glsl"
 #include "shadow/exact/margins.glsl"
 struct SheetItem {
@@ -25,10 +25,7 @@ Corner corner_of(InstanceRecord instance, uint vertex) {
     vec3 position_ms = uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz);
     vec3 position_as = position_from_anchor(instance, position_ms, depth_view.anchor_high.xyz, depth_view.anchor_low.xyz);
     precise vec4 place = depth_view.clip_from_anchor * vec4(position_as, 1.0);
-    vec3 high = vec3(instance.basis_x.w, instance.basis_y.w, instance.basis_z.w), size_ms = abs(position_ms);
-    vec3 local = abs(instance.basis_x.xyz) * size_ms.x + abs(instance.basis_y.xyz) * size_ms.y + abs(instance.basis_z.xyz) * size_ms.z;
-    vec3 offset = abs((high - depth_view.anchor_high.xyz) + (instance.low.xyz - depth_view.anchor_low.xyz));
-    vec3 error_m = kPlacedUnits * kUnitRoundoff * (local + offset) + kSplitUnits * (abs(high) + abs(depth_view.anchor_high.xyz));
+    vec3 error_m = placed_error_m(instance, position_ms, depth_view.anchor_high.xyz, depth_view.anchor_low.xyz);
     vec4 summed = vec4(error_m + kProjectedUnits * kUnitRoundoff * abs(position_as), kProjectedUnits * kUnitRoundoff);
     return Corner(place, kRoundings * (absolute(depth_view.clip_from_anchor) * summed));
 }

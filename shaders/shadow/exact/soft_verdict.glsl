@@ -28,14 +28,14 @@ bool is_held(SheetPlace place, SourceCone cone, float reach_texel) {
 #endif
 }
 
-vec2 ends_of_leaf(ShadowPoint point, SheetPlace place, SourceCone cone) {
+vec2 ends_of_leaf(SheetPlace place, SourceCone cone) {
     vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
-    return ends_of_texel(first_depth(point, place), bounds, cone.texel_tan, cone.alpha_beta.x, cone.steepest);
+    return ends_of_texel(first_depth(place), bounds, cone.texel_tan, cone.alpha_beta.x, cone.steepest);
 }
 
 // Whether no square holds anything of that kind (kOfLit, kOfDark) as near to the light as the cone is above it: from squares that
 // hold all of the cone down to those that do not tell, in the order in which they lie in each other.
-bool is_cone_free(ShadowPoint point, SheetPlace place, SourceCone cone, float reach_texel, int kind) {
+bool is_cone_free(SheetPlace place, SourceCone cone, float reach_texel, int kind) {
     int first[kMostLevels + 1], side[kMostLevels + 1];
     first[0] = 0;
     side[0] = textureSize(sheet_bounds, 0).x;
@@ -63,7 +63,7 @@ bool is_cone_free(ShadowPoint point, SheetPlace place, SourceCone cone, float re
         if (!passes) {
             SheetPlace leaf = place;
             leaf.texel.xy = square;
-            float nearest = level == 0 ? ends_of_leaf(point, leaf, cone)[kind]
+            float nearest = level == 0 ? ends_of_leaf(leaf, cone)[kind]
                                        : sheet_ends[before + first[level] + square.y * side[level] + square.x][kind];
             passes = nearest < least + distance_texel * per_texel;
         }
@@ -91,17 +91,16 @@ bool is_cone_free(ShadowPoint point, SheetPlace place, SourceCone cone, float re
     return false;
 }
 
-int soft_verdict(ShadowPoint point, vec3 position_ca, float error_m, bool receiver_casts) {
-    int found = sheet_verdict(point, position_ca, error_m, receiver_casts);
+int soft_verdict(SheetPlace place, vec3 position_ca, bool receiver_casts) {
+    int found = sheet_verdict(place, receiver_casts);
 #ifdef SHEETS_WITHOUT_REACH
     return found;
 #endif
     if (found == kUncertain) return kUncertain;
-    SheetPlace place = sheet_place(point, position_ca, error_m);
-    SourceCone cone = source_cone(point, position_ca);
+    SourceCone cone = source_cone(place, position_ca);
     if (!place.is_known || !cone.is_known) return kUncertain;
     float reach_texel = cone.texels * (1.0 - place.depth + place.error) + kConeSlack_texel;
     if (!is_held(place, cone, reach_texel)) return kUncertain;
-    if (is_in_the_open(point, place)) return reach_texel <= light.spread.w ? kCertainlyLit : kUncertain;
-    return is_cone_free(point, place, cone, reach_texel, found == kCertainlyLit ? kOfLit : kOfDark) ? found : kUncertain;
+    if (place.is_open) return reach_texel <= light.spread.w ? kCertainlyLit : kUncertain;
+    return is_cone_free(place, cone, reach_texel, found == kCertainlyLit ? kOfLit : kOfDark) ? found : kUncertain;
 }

@@ -3,9 +3,9 @@ float shadow_traced(dvec3 position_ca, vec3 normal, float error_m, uvec2 receive
 #ifdef SHADOW_SHEETS
     vec3 rounded_ca = vec3(position_ca);
     float rounded_m = error_m + kUnitRoundoff * length(rounded_ca);
-    int verdict = certainty(rounded_ca, normal, rounded_m, receiver);
+    int verdict = certainty(rounded_ca, rounded_m, receiver);
     if (verdict != kUncertain) return verdict == kCertainlyLit ? 1.0 : 0.0;
-    return shadow_ray(uncertain_reach(rounded_ca, normal, rounded_m), position_ca, normal, error_m, receiver);
+    return shadow_ray(uncertain_reach(rounded_ca, rounded_m), position_ca, normal, error_m, receiver);
 #else
     return shadow_ray(kNoEnd, position_ca, normal, error_m, receiver);
 #endif

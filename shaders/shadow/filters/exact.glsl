@@ -11,13 +11,13 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
 #include "shadow/exact/certainty.glsl"
 
 // `error_m`: how far position_ca may be off the surface.
-int certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
-    return sheet_verdict(shadow_point(0, position_ca, normal, error_m, 0.0), position_ca, error_m, receiver_casts(receiver));
+int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
+    return sheet_verdict(sheet_place(position_ca, error_m), receiver_casts(receiver));
 }
 
 // ShadowRay::reach, where that is uncertain.
-float uncertain_reach(vec3 position_ca, vec3 normal, float error_m) {
-    return sheet_reach(shadow_point(0, position_ca, normal, error_m, 0.0), position_ca, error_m);
+float uncertain_reach(vec3 position_ca, float error_m) {
+    return sheet_reach(sheet_place(position_ca, error_m));
 }
 #endif
 #include "shadow/exact/traced.glsl"

@@ -27,10 +27,10 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
 #include "shadow/exact/soft_verdict.glsl"
 
 // `error_m`: how far position_ca may be off the surface.
-int certainty(vec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
-    return soft_verdict(shadow_point(0, position_ca, normal, error_m, 0.0), position_ca, error_m, receiver_casts(receiver));
+int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
+    return soft_verdict(sheet_place(position_ca, error_m), position_ca, receiver_casts(receiver));
 }
 
-float uncertain_reach(vec3 position_ca, vec3 normal, float error_m) { return kNoEnd; }
+float uncertain_reach(vec3 position_ca, float error_m) { return kNoEnd; }
 #endif
 #include "shadow/exact/traced.glsl"

@@ -87,16 +87,22 @@ float share_toward_border(ShadowPoint point) {
 }
 #endif
 
+// Of a place: the first cascade that may serve it, and the last; the first of these whose map holds it does.
+ivec2 serving_views(vec3 position_ca) {
+    return ivec2(light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0, light.options.x - 1);
+}
+
 // The cascade of the last lookup; a second one goes on after it.
 int found_cascade;
 
 ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
-    if (lookup == 0) found_cascade = (light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0) - 1;
+    ivec2 views = serving_views(position_ca);
+    if (lookup == 0) found_cascade = views.x - 1;
     ShadowPoint point;
     do {
         ++found_cascade;
         point = point_in_cascade(found_cascade, position_ca, normal, error_m, reach_texel);
-    } while (!point.covered && found_cascade + 1 < light.options.x);
+    } while (!point.covered && found_cascade < views.y);
     return point;
 }
 

@@ -78,10 +78,21 @@ ShadowPoint point_in_view_or_none(int i, vec3 position_ca, vec3 normal, float er
 
 bool has_single_view() { return light.cone.z < 1.0 && (light.cone.z == 0.0 || (light.options.w & 32) != 0); }
 
-ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+// -1: none.
+int serving_view(int lookup, vec3 position_ca) {
     int view = light.options.x - 1;
     if (lookup > 0 || !has_single_view()) view = face_toward(light.options.x - lookup, from_light(position_ca));
-    return point_in_view_or_none(view, position_ca, normal, error_m, reach_texel);
+    return view;
+}
+
+// Of a place: the first view that may serve it, and the last.
+ivec2 serving_views(vec3 position_ca) {
+    int view = serving_view(0, position_ca);
+    return ivec2(view, view);
+}
+
+ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
+    return point_in_view_or_none(serving_view(lookup, position_ca), position_ca, normal, error_m, reach_texel);
 }
 
 #ifdef SHADOW_FADES

@@ -313,9 +313,9 @@ double in_shaders(const std::string& name, const std::string& path = "shadow/exa
 }
 
 TEST(SheetMargins, AreTheSameInShaders) {
-    EXPECT_EQ(in_shaders("kPlacedUnits"), shadow::kPlacedUnits);
+    EXPECT_EQ(in_shaders("kPlacedUnits", "shared/placed_error.glsl"), shadow::kPlacedUnits);
     EXPECT_EQ(in_shaders("kProjectedUnits"), shadow::kProjectedUnits);
-    EXPECT_NEAR(in_shaders("kSplitUnits"), shadow::kSplitUnits, 1e-6 * shadow::kSplitUnits);
+    EXPECT_NEAR(in_shaders("kSplitUnits", "shared/placed_error.glsl"), shadow::kSplitUnits, 1e-6 * shadow::kSplitUnits);
     EXPECT_EQ(in_shaders("kMostMoved_texel"), shadow::kMostMoved_texel);
     EXPECT_EQ(in_shaders("kDepartureFactor"), shadow::kDepartureFactor);
     EXPECT_EQ(in_shaders("kFloorTangent"), shadow::kFloorTangent);
