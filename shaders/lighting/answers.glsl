@@ -5,7 +5,6 @@ layout(binding = 7) uniform sampler2D answers;     // of the rays, in the order 
 
 float found_visibility(ivec2 pixel) {
     uint verdict = texelFetch(verdicts, pixel, 0).x;
-    int place = int(max(verdict, kListed) - kListed), width = textureSize(answers, 0).x;
-    float answer = texelFetch(answers, ivec2(place % width, place / width), 0).x;
+    float answer = texelFetch(answers, list_texel(int(max(verdict, kListed) - kListed), textureSize(answers, 0).x), 0).x;
     return verdict < kListed ? 1.0 - float(verdict) : answer;
 }

@@ -1,15 +1,16 @@
-// The rays of a list, one after the other, row by row.
+// The rays of a list, one after the other.
 #include "lighting/surface_targets.glsl"
 #include "lighting/seen_place.glsl"
 #include "lighting/exact_place.glsl"
 #include "row.glsl"
 #include "shadow/light_block.glsl"
+#include "lighting/listed.glsl"
 #include "lighting/ray_list.glsl"
 layout(location = 0) out float answer_out;
 
 void main() {
-    uint listed = uint(gl_FragCoord.y) * uint(camera.unproject.z) + uint(gl_FragCoord.x);
-    if (listed >= ray_count) discard;
+    int listed = list_place(ivec2(gl_FragCoord.xy), list_width(ivec2(camera.unproject.zw)));
+    if (listed >= int(ray_count)) discard;
     ivec2 pixel = ivec2(listed_pixels[listed] & 0xffffu, listed_pixels[listed] >> 16);
     Surface surface = read_surface(pixel);
     SurfacePlace place = unpacked_place(surface.place);

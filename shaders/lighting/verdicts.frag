@@ -14,16 +14,15 @@ layout(location = 0) out uint verdict_out;
 int verdict_of(ivec2 pixel, Surface surface) {
     LightSample incoming = light_at(surface.position_ca);
     if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return kCertainlyDark;
-    if (!takes_shadow(surface.shadow_layers)) return kCertainlyLit;
     SurfacePlace place = unpacked_place(surface.place);
+    if (!takes_shadow(received_layers(instance_record(place.instance)))) return kCertainlyLit;
     SeenPlace seen = seen_place(pixel, place);
     return certainty(seen.position_ca, seen.error_m, receiver_of(place));
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    Surface surface = read_surface(pixel);
-    int verdict = verdict_of(pixel, surface);
+    int verdict = verdict_of(pixel, read_surface(pixel));
     verdict_out = uint(verdict);
     // A loop, because software devices run what is in an if for every pixel, but no round of a loop that none needs.
     for (int lists = verdict == kUncertain ? 1 : 0; lists > 0; --lists) {

@@ -6,6 +6,10 @@
 
 namespace gnomon::lighting {
 
+/// Texels of the picture in which the rays of a list are drawn and their answers lie: room for each pixel of a picture
+/// of up to 2^28 (16384 x 16384), neither edge longer than 16384. GLSL twin: shaders/lighting/listed.glsl.
+glm::uvec2 ray_list_size_px(glm::uvec2 picture_px);
+
 /// Pixels of which a light's map is not certain (docs/exact.md), gathered so that rays cost no others: what the map
 /// says of each pixel, the list of those for rays, and their answers. One light after the other uses it. Holds nothing
 /// unless one asks for it.
@@ -34,7 +38,6 @@ public:
 private:
     void release();
     bool make(glm::uvec2 size_px, gl::TextureHandle depth);
-    gl::Rect viewport() const;
 
     gl::Device& device_;
     glm::uvec2 size_px_{0, 0};
