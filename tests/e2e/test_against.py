@@ -53,6 +53,8 @@ class AgainstTest(unittest.TestCase):
             self.assertGreater(found["moving"][way]["views_drawn"], 0)
         self.assertEqual(found["still_against_drawn"]["own"], found["still"]["own"])
         self.assertEqual(found["still_against_drawn"]["other"], found["drawn"]["other"])
+        self.assertEqual(found["walk_against_drawn"]["own"], found["walk"]["own"])
+        self.assertGreaterEqual(found["walk_against_drawn"]["other"]["views_drawn"], 3, "while the camera walks as well")
 
     def test_without_another_way_frames_without_shadows_are_the_base(self):
         code, text, found = self.run_bench()
