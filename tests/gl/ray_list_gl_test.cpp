@@ -1,5 +1,7 @@
 #include <epoxy/gl.h>
 
+#include <glm/vec4.hpp>
+#include <random>
 #include <set>
 
 #include "engine/gl/shader_source.h"

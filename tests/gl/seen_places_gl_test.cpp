@@ -1,3 +1,5 @@
+#include <bit>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <iostream>
 
