@@ -1,5 +1,6 @@
 #include <bit>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <iostream>
 
@@ -39,6 +40,9 @@ ConsumerItem random_camera(Random& random, const glm::dvec3& offset_m) {
     camera.rotation_ws = glm::mat3_cast(glm::angleAxis(between(random, 0.0, 6.3), test::direction(random)));
     if (chance(random, 0.4))  // upright
         camera.rotation_ws = glm::mat3_cast(glm::angleAxis(between(random, 0.0, 6.3), glm::dvec3(0.0, 1.0, 0.0)));
+    if (chance(random, 0.2))  // along the world's axes, as walls are: near its middle a ray's numbers cancel
+        camera.rotation_ws = glm::mat3_cast(
+            glm::angleAxis(0.5 * glm::pi<double>() * static_cast<double>(random() % 4), glm::dvec3(0.0, 1.0, 0.0)));
     if (chance(random, 0.3)) camera.projection = CameraProjection::orthographic;
     camera.fov_y_rad = between(random, 0.1, 2.0);
     camera.far_m = 100.0;
