@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "engine/math/frustum.h"
 #include "systems/extract/instance_order.h"
@@ -16,6 +17,12 @@ namespace {
 void put(std::vector<std::byte>& bytes, std::uint32_t offset, const void* record, std::size_t size) {
     if (bytes.size() < offset + size) bytes.resize(offset + size);
     std::memcpy(bytes.data() + offset, record, size);
+}
+
+/// Of anything in a box, from a place, at most. What is drawn in this order hides much of what follows, which is then
+/// not shaded: the small and near first, grounds and walls, which reach far, in what is left of the picture.
+double farthest_m(const math::Aabb& box, const glm::dvec3& place) {
+    return glm::distance(math::centre(box), place) + 0.5 * glm::distance(box.min, box.max);
 }
 
 }  // namespace
@@ -105,6 +112,7 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
         // Blended instances are drawn one by one, sorted; others in one go.
         const std::uint32_t step = blend ? 1 : count;
         for (std::uint32_t i = 0; i < count; i += step) {
+            const std::uint32_t nearest = visible_[first + i];
             SurfaceDraw draw{submesh.material,
                              submesh.first_index,
                              submesh.index_count,
@@ -113,12 +121,12 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
                              step,
                              head.mirrored,
                              gpu.material(submesh.material).double_sided || head.folded,
-                             0.0};
+                             farthest_m_[nearest]};
             for (std::uint32_t k = 0; k < step; ++k)
                 draw_items_.push_back({scene.instances[visible_[first + i + k]].gpu_slot, submesh.first_index / 3});
             if (blend) {
                 draw.distance_m =
-                    glm::distance(math::centre(scene.instances[visible_[first + i]].bounds_ws), consumer.position_ws_m);
+                    glm::distance(math::centre(scene.instances[nearest].bounds_ws), consumer.position_ws_m);
                 blended_.push_back(draw);
             } else {
                 draws_.push_back(draw);
@@ -132,14 +140,16 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     draw_items_.clear();
     draws_.clear();
     blended_.clear();
+    farthest_m_.resize(scene.instances.size());
     const math::Frustum frustum = consumer_frustum(consumer);
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceItem& item = scene.instances[i];
-        if (item.visible && item.gpu_slot < gpu.capacity() && math::may_overlap(frustum, item.bounds_ws))
-            visible_.push_back(i);
+        if (!item.visible || item.gpu_slot >= gpu.capacity() || !math::may_overlap(frustum, item.bounds_ws)) continue;
+        visible_.push_back(i);
+        farthest_m_[i] = farthest_m(item.bounds_ws, consumer.position_ws_m);
     }
-    const auto key = [&scene](std::uint32_t i) {
-        return std::pair(scene.instances[i].mesh * 2 + (scene.instances[i].mirrored ? 1u : 0u), i);
+    const auto key = [&](std::uint32_t i) {
+        return std::tuple(scene.instances[i].mesh * 2 + (scene.instances[i].mirrored ? 1u : 0u), farthest_m_[i], i);
     };
     std::sort(visible_.begin(), visible_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     for_each_mesh_run(scene, visible_, [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
@@ -153,7 +163,7 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     });
     // Equals stay in the order of their items; a stable sort would allocate.
     std::sort(draws_.begin(), draws_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) {
-        return a.material != b.material ? a.material < b.material : a.first_item < b.first_item;
+        return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.first_item < b.first_item;
     });
     std::sort(blended_.begin(), blended_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) {
         return a.distance_m != b.distance_m ? a.distance_m > b.distance_m : a.first_item < b.first_item;

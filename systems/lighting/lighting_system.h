@@ -118,7 +118,7 @@ private:
         std::int32_t base_vertex;
         std::uint32_t first_item, item_count;
         bool mirrored, two_sided;
-        double distance_m;  // blended ones: from the camera, for their order
+        double distance_m;  // from the camera, for their order: of the nearest instance's end; blended: of its middle
     };
 
     /// What evaluates a light, and what it reads.
@@ -188,6 +188,7 @@ private:
     std::uint32_t light_stride_ = 0, kept_stride_ = 0, lights_offset_ = 0, kept_offset_ = 0, ambient_offset_ = 0,
                   exposure_offset_ = 0;
     std::vector<std::uint32_t> visible_;
+    std::vector<double> farthest_m_;  // of those, by instance
     std::vector<DrawItem> draw_items_;
     std::vector<SurfaceDraw> draws_, blended_;
     std::vector<std::byte> uniform_scratch_;

@@ -129,7 +129,8 @@ TEST_F(MisledKeptVisibilityGl, ASurfaceThatASignatureMissesWouldBeSeen) {
     add_camera({.fov_y_rad = 0.8}, {0.5, 4.0, 6.0}, {-0.5, -4.0, -6.0});
     for (int i = 0; i <= kStillFrames; ++i) step();
     ASSERT_EQ(report.lights.at(0).kept.reason, Reason::visibility_kept);
-    world.patch<Transform>(bystander, [](Transform& t) { t.translation_m.y += 0.4; });
+    // Away from the camera: in another order the surfaces would tell.
+    world.patch<Transform>(bystander, [](Transform& t) { t.translation_m.x -= 0.4; });
     const auto versions = [&] {
         std::vector<std::uint64_t> all;
         for (const InstanceItem& item : snapshot.instances) all.push_back(item.version);

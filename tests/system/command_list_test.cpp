@@ -88,8 +88,8 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BindMeshes{vertices, indices, items},
         BindTexture{0, texture("white"), sampler("scene texture")},
         BindUniforms{2, materials, 0, 48},
+        DrawMeshes{kBoxFirst, kBoxCount, 4, 1, 1},  // the plane reaches farther
         DrawMeshes{0, kPlaneCount, 0, 0, 1},
-        DrawMeshes{kBoxFirst, kBoxCount, 4, 1, 1},
         EndPass{},
         EndTimer{0xfffffff0u},
         EndGroup{},

@@ -38,13 +38,14 @@ protected:
         ADD_FAILURE() << "no light " << name;
         return kNone;
     }
-    /// The instance slots that a depth pass draws, in order, as the device's buffer holds them.
-    std::vector<std::uint32_t> drawn_slots(const Pass& pass) const {
+    /// The instance slots that a depth pass draws, or another one with its own items, in order, as the device's buffer
+    /// holds them.
+    std::vector<std::uint32_t> drawn_slots(const Pass& pass, const char* label = "shadow draw items") const {
         std::vector<std::uint32_t> slots;
         gl::BufferHandle items{};
         for (const gl::Command& c : frame->commands().commands) {
             const auto* bind = std::get_if<gl::BindMeshes>(&c);
-            if (bind && device.buffer(bind->draw_items)->label == "shadow draw items") items = bind->draw_items;
+            if (bind && device.buffer(bind->draw_items)->label == label) items = bind->draw_items;
         }
         const auto bytes = device.buffer_bytes(items);
         for (const gl::DrawMeshes& draw : pass.draws)
