@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "bench/row_pictures.h"
 #include "bench/row_times.h"
 #include "bench/sweep_journal.h"
+#include "bench/sweep_time_left.h"
 #include "bench/traced_truths.h"
 #include "systems/shadow/filter_table.h"
 
@@ -25,6 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kJournalVersion = 1;
 /// Rows that share one block of the defaults: a fifth of the time goes into what all are compared with.
 constexpr std::size_t kRowsPerBase = 4;
+/// Rows that are timed between two lines of progress.
+constexpr std::size_t kRowsPerLine = 16;
 /// Frames of each kind in a block. On software devices a frame takes so long that one is as good as its neighbours.
 constexpr std::uint32_t kSoftwareFrames = 1, kDeviceFrames = 15;
 
@@ -105,15 +106,13 @@ public:
             const double each_s = seconds_since(start) / static_cast<double>(done.size() - before);
             const double left_s = each_s * static_cast<double>(plan_.size() - done.size());
             say("row " + std::to_string(done.size()) + " of " + std::to_string(plan_.size()) + ": " + plan_[i].name +
-                (row.error ? ": FAILED: " + *row.error : std::string()) +
-                left(left_s + (options_.rounds ? time_left_s(left_s) : 0.0)));
+                (row.error ? ": FAILED: " + *row.error : std::string()) + left(left_s, 0.0));
         }
         return std::nullopt;
     }
 
     std::optional<Error> time_all(const BlockOptions& block) {
         for (std::uint32_t round = 0; round < options_.rounds && !is_spent(round); ++round) {
-            say("times, round " + std::to_string(round + 1) + left(time_left_s(0.0)));
             if (auto error = time_round(round, block)) return error;
         }
         return std::nullopt;
@@ -148,18 +147,9 @@ public:
 private:
     void say(const std::string& line) const { options_.progress(line); }
 
-    static std::string left(double seconds) {
-        constexpr double kMinute_s = 60.0;
-        char text[48];
-        if (seconds < kMinute_s)
-            std::snprintf(text, sizeof text, "; about %.0f s left", seconds);
-        else
-            std::snprintf(text, sizeof text, "; about %.0f min left", std::ceil(seconds / kMinute_s));
-        return text;
-    }
-    /// Until the budget is spent, of which so much is still needed for judging.
-    double time_left_s(double judging_s) const {
-        return std::max(0.0, options_.budget_s - journal_.spent_s() - judging_s);
+    std::string left(double judging_s, double rounds_timed) const {
+        return "; " + time_left({judging_s, journal_.spent_s(), journal_.timed_s(), rounds_timed}, options_.rounds,
+                                options_.budget_s);
     }
 
     /// Whether another round, which takes as long as those before, would go beyond it. There is one at least.
@@ -196,6 +186,11 @@ private:
         std::vector<LightTimes> base;
         for (std::size_t i = 0; i < open.size() && !is_spent(round); ++i) {
             const auto start = Clock::now();
+            if (i % kRowsPerLine == 0) {
+                const std::size_t row = done.size() + i, rows = done.size() + open.size();
+                say("times, round " + std::to_string(round + 1) + ", row " + std::to_string(row + 1) + " of " +
+                    std::to_string(rows) + left(0.0, round + static_cast<double>(row) / static_cast<double>(rows)));
+            }
             if (i % kRowsPerBase == 0) base = time_block(stage_, truths_.indices(), plan_.front(), block);
             const TimedRow timed{open[i]->name, round, time_block(stage_, truths_.indices(), *open[i], block), base};
             if (auto error = journal_.add(timed, seconds_since(start))) return error;
