@@ -1,19 +1,15 @@
-#include <epoxy/gl.h>
-
 #include <bit>
 #include <random>
 
-#include "engine/gl/shader_source.h"
-#include "shaders/embedded.h"
 #include "systems/extract/gpu_scene.h"
-#include "tests/gl/device_fixture.h"
+#include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
 // The C++ and the GLSL views of casters and instances, which are read as texels: no interface of a program tells those.
 namespace gnomon {
 namespace {
 
-constexpr std::uint32_t kRecords = 5, kOutBinding = 1;
+constexpr std::uint32_t kRecords = 5;
 constexpr std::size_t kWords =
     (sizeof(CasterTriangle) + sizeof(InstanceRecord) + sizeof(glm::vec4)) / sizeof(std::uint32_t);
 
@@ -42,14 +38,7 @@ void main() {
 }
 )";
 
-class CasterTexels : public DeviceTest {
-protected:
-    template <class T>
-    gl::BufferHandle texels_of(const std::vector<T>& records) {
-        return keep(device().create_buffer({.label = "texels", .size = records.size() * sizeof(T), .texels = true},
-                                           std::as_bytes(std::span(records))));
-    }
-};
+using CasterTexels = ProbeTest;
 
 TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
     std::mt19937_64 random(print_seed());
@@ -78,27 +67,11 @@ TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
     }
     ASSERT_EQ(written.size(), kRecords * kWords);
 
-    std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
-    files.push_back({"probe.comp", kProbe});
-    const auto text = gl::expand_shader(files, "probe.comp", {});
-    ASSERT_TRUE(text);
-    const std::uint64_t bytes = written.size() * sizeof(std::uint32_t);
-    const auto program = keep(device().create_program({.label = "probe", .compute = text.value()}));
-    const auto out = keep(device().create_buffer({.label = "out", .size = bytes}, {}));
-    const auto back =
-        keep(device().create_buffer({.label = "back", .size = bytes, .use = gl::BufferUse::read_back}, {}));
     gl::CommandList list;
     list.add(gl::BindTexels{9, texels_of(triangles)});
     list.add(gl::BindTexels{kInstanceUnit, texels_of(instances)});
     list.add(gl::BindTexels{kTriangleNormalUnit, texels_of(normals)});
-    list.add(gl::BindStorage{kOutBinding, out});
-    list.add(gl::Dispatch{program, kRecords, 1});
-    list.add(gl::CopyBuffer{out, back});
-    run(list);
-    std::vector<std::uint32_t> words(written.size());
-    glFinish();
-    EXPECT_EQ(device().read_buffer(back, std::as_writable_bytes(std::span(words))), gl::Readback::done);
-    EXPECT_EQ(words, written);
+    EXPECT_EQ(probed<std::uint32_t>(kProbe, kRecords, written.size(), std::move(list)), written);
 }
 
 }  // namespace

@@ -1,13 +1,9 @@
-#include <epoxy/gl.h>
-
 #include <glm/vec4.hpp>
 #include <random>
 #include <set>
 
-#include "engine/gl/shader_source.h"
-#include "shaders/embedded.h"
 #include "systems/lighting/ray_list.h"
-#include "tests/gl/device_fixture.h"
+#include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
 /// Where in a picture a list's rays lie: shaders say of each place one texel of their own, and of that texel the place.
@@ -16,8 +12,8 @@ namespace {
 
 const std::string kListProbe = R"(#include "lighting/listed.glsl"
 layout(local_size_x = 1) in;
-layout(std430, binding = 1) buffer Asked { ivec4 asked[]; };
-layout(std430, binding = 2) buffer Found { ivec4 found[]; };
+layout(std430, binding = 2) buffer Asked { ivec4 asked[]; };
+layout(std430, binding = 1) buffer Found { ivec4 found[]; };
 void main() {
     uint i = gl_WorkGroupID.x;
     int width = list_width(asked[i].xy);
@@ -31,31 +27,14 @@ struct ListFound {
     std::uint32_t place = 0, size = 0;
 };
 
-class RayListTexels : public DeviceTest {
+class RayListTexels : public ProbeTest {
 protected:
     std::vector<ListFound> find(glm::uvec2 picture_px, const std::vector<std::uint32_t>& places) {
-        std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
-        files.push_back({"probe.comp", kListProbe});
-        const auto text = gl::expand_shader(files, "probe.comp", {});
-        EXPECT_TRUE(text);
-        if (!text) return {};
         std::vector<glm::uvec4> asked;
         for (const std::uint32_t place : places) asked.emplace_back(picture_px, place, 0u);
-        const std::uint64_t bytes = asked.size() * sizeof(ListFound);
-        const auto program = keep(device().create_program({.label = "probe", .compute = text.value()}));
-        const auto out = keep(device().create_buffer({.label = "found", .size = bytes}, {}));
-        const auto back =
-            keep(device().create_buffer({.label = "back", .size = bytes, .use = gl::BufferUse::read_back}, {}));
         gl::CommandList list;
-        list.add(gl::BindStorage{1, fixed_buffer(asked)});
-        list.add(gl::BindStorage{2, out});
-        list.add(gl::Dispatch{program, static_cast<std::uint32_t>(asked.size()), 1});
-        list.add(gl::CopyBuffer{out, back});
-        run(list);
-        std::vector<ListFound> found(asked.size());
-        glFinish();
-        EXPECT_EQ(device().read_buffer(back, std::as_writable_bytes(std::span(found))), gl::Readback::done);
-        return found;
+        list.add(gl::BindStorage{2, fixed_buffer(asked)});
+        return probed<ListFound>(kListProbe, static_cast<std::uint32_t>(asked.size()), asked.size(), std::move(list));
     }
 };
 

@@ -4,12 +4,10 @@
 #include <bit>
 #include <random>
 
-#include "engine/gl/shader_source.h"
 #include "engine/rays/bvh.h"
 #include "engine/rays/mesh_bvh.h"
-#include "shaders/embedded.h"
 #include "systems/visibility/ray_records.h"
-#include "tests/gl/device_fixture.h"
+#include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
 
 // The C++ and the GLSL views of what is read as texels: no interface of a program tells those. Shaders find in each
@@ -22,7 +20,7 @@ using rays::BvhTriangle;
 using visibility::RayInstance;
 using visibility::RayTop;
 
-constexpr std::uint32_t kRecords = 5, kOutBinding = 1;
+constexpr std::uint32_t kRecords = 5;
 /// Words of 32 bits of a node, a triangle, the upper tree's head, a node of it and a part of an instance, as the probe
 /// writes them.
 constexpr std::size_t kWords = 8 + 12 + 8 + 8 + 17;
@@ -67,40 +65,18 @@ void append(std::vector<std::uint32_t>& words, const glm::vec3& v, std::uint32_t
     words.push_back(n);
 }
 
-class RayTexels : public DeviceTest {
+class RayTexels : public ProbeTest {
 protected:
-    template <class T>
-    gl::BufferHandle texels_of(const std::vector<T>& records) {
-        return keep(device().create_buffer(
-            {.label = "texels", .size = records.size() * sizeof(T), .use = gl::BufferUse::updated, .texels = true},
-            std::as_bytes(std::span(records))));
-    }
     struct Texels {
         gl::BufferHandle nodes, triangles, upper, parts;
     };
     std::vector<std::uint32_t> read_by_shader(const Texels& texels) {
-        std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
-        files.push_back({"probe.comp", kProbe});
-        const auto text = gl::expand_shader(files, "probe.comp", {});
-        if (!text) return {};
-        const std::uint64_t bytes = kRecords * kWords * sizeof(std::uint32_t);
-        const auto program = keep(device().create_program({.label = "probe", .compute = text.value()}));
-        const auto out = keep(device().create_buffer({.label = "out", .size = bytes}, {}));
-        const auto back =
-            keep(device().create_buffer({.label = "back", .size = bytes, .use = gl::BufferUse::read_back}, {}));
         gl::CommandList list;
         list.add(gl::BindTexels{10, texels.nodes});
         list.add(gl::BindTexels{11, texels.triangles});
         list.add(gl::BindTexels{12, texels.upper});
         list.add(gl::BindTexels{13, texels.parts});
-        list.add(gl::BindStorage{kOutBinding, out});
-        list.add(gl::Dispatch{program, kRecords, 1});
-        list.add(gl::CopyBuffer{out, back});
-        run(list);
-        std::vector<std::uint32_t> words(kRecords * kWords);
-        glFinish();
-        EXPECT_EQ(device().read_buffer(back, std::as_writable_bytes(std::span(words))), gl::Readback::done);
-        return words;
+        return probed<std::uint32_t>(kProbe, kRecords, kRecords * kWords, std::move(list));
     }
 };
 

@@ -15,3 +15,5 @@ const float kMostMoved_texel = 0.05;  // by rounding, across the map
 const float kStoredUnits = 8.0;       // a depth as it is interpolated, stored and compared
 const float kFloorTangent = 4.0;      // between normal and light, up to which no facet is drawn (SheetFloor)
 const float kUnknownDeparture = 1e6;
+
+mat4 absolute(mat4 m) { return mat4(abs(m[0]), abs(m[1]), abs(m[2]), abs(m[3])); }

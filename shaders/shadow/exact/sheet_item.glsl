@@ -19,8 +19,6 @@ struct Corner {
     vec4 error;   // of each coordinate
 };
 
-mat4 absolute(mat4 m) { return mat4(abs(m[0]), abs(m[1]), abs(m[2]), abs(m[3])); }
-
 Corner corner_of(InstanceRecord instance, uint vertex) {
     vec3 position_ms = uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz);
     vec3 position_as = position_from_anchor(instance, position_ms, depth_view.anchor_high.xyz, depth_view.anchor_low.xyz);

@@ -74,7 +74,7 @@ SheetPlace place_in_view(int i, vec3 position_ca, float error_m) {
     // The map's own matrix is rounded apart from this one: a unit more.
     const float kUnits = kProjectedUnits + 2.0;
     vec4 summed = vec4(off_m + kUnits * kUnitRoundoff * abs(p), kUnits * kUnitRoundoff);
-    vec4 projected = m * vec4(p, 1.0), off = mat4(abs(m[0]), abs(m[1]), abs(m[2]), abs(m[3])) * summed;
+    vec4 projected = m * vec4(p, 1.0), off = absolute(m) * summed;
 #ifdef LIGHT_DIRECTIONAL
     bool is_before = true;   // along parallel rays w is 1
     vec3 map = projected.xyz, error = off.xyz;
