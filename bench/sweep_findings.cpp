@@ -121,6 +121,22 @@ std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::str
     return missed;
 }
 
+std::optional<BesideTutorial> beside_tutorial(const SceneSweep& sweep, const std::string& light) {
+    const Choice *defaults = nullptr, *tutorial = nullptr;
+    const std::vector<Choice> all = choices(sweep, light, SweepTruth::point, SweepCost::drawn);
+    for (const Choice& choice : all) {
+        if (sweep.plan[choice.row].name == kDefaultsRow) defaults = &choice;
+        const bool is_tutorial = sweep.plan[choice.row].factor == kTutorialFactor;
+        if (is_tutorial && (!tutorial || choice.row < tutorial->row)) tutorial = &choice;
+    }
+    if (!defaults || !tutorial) return std::nullopt;
+    BesideTutorial found{*tutorial, defaults->cost / tutorial->cost, {}};
+    const Spread& kept_us = find_row(sweep, defaults->row, light)->figures.kept_us;
+    const Spread& tutorial_us = find_row(sweep, tutorial->row, light)->figures.gpu_us;
+    if (kept_us.count > 0 && tutorial_us.count > 0) found.kept = kept_us.median / tutorial_us.median;
+    return found;
+}
+
 std::vector<Bargain> bargains(const SceneSweep& sweep, const std::string& light, SweepCost cost) {
     std::vector<Bargain> found;
     const std::vector<Choice> all = choices(sweep, light, SweepTruth::point, cost);

@@ -54,6 +54,14 @@ struct Missed {
 /// Empty: the defaults keep it, or are not known.
 std::optional<Missed> missed_by_defaults(const SceneSweep& sweep, const std::string& light, SweepCost cost);
 
+/// What the defaults take, as multiples of the light's first tutorial, which draws its map in every frame.
+struct BesideTutorial {
+    Choice tutorial;
+    double drawn = 0.0;          // the defaults draw theirs in every frame as well
+    std::optional<double> kept;  // theirs are kept, as they are while nothing in them moves
+};
+std::optional<BesideTutorial> beside_tutorial(const SceneSweep& sweep, const std::string& light);
+
 /// A tutorial's row, and the best that no more time buys.
 struct Bargain {
     Choice tutorial, best;

@@ -24,6 +24,19 @@ std::string missed_words(const SceneSweep& sweep, const std::string& light) {
            sweep.plan[missed->reached->row].name + "” (" + percent_words(missed->reached->error) + ").";
 }
 
+/// What the defaults of a light take beside a tutorial's; nothing where the sweep has none.
+std::string beside_words(const SceneSweep& sweep, const std::string& light) {
+    const auto beside = beside_tutorial(sweep, light);
+    if (!beside) return {};
+    const std::string of =
+        " the time of “" + sweep.plan[beside->tutorial.row].name + "” (" + percent_words(beside->tutorial.error) + ")";
+    const std::string drawn = "× " + factor_words(beside->drawn);
+    if (!beside->kept) return " With every map drawn anew they take " + drawn + of + ".";
+    return " With their maps kept, as they are while nothing in them moves, they take × " +
+           factor_words(*beside->kept) + of + ", which draws its own in every frame; " + drawn +
+           " with every map drawn anew.";
+}
+
 std::string sentence(const SceneSweep& sweep, const std::string& light, SweepTruth truth) {
     const HalvingCost found = halving_cost(sweep, light, truth, SweepCost::drawn);
     const char* error = truth == SweepTruth::point ? "wrong pixels" : "error of soft shadows";
@@ -36,11 +49,12 @@ std::string sentence(const SceneSweep& sweep, const std::string& light, SweepTru
         text += ": no row has half the " + std::string(error) + " of the cheapest. ";
     if (!found.defaults) return text;
     text += "The defaults have " + percent_words(found.defaults->error) + "; ";
-    const std::string missed = truth == SweepTruth::point ? missed_words(sweep, light) : std::string();
-    if (!found.from_defaults) return text + "no row halves that." + missed;
+    std::string more;
+    if (truth == SweepTruth::point) more = missed_words(sweep, light) + beside_words(sweep, light);
+    if (!found.from_defaults) return text + "no row halves that." + more;
     return text + "halving that takes × " + factor_words(found.from_defaults->cost_factor()) + " their time, by “" +
            sweep.plan[found.from_defaults->to.row].name + "” (" + percent_words(found.from_defaults->to.error) + ")." +
-           missed;
+           more;
 }
 
 }  // namespace

@@ -138,6 +138,32 @@ TEST(SweepFindings, DefaultsWithinTheirBoundMissNothing) {
     EXPECT_FALSE(missed_by_defaults(sweep, "moon", kDrawn)) << "it has no rows";
 }
 
+TEST(SweepFindings, DefaultsStandBesideTheFirstTutorialThatTheLightHas) {
+    const std::string tutorials(kTutorialFactor);
+    SceneSweep sweep =
+        made_up_sweep({{"defaults", 0.0001, 1.0}, {"taps", 0.05, 0.625, tutorials}, {"cheaper", 0.08, 0.5, tutorials}});
+    const auto beside = beside_tutorial(sweep, "sun");
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(sweep.plan[beside->tutorial.row].name, "taps");
+    EXPECT_DOUBLE_EQ(beside->drawn, 1.6);
+    EXPECT_FALSE(beside->kept) << "no times";
+    EXPECT_THAT(halving_sentences(sweep).at(0),
+                HasSubstr(" With every map drawn anew they take × 1.6 the time of “taps” (5 %)."));
+    sweep.rows[0].lights[0].figures.kept_us = {30.0, 29.0, 31.0, 3};
+    sweep.rows[1].lights[0].figures.gpu_us = {24.0, 23.0, 25.0, 3};
+    sweep.rows[1].lights[0].figures.kept_us = {20.0, 19.0, 21.0, 3};
+    EXPECT_DOUBLE_EQ(beside_tutorial(sweep, "sun")->kept.value(), 1.25) << "the tutorial keeps nothing";
+    EXPECT_THAT(
+        halving_sentences(sweep).at(0),
+        HasSubstr("they take × 1.25 the time of “taps” (5 %), which draws its own in every frame; × 1.6 with every"));
+    EXPECT_FALSE(beside_tutorial(sweep, "moon"));
+    sweep.rows[1].error = sweep.rows[2].error = "cannot";
+    sweep.rows[1].lights.clear();
+    sweep.rows[2].lights.clear();
+    EXPECT_FALSE(beside_tutorial(sweep, "sun"));
+    EXPECT_THAT(halving_sentences(sweep).at(0), Not(HasSubstr("they take")));
+}
+
 TEST(SweepFindings, ABargainIsTheBestThatNoMoreTimeBuys) {
     const SceneSweep sweep = made_up_sweep(
         {{"tutorial", 0.08, 1.0, std::string(kTutorialFactor)}, {"a", 0.04, 0.8}, {"b", 0.02, 1.0}, {"c", 0.01, 2.0}});
