@@ -113,24 +113,14 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
         const std::uint32_t step = blend ? 1 : count;
         for (std::uint32_t i = 0; i < count; i += step) {
             const std::uint32_t nearest = visible_[first + i];
-            SurfaceDraw draw{submesh.material,
-                             submesh.first_index,
-                             submesh.index_count,
-                             mesh.base_vertex,
-                             static_cast<std::uint32_t>(draw_items_.size()),
-                             step,
-                             head.mirrored,
-                             gpu.material(submesh.material).double_sided || head.folded,
-                             farthest_m_[nearest]};
+            const glm::dvec3 middle_ws_m = math::centre(scene.instances[nearest].bounds_ws);
+            (blend ? blended_ : draws_)
+                .push_back({submesh.material, submesh.first_index, submesh.index_count, mesh.base_vertex,
+                            static_cast<std::uint32_t>(draw_items_.size()), step, head.mirrored,
+                            gpu.material(submesh.material).double_sided || head.folded,
+                            blend ? glm::distance(middle_ws_m, consumer.position_ws_m) : farthest_m_[nearest]});
             for (std::uint32_t k = 0; k < step; ++k)
                 draw_items_.push_back({scene.instances[visible_[first + i + k]].gpu_slot, submesh.first_index / 3});
-            if (blend) {
-                draw.distance_m =
-                    glm::distance(math::centre(scene.instances[nearest].bounds_ws), consumer.position_ws_m);
-                blended_.push_back(draw);
-            } else {
-                draws_.push_back(draw);
-            }
         }
     }
 }
