@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 #include "engine/platform/context.h"
 
@@ -186,6 +187,17 @@ GLFWwindow* create_window(std::uint32_t width, std::uint32_t height, const std::
     return glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
 }
 
+/// Leaves Wayland out where no variable names a socket of it: GLFW 3.4 would try it last, and its client library
+/// prints a line of its own when that fails.
+void choose_window_system() {
+#ifdef GLFW_PLATFORM
+    constexpr std::array kWaylandNames{"WAYLAND_DISPLAY", "WAYLAND_SOCKET", "XDG_RUNTIME_DIR"};
+    const bool has_wayland = std::any_of(kWaylandNames.begin(), kWaylandNames.end(),
+                                         [](const char* name) { return std::getenv(name) != nullptr; });
+    glfwInitHint(GLFW_PLATFORM, has_wayland ? GLFW_ANY_PLATFORM : GLFW_PLATFORM_X11);
+#endif
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Window>> make_window(std::uint32_t width, std::uint32_t height, std::string_view title,
@@ -193,6 +205,7 @@ Result<std::unique_ptr<Window>> make_window(std::uint32_t width, std::uint32_t h
     if (width == 0 || height == 0 || width > kMaxWindowPx || height > kMaxWindowPx) {
         return Error{"a window must have 1 to 16384 pixels on each side", {}, {}, "glfw.window"};
     }
+    choose_window_system();
     if (glfwInit() != GLFW_TRUE) return glfw_error("no window system", "glfw.init");
     const std::string name{title};
     GLFWwindow* window = create_window(width, height, name, debug, GLFW_LOSE_CONTEXT_ON_RESET);

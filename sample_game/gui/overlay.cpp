@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace gnomon::game {
@@ -52,8 +53,17 @@ OverlayVertex converted(const ImDrawVert& v, const ImDrawData& data) {
             {v.uv.x, v.uv.y}};
 }
 
+/// Converts between ImGui's texture id and a number: ImGui to 1.91 has a pointer there, later ones an integer.
+template <typename To, typename From>
+To id_cast(From id) {
+    if constexpr (std::is_pointer_v<To> || std::is_pointer_v<From>)
+        return reinterpret_cast<To>(id);
+    else
+        return static_cast<To>(id);
+}
+
 gl::TextureHandle texture_of(ImTextureID image) {
-    return {static_cast<decltype(gl::TextureHandle::id)>(reinterpret_cast<std::uintptr_t>(image))};
+    return {static_cast<decltype(gl::TextureHandle::id)>(id_cast<std::uintptr_t>(image))};
 }
 
 /// ImGui's clip rectangle, y down, as a scissor, y up. Without width or height: nothing to draw.
@@ -69,7 +79,7 @@ gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
 }  // namespace
 
 ImTextureID image_of(gl::TextureHandle texture) {
-    return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id));
+    return id_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id));
 }
 
 Overlay::Overlay(gl::Device& device)
@@ -114,10 +124,11 @@ void Overlay::record(const ImDrawData& data, gl::TargetHandle target, glm::uvec2
     if (data.TotalIdxCount <= 0 || !target || !reserve(data)) return;
     std::vector<OverlayVertex> vertices;
     std::vector<std::uint32_t> indices;
-    const std::span draws(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount));
+    // An array in ImGui to 1.89, an ImVector in later ones; not empty, since there are indices.
+    const std::span draws(&data.CmdLists[0], static_cast<std::size_t>(data.CmdListsCount));
     for (const ImDrawList* draw : draws) {
         for (const ImDrawVert& v : draw->VtxBuffer) vertices.push_back(converted(v, data));
-        for (const ImDrawIdx i : draw->IdxBuffer) indices.push_back(i);
+        for (const ImDrawIdx index : draw->IdxBuffer) indices.push_back(index);
     }
     const std::array<glm::uvec2, 1> item{glm::uvec2(0u)};
     list.add(gl::BeginGroup{"overlay"});

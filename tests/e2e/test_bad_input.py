@@ -108,8 +108,11 @@ class BadInput(GameTest):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_a_window_without_a_display(self):
-        env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        self.assert_refused("--frames", 1, env=env)
+        named = ("DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET", "XDG_RUNTIME_DIR", "XDG_SESSION_TYPE")
+        bare = {k: v for k, v in os.environ.items() if k not in named}
+        for more in ({}, {"XDG_RUNTIME_DIR": self.folder}, {"XDG_SESSION_TYPE": "wayland"}, {"DISPLAY": ":4095"}):
+            with self.subTest(**more):
+                self.assert_refused("--frames", 1, env=dict(bare, **more))
 
     def test_a_device_without_opengl_4_5(self):
         env = dict(os.environ, MESA_GL_VERSION_OVERRIDE="3.3", MESA_LOADER_DRIVER_OVERRIDE="", LIBGL_ALWAYS_SOFTWARE="1")
