@@ -38,27 +38,25 @@ set(GNOMON_ENGINE_HEADERS
   engine/rays/mesh_bvh.h
   engine/rays/ray_packet.h)
 list(TRANSFORM GNOMON_ENGINE_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
-# Components and systems are public whole: whoever brings an own frame may take any stage.
-file(GLOB GNOMON_COMPONENT_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/components/*.h)
-file(GLOB_RECURSE GNOMON_SYSTEM_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/systems/*.h)
-
-target_sources(gnomon_components INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
-  FILES ${GNOMON_COMPONENT_HEADERS})
 target_sources(gnomon_engine PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_ENGINE_HEADERS})
 target_sources(gnomon_shaders PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
   FILES ${PROJECT_SOURCE_DIR}/shaders/embedded.h)
-target_sources(gnomon_systems PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_SYSTEM_HEADERS})
-
 foreach(part components engine shaders systems)
   target_include_directories(gnomon_${part} INTERFACE $<INSTALL_INTERFACE:${GNOMON_INCLUDE_DIR}>)
 endforeach()
 
 foreach(part components engine shaders systems)
   set_target_properties(gnomon_${part} PROPERTIES EXPORT_NAME ${part})
-  install(TARGETS gnomon_${part} EXPORT GnomonTargets
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${GNOMON_INCLUDE_DIR})
 endforeach()
+install(TARGETS gnomon_engine gnomon_shaders EXPORT GnomonTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  FILE_SET HEADERS DESTINATION ${GNOMON_INCLUDE_DIR})
+install(TARGETS gnomon_components gnomon_systems EXPORT GnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# Components and systems are public whole: whoever brings an own frame may take any stage. Found when they are installed:
+# headers found when the build is configured would have to be looked for anew at every start.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/components ${PROJECT_SOURCE_DIR}/systems DESTINATION ${GNOMON_INCLUDE_DIR}
+  FILES_MATCHING PATTERN "*.h")
+add_custom_target(gnomon_installed DEPENDS gnomon_engine gnomon_shaders gnomon_systems)
 install(EXPORT GnomonTargets NAMESPACE Gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR})
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/GnomonConfig.cmake.in

@@ -1,28 +1,18 @@
 #include "tests/economy/changing_world.h"
 
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <iostream>
 
 #include "components/mesh_ref.h"
 #include "components/shadow_caster.h"
-#include "tests/unit/math/random_seed.h"
 
 namespace gnomon {
 namespace {
 
 constexpr double kArena_m = 8.0;
 constexpr double kStill = 0.5;  // share of the frames in which nothing changes
-constexpr std::uint64_t kUsualSeed = 20261122;
 
 }  // namespace
-
-std::uint64_t script_seed() {
-    if (std::getenv("GNOMON_LONG") || std::getenv("GNOMON_TEST_SEED")) return print_seed();
-    std::cout << "seed " << kUsualSeed << '\n';
-    return kUsualSeed;
-}
 
 ChangingWorld::ChangingWorld(std::uint64_t seed, std::vector<ShadowFilter> filters)
     : random_(seed), filters_(std::move(filters)) {

@@ -45,8 +45,4 @@ private:
     std::vector<ecs::Entity> lights_, casters_, cameras_;
 };
 
-/// Of the scripted runs: fixed, so that a failure is everybody's; GNOMON_TEST_SEED sets another, a long run takes a
-/// random one. Printed.
-std::uint64_t script_seed();
-
 }  // namespace gnomon

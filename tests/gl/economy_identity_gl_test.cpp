@@ -1,13 +1,14 @@
 #include <array>
 #include <bit>
-#include <cstdlib>
 #include <iostream>
 
 #include "systems/shadow/filter_table.h"
 #include "tests/economy/both_ways.h"
 #include "tests/economy/changing_world.h"
 #include "tests/gl/gl_test_context.h"
+#include "tests/long_run.h"
 #include "tests/oracle/reference_tracer.h"
+#include "tests/unit/math/random_seed.h"
 
 /// The scripted runs in pictures: the visibility of every light, for every camera, is bit for bit that of economy=off,
 /// where every view is drawn in every frame. What gets no shadow at all is held against rays.
@@ -29,7 +30,7 @@ bool follows_rays(const LightItem& light) {
 
 /// One of each way to store a map and to read it; all of them in a long run, since each costs programs.
 std::vector<ShadowFilter> filters_of_run() {
-    if (!std::getenv("GNOMON_LONG"))
+    if (!is_long_run())
         return {ShadowFilter::hardware_2x2, ShadowFilter::triangles, ShadowFilter::evsm2, ShadowFilter::pcss};
     std::vector<ShadowFilter> filters;
     for (const shadow::FilterRow& row : shadow::filter_table()) filters.push_back(row.id);
@@ -119,7 +120,7 @@ protected:
     }
 
     const assets::MeshLibrary library = test_library();
-    ChangingWorld world{script_seed(), filters_of_run()};
+    ChangingWorld world{print_seed(), filters_of_run()};
     std::unique_ptr<BothWays> both;
     std::function<void(SceneSnapshot&)> mislead;
     std::array<std::vector<Floats>, BothWays::kWays> visibilities;  // by consumer, then by light
@@ -129,7 +130,7 @@ protected:
 };
 
 TEST_F(EconomyIdentityGl, EveryLightsVisibilityIsThatOfEconomyOffToTheBit) {
-    const int frames = std::getenv("GNOMON_LONG") ? 3000 : 300;
+    const int frames = is_long_run() ? 3000 : 300;
     EXPECT_EQ(play(frames), 0u);
     EXPECT_EQ(lost, 0u) << "pixels that rays find dark, of lights that were skipped";
     // The run did what it is for.

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
-#include <cstdlib>
 #include <iostream>
 #include <limits>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "engine/platform/context.h"
 #include "systems/frame.h"
 #include "tests/gl/failing_gl.h"
+#include "tests/long_run.h"
 #include "tests/system/fault_scenes.h"
 
 // OpenGL itself fails under the executor, call by call, while the built-in scene is set up and runs: every frame comes,
@@ -135,7 +135,7 @@ TEST_P(EveryGlCallFails, WithoutAFrameOrAShadowOrAnObjectLostForGood) {
         return;
     }
     ASSERT_GE(calls, kShortRunCases);
-    const std::uint64_t stride = std::getenv("GNOMON_LONG") ? 1 : calls / kShortRunCases;
+    const std::uint64_t stride = is_long_run() ? 1 : calls / kShortRunCases;
     std::uint64_t cases = 0;
     for (const bool lasting : {false, true})
         for (std::uint64_t call = lasting ? stride / 2 : 0; call < calls; call += stride, ++cases) play(call, lasting);

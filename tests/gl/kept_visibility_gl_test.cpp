@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 
 #include "systems/shadow/filter_table.h"
 #include "tests/gl/held_frame_fixture.h"
+#include "tests/long_run.h"
 
 /// A still picture that reads what its pixels saw is, to the bit, the one that looks its lights up: for each row of the
 /// filter table and each kind of light, with blended surfaces before the others.
@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 bool is_of_run(ShadowFilter filter) {
     constexpr std::array kShort = {ShadowFilter::hard, ShadowFilter::poisson_rotated, ShadowFilter::triangles,
                                    ShadowFilter::evsm2, ShadowFilter::pcss, ShadowFilter::exact};
-    return std::getenv("GNOMON_LONG") || std::find(kShort.begin(), kShort.end(), filter) != kShort.end();
+    return is_long_run() || std::find(kShort.begin(), kShort.end(), filter) != kShort.end();
 }
 
 constexpr int kStillFrames = 4;  // after the first: looked up, filled, read, read

@@ -2,6 +2,7 @@
 
 #include "tests/gl/sheet_views.h"
 #include "tests/gl/sheets_fixture.h"
+#include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 
 /// What sheets are certain of is so: random worlds and views, every certain place asked of rays in double.
@@ -92,7 +93,7 @@ protected:
         tally.beyond += static_cast<std::size_t>(std::count(behind.begin(), behind.end(), 0.0f));
         discard(drawn);
     }
-    static int worlds() { return std::getenv("GNOMON_LONG") ? 250 : 6; }
+    static int worlds() { return is_long_run() ? 250 : 6; }
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Sheets, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
@@ -107,7 +108,7 @@ TEST_P(Sheets, AreRightWhereTheyAreCertain) {
     for (int world = 0; goes_on(world) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
         Random random(seed + static_cast<std::uint64_t>(world));
-        play(random, std::getenv("GNOMON_LONG") ? 200000 : 50000, true, tally);
+        play(random, is_long_run() ? 200000 : 50000, true, tally);
     }
     std::cout << tally.places << " places, " << tally.lit << " certainly lit, " << tally.dark << " certainly dark, "
               << tally.uncertain_percent() << " % uncertain, " << tally.wrong << " wrong\n";

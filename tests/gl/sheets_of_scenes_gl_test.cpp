@@ -1,4 +1,3 @@
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "systems/transform/transform_system.h"
 #include "tests/gl/sheet_views.h"
 #include "tests/gl/sheets_fixture.h"
+#include "tests/long_run.h"
 #include "tests/oracle/reference_tracer.h"
 #include "tests/source_paths.h"
 
@@ -73,7 +73,7 @@ protected:
             snapshot.lights = {light};
             const oracle::LightTruth truth = tracer.trace_light(hits, light, true);
             for (const std::uint32_t size_px : {512u, 1024u, 2048u}) {
-                if (size_px != 1024 && !std::getenv("GNOMON_LONG")) continue;
+                if (size_px != 1024 && !is_long_run()) continue;
                 const double uncertain =
                     judge_map(snapshot, drawn, hits, truth, views_of(light, box, size_px), size_px);
                 if (size_px == 1024) {

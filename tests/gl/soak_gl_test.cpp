@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "tests/gl/gl_test_context.h"
+#include "tests/long_run.h"
 #include "tests/soak/soak_world.h"
 #include "tests/unit/math/random_seed.h"
 
@@ -56,7 +57,7 @@ protected:
 };
 
 TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
-    const bool is_long = std::getenv("GNOMON_LONG");
+    const bool is_long = is_long_run();
     const std::size_t frames = is_long ? 50000 : 3000;
     world.use_everything([this] { step(); });
     const std::size_t baseline = objects_when_empty();

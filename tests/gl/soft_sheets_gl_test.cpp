@@ -3,6 +3,7 @@
 
 #include "tests/gl/sheet_views.h"
 #include "tests/gl/sheets_fixture.h"
+#include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"
 
 /// What sheets are certain of for a source with a size is so: random worlds, views and sources, every certain place
@@ -55,8 +56,8 @@ protected:
         judge(scene, view, places, found, margins && ask == Ask::source, tally);
     }
 
-    static int worlds() { return std::getenv("GNOMON_LONG") ? 250 : 8; }
-    static std::size_t places() { return std::getenv("GNOMON_LONG") ? 40000 : 12000; }
+    static int worlds() { return is_long_run() ? 250 : 8; }
+    static std::size_t places() { return is_long_run() ? 40000 : 12000; }
 
 private:
     /// Small things around a lamp, as a cage or a housing has them, some of them in one face of its cube alone.

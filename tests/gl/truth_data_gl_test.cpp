@@ -1,10 +1,10 @@
-#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <map>
 
 #include "tests/data/data_files.h"
 #include "tests/gl/truth_scenes.h"
+#include "tests/long_run.h"
 
 // Scenes that others made, each from its own camera and with nothing tuned.
 namespace gnomon {
@@ -24,7 +24,7 @@ protected:
     static void for_each_light(
         const std::vector<std::string>& settings,
         const std::function<void(const std::string& name, const bench::LightAccuracy& light)>& judge) {
-        if (!std::getenv("GNOMON_LONG")) GTEST_SKIP() << "takes a minute: with GNOMON_LONG only";
+        if (!is_long_run()) GTEST_SKIP() << "takes a minute: with GNOMON_LONG only";
         if (test::data_files().empty()) GTEST_SKIP() << "no test data at " << test::data_folder();
         for (const auto& [name, verdict] : test::recorded_verdicts()) {
             if (verdict != test::kSeen) continue;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
-#include <random>
 
 #include "engine/math/frustum.h"
 #include "systems/shadow/demand.h"
@@ -13,10 +12,12 @@
 #include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/sets.h"
+#include "tests/long_run.h"
 #include "tests/oracle/fit_oracle.h"
+#include "tests/unit/math/random_seed.h"
 
 /// Random fits by the hundred thousand, judged point by point in long double. 20 000 of each kind in a short run, a million
-/// with GNOMON_LONG, any number with GNOMON_FITS. The seed is fixed; GNOMON_TEST_SEED sets another, `random` a random one.
+/// with GNOMON_LONG, any number with GNOMON_FITS.
 namespace gnomon::shadow {
 namespace {
 
@@ -30,15 +31,7 @@ std::uint64_t fit_count() {
     constexpr std::uint64_t kShort = 20000;
 #endif
     if (const char* count = std::getenv("GNOMON_FITS")) return std::strtoull(count, nullptr, 10);
-    return std::getenv("GNOMON_LONG") ? 1000000 : kShort;
-}
-
-std::uint64_t fit_seed() {
-    const char* given = std::getenv("GNOMON_TEST_SEED");
-    std::uint64_t seed = 20240607;
-    if (given) seed = std::string_view(given) == "random" ? std::random_device{}() : std::strtoull(given, nullptr, 10);
-    std::cout << "seed " << seed << '\n';
-    return seed;
+    return is_long_run() ? 1000000 : kShort;
 }
 
 /// Points this share inside of what is seen and lit: closer, rounding of the camera itself decides.
@@ -235,7 +228,7 @@ protected:
         scene.consumers.resize(1);
     }
 
-    RandomFits random{fit_seed()};
+    RandomFits random{print_seed()};
     Tally tally;
     ShadowFrame here, elsewhere;
     History past;

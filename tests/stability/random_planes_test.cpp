@@ -3,16 +3,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
-#include <random>
-#include <string_view>
 
 #include "systems/shadow/depth_format.h"
 #include "systems/shadow/filter_table.h"
+#include "tests/long_run.h"
 #include "tests/stability/random_planes.h"
+#include "tests/unit/math/random_seed.h"
 
 /// A plane never shadows itself, and an offset a tenth smaller would not do: for every kind of light, filter and
 /// format. 20 000 planes of each in a short run, 200 000 with GNOMON_LONG, any number with GNOMON_PLANES (a million is
-/// recorded in docs/reliability.md). The seed is fixed; GNOMON_TEST_SEED sets another, `random` a random one.
+/// recorded in docs/reliability.md).
 namespace gnomon {
 namespace {
 
@@ -24,15 +24,7 @@ std::uint64_t plane_count() {
     constexpr std::uint64_t kShort = 20000, kLong = 200000;
 #endif
     if (const char* count = std::getenv("GNOMON_PLANES")) return std::strtoull(count, nullptr, 10);
-    return std::getenv("GNOMON_LONG") ? kLong : kShort;
-}
-
-std::uint64_t plane_seed() {
-    const char* given = std::getenv("GNOMON_TEST_SEED");
-    std::uint64_t seed = 20250219;
-    if (given) seed = std::string_view(given) == "random" ? std::random_device{}() : std::strtoull(given, nullptr, 10);
-    std::cout << "seed " << seed << '\n';
-    return seed;
+    return is_long_run() ? kLong : kShort;
 }
 
 struct Row {
@@ -45,7 +37,7 @@ class RandomPlanes : public ::testing::TestWithParam<Row> {};
 TEST_P(RandomPlanes, AreLitWithTheAutomaticBiasAndDarkInPlacesWithLess) {
     const shadow::FilterRow& filter = shadow::filter_row(GetParam().filter);
     if (!can_judge(filter.id)) GTEST_SKIP() << filter.name << " is not among the rows that are compiled as C++";
-    const std::uint64_t count = plane_count(), seed = plane_seed();
+    const std::uint64_t count = plane_count(), seed = print_seed();
     for (const shadow::DepthFormatRow& format : shadow::kDepthFormats) {
         const PlaneTally tally = judge_planes(GetParam().kind, filter.id, format.id, count, seed);
         char line[160];

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <set>
 
@@ -9,6 +8,8 @@
 #include "tests/economy/both_ways.h"
 #include "tests/economy/changing_world.h"
 #include "tests/economy/map_contents.h"
+#include "tests/long_run.h"
+#include "tests/unit/math/random_seed.h"
 
 /// Scripted runs in which anything may happen, on the recording device: what lighting is told, and what the maps that
 /// it reads would hold, is the same with economy=off, where every view is drawn in every frame.
@@ -87,7 +88,7 @@ protected:
 
     gl::RecordingDevice device;
     const assets::MeshLibrary library = test_library();
-    ChangingWorld world{script_seed(), all_filters()};
+    ChangingWorld world{print_seed(), all_filters()};
     std::unique_ptr<BothWays> both;
     std::function<void(SceneSnapshot&)> mislead;
     MapContents contents[BothWays::kWays];
@@ -99,7 +100,7 @@ protected:
 };
 
 TEST_F(EconomyIdentity, MapsAndRecordsAreThoseOfEconomyOffWhateverHappens) {
-    EXPECT_EQ(run(std::getenv("GNOMON_LONG") ? 100000 : 2000), 0);
+    EXPECT_EQ(run(is_long_run() ? 100000 : 2000), 0);
     // The run did what it is for.
     EXPECT_LT(thrifty_views * 2, lavish_views);
     EXPECT_GT(thrifty_views, 500u);

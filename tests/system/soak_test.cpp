@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "engine/gl/device_recording.h"
+#include "tests/long_run.h"
 #include "tests/soak/soak_world.h"
 #include "tests/unit/math/random_seed.h"
 
@@ -18,8 +19,8 @@ constexpr bool kSanitized = true;  // keeps freed memory, and is slow
 #else
 constexpr bool kSanitized = false;
 #endif
-constexpr int kFrames = kSanitized ? 5000 : 100000;
-constexpr int kWarmUpFrames = kFrames / 10;
+constexpr int kLongRunFrames = kSanitized ? 5000 : 100000;
+constexpr int kShortRunFrames = 10000;
 constexpr int kForgetEvery = 64;
 constexpr std::size_t kMostGrowth_bytes = 1u << 20;
 
@@ -62,16 +63,17 @@ protected:
     std::uint64_t drawn_views = 0;
 };
 
-TEST_F(Soak, AHundredThousandFramesLeaveNoObjectsAndNoMemoryBehind) {
+TEST_F(Soak, ThousandsOfFramesLeaveNoObjectsAndNoMemoryBehind) {
+    const int frames = is_long_run() ? kLongRunFrames : std::min(kShortRunFrames, kLongRunFrames);
     world.use_everything([this] { step(); });
     const std::vector<std::string> baseline = labels_when_empty();
-    churn(kWarmUpFrames);
+    churn(frames / 10);
     labels_when_empty();
     forget();
     const std::size_t bytes_before = held_bytes(), created_before = created;
     drawn_views = 0;
 
-    churn(kFrames);
+    churn(frames);
 
     std::vector<std::string> left = labels_when_empty(), more, less;
     std::set_difference(left.begin(), left.end(), baseline.begin(), baseline.end(), std::back_inserter(more));
@@ -85,11 +87,11 @@ TEST_F(Soak, AHundredThousandFramesLeaveNoObjectsAndNoMemoryBehind) {
     }
     // The soak did soak.
     EXPECT_EQ(empty_frames, 0u);
-    EXPECT_GT(created - created_before, static_cast<std::size_t>(kFrames / 100));
-    EXPECT_GT(drawn_views, static_cast<std::uint64_t>(kFrames / 2));
+    EXPECT_GT(created - created_before, static_cast<std::size_t>(frames / 100));
+    EXPECT_GT(drawn_views, static_cast<std::uint64_t>(frames / 2));
     const auto growth = static_cast<std::int64_t>(bytes_after) - static_cast<std::int64_t>(bytes_before);
     RecordProperty("growth_bytes", std::to_string(growth));
-    std::cout << kFrames << " frames: " << created - created_before << " maps made, " << drawn_views
+    std::cout << frames << " frames: " << created - created_before << " maps made, " << drawn_views
               << " views drawn, held memory grew by " << growth << " bytes\n";
 }
 

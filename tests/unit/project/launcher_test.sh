@@ -18,16 +18,22 @@ printf '%s\n' '# the list' 'here  # is installed' 'older|newer  # one of two is 
     'first|second  # only the second exists' 'slow  # test: for tests only' >"$project/packages.txt"
 
 stand_in() { printf '#!/bin/bash\n%s\n' "$2" >"$work/bin/$1"; chmod +x "$work/bin/$1"; }
-stand_in dpkg-query 'case ${@: -1} in here|newer) echo installed ;; *) exit 1 ;; esac'
+# dpkg_has NAME...: dpkg-query knows these as installed, and `removed` as known but not installed.
+dpkg_has() {
+    stand_in dpkg-query "for name in \"\$@\"; do case \" $* \" in *\" \$name \"*) echo \"\$name installed\" ;; esac; done
+        echo \"removed not-installed\"; exit 1"
+}
+dpkg_has here newer
 stand_in apt-cache 'case ${@: -1} in first) echo "  Candidate: (none)" ;; *) echo "  Candidate: 1.0" ;; esac'
 stand_in apt-get 'echo "apt-get $*" >>"$CALLS"; exit "${APT_STATUS:-0}"'
 stand_in sudo 'echo "sudo" >>"$CALLS"; exec "$@"'
 stand_in id 'echo "${FAKE_UID:-0}"'
 stand_in cmake 'case $1 in --version) echo "cmake version ${CMAKE_IS:-3.25.1}" ;;
     *) echo "cmake $*" >>"$CALLS"
-       mkdir -p "$PROJECT/build/release/bin" && touch "$PROJECT/build/release/build.ninja"
+       mkdir -p "$PROJECT/build/release/bin" "$PROJECT/build/asan" && touch "$PROJECT/build/release/build.ninja"
        printf "#!/bin/bash\necho \"\$PWD|\$#|\$*\"\nexit \${GAME_STATUS:-0}\n" >"$PROJECT/build/release/bin/gnomon_game"
        chmod +x "$PROJECT/build/release/bin/gnomon_game"
+       printf "[1/4] a.cpp\n[2/4] b.cpp\n"; sleep "${BUILD_TAKES_S:-0}"
        echo "compiler says no"; exit "${BUILD_STATUS:-0}" ;; esac'
 stand_in ninja 'echo "${NINJA_SAYS:-}"'
 
@@ -37,7 +43,7 @@ run() {
     while [[ $1 != -- ]]; do settings+=("$1"); shift; done
     shift
     : >"$calls"
-    out=$(cd "$work/elsewhere" && env -u GNOMON_SKIP_DEPS -u GNOMON_WARNINGS_AS_ERRORS -u CC -u CXX PATH="$work/bin:$PATH" CALLS="$calls" PROJECT="$project" \
+    out=$(cd "$work/elsewhere" && env -u GNOMON_SKIP_DEPS -u GNOMON_TEST_SEED -u GNOMON_SLOWEST_S -u GNOMON_PROGRESS_S -u GNOMON_LONG -u GNOMON_WARNINGS_AS_ERRORS -u CC -u CXX PATH="$work/bin:$PATH" CALLS="$calls" PROJECT="$project" \
         "${settings[@]}" "$project/gnomon" "$@" 2>"$work/err")
     status=$?
     err=$(<"$work/err")
@@ -54,6 +60,7 @@ called() { grep -qF -- "$1" "$calls"; }
 not_called() { ! called "$1"; }
 is() { [[ $1 == "$2" ]]; }
 has() { [[ $1 == *"$2"* ]]; }
+not_has() { ! has "$@"; }
 
 run -- ; expect "no arguments print the usage" is "$status" 0; expect "usage on stdout" has "$out" "usage: gnomon"
 run -- help; expect "help succeeds" is "$status" 0
@@ -72,11 +79,15 @@ expect "others use sudo" called sudo
 run APT_STATUS=100 -- deps
 expect "a failed installation fails" is "$status" 1
 
-stand_in dpkg-query 'echo installed'
+dpkg_has here older newer absent first second slow
 run -- deps
 expect "nothing missing: apt-get is left alone" is "$(<"$calls")" ""
 expect "and nothing is said" is "$err" ""
-stand_in dpkg-query 'case ${@: -1} in slow) exit 1 ;; *) echo installed ;; esac'
+printf '%s\n' 'removed  # was here once' >>"$project/packages.txt"
+run -- deps
+expect "a package that was removed must come" called "--no-install-recommends removed"
+sed -i '$d' "$project/packages.txt"
+dpkg_has here older newer absent first second
 run -- play
 expect "play installs nothing that only tests need" not_called apt-get
 
@@ -96,6 +107,9 @@ run -- play
 expect "warnings are no errors for users" called "GNOMON_WARNINGS_AS_ERRORS=OFF"
 run GNOMON_WARNINGS_AS_ERRORS=ON NINJA_SAYS='ninja: no work to do.' -- play
 expect "but may be" called "GNOMON_WARNINGS_AS_ERRORS=ON"
+run GNOMON_PROGRESS_S=1 BUILD_TAKES_S=2.5 -- play
+expect "a long build says how far it is" has "$err" "building (release), 2 of 4, 0:0"
+expect "and at last how long it took" has "$err" "gnomon: building (release): 0:0"
 run BUILD_STATUS=1 -- play
 expect "a failed build is status 1" is "$status" 1
 expect "a failed build shows its output" has "$err" "compiler says no"
@@ -105,10 +119,34 @@ run CMAKE_IS=3.22.1 -- play
 expect "an old cmake is status 2" is "$status" 2
 expect "and is explained" has "$err" "3.25"
 
+dpkg_has here older newer absent first second slow
+stand_in ctest 'echo "ctest $* seed=${GNOMON_TEST_SEED:-none} long=${GNOMON_LONG:-no}" >>"$CALLS"
+    printf "1/2 Test #1: a ... Passed\n2/2 Test #2: b ...***Failed\n"; sleep "${TESTS_TAKE_S:-0}"; exit "${TESTS_STATUS:-0}"'
+stand_in python3 'echo "the summary of $*"'
+run -- test -R Aabb
+expect "test runs ctest" called "-R Aabb"
+expect "on the seed that all runs share" called "seed=none"
+expect "without what is long" called "-LE ^long$"
+expect "and without sanitizers" not_called asan
+expect "prints the summary" has "$out" "tests-release.xml"
+run -- test --seed 7; expect "a seed is passed on" called "seed=7 long=no"
+run -- test --seed random
+expect "a random seed is printed" has "$err" "again: gnomon test --seed"
+expect "and passed on" not_called "seed=random"
+run -- test --seed x; expect "a seed that is no number is status 2" is "$status" 2
+run -- test --long
+expect "long tests are long" called "seed=none long=1"
+expect "and run under sanitizers, as long as others" called "asan --output-junit"
+run GNOMON_PROGRESS_S=1 TESTS_TAKE_S=2.5 TESTS_STATUS=8 -- test
+expect "a failed test fails" is "$status" 1
+expect "and is counted while others run" has "$err" "testing (release), 2 of 2, 1 failed"
+run -- test; expect "no limit of seconds for users" not_has "$out" most-s
+run GNOMON_SLOWEST_S=60 -- test; expect "but where asked for" has "$out" "--most-s 60"
+
 # Elsewhere: a PATH with the few tools the launcher needs, and no apt-get.
 mkdir "$work/bare"
 for tool in bash env readlink dirname paste sed mkdir cat; do ln -s "$(command -v "$tool")" "$work/bare/$tool"; done
-out=$(env -u GNOMON_SKIP_DEPS PATH="$work/bare" "$project/gnomon" deps 2>"$work/err"); status=$?; err=$(<"$work/err")
+out=$(env -u GNOMON_SKIP_DEPS -u GNOMON_TEST_SEED -u GNOMON_SLOWEST_S -u GNOMON_PROGRESS_S -u GNOMON_LONG PATH="$work/bare" "$project/gnomon" deps 2>"$work/err"); status=$?; err=$(<"$work/err")
 expect "without apt-get deps is status 2" is "$status" 2
 expect "and says what to install" has "$err" "here older|newer absent first|second slow"
 
