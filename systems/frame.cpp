@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "systems/after_submission.h"
 #include "systems/debug/debug_painter.h"
 #include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
@@ -75,15 +76,10 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
 
     const gl::SubmitResult result = device_.submit(commands_);
     if (settings.repeatable && (sample_depths || measure_exposure)) device_.finish();
-    shadows_->commit(snapshot_, result.failure == gl::Failure::none);
-    lighting_->submitted(result.submission, result.failure == gl::Failure::none);
-    if (result.failure != gl::Failure::none) gpu_scene_.forget_uploads();
-    if (result.failure != gl::Failure::none) report_.failure = result.failure;
-    shadows_->draw_times().submitted(result.submission, snapshot_, report_);
     // What a run measures differs from run to run.
     const bool learn_costs = settings.shadow_budget.gpu_ms > 0.0f && !settings.repeatable;
-    if (learn_costs) shadows_->cost_clock().submitted(result.submission, snapshot_, shadows, report_);
-    collect_timings(learn_costs);
+    collect_timings(
+        after_submission({device_, snapshot_, gpu_scene_, *shadows_, lighting_.get()}, result, learn_costs, report_));
 }
 
 /// What the picture will be multiplied by, at most; empty: nobody is to ask.
@@ -110,12 +106,8 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
 }
 
 /// Sums what timers have come in. A device that answers late reports an earlier frame's times.
-void Frame::collect_timings(bool learn_costs) {
-    const std::vector<gl::Timing> timings = device_.take_timings();
+void Frame::collect_timings(const std::vector<gl::Timing>& timings) {
     if (timings.empty()) return;
-    shadows_->draw_times().learn(timings);
-    lighting_->learn(timings);
-    if (learn_costs) shadows_->cost_clock().learn(timings);
     const std::uint64_t last = timings.back().submission;
     double all_us = 0.0, shadow_us = 0.0;
     for (const gl::Timing& t : timings) {

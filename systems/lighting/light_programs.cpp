@@ -7,12 +7,6 @@
 namespace gnomon::lighting {
 namespace {
 
-/// The include "row.glsl" names the row's kind and filter; an unshadowed light's is empty.
-std::string row_source(const shadow::ProgramRow* row) {
-    if (!row || row->filter_file.empty()) return {};
-    return "#include \"" + std::string(row->kind_file) + "\"\n#include \"" + std::string(row->filter_file) + "\"\n";
-}
-
 const char* output_name(RowOutput output) {
     switch (output) {
         case RowOutput::picture:
@@ -46,7 +40,7 @@ LightPrograms::~LightPrograms() {
 
 void LightPrograms::make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
                          std::span<const std::string> defines, const shadow::ProgramRow* row) {
-    const std::string row_text = row_source(row);
+    const std::string row_text = row ? shadow::row_glsl(*row) : std::string();
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
     files.push_back({"row.glsl", row_text});
     const auto v = gl::expand_shader(files, vertex, defines);
@@ -86,20 +80,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
     Entry& entry = found.entry;
     if (!is_due(entry)) return entry.program;
 
-    std::vector<std::string> defines{std::string(row.kind_define) + " 1"};
-    if (!row.filter_file.empty()) {
-        defines.emplace_back("SHADOWED 1");
-        defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
-        if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
-        if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
-        if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
-        if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
-        if (row.sheets) defines.emplace_back("SHADOW_SHEETS 1");
-        if (row.rays) defines.emplace_back("SHADOW_RAYS 1");
-        if (row.ray_masks) defines.emplace_back("RAY_MASKS 1");
-        if (row.fades) defines.emplace_back("SHADOW_FADES 1");
-        if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
-    }
+    std::vector<std::string> defines = shadow::program_defines(row);
     if (row.filter_file.empty() && row.sheets) defines.emplace_back("SHADOW_FOUND 1");
     const bool kept = output == RowOutput::kept || output == RowOutput::kept_visibility;
     if (kept) defines.emplace_back("READ_KEPT 1");

@@ -6,7 +6,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "components/light.h"
@@ -20,6 +19,7 @@
 #include "systems/shadow/kinds/splits.h"
 #include "systems/shadow/marks.h"
 #include "systems/shadow/moments.h"
+#include "systems/shadow/program_row.h"
 #include "systems/visibility/ray_records.h"
 
 /// Structs 2 to 6 of the frame, in flow order. A later struct names an earlier one by index;
@@ -245,24 +245,6 @@ struct CameraRecord {
     glm::vec4 unproject{0.0f};
 };
 static_assert(sizeof(CameraRecord) == 160);
-
-/// Which program evaluates a light: one row of the light-kind table and one of the filter table.
-/// Names are paths under shaders/ and live as long as the program; empty filter: unshadowed.
-struct ProgramRow {
-    std::string_view kind_define;  // LIGHT_DIRECTIONAL, …
-    std::string_view kind_file, filter_file;
-    float reach_texel = 0.0f;  // the filter's footprint half-width E, without what LightRecord::spread adds
-    bool fades = false;        // looks up a second view that the first one fades into
-    bool depths = false;       // reads depths from the map, where other filters read results of comparing with it
-    bool manual_bias = false;  // any BiasMode but automatic
-    bool triangles = false;    // reads which triangles texels show, and those triangles
-    bool sheets = false;       // reads next depths and bounds: rays are for what those leave uncertain
-    bool moments = false;      // reads a prefiltered map
-    bool rays = false;         // asks the casters' triangles by rays, of surfaces that say where exactly they are
-    bool ray_masks = false;    // some of those, or of `triangles`, are masked
-    bool footprint = false;    // of which it takes what a pixel covers, by mipmaps or anisotropy
-    bool operator==(const ProgramRow&) const = default;
-};
 
 /// How a light is looked up while its own row's program cannot be had: one tap of the depths that it has in any case.
 struct PlainLookup {

@@ -12,8 +12,7 @@
 #include "engine/gl/device_gl45.h"
 #include "own_context.h"
 #include "own_renderer.h"
-#include "systems/extract/gpu_scene.h"
-#include "systems/shadow/shadow_system.h"
+#include "systems/after_submission.h"
 
 namespace {
 
@@ -219,9 +218,9 @@ int run() {
     FrameReport report;
     gpu_scene.value().update(scene, commands);
     const shadow::ShadowFrame& frame = shadows.update(scene, gpu_scene.value(), true, commands, report);
-    const bool drawn = device.value()->submit(commands).failure == gl::Failure::none;
-    shadows.commit(scene, drawn);
-    if (!drawn) return fail("no depth maps");
+    const gl::SubmitResult result = device.value()->submit(commands);
+    after_submission({*device.value(), scene, gpu_scene.value(), shadows}, result, false, report);
+    if (result.failure != gl::Failure::none) return fail("no depth maps");
 
     // [frame]
     OwnRenderer own(scene.consumers.front().position_ws_m);

@@ -10,8 +10,7 @@
 #include "engine/gl/device_gl45.h"
 #include "own_context.h"
 #include "own_renderer.h"
-#include "systems/extract/gpu_scene.h"
-#include "systems/shadow/shadow_system.h"
+#include "systems/after_submission.h"
 
 namespace {
 
@@ -92,6 +91,13 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
         constexpr GLuint kMasks = 7;
         if (light.row.ray_masks) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMasks, gl::gl_name(device, rays.masks));
     }
+    if (light.row.sheets) {
+        constexpr GLuint kSecond = 7, kBounds = 8, kEnds = 2;
+        glBindTextureUnit(kSecond, gl::gl_name(device, light.second));
+        glBindTextureUnit(kBounds, gl::gl_name(device, light.bounds));
+        for (const GLuint unit : {kSecond, kBounds}) glBindSampler(unit, 0);
+        if (light.ends) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEnds, gl::gl_name(device, light.ends));
+    }
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 // [draw]
@@ -117,12 +123,12 @@ int check(LightKind kind, const Case& wanted) {
     FrameReport report;
     gpu_scene.value().update(scene, commands);
     const shadow::ShadowFrame& frame = shadows.update(scene, gpu_scene.value(), true, commands, report);
-    const bool drawn = device.value()->submit(commands).failure == gl::Failure::none;
-    shadows.commit(scene, drawn);
+    const gl::SubmitResult result = device.value()->submit(commands);
+    after_submission({*device.value(), scene, gpu_scene.value(), shadows}, result, false, report);
     const shadow::LightingInputs& inputs = frame.inputs.front();
     const shadow::LightingLight& light = inputs.lights.front();
     // [shadows]
-    if (!drawn || !(light.map || light.row.rays)) return fail("no depth map");
+    if (result.failure != gl::Failure::none || !(light.map || light.row.rays)) return fail("no depth map");
     if (!(light.row.*wanted.needs)) return fail(std::string(wanted.name) + " does not ask for what it is here to show");
 
     const auto fragment = fragment_for(light.row, kFragment);
@@ -170,7 +176,13 @@ int main() {
         {"pcss",
          {.filter = ShadowFilter::pcss, .source_radius_m = 1.0f, .sun_radius_rad = 0.01f},
          &shadow::ProgramRow::depths},
-        {"exact", {.filter = ShadowFilter::exact}, &shadow::ProgramRow::rays}};
+        {"exact", {.filter = ShadowFilter::exact}, &shadow::ProgramRow::sheets},
+        {"exact_soft",
+         {.filter = ShadowFilter::exact_soft, .source_radius_m = 1.0f, .sun_radius_rad = 0.01f},
+         &shadow::ProgramRow::sheets},
+        {"exact without a map",
+         {.filter = ShadowFilter::exact, .projection = LightProjection::perspective},
+         &shadow::ProgramRow::rays}};
     int failed = 0;
     for (const Case& one : cases)
         for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})

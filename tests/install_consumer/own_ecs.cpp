@@ -8,9 +8,7 @@
 #include "engine/gl/device_gl45.h"
 #include "ground_and_box.h"
 #include "own_context.h"
-#include "systems/extract/gpu_scene.h"
-#include "systems/lighting/lighting_system.h"
-#include "systems/shadow/shadow_system.h"
+#include "own_frame.h"
 
 namespace {
 
@@ -95,37 +93,6 @@ void fill_snapshot(Things& things, const assets::MeshLibrary& library, glm::uvec
 }
 // [snapshot]
 
-// [frame]
-/// One frame: what systems/frame.cpp does, without a registry.
-class OwnFrame {
-public:
-    OwnFrame(gl::Device& device, GpuScene scene)
-        : device_(device), gpu_scene_(std::move(scene)), shadows_(device), lighting_(device) {}
-
-    bool run(const SceneSnapshot& scene) {
-        commands_.clear();
-        report.clear();
-        gpu_scene_.update(scene, commands_);
-        const shadow::ShadowFrame& frame = shadows_.update(scene, gpu_scene_, true, commands_, report);
-        const bool lit =
-            lighting_.record(frame.inputs.front(), scene, gpu_scene_, {.exposure_ev = 14.0f}, commands_, report);
-        const bool drawn = device_.submit(commands_).failure == gl::Failure::none;
-        shadows_.commit(scene, drawn);
-        if (!drawn) gpu_scene_.forget_uploads();
-        return lit && drawn;
-    }
-    FrameReport report;
-    gl::TextureHandle picture() const { return lighting_.picture_texture(); }
-
-private:
-    gl::Device& device_;
-    GpuScene gpu_scene_;
-    shadow::ShadowSystem shadows_;
-    lighting::LightingSystem lighting_;
-    gl::CommandList commands_;
-};
-// [frame]
-
 /// Red of the middle row, left to right.
 std::vector<int> middle_row(gl::Device& device, gl::TextureHandle picture) {
     std::vector<std::uint8_t> rgba(std::size_t{kPicture_px} * kPicture_px * 4);
@@ -143,6 +110,7 @@ int run() {
     auto gpu_scene = GpuScene::create(*device.value(), library);
     if (!gpu_scene) return fail(to_line(gpu_scene.error()));
     OwnFrame frame(*device.value(), std::move(gpu_scene).value());
+    device.value()->set_timing(gl::TimingMode::finish);
 
     Things things = {{.mesh = kGroundMesh},
                      {.mesh = kBoxMesh, .position_m = {0.0, kBoxHeight_m, 0.0}, .casts = true},
@@ -165,6 +133,11 @@ int run() {
     if (!step()) return fail("the second frame failed");
     if (frame.report.lights[0].state != LightState::reused) return fail("an unchanged frame drew its map again");
     if (middle_row(*device.value(), frame.picture()) != first) return fail("an unchanged frame gave another picture");
+    if (!frame.report.lights[0].why.saved_us) return fail("nobody learns what a map takes");
+    for (int i = 0; i < 3; ++i)
+        if (!step()) return fail("a still frame failed");
+    if (frame.report.lights[0].kept.reason != Reason::visibility_kept) return fail("still frames look the light up");
+    if (middle_row(*device.value(), frame.picture()) != first) return fail("what is kept is another picture");
 
     things[1].position_m.x -= 2.5;  // the shadow now lies where it was light
     things[1].moved = true;

@@ -52,28 +52,11 @@ SceneSnapshot stage_with(const std::vector<LightKind>& kinds, const LightShadow&
 // [program]
 /// The fragment shader for one light: which kind and which filter is said by row.glsl and its defines.
 Result<std::string> fragment_for(const shadow::ProgramRow& row, const char* main_text) {
-    const bool shadowed = !row.filter_file.empty();
-    std::string row_text;
-    if (row.footprint || row.triangles || row.rays) row_text += "#include \"shared/camera_block.glsl\"\n";
-    for (const std::string_view file : {row.kind_file, row.filter_file})
-        if (shadowed) row_text += "#include \"" + std::string(file) + "\"\n";
+    const std::string row_text = shadow::row_glsl(row);
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
     files.push_back({"row.glsl", row_text});
     files.push_back({"mine/main.frag", main_text});
-    std::vector<std::string> defines = {std::string(row.kind_define) + " 1"};
-    if (shadowed) {
-        defines.emplace_back("SHADOWED 1");
-        defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
-        if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
-        if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
-        if (row.rays) defines.emplace_back("SHADOW_RAYS 1");
-        if (row.ray_masks) defines.emplace_back("RAY_MASKS 1");
-        if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
-        if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
-        if (row.fades) defines.emplace_back("SHADOW_FADES 1");
-        if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
-    }
-    return gl::expand_shader(files, "mine/main.frag", defines);
+    return gl::expand_shader(files, "mine/main.frag", shadow::program_defines(row));
 }
 // [program]
 

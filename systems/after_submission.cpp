@@ -1,0 +1,31 @@
+#include "systems/after_submission.h"
+
+namespace gnomon {
+namespace {
+
+/// What is measured is told who recorded it.
+void note_submission(const FrameParts& parts, std::uint64_t submission, bool learn_costs, const FrameReport& report) {
+    shadow::ShadowSystem& shadows = parts.shadows;
+    shadows.draw_times().submitted(submission, parts.scene, report);
+    if (learn_costs) shadows.cost_clock().submitted(submission, parts.scene, shadows.frame(), report);
+}
+
+}  // namespace
+
+std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs,
+                                         FrameReport& report) {
+    const bool drawn = result.failure == gl::Failure::none;
+    parts.shadows.commit(parts.scene, drawn);
+    if (parts.lighting) parts.lighting->submitted(result.submission, drawn);
+    if (!drawn) parts.gpu.forget_uploads();
+    if (!drawn) report.failure = result.failure;
+    note_submission(parts, result.submission, learn_costs, report);
+    std::vector<gl::Timing> timings = parts.device.take_timings();
+    if (timings.empty()) return timings;
+    parts.shadows.draw_times().learn(timings);
+    if (parts.lighting) parts.lighting->learn(timings);
+    if (learn_costs) parts.shadows.cost_clock().learn(timings);
+    return timings;
+}
+
+}  // namespace gnomon
