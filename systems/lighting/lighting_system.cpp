@@ -10,6 +10,7 @@
 #include "systems/extract/instance_order.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_timers.h"
+#include "systems/lighting/report_lacks.h"
 
 namespace gnomon::lighting {
 namespace {
@@ -253,11 +254,8 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
             if (inputs.lights[i].screen.width <= 0) continue;
             const LightProgram used = light_program(inputs.lights[i], RowOutput::blended);
-            LightReport& light = report.lights[inputs.lights[i].light];
-            if (used.lacks != Reason::none && light.state != LightState::skipped) {
-                light.state = LightState::degraded;  // its shadow still falls on all that is not blended
-                light.reason = used.lacks;
-            }
+            report_blended_lack({used.lacks, used.unshadowed}, inputs.lights[i].plain.accuracy,
+                                report.lights[inputs.lights[i].light]);
             state.program = used.program;
             if (!state.program) continue;
             state.blend = gl::Blend::add;

@@ -1,5 +1,6 @@
 #include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
+#include "systems/lighting/report_lacks.h"
 
 /// Which program evaluates a light, what it reads, and the pass that does.
 namespace gnomon::lighting {
@@ -109,10 +110,7 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         if (light.screen.width <= 0) continue;
         const LightPass& pass = passes_[i];
         const LightProgram& used = pass.own;
-        if (used.lacks != Reason::none) {
-            report.lights[light.light].state = used.unshadowed ? LightState::skipped : LightState::degraded;
-            report.lights[light.light].reason = used.lacks;
-        }
+        report_lack({used.lacks, used.unshadowed}, light.plain.accuracy, report.lights[light.light]);
         if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});

@@ -9,9 +9,6 @@
 /// What a light's shadow takes of a budget, and what is lost by giving it less: a model, the same for the same input.
 namespace gnomon::shadow {
 
-/// One fetch, one texel, no store beside the map, and the narrowest footprint: no border or bias is too small for it.
-inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
-
 /// Below, a shadow says little more than that there is one.
 inline constexpr std::uint32_t kLeastGranted_px = 64;
 

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/shadow/contract.h"
-#include "systems/shadow/predicted_error.h"
+#include "systems/shadow/lookup_accuracy.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -50,22 +49,16 @@ void explain_views(const LightItem& light, const ShadowDemand& demand, const Sha
     }
 }
 
-/// What the fit predicts, in a map of fewer texels than it planned, of casters as they were when it was drawn.
-double shown_error_px(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot) {
-    const double texels = static_cast<double>(demand.resolution_px) / slot.size_px;
-    const double own_px = edge_error_px(0.0, 0.0);  // the picture's
-    const double drawn_px =
-        texels > 1.0 ? (view.predicted_error_px - own_px) * texels + own_px : view.predicted_error_px;
-    return drawn_px + slot.stale.error_px;
-}
-
-/// `drawn`: what the light looks up was made or changed in this frame. `held`: a view of its maps shows casters as they
-/// were.
-void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history, bool drawn,
-                   bool held, LightReport& out) {
+/// `lost`: there is neither a map to look up nor a ray to ask. `drawn`: what the light looks up was made or changed in
+/// this frame. `held`: a view of its maps shows casters as they were.
+void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history, bool lost,
+                   bool drawn, bool held, LightReport& out) {
     out.reason = sets.skip;
     if (out.reason != Reason::none) {
         out.state = LightState::skipped;
+    } else if (lost) {
+        out.state = LightState::skipped;
+        out.reason = demand.note;
     } else if (history && history->failure != Reason::none) {
         out.state = LightState::degraded;
         out.reason = history->failure;
@@ -86,7 +79,9 @@ void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const 
     }
 }
 
-FilterReport filter_report(const ShadowDemand& demand) {
+/// `filter`: that it is published with; another one than its own for want of something, as its demand notes.
+FilterReport filter_report(const ShadowDemand& demand, ShadowFilter filter) {
+    if (filter != demand.filter) return {filter, demand.note, {}};
     FilterReport out{demand.filter, Reason::none, {}};
     if (demand.usual_px > 0.0) out.reason = Reason::map_too_coarse;
     if (demand.usual_px > 0.0) out.usual_error_px = demand.usual_px;
@@ -112,7 +107,7 @@ void explain_savings(const LightItem& light, const ShadowDemand& demand, std::op
 }  // namespace
 
 void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const MapStore& maps, const DrawTimes& times,
-                    const DimLights& dim, FrameReport& report) {
+                    const DimLights& dim, bool rays, FrameReport& report) {
     report.views.clear();
     const bool trees_changed = report.rays.meshes_written > 0 || report.rays.instances_written;
     std::size_t first = 0, end = 0;
@@ -131,26 +126,27 @@ void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const 
             out.bytes = MapStore::bytes(*history);
         }
         while (end < frame.views.size() && frame.views[end].demand == i) ++end;
-        const bool exact = demand.asks_rays && report.rays.bytes > 0;
+        const bool exact = demand.asks_rays && rays;
+        const ShadowFilter filter = published_filter(demand, first < end ? frame.slots[first] : ShadowSlot{}, rays);
+        LookupAccuracy shown{filter, 0.0, false};
         bool held = false;
         for (std::size_t v = first; v < end; ++v) {
             if (!frame.slots[v].texture || frame.views[v].lit) continue;
             ++out.views;
             held = held || frame.slots[v].hold != Hold::none;
             out.why.stale_px = std::max(out.why.stale_px, frame.slots[v].stale.error_px);
-            out.predicted_error_px =
-                std::max(out.predicted_error_px, shown_error_px(frame.views[v], demand, frame.slots[v]));
+            add_view(light, demand, frame.views[v], frame.slots[v], shown);
         }
-        if (exact) out.predicted_error_px = 0.0;
-        explain_state(sets, demand, history, out.views_drawn > 0 || (exact && trees_changed), held, out);
+        if (!exact) out.predicted_error_px = shown.predicted_error_px;
+        const bool lost = demand.asks_rays && filter == ShadowFilter::automatic;
+        explain_state(sets, demand, history, lost, out.views_drawn > 0 || (exact && trees_changed), held, out);
         out.keeps_max_error = (exact && sets.skip == Reason::none && demand.skip == Reason::none) ||
-                              (out.views > 0 && history->failure == Reason::none && demand.refresh_frames == 1 &&
-                               keeps_contract(out.predicted_error_px, wished_error_px(light.shadow)));
+                              (shown.keeps_max_error && !exact && history->failure == Reason::none);
         out.why.receivers = sets.receivers.count;
         out.why.casters = sets.casters.count;
         out.why.display_steps = dim.steps(i);
         const std::optional<double> view_us = times.view_us(light.entity);
-        if (out.state != LightState::skipped) out.filter = filter_report(demand);
+        if (out.state != LightState::skipped) out.filter = filter_report(demand, filter);
         if (out.state != LightState::skipped) explain_views(light, demand, frame, first, end, view_us, report, out);
         explain_savings(light, demand, view_us, report, out);
     }

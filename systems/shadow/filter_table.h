@@ -64,6 +64,10 @@ struct FilterRow {
 /// The row that measures best, and what ShadowFilter::automatic is where nothing speaks for another.
 inline constexpr ShadowFilter kUsualFilter = ShadowFilter::triangles;
 
+/// What is looked up where a budget leaves no more, or the light's own row cannot be had. One fetch, one texel, no store
+/// beside the map, and the narrowest footprint: no border or bias is too small for it.
+inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
+
 inline bool has_sheets(FilterStorage storage) {
     return storage == FilterStorage::sheets || storage == FilterStorage::soft_sheets;
 }

@@ -11,6 +11,7 @@
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/light_time.h"
+#include "systems/shadow/lookup_accuracy.h"
 #include "systems/shadow/lookup_signature.h"
 #include "systems/shadow/seed_cell.h"
 #include "systems/shadow/sets.h"
@@ -64,7 +65,7 @@ std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind)
 /// The program and the textures of a light with a map.
 void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const ShadowSlot& slot,
                 const MapSamplers& samplers, LightingLight& out) {
-    const FilterRow &filter = filter_row(demand.filter), &one_tap = filter_row(ShadowFilter::hard);
+    const FilterRow &filter = filter_row(demand.filter), &one_tap = filter_row(kPlainFilter);
     out.plain.row = {kind.define, kind_file(demand, kind), one_tap.file, one_tap.reach_texel};
     out.plain.map = slot.texture;
     out.plain.sampler = samplers.of(one_tap.reading);
@@ -74,9 +75,9 @@ void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const Shad
     out.second = slot.second;
     out.bounds = slot.bounds;
     out.ends = slot.ends;
-    if (demand.asks_rays) return;  // by itself its map is good for no more
+    // By itself the map of one that asks rays is good for no more; nor is one whose moments could not be made.
+    if (published_filter(demand, slot, false) != demand.filter) return;
     const bool moments = filter.storage == FilterStorage::moments;
-    if (moments && !slot.moments) return;  // they could not be made
     out.row.filter_file = filter.file;
     out.row.reach_texel = demand.filtering.reach_texel;
     out.row.depths = filter.reading == MapReading::depths;
@@ -320,6 +321,8 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             const LightItem& light = scene.lights[demand.light];
             LightingLight& out = inputs.lights[demand.light];
             set_lookup(demand, light_kind_row(light.kind), slot, samplers, out);
+            out.plain.accuracy.filter = kPlainFilter;
+            add_view(light, demand, view, slot, out.plain.accuracy);
             out.row.ray_masks = out.row.triangles && masked;
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);

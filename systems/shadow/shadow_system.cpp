@@ -127,7 +127,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     report.rays.sheet_bytes = sheets_.bytes();
     report.rays.sheet_host_bytes = sheets_.host_bytes();
     if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
-    explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, report);
+    explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, static_cast<bool>(rays_.buffers().nodes), report);
     budget_.report(report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;

@@ -246,11 +246,19 @@ struct CameraRecord {
 };
 static_assert(sizeof(CameraRecord) == 160);
 
+/// What a light's report says of the shadow that is looked up so.
+struct LookupAccuracy {
+    ShadowFilter filter = ShadowFilter::automatic;  // automatic: there is nothing to look up
+    double predicted_error_px = 0.0;                // worst over its views; 0: none shows an edge
+    bool keeps_max_error = false;
+};
+
 /// How a light is looked up while its own row's program cannot be had: one tap of the depths that it has in any case.
 struct PlainLookup {
     ProgramRow row;  // no filter file: the light has no map
     gl::TextureHandle map{};
     gl::SamplerHandle sampler{};
+    LookupAccuracy accuracy;
 };
 
 /// Struct 6. One light as one consumer's lighting needs it: GPU-ready, with the textures to bind.

@@ -36,6 +36,7 @@ RayScene::Held::Held(gl::Device& device, const assets::MeshLibrary& library)
 void RayScene::free_meshes() {
     for (const gl::BufferHandle buffer : {buffers_.nodes, buffers_.triangles, buffers_.masks}) device_.destroy(buffer);
     buffers_ = {};
+    if (held_) held_->mesh_bytes = 0;
 }
 
 void RayScene::release() {
@@ -57,14 +58,11 @@ bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::Comma
     bool ready = made || make_meshes(scene, gpu);
     if (ready && made) rewrite_bent(scene, gpu, list);
     ready = ready && write_instances(scene, !made, list);
-    if (!ready) {
-        free_meshes();
-        retry_.failed(asked_);
-        return false;
-    }
-    forgotten_ = false;
+    if (!ready) free_meshes();
+    if (!ready) retry_.failed(asked_);
+    if (ready) forgotten_ = false;
     count();
-    return true;
+    return ready;
 }
 
 /// A mesh's triangles by slot, as shaders read them.
