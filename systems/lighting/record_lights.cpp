@@ -38,22 +38,27 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
     const shadow::PlainLookup& plain = light.plain;
     const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
     const bool may_wait = has_plain && output != RowOutput::visibility;  // that is asked for by itself
-    Reason lacks = Reason::filter_program_waits;
+    Reason lacks = Reason::buffer_failed;
     const bool lists = light.row.sheets && output != RowOutput::blended;
     const bool has_surfaces = !light.row.rays || (has_places_ && (!lists || ray_list_));
-    if (!has_surfaces) lacks = Reason::buffer_failed;
-    if (has_surfaces && (!may_wait || !programs_.must_wait(light.row, output))) {
-        const gl::ProgramHandle own = programs_.row(light.row, output);
-        LightProgram used{own,        light.map,    light.triangles, light.sampler,
-                          light.rays, light.second, light.bounds,    light.ends};
+    if (has_surfaces) {
+        bool waits = false;
+        // Each of several counts: a frame may have time for one.
+        const auto made = [&](RowOutput part) {
+            const bool late = waits || (may_wait && programs_.must_wait(light.row, part));
+            waits = late;
+            return late ? gl::ProgramHandle{} : programs_.row(light.row, part);
+        };
+        LightProgram used{made(output), light.map,    light.triangles, light.sampler,
+                          light.rays,   light.second, light.bounds,    light.ends};
+        if (lists) used.verdicts_program = made(RowOutput::verdicts);
+        if (lists) used.rays_program = made(RowOutput::rays);
         // One that only saves time comes when there is time to make it.
-        const bool leaves = light.row.triangles && output == RowOutput::picture && targets_.undecided_target;
+        const bool leaves = !waits && light.row.triangles && output == RowOutput::picture && targets_.undecided_target;
         if (leaves && !programs_.must_wait(light.row, RowOutput::decided))
             used.decided_program = programs_.row(light.row, RowOutput::decided);
-        if (lists) used.verdicts_program = programs_.row(light.row, RowOutput::verdicts);
-        if (lists) used.rays_program = programs_.row(light.row, RowOutput::rays);
-        if (own && (!lists || (used.verdicts_program && used.rays_program))) return used;
-        lacks = Reason::filter_program_failed;
+        if (used.program && (!lists || (used.verdicts_program && used.rays_program))) return used;
+        lacks = waits ? Reason::filter_program_waits : Reason::filter_program_failed;
     }
     const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
     if (one_tap) return {.program = one_tap, .map = plain.map, .sampler = plain.sampler, .lacks = lacks};

@@ -163,6 +163,27 @@ TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
     EXPECT_EQ(made().size(), first + 2);
 }
 
+/// A light that asks by rays has three: each of them counts.
+TEST_F(Programs, OfALightOfSeveralComeOneAfterTheOther) {
+    world.add_stage();
+    const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
+    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::exact; });
+    settings.programs_per_frame = 1;
+    const auto own = [&] {
+        std::vector<std::string> labels = made();
+        std::erase_if(labels, [](const std::string& label) {
+            return label.find("LIGHT_SPOT") == std::string::npos || label.find("filters/hard") != std::string::npos;
+        });
+        return labels.size();
+    };
+    for (std::size_t frames = 1; frames <= 3; ++frames) {
+        step();
+        EXPECT_EQ(own(), frames);
+        EXPECT_EQ(light("lamp").reason == Reason::filter_program_waits, frames < 3) << frames;
+        EXPECT_EQ(light("lamp").filter.filter, frames < 3 ? ShadowFilter::hard : ShadowFilter::exact);
+    }
+}
+
 TEST_F(Programs, ThatMakeMomentsAndDoNotCompileLeaveOneTapOfTheDepths) {
     world.add_stage();
     const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
