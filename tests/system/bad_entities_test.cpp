@@ -182,6 +182,7 @@ TEST_F(BadEntities, AnAbsurdLightIsDroppedAndTheOthersShine) {
         [](Light& l) { l.intensity = std::numeric_limits<float>::quiet_NaN(); },
         [](Light& l) { l.intensity = -1.0f; },
         [](Light& l) { l.intensity = std::numeric_limits<float>::infinity(); },
+        [](Light& l) { l.intensity = 1.0e30f, l.colour.g = 1.0e10f; },  // each of them finite
         [](Light& l) { l.range_m = -2.0f; },
         [](Light& l) { l.colour.g = std::numeric_limits<float>::quiet_NaN(); },
         [](Light& l) { l.inner_cone_rad = 0.9f, l.outer_cone_rad = 0.4f; },
