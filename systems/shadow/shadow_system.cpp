@@ -69,11 +69,16 @@ void ShadowSystem::provide_triangles(GpuScene& gpu) {
             frame_.sets[d].skip = Reason::buffer_failed;
 }
 
+/// Rays ask of an instance whom it shadows: without records of those there is nothing to walk.
+bool ShadowSystem::update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
+    return gpu.instances() && rays_.update(scene, gpu, list);
+}
+
 /// Whether the device had no room for what rays walk, and has none now: it is asked again from time to time.
 bool ShadowSystem::lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
                                  [](const ShadowDemand& d) { return d.skip == Reason::none && d.asks_rays; });
-    return rays_lack_ && any && !rays_.update(scene, gpu, list);
+    return rays_lack_ && any && !update_rays(scene, gpu, list);
 }
 
 /// Lights that ask by rays are looked up once, or lit, in the frame that has no room for what those walk;
@@ -92,7 +97,7 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
     if (!any) rays_.release();
     if (!any) sheets_.release();
     if (!any) ends_.release();
-    if (!asked || updated || rays_.update(scene, gpu, list)) return;
+    if (!asked || updated || update_rays(scene, gpu, list)) return;
     rays_lack_ = true;
     for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
         if (!asks_now(d)) continue;

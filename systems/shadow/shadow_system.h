@@ -62,6 +62,7 @@ private:
     bool samplers_ready();
     bool moment_sampler_ready(const MomentDemand& demand);
     void provide_triangles(GpuScene& gpu);
+    bool update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
     bool lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
     void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list);
 

@@ -32,6 +32,12 @@ TEST_P(EveryCallFails, WithoutAFrameAShadowOrAnObjectLostForGood) {
     RecordProperty("cases", std::to_string(cases));
 }
 
+std::string name_of(const ::testing::TestParamInfo<std::tuple<Scenario, gl::Failure>>& param) {
+    std::string name = std::string(std::get<0>(param.param).name) + gl::to_text(std::get<1>(param.param));
+    std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+    return name;
+}
+
 INSTANTIATE_TEST_SUITE_P(
     EachFailure, EveryCallFails,
     ::testing::Combine(::testing::Values(Scenario{"Boxes", box_scene}, Scenario{"Courtyard", courtyard_scene},
@@ -39,11 +45,13 @@ INSTANTIATE_TEST_SUITE_P(
                        ::testing::Values(gl::Failure::out_of_memory, gl::Failure::invalid_value,
                                          gl::Failure::incomplete_target, gl::Failure::compile_failed,
                                          gl::Failure::link_failed, gl::Failure::context_lost)),
-    [](const auto& param) {
-        std::string name = std::string(std::get<0>(param.param).name) + gl::to_text(std::get<1>(param.param));
-        std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
-        return name;
-    });
+    name_of);
+
+/// Whatever fails of rays and sheets fails in the same way for the executor's every reason.
+INSTANTIATE_TEST_SUITE_P(
+    EachFailureOfRays, EveryCallFails,
+    ::testing::Combine(::testing::Values(Scenario{"Exact", exact_scene}), ::testing::Values(gl::Failure::out_of_memory)),
+    name_of);
 
 }  // namespace
 }  // namespace gnomon

@@ -40,16 +40,19 @@ bool is_loss(Reason reason) {
     }
 }
 
-/// Whether the light's own pass of the picture samples a map.
-bool samples_map(const std::vector<Pass>& passes, const std::string& light, const gl::RecordingDevice& device) {
+/// The filter by which the light's own passes of the picture look its shadow up; automatic: they do not. Where they are
+/// of two, the last.
+ShadowFilter drawn_filter(const std::vector<Pass>& passes, const std::string& light, const gl::RecordingDevice& device) {
+    ShadowFilter drawn = ShadowFilter::automatic;
     for (const Pass& pass : passes) {
         if (pass.group != light || pass.is_depth) continue;
         for (const gl::PipelineState& state : pass.pipelines) {
             const gl::ProgramDesc* program = device.program(state.program);
-            if (program && program->label.find("filters") != std::string::npos) return true;
+            for (const shadow::FilterRow& row : shadow::filter_table())
+                if (program && program->label.find(row.file) != std::string::npos) drawn = row.id;
         }
     }
-    return false;
+    return drawn;
 }
 
 }  // namespace
@@ -99,8 +102,10 @@ std::vector<FaultPlay::LightOutcome> FaultPlay::run_frame(Host& host, int index)
     for (std::size_t i = 0; i < reports.size(); ++i) {
         const LightReport& light = reports[i];
         const ShadowFilter filter = host.frame->snapshot().lights[i].shadow.filter;
+        const ShadowFilter drawn = drawn_filter(passes, light.name, *host.device);
         lights.push_back({light.name, light.kind, light.state, light.reason, light.bytes,
-                          samples_map(passes, light.name, *host.device), shadow::filter_row(filter).file});
+                          drawn != ShadowFilter::automatic, shadow::filter_row(filter).file, drawn,
+                          light.filter.filter, light.predicted_error_px, light.keeps_max_error});
     }
     return lights;
 }
@@ -113,6 +118,13 @@ void FaultPlay::expect_consistent(const std::vector<LightOutcome>& lights, int i
         const LightOutcome& light = lights[i];
         if (picture) {
             EXPECT_EQ(light.samples_map, light.state != LightState::skipped) << light.name;
+            EXPECT_EQ(light.drawn, light.said) << light.name << " is looked up in another way than it says";
+            const bool exact = shadow::asks_rays(shadow::filter_row(light.drawn));
+            // Blended surfaces may have fallen back where all others did not.
+            if (!exact || !is_loss(light.reason)) {
+                EXPECT_EQ(light.predicted_error_px > 0.0, light.samples_map && !exact) << light.name;
+            }
+            EXPECT_TRUE(light.samples_map || !light.keeps_max_error) << light.name;
         }
         const bool less = light.bytes < sound[i].bytes || (picture && sound[i].samples_map && !light.samples_map);
         if (less) {
@@ -131,7 +143,12 @@ void FaultPlay::expect_named(const std::vector<LightOutcome>& lights, const Call
         starts_with(call.label, "shadow compare") || call.label == "shadow depths" || call.label == "shadow moments";
     const bool of_all = is_sampler || call.label == "caster triangles" || call.label == "caster masks" ||
                         (call.frame == 0 && call.label == "instances");
-    const bool of_some = starts_with(call.label, "depth ") || starts_with(call.label, "shadow draw items") ||
+    // Whoever asks by rays shares them.
+    bool of_rays = call.label.find("as found") != std::string::npos;
+    for (const char* shared : {"ray ", "sheet ", "shadow sheet ", "surface places", "surface with places",
+                               "verdicts of maps", "answers of rays", "pixels for rays"})
+        of_rays = of_rays || starts_with(call.label, shared);
+    const bool of_some = of_rays || starts_with(call.label, "depth ") || starts_with(call.label, "shadow draw items") ||
                          starts_with(call.label, "shadow views") || starts_with(call.label, "moments ") ||
                          call.label == "shadow moment records" || (call.frame > 0 && call.label == "instances");
     // Without the first of a light's two draws the second is its only one: that costs time and nothing else.

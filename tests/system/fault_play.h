@@ -49,6 +49,9 @@ private:
         std::uint64_t bytes;
         bool samples_map;  // in its own pass
         std::string_view filter_file;
+        ShadowFilter drawn, said;  // what that pass looks up by, and what the report says
+        double predicted_error_px;
+        bool keeps_max_error;
     };
     /// A device and what lives on it.
     struct Host {

@@ -54,6 +54,23 @@ FaultScene box_scene() {
     return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
 }
 
+FaultScene exact_scene() {
+    const auto world = std::make_shared<TestWorld>();
+    const TestWorld::Stage stage = world->add_stage();
+    world->add_mesh(kMaskedBox, {1.5, 1, 0}, true);
+    world->add_mesh(kBlendedBox, {-1.5, 1, 0}, false);
+    const auto add = [&](LightKind kind, const char* name, const LightShadow& shadow) {
+        const ecs::Entity light = world->add_light(kind, kLightPlace_m, name);
+        world->registry.patch<LightShadow>(light, [&](LightShadow& s) { s = shadow; });
+    };
+    add(LightKind::spot, "exact", {.filter = ShadowFilter::exact, .resolution_px = 128});
+    add(LightKind::point, "soft", {.filter = ShadowFilter::exact_soft, .source_radius_m = 0.1f, .resolution_px = 128});
+    add(LightKind::directional, "eye",
+        {.filter = ShadowFilter::exact, .resolution_px = 128, .projection = LightProjection::perspective});
+    const auto play = [world, box = stage.box](int frame) { world->move(box, {0.01 * frame, 1, 0}); };
+    return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
+}
+
 FaultScene courtyard_scene() { return courtyard(LightShadow{}.splits, LightShadow{}.fit); }
 // A held fit would go on from what it held while depths were missing, not from what it holds without a fault.
 FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled, ShadowFit::tight); }
