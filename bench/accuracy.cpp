@@ -96,7 +96,8 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         const LightItem& light = snapshot.lights[indices[k]];
         accuracy.lights[k].truth = tracer.trace_light(hits, light, options.with_ambiguous);
         if (other) accuracy.lights[k].other_surface = leave_out(*other, accuracy.lights[k].truth);
-        if (oracle::source_size(light) > 0.0) judge_source(tracer, hits, light, accuracy.lights[k]);
+        if (oracle::source_size(light) > 0.0 && !is_left_out(accuracy.lights[k].report))
+            judge_source(tracer, hits, light, accuracy.lights[k]);
     }
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;
@@ -104,6 +105,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     const std::vector<std::uint8_t> creases = oracle::creases(hits);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];
+        if (is_left_out(light.report)) continue;
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
         judge_edges(tracer, hits, snapshot, bounds, indices[k], options, light);

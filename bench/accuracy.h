@@ -26,7 +26,7 @@ struct SoftAccuracy {
 };
 
 struct LightAccuracy {
-    LightReport report;  // of the frame that was measured
+    LightReport report;  // of the frame that was measured; is_left_out(): nothing below is counted
     oracle::Metrics metrics;
     std::vector<float> measured;               // as of --visibility
     oracle::LightTruth truth;                  // ambiguous as well where other_surfaces() are

@@ -30,13 +30,9 @@ Json to_json(const SoftAccuracy& soft) {
         {"width_ratio", {{"p10", m.widths.p10_ratio}, {"median", m.widths.median_ratio}, {"p90", m.widths.p90_ratio}}}};
 }
 
-Json to_json(const LightAccuracy& light) {
+/// What is counted against the truth.
+void add_errors(const LightAccuracy& light, Json& json) {
     const oracle::Metrics& m = light.metrics;
-    Json json;
-    json["name"] = light.report.name;
-    json["kind"] = shadow::light_kind_row(light.report.kind).name;
-    json["state"] = gnomon::to_text(light.report.state);
-    json["reason"] = reason_code(light.report.reason);
     json["scored_px"] = m.scored;
     json["wrong_px"] = m.wrong;
     json["false_shadow_px"] = m.false_shadow;
@@ -62,6 +58,20 @@ Json to_json(const LightAccuracy& light) {
                                {"truth_ambiguous", light.exceptions.truth_ambiguous},
                                {"unexplained", light.exceptions.unexplained}};
     json["beyond_stated_px"] = light.beyond_stated;
+}
+
+Json to_json(const LightAccuracy& light) {
+    Json json;
+    json["name"] = light.report.name;
+    json["kind"] = shadow::light_kind_row(light.report.kind).name;
+    json["state"] = gnomon::to_text(light.report.state);
+    json["reason"] = reason_code(light.report.reason);
+    json["left_out"] = is_left_out(light.report);
+    Json errors;
+    add_errors(light, errors);
+    // The keys are the same for all; what was not counted is null.
+    for (const auto& error : errors.items())
+        json[error.key()] = is_left_out(light.report) ? Json(nullptr) : error.value();
     json["predicted_error_px"] = light.report.predicted_error_px;
     json["views"] = light.report.views;
     json["texels"] = light.report.texels;

@@ -11,6 +11,11 @@ constexpr double kUsPerMs = 1000.0;
 constexpr double kBytesPerMb = 1.0e6;
 
 void append_light(const LightAccuracy& light, std::string& text) {
+    if (is_left_out(light.report)) {
+        text += formatted("%-18.18s left out, its shadow could not be seen: %s\n", light.report.name.c_str(),
+                          reason_code(light.report.reason));
+        return;
+    }
     const oracle::Metrics& m = light.metrics;
     const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
     const oracle::FarErrors& far = light.far;
@@ -90,12 +95,14 @@ std::string accuracy_table(const Accuracy& accuracy) {
             text += light.report.name + ": above what defaults are to keep: " + above +
                     ". What reaching it takes: --sweep full.\n";
     for (const LightAccuracy& light : accuracy.lights)
-        text +=
-            light.other_surface
-                ? formatted(
-                      "%s: %zu pixels show another surface than their ray meets (gnomon bench audit lists them).\n",
-                      light.report.name.c_str(), *light.other_surface)
-                : formatted("%s: this device does not tell which triangle a pixel shows.\n", light.report.name.c_str());
+        if (!is_left_out(light.report))
+            text +=
+                light.other_surface
+                    ? formatted(
+                          "%s: %zu pixels show another surface than their ray meets (gnomon bench audit lists them).\n",
+                          light.report.name.c_str(), *light.other_surface)
+                    : formatted("%s: this device does not tell which triangle a pixel shows.\n",
+                                light.report.name.c_str());
     for (const LightAccuracy& light : accuracy.lights)
         if (light.redrawn_differs > 0)
             text += formatted("%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),

@@ -72,9 +72,9 @@ std::vector<std::uint8_t> FilterRows::front(std::size_t resolution, std::size_t 
     std::vector<std::size_t> judged;
     for (std::size_t v = 0; v < variants.size(); ++v) {
         const RowFigures& row = figures[resolution][v][light];
-        if (truth == RowTruth::point && !row.wrong) continue;
+        if (!is_judged(resolution, v, light, truth)) continue;
         judged.push_back(v);
-        choices.push_back({truth == RowTruth::point ? *row.wrong : row.disk_error.value_or(0.0),
+        choices.push_back({truth == RowTruth::point ? *row.wrong : *row.disk_error,
                            cost == RowCost::drawn ? row.gpu_ratio.median : row.kept_ratio.median});
     }
     const std::vector<std::uint8_t> best = on_front(choices);

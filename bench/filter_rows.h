@@ -26,6 +26,11 @@ struct FilterRows {
     /// Of a resolution, a variant, a light.
     std::vector<std::vector<std::vector<RowFigures>>> figures;
 
+    /// Whether the truth judges that row: none does where the light's shadow is left out on purpose.
+    bool is_judged(std::size_t resolution, std::size_t variant, std::size_t light, RowTruth truth) const {
+        const RowFigures& row = figures[resolution][variant][light];
+        return truth == RowTruth::point ? row.wrong.has_value() : row.disk_error.has_value();
+    }
     /// Of each variant, whether it is the best at some cost; 0 also for those that the truth does not judge.
     std::vector<std::uint8_t> front(std::size_t resolution, std::size_t light, RowTruth truth, RowCost cost) const;
     /// Names of rows none of whose variants is on any front.

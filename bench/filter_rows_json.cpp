@@ -39,10 +39,9 @@ Json fronts_json(const FilterRows& rows, std::size_t resolution, std::size_t lig
         for (const RowCost cost : kRowCosts) {
             Json best = Json::array(), beaten = Json::array();
             const std::vector<std::uint8_t> front = rows.front(resolution, light, truth, cost);
-            for (std::size_t v = 0; v < front.size(); ++v) {
-                const bool judged = truth == RowTruth::disk || rows.figures[resolution][v][light].wrong;
-                if (judged) (front[v] ? best : beaten).push_back(rows.variants[v].name);
-            }
+            for (std::size_t v = 0; v < front.size(); ++v)
+                if (rows.is_judged(resolution, v, light, truth))
+                    (front[v] ? best : beaten).push_back(rows.variants[v].name);
             all.push_back({{"truth", truth == RowTruth::point ? "point" : "disk"},
                            {"cost", cost == RowCost::drawn ? "drawn" : "kept"},
                            {"front", best},

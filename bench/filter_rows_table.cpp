@@ -84,7 +84,7 @@ std::string fronts_of(const FilterRows& rows, std::size_t resolution, std::size_
             std::vector<std::string> best, beaten;
             const std::vector<std::uint8_t> front = rows.front(resolution, light, truth, cost);
             for (std::size_t v = 0; v < front.size(); ++v)
-                if (truth == RowTruth::disk || rows.figures[resolution][v][light].wrong)
+                if (rows.is_judged(resolution, v, light, truth))
                     (front[v] ? best : beaten).push_back(rows.variants[v].name);
             lines += formatted("  %s, maps %s: on the front ", truth == RowTruth::point ? "point" : "disk",
                                cost == RowCost::drawn ? "drawn anew" : "kept") +

@@ -130,9 +130,10 @@ std::optional<Error> judge_lights(Stage& stage, const TracedTruths& truths, cons
         take_report(item, stage.frame().report().lights[traced.index], draws[k], row);
         if (!stage.frame().read_visibility(traced.index, measured))
             return Error{"the visibility of light '" + traced.name + "' cannot be read", "", "", "bench.visibility"};
-        if (!traced.disk.visibility.empty()) judge_by_disk(truths, traced, measured, row.figures);
+        const bool judged = !is_left_out(stage.frame().report().lights[traced.index]);
+        if (judged && !traced.disk.visibility.empty()) judge_by_disk(truths, traced, measured, row.figures);
         // A source with a size has no true edge, and half of it in sight is no error.
-        if (shadow::filter_row(item.shadow.filter).width != shadow::FilterWidth::source) {
+        if (judged && shadow::filter_row(item.shadow.filter).width != shadow::FilterWidth::source) {
             const oracle::EdgeDisplacement edge = judge_by_point(truths, traced, measured, row.figures);
             if (options.edges) judge_edges(stage, truths, traced, edge, row.figures);
             if (options.edges && setup.settings.empty()) judge_far(stage, truths, traced, measured, row.figures);

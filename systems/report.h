@@ -126,6 +126,13 @@ struct LightReport {
     std::uint32_t first_view = 0, view_count = 0;  // of FrameReport::views; none if it is skipped
 };
 
+/// Whether the light is lit everywhere on purpose, since nobody could see its shadow: pixels that it should darken are
+/// no errors.
+inline bool is_left_out(const LightReport& light) {
+    return light.state == LightState::skipped &&
+           (light.reason == Reason::light_off || light.reason == Reason::below_display_step);
+}
+
 /// What lights that ask by rays share (FilterStorage::sheets): trees over the casters, on the device and beside it, and
 /// what pictures of them hold. All 0: no light asks.
 struct RayReport {

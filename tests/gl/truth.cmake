@@ -4,6 +4,7 @@ if(GNOMON_SAMPLE)
     any_world_gl_test.cpp
     audit_gl_test.cpp
     error_gate_gl_test.cpp
+    left_out_lights_gl_test.cpp
     recorded_errors.cpp
     soft_shadows_gl_test.cpp
     sweep_bounds_gl_test.cpp
