@@ -46,4 +46,14 @@ inline bool begins_on_plane(const ExactTriangle& triangle, double error) {
     return std::abs(glm::dot(normal, triangle.a)) <= error * glm::length(normal);
 }
 
+/// The same of where it ends, relative to where it begins. Not finite: it has no end.
+inline bool ends_on_plane(const glm::dvec3& end, const ExactTriangle& triangle, double error) {
+    return begins_on_plane({triangle.a - end, triangle.b - end, triangle.c - end}, error);
+}
+
+/// Whether it begins on the side from where the corners run counter-clockwise.
+inline bool begins_before(const ExactTriangle& triangle) {
+    return glm::dot(glm::cross(triangle.b - triangle.a, triangle.c - triangle.a), triangle.a) < 0.0;
+}
+
 }  // namespace gnomon::rays

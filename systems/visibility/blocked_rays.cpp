@@ -33,10 +33,14 @@ public:
         const rays::ExactTriangle exact{placed(triangle.a), placed(triangle.b), placed(triangle.c)};
         rays::ExactHit hit;
         if (!rays::meets(rays_.along[ray], exact, hit)) return false;
-        if (!(hit.t > rays_.first[ray] && hit.t < rays_.last)) return false;
+        if (!(hit.t > rays_.first[ray])) return false;
         const double size_m = largest(from_ws_m) + largest(item_.translation_ws_m) + largest(exact.a) +
                               largest(exact.b) + largest(exact.c);
-        if (rays::begins_on_plane(exact, kPlaneUnits * size_m)) return false;
+        const double error_m = kPlaneUnits * size_m;
+        if (rays::begins_on_plane(exact, error_m)) return false;
+        // A lamp in the triangle's plane stands on its front.
+        const bool on_front = rays::ends_on_plane(rays_.along[ray] * rays_.last, exact, error_m);
+        if (on_front ? rays::begins_before(exact) != item_.mirrored : !(hit.t < rays_.last)) return false;
         return triangle.mask == rays::kOpaque ||
                rays::is_there(library_, library_.meshes[item_.mesh], triangle.triangle, triangle.mask, hit.weights);
     }

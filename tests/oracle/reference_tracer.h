@@ -51,6 +51,8 @@ inline constexpr double kJitter = 1.0e-6;     // about 6 times the error of a po
 /// A shadow ray starts at P itself. It cannot meet the triangle that P lies on, which is left out by its number, nor
 /// any triangle whose plane holds P to within the rounding of double (a line meets a plane once): this is how
 /// neighbours across a flat edge and coincident layers are told from occluders, without an offset along the ray.
+/// A lamp in a triangle's plane, to the same rounding, stands on its front: it lights what lies before the plane, and
+/// where the lamp is on the triangle itself, nothing behind it.
 class ReferenceTracer {
 public:
     /// Everything is held relative to `origin_ws_m`: choose it near the camera. Instances that name unknown meshes,

@@ -153,8 +153,11 @@ bool TracedWorld::blocks(const ExactRay& ray, double t_max, ShadowLayers layers,
     ExactHit hit;
     if (triangle == start_triangle || (t.cast_layers & layers) == 0 || !intersect(ray, t.a, t.b, t.c, hit))
         return false;
-    if (!(hit.t > 0.0 && hit.t < t_max)) return false;
-    return !on_plane(ray.origin, triangle) && is_there(t, hit);
+    if (!(hit.t > 0.0) || on_plane(ray.origin, triangle)) return false;
+    const glm::dvec3 end = ray.origin + t_max * ray.direction;
+    const bool ends_on_plane = is_finite(end) && on_plane(end, triangle);
+    const bool between = ends_on_plane ? glm::dot(front_normal(t), ray.origin - t.a) < 0.0 : hit.t < t_max;
+    return between && is_there(t, hit);
 }
 
 bool TracedWorld::shows(const ExactRay& ray, double t_min, double t_max, std::uint32_t triangle, double& t_hit) const {
