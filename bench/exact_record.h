@@ -48,6 +48,7 @@ void set_light(const shadow::LightingLight& published, std::span<const shadow::S
     row.light.spread = to_vec4(record.spread);
     row.light.seed_cell = to_ivec4(record.seed_cell);
     row.light.seed_place = to_vec4(record.seed_place);
+    row.light.low = to_vec4(record.low);
     DepthScale(&scales)[shadow::kMaxViews] = row.shadow_map.scales;
     for (std::size_t i = 0; i < views.size() && i < shadow::kMaxViews; ++i)
         set_view(record.views[i], *views[i], camera_ws_m, row.light.views[i], scales[views[i]->layer]);

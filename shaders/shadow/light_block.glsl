@@ -21,6 +21,6 @@ layout(std140, binding = 1) uniform LightBlock {
     vec4 seed_place;
     vec4 moments;              // of a prefiltered map, see its filter's file: x, y: exponents; z: least variance; w: 1 if stored in 16 bits; or of a source with a size, see shadow/exact/soft_verdict.glsl: x: 1 if its maps hold all casters as far away as they are; y: distance of the nearest that they do not hold whole
     vec4 moment_sampling;      // x: what is lit less counts as dark; y: most texels of a pixel's footprint; z: most taps along it
-    vec4 low;                  // xyz: low part of `position` (spot, point) or `to_light` (directional), for who asks in double
+    vec4 low;                  // xyz: add it to `to_light` (directional) for its low part, or to `position` (spot, point) for the place from which shadows are looked for: where the lamp is, in double, or just clear of a caster that it touches
     ViewRecord views[kMaxViews];
 } light;

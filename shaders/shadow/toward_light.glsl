@@ -1,9 +1,10 @@
-// From a point to the light: all the way to a lamp, a unit toward a sun.
+// From a point to the light: all the way to where a lamp's shadows are looked for, a unit toward a sun.
 vec3 toward_light(vec3 position_ca) {
 #ifdef LIGHT_DIRECTIONAL
     return light.to_light.xyz;
 #else
-    return light.position.xyz - position_ca;
+    precise vec3 lamp_ca = light.position.xyz + light.low.xyz;
+    return lamp_ca - position_ca;
 #endif
 }
 

@@ -98,13 +98,16 @@ glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer
 }
 
 /// What every light has, map or not.
-LightRecord light_record(const LightItem& light, const ConsumerItem& fitted, const ConsumerItem& consumer) {
+/// `lamp_ws_m`: from where shadows of a local light are looked for.
+LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, const ConsumerItem& fitted,
+                         const ConsumerItem& consumer) {
     LightRecord record;
     const bool sun = light.kind == LightKind::directional;
     const glm::dvec3 from_camera_m = light.position_ws_m - consumer.position_ws_m;
     record.position = sun ? view_distance(fitted, consumer) : with_w(from_camera_m, light.range_m);
     record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
-    record.low = glm::vec4(math::split(sun ? light.rotation_ws[2] : from_camera_m).low, 0.0f);
+    const glm::dvec3 exact = sun ? light.rotation_ws[2] : lamp_ws_m - consumer.position_ws_m;
+    record.low = glm::vec4(glm::vec3(exact - glm::dvec3(glm::vec3(sun ? exact : from_camera_m))), 0.0f);
     record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
     const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
     // KHR_lights_punctual's own guard against inner == outer.
@@ -308,7 +311,7 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             out.screen = screen_rectangle(light, consumer);
             if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
             out.farthest_depth = farthest_depth(light, consumer);
-            out.record = light_record(light, fitted, consumer);
+            out.record = light_record(light, lamp_ws_m(frame, scene, i), fitted, consumer);
         }
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const ShadowSlot& slot = frame.slots[v];

@@ -134,16 +134,16 @@ private:
     }
 
     void look_through(const LightOpening& opening) {
-        const auto sides = opening_planes(light_.position_ws_m, opening);
+        const glm::dvec3& lamp = lamp_ws_m(frame_, scene_, demand_.light);
+        const auto sides = opening_planes(lamp, opening);
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
-        if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, light_.position_ws_m)};
+        if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, lamp)};
         Beam seen, beam;
         const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4), seen);
-        if (range.count > 0)
-            beam = opening_beam(light_.position_ws_m, opening, points(range), frame_.outlines, scratch_);
-        beam.origin_ws_m = light_.position_ws_m;
+        if (range.count > 0) beam = opening_beam(lamp, opening, points(range), frame_.outlines, scratch_);
+        beam.origin_ws_m = lamp;
         beam.axes = opening.axes;
         if (beam.outline.count > 0) {
             beam.receiver_points = range;

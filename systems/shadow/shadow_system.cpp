@@ -162,6 +162,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     if (any && !samplers_ready())
         for (ShadowDemand& demand : frame_.demands)
             if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
+    lamp_places_.update(scene, gpu, frame_);
     select_sets(scene, frame_);
     dim_lights_.leave_out(scene, gpu, frame_);
     frame_.shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;

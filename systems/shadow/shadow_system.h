@@ -13,6 +13,7 @@
 #include "systems/shadow/exact/ends_recorder.h"
 #include "systems/shadow/exact/ray_load.h"
 #include "systems/shadow/exact/sheet_recorder.h"
+#include "systems/shadow/lamp_places.h"
 #include "systems/shadow/map_store.h"
 #include "systems/shadow/moment_recorder.h"
 #include "systems/shadow/publish.h"
@@ -81,6 +82,7 @@ private:
     std::vector<RayAsker> ray_askers_;
     bool rays_lack_ = false;
     CostClock cost_clock_;
+    LampPlaces lamp_places_;
     ShadowFrame frame_;
     History history_;
     CasterMotion motion_;

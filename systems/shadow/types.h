@@ -309,6 +309,8 @@ struct ShadowFrame {
     std::vector<ShadowDemand> demands;          // one per light
     bool shared_out = false;                    // within a budget: another filter waits for the next frame's shares
     std::vector<math::Frustum> seen;            // one per consumer: what it sees
+    std::vector<glm::dvec3> lamps_ws_m;         // one per light: from where its shadows are looked for, if it is local
+                                                // (lamp_places.h); none: from where the lights are
     std::vector<PotentialSets> sets;            // one per demand
     std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
     std::vector<std::uint32_t> caster_items;
@@ -324,6 +326,11 @@ struct ShadowFrame {
     FitScratch fit_scratch;
     std::vector<double> cpu_us;  // one per light: what the stages spent on it alone
 };
+
+/// From where a local light's shadows are looked for.
+inline const glm::dvec3& lamp_ws_m(const ShadowFrame& frame, const SceneSnapshot& scene, std::uint32_t light) {
+    return light < frame.lamps_ws_m.size() ? frame.lamps_ws_m[light] : scene.lights[light].position_ws_m;
+}
 
 /// Those of a view, still ones first.
 inline std::span<const std::uint32_t> casters_of(const ShadowFrame& frame, const ShadowView& view) {

@@ -5,6 +5,7 @@ if(GNOMON_SAMPLE)
     caster_faces_gl_test.cpp
     creases_gl_test.cpp
     fine_meshes_gl_test.cpp
+    lamps_on_planes_gl_test.cpp
     ledges_gl_test.cpp
     masked_casters_gl_test.cpp
     moved_casters_gl_test.cpp

@@ -37,10 +37,11 @@ namespace {
 
 constexpr double kOneTap_texel = 0.5;  // half-width of a filter that reads the nearest texel and no other
 
-ShadowView face_view(const FitInput& input, const LightOpening& opening, const PerspectiveRange& range) {
+ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening& opening,
+                     const PerspectiveRange& range) {
     const std::uint32_t face = opening.layer;
-    ShadowView view = perspective_view(input.light.position_ws_m, opening.axes, TangentRectangle{}, range,
-                                       input.demand.resolution_px);
+    ShadowView view =
+        perspective_view(beam.origin_ws_m, opening.axes, TangentRectangle{}, range, input.demand.resolution_px);
     view.projection = ViewProjection::cube_face;
     view.layer = face;
     view.held = true;
@@ -74,7 +75,7 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
     for (std::uint32_t face = 0; face < openings.count; ++face)
         if (faces[face].receivers && (faces[face].casters || blends))
-            views.push_back(face_view(input, openings.items[face], range));
+            views.push_back(face_view(input, input.beams[face], openings.items[face], range));
     return true;
 }
 

@@ -45,7 +45,7 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[opening.held_as] = next;
-    ShadowView view = perspective_view(input.light.position_ws_m, opening.axes, crop, range, input.demand.resolution_px,
+    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, crop, range, input.demand.resolution_px,
                                        static_cast<double>(reach_texel(input, crop, range)));
     view.layer = opening.layer;
     view.held = true;
