@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/budget_speeds.h"
+#include "bench/check/check_command.h"
 #include "bench/demand.h"
 #include "bench/queries.h"
 #include "bench/stability.h"
@@ -28,6 +29,7 @@ struct Arguments {
     DemandOptions demand;
     SpeedOptions speeds;
     QueriesOptions queries;
+    CheckCommand check;
     std::string sweep, sweep_rows;
     bool quick = false, audit = false;
     std::string out = "gnomon_sweep";
@@ -37,7 +39,7 @@ struct Arguments {
 /// A command's options.
 using AddOptions = void(CLI::App& command, Arguments& arguments);
 AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
-    add_budget, add_redraws, add_common, add_queries;
+    add_budget, add_redraws, add_common, add_queries, add_check;
 
 /// What follows from what was given. Errors: "scene", "size", "offset", "time".
 std::optional<Error> complete(Arguments& arguments);

@@ -206,6 +206,11 @@ int run_budget_speeds(const Arguments& arguments) {
 
 int run_set_shares(const Arguments& arguments) { return put_table(set_shares(arguments.stage)); }
 
+int run_checks(const Arguments& arguments) {
+    const auto code = run_check_command(arguments.check);
+    return code ? code.value() : fail(code.error());
+}
+
 int run_culling_benchmarks(const Arguments& arguments) {
     run_culling(arguments.filter);
     return 0;
@@ -218,6 +223,8 @@ struct Command {
     int (*run)(const Arguments&);
 };
 constexpr Command kCommands[] = {
+    {"check", "what this device is, whether every program and row is right on it, what each costs", add_check,
+     run_checks},
     {"accuracy", "shadows of each light against ray-traced truth", add_accuracy, run_accuracy},
     {"audit", "the truth itself: rays asked in two ways, and the triangles that they and the picture show", add_audit,
      run_audits},

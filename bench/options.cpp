@@ -148,6 +148,8 @@ void add_queries(CLI::App& command, Arguments& arguments) {
         ->capture_default_str();
 }
 
+void add_check(CLI::App& command, Arguments& arguments) { add_check_options(command, arguments.check); }
+
 std::optional<Error> complete(Arguments& arguments) {
     if (arguments.quick) arguments.sweep = "quick";
     if (arguments.scenes.size() > 1 && arguments.sweep.empty() && !arguments.audit)

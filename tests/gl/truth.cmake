@@ -28,3 +28,7 @@ if(GNOMON_SAMPLE)
     exact_worlds_gl_test.cpp
     LIBRARIES gnomon_bench_parts)
 endif()
+# What a machine is checked by, checked.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_check LABEL gl SOURCES check_gl_test.cpp LIBRARIES gnomon_bench_parts)
+endif()

@@ -95,6 +95,10 @@ run GNOMON_SKIP_DEPS=1 -- play --frames 3 "a b"
 expect "play runs the game in the caller's folder with its flags" is "$out" "$work/elsewhere|3|--frames 3 a b"
 run GAME_STATUS=7 -- play
 expect "play passes the game's status on" is "$status" 7
+cp "$project/build/release/bin/gnomon_game" "$project/build/release/bin/gnomon_bench"
+run GNOMON_SKIP_DEPS=1 GAME_STATUS=1 -- check --json "a b"
+expect "check is the bench's, with its flags" is "$out" "$work/elsewhere|3|check --json a b"
+expect "check passes its verdict on" is "$status" 1
 run NINJA_SAYS='ninja: no work to do.' -- play
 expect "an up-to-date build says nothing" is "$err" ""
 expect "and builds nothing" not_called cmake
