@@ -122,7 +122,6 @@ private:
     void run_frame() {
         const TransformReport& transforms = transforms_.update(world_);
         extractor_.update(world_, library_, transforms, viewport_px_, snapshot_);
-        world_.discard_changes();
         list_.clear();
         report_.clear();
         gpu_->update(snapshot_, list_);

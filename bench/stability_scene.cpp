@@ -47,7 +47,6 @@ std::optional<Error> ShadowFrames::run() {
     report_.clear();
     const TransformReport& transforms = transforms_.update(stage_.world());
     extractor_.update(stage_.world(), stage_.library(), transforms, stage_.settings().viewport_px, snapshot_);
-    stage_.world().discard_changes();
     gpu_scene_.update(snapshot_, commands_);
     shadows_.update(snapshot_, gpu_scene_, true, commands_, report_);
     const bool drawn = stage_.device().submit(commands_).failure == gl::Failure::none;

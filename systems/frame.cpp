@@ -41,7 +41,6 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
 
     const TransformReport& transforms = transforms_.update(world);
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_);
-    world.discard_changes();
     report_.dropped = snapshot_.dropped;
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(snapshot_.sampled_depths);

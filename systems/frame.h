@@ -64,7 +64,8 @@ public:
                                                  const shadow::History& held_fits = {});
     ~Frame();
 
-    /// Runs one frame of `world` for its first active camera. Never throws; failures are in report().
+    /// Runs one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the world's
+    /// changes by cursors of its own: other readers find all of theirs.
     void run(ecs::Registry& world, const FrameSettings& settings);
 
     const SceneSnapshot& snapshot() const { return snapshot_; }

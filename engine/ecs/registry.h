@@ -22,13 +22,16 @@ struct Change {
     bool operator==(const Change&) const = default;
 };
 
-/// Where a reader stands in a component type's log. A default cursor has read nothing.
+/// Where a reader stands in a component type's log: one for each reader and type. A default cursor has read nothing.
 struct ChangeCursor {
     std::uint64_t next = 0;
 };
 
-/// What a reader gets: the entries since its cursor, or `complete == false` if some were discarded before it
-/// read them; it must then look at every component afresh.
+/// Of a log the newest entries are kept, as many as there are components of its type, and never fewer than these.
+inline constexpr std::size_t kLeastKept = 256;
+
+/// What a reader gets: the entries since its cursor, or `complete == false` if it fell so far behind that some are no
+/// longer kept; it must then look at every component afresh, which is no more than what it missed.
 struct Changes {
     std::span<const Change> entries;
     bool complete = true;
@@ -44,7 +47,13 @@ public:
     bool contains(Entity e) const { return e.index < sparse_.size() && sparse_[e.index] != kAbsent && entities_[sparse_[e.index]] == e; }
     const std::vector<Entity>& entities() const { return entities_; }
 
-    void log(Entity e, ChangeKind kind) { log_.push_back({e, kind}); }
+    /// Room grows with the components alone: once they are there, no number of changes allocates.
+    void log(Entity e, ChangeKind kind) {
+        const std::size_t kept = std::max(kLeastKept, entities_.size());
+        if (log_.capacity() < 2 * kept) log_.reserve(std::max(2 * kept, 2 * log_.capacity()));
+        if (log_.size() == log_.capacity()) drop(log_.size() - kept);
+        log_.push_back({e, kind});
+    }
     Changes since(ChangeCursor& cursor) const {
         const std::uint64_t end = first_ + log_.size();
         const bool complete = cursor.next >= first_;
@@ -52,17 +61,20 @@ public:
         cursor.next = end;
         return {std::span(log_).subspan(static_cast<std::size_t>(from - first_)), complete};
     }
-    void discard_log() {
-        first_ += log_.size();
-        log_.clear();
-    }
+    void discard_log() { drop(log_.size()); }
 
 protected:
     static constexpr std::uint32_t kAbsent = 0xffffffffu;
     std::vector<std::uint32_t> sparse_;  // entity index -> dense position
     std::vector<Entity> entities_;       // dense
+
+private:
+    void drop(std::size_t oldest) {
+        log_.erase(log_.begin(), log_.begin() + static_cast<std::ptrdiff_t>(oldest));
+        first_ += oldest;
+    }
     std::vector<Change> log_;
-    std::uint64_t first_ = 0;            // sequence number of log_[0]
+    std::uint64_t first_ = 0;  // sequence number of log_[0]
 };
 
 template <class T>
@@ -199,13 +211,14 @@ public:
         return s ? std::span<const Entity>(s->entities()) : std::span<const Entity>{};
     }
 
-    /// Entries of T's log since `cursor`, which moves to the end. The span is valid until the next change of a T.
+    /// Entries of T's log since `cursor`, which moves to the end. The span is valid until the next change of a T. There
+    /// may be any number of readers: none takes anything from another.
     template <class T>
     Changes changes(ChangeCursor& cursor) {
         return storage<T>().since(cursor);
     }
 
-    /// Drops all logs. Call once a frame, after every reader has read.
+    /// Drops all logs: whoever has not read them is told to look afresh. Nobody needs to call it, logs are bounded.
     void discard_changes() {
         for (auto& storage : storages_)
             if (storage) storage->discard_log();

@@ -16,7 +16,6 @@ BothWays::BothWays(gl::Device& device, const assets::MeshLibrary& library)
 void BothWays::run(ecs::Registry& world, glm::uvec2 viewport_px, const std::function<void(const Picture&)>& look) {
     const TransformReport& transforms = transforms_.update(world);
     extractor_.update(world, library_, transforms, viewport_px, snapshot_);
-    world.discard_changes();
     for (const Way way : {kThrifty, kLavish}) sides_[way]->scene = snapshot_;
     for (LightItem& light : sides_[kLavish]->scene.lights) light.shadow.economy = false;
     if (mislead) mislead(sides_[kThrifty]->scene);

@@ -33,7 +33,6 @@ protected:
         gl::CommandList& list = commands;
         list.clear();
         extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
-        world.discard_changes();
         scene->update(snapshot, list);
         shadows->update(snapshot, *scene, true, list, report);
         record_picture(inputs(), list);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/ecs/registry.h"
+#include "tests/unit/allocation_counter.h"
 
 namespace gnomon::ecs {
 namespace {
@@ -131,6 +132,88 @@ TEST_F(ChangeList, WritesBetweenReadAndDiscardAreReportedAsLost) {
     registry_.discard_changes();
     read(cursor_);
     EXPECT_FALSE(complete_);
+}
+
+class LateReaders : public ChangeList {
+protected:
+    void SetUp() override {
+        for (std::size_t i = 0; i < kComponents; ++i) {
+            entities_.push_back(registry_.create());
+            registry_.emplace<Position>(entities_.back());
+        }
+        read(cursor_);
+        read(late_);
+    }
+    void write(int count) {
+        for (int i = 0; i < count; ++i) {
+            const Entity e = entities_[static_cast<std::size_t>(next_++) % entities_.size()];
+            registry_.patch<Position>(e, [](Position& p) { p.x += 1.0; });
+        }
+    }
+    /// Of so many components, none of which comes or goes.
+    static constexpr std::size_t kComponents = 1000;
+    std::vector<Entity> entities_;
+    int next_ = 0;
+    ChangeCursor late_;
+};
+
+TEST_F(LateReaders, FindAllThatOthersHaveReadMeanwhile) {
+    std::size_t seen = 0;
+    for (int frame = 0; frame < 1000; ++frame) {
+        write(20);
+        EXPECT_EQ(read(cursor_).size(), 20u);
+        EXPECT_TRUE(complete_);
+        if (frame % 50 != 49) continue;
+        const std::vector<Change> entries = read(late_);
+        EXPECT_TRUE(complete_) << "as many as there are components are kept always; frame " << frame;
+        EXPECT_EQ(entries.size(), kComponents);
+        for (const Change& change : entries) EXPECT_EQ(change, (Change{entities_[seen++ % kComponents], kChanged}));
+    }
+    EXPECT_GT(seen, 0u);
+}
+
+TEST_F(LateReaders, AreToldToLookAfreshWhenTheyFellTooFarBehindAndThenGoOn) {
+    for (int i = 0; i < 10; ++i) {
+        write(1000);
+        EXPECT_EQ(read(cursor_).size(), 1000u);
+        EXPECT_TRUE(complete_) << "others are told nothing of it";
+    }
+    const std::vector<Change> rest = read(late_);
+    EXPECT_FALSE(complete_);
+    EXPECT_GE(rest.size(), kComponents);
+    EXPECT_LE(rest.size(), 4 * kComponents) << "the log is bounded";
+    write(7);
+    EXPECT_EQ(read(late_).size(), 7u);
+    EXPECT_TRUE(complete_);
+}
+
+TEST_F(LateReaders, AreNoneToWaitFor) {
+    const std::size_t before = allocation_count();
+    for (int frame = 0; frame < 1000; ++frame) {
+        write(100);
+        EXPECT_EQ(registry_.changes<Position>(cursor_).entries.size(), 100u);
+    }
+    EXPECT_EQ(allocation_count(), before) << "what nobody reads takes no memory";
+    ChangeCursor another;
+    EXPECT_LE(registry_.changes<Position>(another).entries.size(), 4 * kComponents);
+}
+
+TEST_F(LateReaders, OfManyComponentsThatGoAtOnceAreToldOfThemOrToLookAfresh) {
+    for (const Entity e : entities_) registry_.destroy(e);
+    const std::vector<Change> entries = read(late_);
+    EXPECT_TRUE(!complete_ || entries.size() == kComponents);
+    EXPECT_THAT(registry_.entities_with<Position>(), IsEmpty());
+}
+
+TEST_F(LateReaders, OfAListThatNobodyElseReadsFindItFromItsBeginning) {
+    Registry fresh;
+    const Entity e = fresh.create();
+    fresh.emplace<Position>(e);
+    for (std::size_t i = 1; i < kLeastKept; ++i) fresh.patch<Position>(e, [](Position&) {});
+    ChangeCursor first;
+    const Changes all = fresh.changes<Position>(first);
+    EXPECT_EQ(all.entries.size(), kLeastKept);
+    EXPECT_TRUE(all.complete);
 }
 
 }  // namespace
