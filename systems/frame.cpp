@@ -5,7 +5,6 @@
 
 #include "systems/after_submission.h"
 #include "systems/debug/debug_painter.h"
-#include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
 #include "systems/shadow/sampled_depths.h"
 #include "systems/shadow/shadow_system.h"
@@ -75,6 +74,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
 
     const gl::SubmitResult result = device_.submit(commands_);
     if (settings.repeatable && (sample_depths || measure_exposure)) device_.finish();
+    timed_lights_.submitted(result.submission, report_);
     // What a run measures differs from run to run.
     const bool learn_costs = settings.shadow_budget.gpu_ms > 0.0f && !settings.repeatable;
     collect_timings(
@@ -104,22 +104,9 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
     return shadows;
 }
 
-/// Sums what timers have come in. A device that answers late reports an earlier frame's times.
+/// Takes what timers have come in. A device that answers late reports an earlier frame's times.
 void Frame::collect_timings(const std::vector<gl::Timing>& timings) {
-    if (timings.empty()) return;
-    const std::uint64_t last = timings.back().submission;
-    double all_us = 0.0, shadow_us = 0.0;
-    for (const gl::Timing& t : timings) {
-        if (t.submission != last) continue;
-        all_us += t.gpu_us;
-        if (t.id >= kSurfaceTimer) continue;
-        const std::uint32_t light = t.id / 2;
-        if (t.id % 2 == 0) shadow_us += t.gpu_us;
-        if (light < report_.lights.size())
-            report_.lights[light].gpu_us = report_.lights[light].gpu_us.value_or(0.0) + t.gpu_us;
-    }
-    report_.gpu_us = all_us;
-    report_.shadow_gpu_us = shadow_us;
+    if (!timings.empty()) timed_lights_.tell(timings, report_);
 }
 
 gl::TargetHandle Frame::picture_target() const {

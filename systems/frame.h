@@ -17,6 +17,7 @@
 #include "systems/report.h"
 #include "systems/shadow/grant.h"
 #include "systems/shadow/history.h"
+#include "systems/timed_lights.h"
 #include "systems/transform/transform_system.h"
 
 namespace gnomon {
@@ -103,6 +104,7 @@ private:
     std::unique_ptr<lighting::LightingSystem> lighting_;
     std::unique_ptr<debug::DebugPainter> debug_;
     std::optional<std::vector<ConsumerItem>> frozen_;  // the cameras that shadows are fitted to
+    TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;
     bool has_picture_ = false;

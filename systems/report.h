@@ -118,7 +118,7 @@ struct LightReport {
     std::uint32_t draws = 0, clears = 0;
     std::uint64_t triangles = 0;
     double cpu_us = 0.0;           // of the shadow stages, what this light alone took
-    std::optional<double> gpu_us;  // shadow and lighting pass; empty: not measured
+    std::optional<double> gpu_us;  // shadow and lighting pass, of the newest frame measured; empty: not measured
     Why why;
     KeptReport kept;
     FilterReport filter;
