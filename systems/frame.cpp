@@ -5,6 +5,7 @@
 
 #include "systems/after_submission.h"
 #include "systems/debug/debug_painter.h"
+#include "systems/extract/names.h"
 #include "systems/lighting/lighting_system.h"
 #include "systems/shadow/sampled_depths.h"
 #include "systems/shadow/shadow_system.h"

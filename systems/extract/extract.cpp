@@ -1,17 +1,13 @@
 #include "systems/extract/extract.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/gtc/constants.hpp>
 #include <glm/matrix.hpp>
-#include <set>
 
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
-#include "engine/math/frustum.h"
 #include "systems/extract/flat_range.h"
+#include "systems/extract/names.h"
 #include "systems/extract/scene_tree.h"
 
 namespace gnomon {
@@ -34,37 +30,6 @@ DropReason drop_reason(TransformFault fault) {
     return DropReason::non_finite_transform;
 }
 
-/// Direction only: a light's or camera's scale and shear do not count. Columns right, up, back; orthonormal.
-glm::dmat3 orientation(const glm::dmat3& basis) {
-    const glm::dvec3 back = basis[2];
-    if (!(glm::length(back) > 0.0)) return glm::dmat3(1.0);
-    const glm::dvec3 z =
-        glm::normalize(back / glm::max(std::abs(back.x), glm::max(std::abs(back.y), std::abs(back.z))));
-    const glm::dvec3 across = glm::cross(basis[1], z);
-    if (!(glm::length(across) > 0.0)) return math::basis_from_back(z);
-    const glm::dvec3 x = glm::normalize(across);
-    return {x, glm::cross(z, x), z};
-}
-
-bool usable(const Light& light) {
-    const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
-                         light.range_m >= 0.0f && light.colour.r >= 0.0f && light.colour.g >= 0.0f &&
-                         light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
-    // Shaders multiply them in float: infinite light is no number where nothing of it arrives.
-    if (!numbers || !std::isfinite(light.intensity * (light.colour.r + light.colour.g + light.colour.b))) return false;
-    return light.kind != LightKind::spot ||
-           (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
-            light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);
-}
-
-bool usable(const Camera& camera) {
-    if (!(camera.near_m < camera.far_m)) return false;
-    if (camera.projection == CameraProjection::orthographic)
-        return camera.half_height_m > 0.0 && std::isfinite(camera.half_height_m) && std::isfinite(camera.far_m) &&
-               std::isfinite(camera.near_m);
-    return camera.near_m > 0.0 && camera.fov_y_rad > 0.0 && camera.fov_y_rad < glm::pi<double>();
-}
-
 /// Where joints place the mesh, its own transform does not count.
 bool place_bent(InstanceItem& item, const PoseItem& pose) {
     item.basis = glm::dmat3(1.0);
@@ -85,37 +50,21 @@ bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& 
     return determinant != 0.0 && !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
 }
 
-LightItem light_item(const ecs::Registry& registry, ecs::Entity e, const Light& light, const WorldTransform& world) {
-    LightItem item;
-    item.entity = e;
-    item.name = name_of(registry, e);
-    item.kind = light.kind;
-    item.position_ws_m = world.translation_ws_m;
-    item.rotation_ws = orientation(world.basis);
-    item.colour = light.colour;
-    item.intensity = light.intensity;
-    item.range_m = light.range_m;
-    item.inner_cone_rad = light.inner_cone_rad;
-    item.outer_cone_rad = std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>());
-    if (const LightShadow* shadow = registry.get<LightShadow>(e)) {
-        item.has_shadow = true;
-        item.shadow = *shadow;
-    }
-    return item;
-}
+enum class Marks : std::uint8_t { same, changed, recorded };
 
-ConsumerItem consumer_item(const ecs::Registry& registry, ecs::Entity e, const Camera& camera,
-                           const WorldTransform& world, glm::uvec2 viewport_px) {
-    return {e,
-            name_of(registry, e),
-            world.translation_ws_m,
-            orientation(world.basis),
-            camera.projection,
-            camera.fov_y_rad,
-            camera.half_height_m,
-            camera.near_m,
-            camera.far_m,
-            viewport_px};
+/// What it shows and casts, without where. `recorded`: the device's record of it says something else now.
+Marks put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceItem& item) {
+    const InstanceItem was = item;
+    const ShadowCaster* caster = registry.get<ShadowCaster>(item.entity);
+    item.visible = ref.visible;
+    item.receives = ref.receives_shadow;
+    item.receive_layers = ref.shadow_layers;
+    item.casts = caster && caster->enabled;
+    item.cast_layers = caster ? caster->layers : kAllShadowLayers;
+    if (was.receives != item.receives || was.receive_layers != item.receive_layers || was.casts != item.casts ||
+        was.cast_layers != item.cast_layers)
+        return Marks::recorded;
+    return was.visible != item.visible ? Marks::changed : Marks::same;
 }
 
 template <class Item>
@@ -129,15 +78,6 @@ void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     const auto has_shape = [](const assets::Mesh& mesh) { return mesh.shape != nullptr && !mesh.deformer; };
     if (std::none_of(library.meshes.begin(), library.meshes.end(), has_shape)) return;
     for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(has_shape(mesh) ? mesh.shape : nullptr);
-}
-
-/// Reports and files name lights: a repeated name gets .1, .2, …
-void make_names_unique(std::vector<LightItem>& lights) {
-    std::set<std::string> taken;
-    for (LightItem& light : lights) {
-        const std::string wish = light.name;
-        for (int n = 1; !taken.insert(light.name).second; ++n) light.name = wish + "." + std::to_string(n);
-    }
 }
 
 /// Orthographic cameras look no farther than there is something to see.
@@ -155,21 +95,36 @@ void narrow_flat_views(const ecs::Registry& registry, SceneSnapshot& snapshot) {
 
 }  // namespace
 
-std::string name_of(const ecs::Registry& registry, ecs::Entity e) {
-    const Name* name = registry.get<Name>(e);
-    return name && !name->text.empty() ? name->text : "entity" + std::to_string(e.index);
+/// Appends the entities whose T was written to `written`, and those that got or lost one to `came_or_went`. True if one
+/// of them has no such list, or if some were not told: then all are to be looked at.
+template <class T>
+bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, std::vector<ecs::Entity>* written,
+                             std::vector<ecs::Entity>* came_or_went) {
+    const ecs::Changes changes = registry.changes<T>(cursor);
+    bool all = !changes.complete;
+    for (const ecs::Change& change : changes.entries) {
+        std::vector<ecs::Entity>* const list = change.kind == ecs::ChangeKind::changed ? written : came_or_went;
+        if (list)
+            list->push_back(change.entity);
+        else
+            all = true;
+    }
+    return all;
 }
 
-template <class T>
-bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, bool structural) {
-    const ecs::Changes changes = registry.changes<T>(cursor);
-    bool anew = !changes.complete;
-    for (const ecs::Change& change : changes.entries) {
-        if (structural || change.kind != ecs::ChangeKind::changed)
-            anew = true;
-        else
-            moved_.push_back(change.entity);
-    }
+/// What is left to look at, beside the entities that it lists.
+Extractor::Lists Extractor::read_all(ecs::Registry& registry) {
+    for (std::vector<ecs::Entity>* list : {&moved_, &shown_, &edited_, &named_}) list->clear();
+    Lists anew;
+    anew.instances |= read_changes<WorldTransform>(registry, cursors_.world, &moved_, nullptr);
+    anew.instances |= read_changes<MorphWeights>(registry, cursors_.weights, &moved_, nullptr);
+    anew.instances |= read_changes<Skin>(registry, cursors_.skin, nullptr, nullptr);
+    anew.instances |= read_changes<MeshRef>(registry, cursors_.mesh, &shown_, nullptr);
+    anew.instances |= read_changes<ShadowCaster>(registry, cursors_.caster, &shown_, &shown_);
+    anew.views |= read_changes<Light>(registry, cursors_.light, &edited_, nullptr);
+    anew.views |= read_changes<LightShadow>(registry, cursors_.shadow, &edited_, &edited_);
+    anew.views |= read_changes<Camera>(registry, cursors_.camera, &edited_, nullptr);
+    anew.views |= read_changes<Name>(registry, cursors_.name, &named_, &named_);
     return anew;
 }
 
@@ -185,13 +140,7 @@ void Extractor::list_instance(const ecs::Registry& registry, const assets::MeshL
     InstanceItem item;
     item.entity = entity;
     item.mesh = ref.mesh;
-    item.visible = ref.visible;
-    item.receives = ref.receives_shadow;
-    item.receive_layers = ref.shadow_layers;
-    if (const ShadowCaster* caster = registry.get<ShadowCaster>(entity)) {
-        item.casts = caster->enabled;
-        item.cast_layers = caster->layers;
-    }
+    put_marks(registry, ref, item);
     if (!place(item, *registry.get<WorldTransform>(entity), mesh, pose_of(snapshot, ref.mesh))) {
         unusable_.push_back({entity, name_of(registry, entity), DropReason::zero_scale});
         return;
@@ -220,34 +169,17 @@ void Extractor::assign_slots(SceneSnapshot& snapshot) {
     snapshot.gpu_slot_count = static_cast<std::uint32_t>(slot_owner_.size());
 }
 
-void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibrary& library,
-                           const TransformReport& transforms, SceneSnapshot& snapshot) {
+void Extractor::list_instances(const ecs::Registry& registry, const assets::MeshLibrary& library,
+                               SceneSnapshot& snapshot) {
     const std::vector<InstanceItem> before = std::move(snapshot.instances);
     snapshot.instances.clear();
-    snapshot.lights.clear();
-    snapshot.consumers.clear();
+    snapshot.changed_instances.clear();
     list_shapes(library, snapshot);
     poses_.list(registry, library, snapshot);
     unusable_.clear();
     registry.each<MeshRef, WorldTransform>(
         [&](ecs::Entity e, const MeshRef&, const WorldTransform&) { list_instance(registry, library, e, snapshot); });
-    registry.each<Light, WorldTransform>([&](ecs::Entity e, const Light& light, const WorldTransform& world) {
-        if (usable(light))
-            snapshot.lights.push_back(light_item(registry, e, light, world));
-        else
-            unusable_.push_back({e, name_of(registry, e), DropReason::absurd_light});
-    });
-    registry.each<Camera, WorldTransform>([&](ecs::Entity e, const Camera& camera, const WorldTransform& world) {
-        if (!camera.active) return;
-        if (usable(camera))
-            snapshot.consumers.push_back(consumer_item(registry, e, camera, world, viewport_px_));
-        else
-            unusable_.push_back({e, name_of(registry, e), DropReason::absurd_camera});
-    });
     sort_by_entity(snapshot.instances);
-    sort_by_entity(snapshot.lights);
-    sort_by_entity(snapshot.consumers);
-    make_names_unique(snapshot.lights);
 
     instance_of_.assign(instance_of_.size(), kNone);
     for (std::uint32_t i = 0; i < snapshot.instances.size(); ++i) {
@@ -256,7 +188,6 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
         instance_of_[index] = i;
     }
     assign_slots(snapshot);
-    for (LightItem& light : snapshot.lights) light.version = snapshot.version;
     bent_.clear();
     // Whoever is exactly as before keeps its version, so that its light's maps hold.
     std::size_t old = 0;
@@ -275,10 +206,40 @@ void Extractor::make_lists(const ecs::Registry& registry, const assets::MeshLibr
         // One that touch_moved() had already moved when it gave up equals itself, but is not on the device.
         if (!same || was->version == snapshot.version) snapshot.changed_instances.push_back(i);
     }
+    snapshot.list_version = snapshot.version;
+    build_tree(snapshot);
+}
+
+/// Lights, cameras and what is dropped, whose cost does not grow with the instances.
+void Extractor::list_views(const ecs::Registry& registry, const TransformReport& transforms, SceneSnapshot& snapshot) {
+    views_.list(registry, viewport_px_, snapshot);
     snapshot.dropped = unusable_;
+    for (DroppedEntity& dropped : snapshot.dropped) dropped.name = name_of(registry, dropped.entity);
+    snapshot.dropped.insert(snapshot.dropped.end(), views_.unusable().begin(), views_.unusable().end());
     for (const QuarantinedEntity& q : transforms.quarantined)
         snapshot.dropped.push_back({q.entity, name_of(registry, q.entity), drop_reason(q.fault)});
     sort_by_entity(snapshot.dropped);
+}
+
+std::uint32_t Extractor::listed_at(ecs::Entity e) const {
+    return e.index < instance_of_.size() ? instance_of_[e.index] : kNone;
+}
+
+/// Whether one of those whose components were written is an instance now and was none, or the other way about: a mesh
+/// scaled to nothing, or back to something, or another mesh.
+bool Extractor::any_came_or_went(const ecs::Registry& registry, const SceneSnapshot& snapshot) const {
+    const auto scaled = [&](ecs::Entity e) {
+        const WorldTransform* world = registry.get<WorldTransform>(e);
+        const bool placed = world && registry.has<MeshRef>(e) && !registry.has<Skin>(e);
+        return placed && (listed_at(e) != kNone) != (glm::determinant(world->basis) != 0.0);
+    };
+    const auto exchanged = [&](ecs::Entity e) {
+        const MeshRef* ref = registry.get<MeshRef>(e);
+        if (!ref || !registry.has<WorldTransform>(e)) return false;
+        const std::uint32_t i = listed_at(e);
+        return i == kNone || snapshot.instances[i].mesh != ref->mesh;
+    };
+    return std::any_of(moved_.begin(), moved_.end(), scaled) || std::any_of(shown_.begin(), shown_.end(), exchanged);
 }
 
 /// Instances that are bent otherwise than in the last frame. False if one cannot be used any more.
@@ -295,80 +256,91 @@ bool Extractor::touch_bent(const assets::MeshLibrary& library, SceneSnapshot& sn
     return true;
 }
 
-/// Entities whose WorldTransform alone changed, updated in place. False if one cannot be used any more.
+/// Instances whose WorldTransform alone changed, updated in place. False if one cannot be used any more.
 bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library,
                             SceneSnapshot& snapshot) {
     for (const ecs::Entity e : moved_) {
         const WorldTransform* world = registry.get<WorldTransform>(e);
-        if (!world) continue;
-        if (e.index < instance_of_.size() && instance_of_[e.index] != kNone) {
-            InstanceItem& item = snapshot.instances[instance_of_[e.index]];
-            const PoseItem* pose = pose_of(snapshot, item.mesh);
-            if (pose && pose->skinned) continue;  // touch_bent() has seen to it
-            if (!place(item, *world, library.meshes[item.mesh], pose)) return false;
-            if (item.version != snapshot.version) snapshot.changed_instances.push_back(instance_of_[e.index]);
-            item.version = snapshot.version;
-        }
-        for (LightItem& light : snapshot.lights) {
-            if (light.entity != e) continue;
-            light.position_ws_m = world->translation_ws_m;
-            light.rotation_ws = orientation(world->basis);
-            light.version = snapshot.version;
-        }
-        for (ConsumerItem& consumer : snapshot.consumers) {
-            if (consumer.entity != e) continue;
-            consumer.position_ws_m = world->translation_ws_m;
-            consumer.rotation_ws = orientation(world->basis);
-        }
+        const std::uint32_t i = listed_at(e);
+        if (!world || i == kNone) continue;
+        InstanceItem& item = snapshot.instances[i];
+        const PoseItem* pose = pose_of(snapshot, item.mesh);
+        if (pose && pose->skinned) continue;  // touch_bent() has seen to it
+        if (!place(item, *world, library.meshes[item.mesh], pose)) return false;
+        if (item.version != snapshot.version) snapshot.changed_instances.push_back(i);
+        item.version = snapshot.version;
     }
     return true;
 }
 
+/// Instances that show or cast otherwise. Who keeps lists of casters, or of what is seen, makes them anew.
+bool Extractor::touch_shown(const ecs::Registry& registry, SceneSnapshot& snapshot) {
+    bool any = false;
+    for (const ecs::Entity e : shown_) {
+        const std::uint32_t i = listed_at(e);
+        if (i == kNone) continue;
+        InstanceItem& item = snapshot.instances[i];
+        const Marks marks = put_marks(registry, *registry.get<MeshRef>(e), item);
+        any = any || marks != Marks::same;
+        if (marks == Marks::recorded && item.version != snapshot.version) snapshot.changed_instances.push_back(i);
+    }
+    if (any) snapshot.list_version = snapshot.version;
+    return any;
+}
+
+/// Lights and cameras that moved, or whose own components were written.
+LightsAndCameras::Effect Extractor::touch_views(const ecs::Registry& registry, SceneSnapshot& snapshot) {
+    using Effect = LightsAndCameras::Effect;
+    Effect effect = Effect::none;
+    for (const std::vector<ecs::Entity>* touched : {&moved_, &edited_})
+        for (const ecs::Entity e : *touched) effect = std::max(effect, views_.touch(registry, e, snapshot));
+    return std::max(effect, views_.rename(registry, named_, snapshot));
+}
+
+/// All that was written, in place, as snapshot.version. What cannot be is left to make anew.
+Extractor::Touched Extractor::touch(const ecs::Registry& registry, const assets::MeshLibrary& library,
+                                    SceneSnapshot& snapshot) {
+    constexpr Touched kAllAnew{true, {true, true}};
+    if (any_came_or_went(registry, snapshot)) return kAllAnew;
+    const bool bends = poses_.follows(moved_);
+    if (bends) poses_.update(registry, library, snapshot);
+    if ((bends && !touch_bent(library, snapshot)) || !touch_moved(registry, library, snapshot)) return kAllAnew;
+    const bool shown = touch_shown(registry, snapshot);
+    const LightsAndCameras::Effect effect = touch_views(registry, snapshot);
+    return {shown || !moved_.empty() || effect != LightsAndCameras::Effect::none,
+            {false, effect == LightsAndCameras::Effect::listing}};
+}
+
 void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
                        glm::uvec2 viewport_px, SceneSnapshot& snapshot) {
-    moved_.clear();
     snapshot.changed_instances.clear();
-    bool anew = !started_ || transforms.quarantined != quarantined_;
-    anew |= read_changes<WorldTransform>(registry, cursors_.world, false);
-    anew |= read_changes<MeshRef>(registry, cursors_.mesh, true);
-    anew |= read_changes<ShadowCaster>(registry, cursors_.caster, true);
-    anew |= read_changes<Light>(registry, cursors_.light, true);
-    anew |= read_changes<LightShadow>(registry, cursors_.shadow, true);
-    anew |= read_changes<Camera>(registry, cursors_.camera, true);
-    anew |= read_changes<Name>(registry, cursors_.name, true);
-    anew |= read_changes<Skin>(registry, cursors_.skin, true);
-    anew |= read_changes<MorphWeights>(registry, cursors_.weights, false);
+    Lists anew = read_all(registry);
+    anew.instances |= !started_ || transforms.quarantined != quarantined_;
     const bool resized = viewport_px != viewport_px_;
     if (resized) {
         viewport_px_ = viewport_px;
         for (ConsumerItem& consumer : snapshot.consumers) consumer.viewport_px = viewport_px;
         snapshot.tree_version = ++snapshot.version;
     }
-    // A mesh scaled to nothing, or back to something, changes who is listed at all.
-    for (const ecs::Entity e : moved_) {
-        const WorldTransform* world = registry.get<WorldTransform>(e);
-        const bool listed = e.index < instance_of_.size() && instance_of_[e.index] != kNone;
-        const bool placed = world && registry.has<MeshRef>(e) && !registry.has<Skin>(e);
-        if (placed && listed != (glm::determinant(world->basis) != 0.0)) anew = true;
+    bool changed = anew.instances || anew.views;
+    if (changed || !moved_.empty() || !shown_.empty() || !edited_.empty() || !named_.empty()) {
+        ++snapshot.version;
+        if (!anew.instances) {
+            const Touched touched = touch(registry, library, snapshot);
+            changed |= touched.any;
+            anew.instances |= touched.leaves.instances;
+            anew.views |= touched.leaves.views;
+        }
+        if (!changed) --snapshot.version;  // written, to what it was
     }
-    if (!anew && moved_.empty()) {
-        if (resized) narrow_flat_views(registry, snapshot);
-        return;
+    if (changed) {
+        started_ = true;
+        quarantined_ = transforms.quarantined;
+        if (anew.instances) list_instances(registry, library, snapshot);
+        if (anew.instances || anew.views) list_views(registry, transforms, snapshot);
+        if (!anew.instances) refit_tree(snapshot);
     }
-    started_ = true;
-    quarantined_ = transforms.quarantined;
-    ++snapshot.version;
-    const bool bends = !anew && poses_.follows(moved_);
-    if (bends) poses_.update(registry, library, snapshot);
-    if (anew || (bends && !touch_bent(library, snapshot)) || !touch_moved(registry, library, snapshot)) {
-        snapshot.changed_instances.clear();
-        make_lists(registry, library, transforms, snapshot);
-        snapshot.list_version = snapshot.version;
-        build_tree(snapshot);
-    } else {
-        refit_tree(snapshot);
-    }
-    narrow_flat_views(registry, snapshot);
+    if (changed || resized) narrow_flat_views(registry, snapshot);
     std::sort(snapshot.changed_instances.begin(), snapshot.changed_instances.end(),
               [&](std::uint32_t a, std::uint32_t b) {
                   return snapshot.instances[a].gpu_slot < snapshot.instances[b].gpu_slot;

@@ -5,22 +5,20 @@
 
 #include "engine/assets/mesh_library.h"
 #include "engine/ecs/registry.h"
+#include "systems/extract/lights_and_cameras.h"
 #include "systems/extract/poses.h"
 #include "systems/extract/snapshot.h"
 #include "systems/transform/transform_system.h"
 
 namespace gnomon {
 
-/// As reports name it: by its Name, or "entity" and its index.
-std::string name_of(const ecs::Registry& registry, ecs::Entity e);
-
 /// The only reader of the registry between the transform system and the picture: applies its change lists to a
 /// SceneSnapshot. To use another ECS, fill the snapshot yourself and leave this out.
 class Extractor {
 public:
     /// `viewport_px`: size of the picture, both > 0. Meshes are named by their index in `library`.
-    /// Cost is proportional to what changed: moved entities are updated in place, added or removed ones make the
-    /// lists anew; an unchanged scene costs nothing.
+    /// Cost is proportional to what changed: what was written is updated in place, instances that came or went make all
+    /// lists anew, lights and cameras their own; an unchanged scene costs nothing.
     void update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
                 glm::uvec2 viewport_px, SceneSnapshot& snapshot);
 
@@ -28,20 +26,38 @@ private:
     struct Cursors {
         ecs::ChangeCursor world, mesh, caster, light, shadow, camera, name, skin, weights;
     };
+    /// Which lists are to be made anew.
+    struct Lists {
+        bool instances = false, views = false;  // views: lights and cameras
+    };
+    struct Touched {
+        bool any = false;
+        Lists leaves;
+    };
     template <class T>
-    bool read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, bool structural);
-    void make_lists(const ecs::Registry& registry, const assets::MeshLibrary& library,
-                    const TransformReport& transforms, SceneSnapshot& snapshot);
+    bool read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, std::vector<ecs::Entity>* written,
+                      std::vector<ecs::Entity>* came_or_went);
+    Lists read_all(ecs::Registry& registry);
+    void list_instances(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
+    void list_views(const ecs::Registry& registry, const TransformReport& transforms, SceneSnapshot& snapshot);
     void list_instance(const ecs::Registry& registry, const assets::MeshLibrary& library, ecs::Entity entity,
                        SceneSnapshot& snapshot);
     void assign_slots(SceneSnapshot& snapshot);
+    std::uint32_t listed_at(ecs::Entity e) const;
+    bool any_came_or_went(const ecs::Registry& registry, const SceneSnapshot& snapshot) const;
+    Touched touch(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
     bool touch_bent(const assets::MeshLibrary& library, SceneSnapshot& snapshot);
     bool touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
+    bool touch_shown(const ecs::Registry& registry, SceneSnapshot& snapshot);
+    LightsAndCameras::Effect touch_views(const ecs::Registry& registry, SceneSnapshot& snapshot);
 
     Cursors cursors_;
     PoseExtractor poses_;
+    LightsAndCameras views_;
     std::vector<std::uint32_t> bent_;             // indices into snapshot.instances: those with a pose
-    std::vector<ecs::Entity> moved_;              // since the last frame, maybe repeated
+    /// Since the last frame, maybe repeated: placed or bent otherwise; showing or casting otherwise; lights and cameras
+    /// that were written; named otherwise.
+    std::vector<ecs::Entity> moved_, shown_, edited_, named_;
     std::vector<std::uint32_t> instance_of_;      // entity index -> index into snapshot.instances, kNone
     std::vector<ecs::Entity> slot_owner_;         // gpu_slot -> entity
     std::vector<std::uint32_t> slot_of_;          // entity index -> gpu_slot, kNone

@@ -50,6 +50,7 @@ struct LightItem {
     bool has_shadow = false;  // a LightShadow component exists
     LightShadow shadow = {};
     std::uint64_t version = 0;  // grows whenever any of the above changed
+    std::uint64_t shape_version = 0;  // grows whenever any but name, colour and intensity did: what shadows follow from
 };
 
 /// How a mesh that bends (assets::Mesh::deformer) is bent in this frame, by its deformer's joints and targets.
@@ -133,7 +134,8 @@ struct SceneSnapshot {
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
     std::uint64_t version = 0;                     // grows whenever anything changed, by 1 if changed_instances are all
                                                    // whose version grew with it; 0: nobody counts, all is new always
-    std::uint64_t list_version = 0;  // the version since which an index means the same instance; 0: not known
+    std::uint64_t list_version = 0;  // the version since which an index means the same instance, that is seen and casts
+                                     // as it did; 0: not known
     math::BoundsTree tree;  // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
     /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all:
     /// the instances' bounds stand for it, as they must where a mesh changes.

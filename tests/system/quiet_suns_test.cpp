@@ -51,6 +51,31 @@ TEST_F(QuietSuns, GetALargerMapOnceWhileTheCameraWalks) {
     EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
 }
 
+TEST_F(QuietSuns, ThatAreDimmedInEveryFrameAreQuiet) {
+    for (std::uint32_t i = 0; i < shadow::kQuietFrames; ++i) {
+        world.registry.patch<Light>(sun, [](Light& l) { l.intensity *= 0.999f; });
+        walk(1);
+    }
+    walk(1);
+    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+}
+
+TEST_F(QuietSuns, StayQuietWhenSomethingElseComes) {
+    walk(shadow::kQuietFrames / 2);
+    world.add_light(LightKind::point, {0, 4, 0}, "another", false);
+    world.add_mesh(kBox, {0, -50, 0}, false);
+    walk(shadow::kQuietFrames / 2 + 1);
+    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+}
+
+TEST_F(QuietSuns, AreNoneWhileTheyTurn) {
+    for (std::uint32_t i = 0; i < 2 * shadow::kQuietFrames; ++i) {
+        world.registry.patch<Transform>(sun, [](Transform& t) { t.rotation.x += 1e-6; });
+        walk(1);
+    }
+    EXPECT_EQ(light("sun").texels, moving_texels);
+}
+
 TEST_F(QuietSuns, GetTheSmallerOneAgainWithWhatHasToBeDrawnAnyway) {
     walk(shadow::kQuietFrames + 1);
     for (int i = 1; i <= 3; ++i) {

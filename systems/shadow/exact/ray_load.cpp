@@ -110,7 +110,7 @@ void count_quiet_frames(const SceneSnapshot& scene, const History& held, ShadowF
     for (std::uint32_t d = 0; d < frame.demands.size(); ++d) {
         const LightItem& light = scene.lights[frame.demands[d].light];
         Signature casters;
-        casters.add(light.version);
+        casters.add(light.shape_version);
         const std::size_t first = v;
         for (; v < frame.views.size() && frame.views[v].demand == d; ++v)
             for (const std::uint32_t i : casters_of(frame, frame.views[v])) {

@@ -13,7 +13,6 @@ protected:
     void update() {
         const TransformReport& report = transforms.update(world.registry);
         extractor.update(world.registry, library, report, viewport_px, snapshot);
-        world.registry.discard_changes();
     }
     TestWorld world;
     assets::MeshLibrary library = test_library();

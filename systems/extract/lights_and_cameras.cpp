@@ -1,0 +1,199 @@
+#include "systems/extract/lights_and_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <utility>
+
+#include "components/transform.h"
+#include "engine/math/frustum.h"
+#include "systems/extract/names.h"
+
+namespace gnomon {
+namespace {
+
+using Effect = LightsAndCameras::Effect;
+
+/// Direction only: a light's or camera's scale and shear do not count. Columns right, up, back; orthonormal.
+glm::dmat3 orientation(const glm::dmat3& basis) {
+    const glm::dvec3 back = basis[2];
+    if (!(glm::length(back) > 0.0)) return glm::dmat3(1.0);
+    const glm::dvec3 z =
+        glm::normalize(back / glm::max(std::abs(back.x), glm::max(std::abs(back.y), std::abs(back.z))));
+    const glm::dvec3 across = glm::cross(basis[1], z);
+    if (!(glm::length(across) > 0.0)) return math::basis_from_back(z);
+    const glm::dvec3 x = glm::normalize(across);
+    return {x, glm::cross(z, x), z};
+}
+
+bool usable(const Light& light) {
+    const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
+                         light.range_m >= 0.0f && light.colour.r >= 0.0f && light.colour.g >= 0.0f &&
+                         light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
+    // Shaders multiply them in float: infinite light is no number where nothing of it arrives.
+    if (!numbers || !std::isfinite(light.intensity * (light.colour.r + light.colour.g + light.colour.b))) return false;
+    return light.kind != LightKind::spot ||
+           (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
+            light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);
+}
+
+bool usable(const Camera& camera) {
+    if (!(camera.near_m < camera.far_m)) return false;
+    if (camera.projection == CameraProjection::orthographic)
+        return camera.half_height_m > 0.0 && std::isfinite(camera.half_height_m) && std::isfinite(camera.far_m) &&
+               std::isfinite(camera.near_m);
+    return camera.near_m > 0.0 && camera.fov_y_rad > 0.0 && camera.fov_y_rad < glm::pi<double>();
+}
+
+/// Writes a field; true if it held anything else, NaN included.
+template <class T>
+bool put(T& field, const T& value) {
+    const bool same = field == value;
+    field = value;
+    return !same;
+}
+
+/// Writes all but the name; versions are those of the snapshot where anything differs. True if so.
+bool put_light(const ecs::Registry& registry, const Light& light, const WorldTransform& world, std::uint64_t version,
+               LightItem& item) {
+    const LightShadow* shadow = registry.get<LightShadow>(item.entity);
+    bool shape = put(item.kind, light.kind);
+    shape |= put(item.position_ws_m, world.translation_ws_m);
+    shape |= put(item.rotation_ws, orientation(world.basis));
+    shape |= put(item.range_m, static_cast<double>(light.range_m));
+    shape |= put(item.inner_cone_rad, static_cast<double>(light.inner_cone_rad));
+    shape |= put(item.outer_cone_rad, std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>()));
+    shape |= put(item.has_shadow, shadow != nullptr);
+    shape |= put(item.shadow, shadow ? *shadow : LightShadow{});
+    bool any = put(item.colour, light.colour);
+    any |= put(item.intensity, light.intensity);
+    if (shape) item.shape_version = version;
+    if (shape || any) item.version = version;
+    return shape || any;
+}
+
+/// Writes all but name and viewport. An orthographic camera's range is as the component says: it is narrowed later.
+bool put_camera(const Camera& camera, const WorldTransform& world, ConsumerItem& item) {
+    bool any = put(item.position_ws_m, world.translation_ws_m);
+    any |= put(item.rotation_ws, orientation(world.basis));
+    any |= put(item.projection, camera.projection);
+    any |= put(item.fov_y_rad, camera.fov_y_rad);
+    any |= put(item.half_height_m, camera.half_height_m);
+    any |= put(item.near_m, camera.near_m);
+    any |= put(item.far_m, camera.far_m);
+    return any;
+}
+
+/// Both lists are in the order of entity indices.
+template <class Item>
+Item* find(std::vector<Item>& items, ecs::Entity entity) {
+    const auto at =
+        std::lower_bound(items.begin(), items.end(), entity.index,
+                         [](const Item& item, std::uint32_t index) { return item.entity.index < index; });
+    return at != items.end() && at->entity == entity ? &*at : nullptr;
+}
+
+template <class Item>
+void sort_by_entity(std::vector<Item>& items) {
+    std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.entity.index < b.entity.index; });
+}
+
+Effect touch_light(const ecs::Registry& registry, ecs::Entity entity, const WorldTransform* world,
+                   SceneSnapshot& snapshot) {
+    LightItem* item = find(snapshot.lights, entity);
+    const Light* light = registry.get<Light>(entity);
+    const bool wanted = light && world && usable(*light);
+    if (wanted != (item != nullptr)) return Effect::listing;
+    return item && put_light(registry, *light, *world, snapshot.version, *item) ? Effect::changed : Effect::none;
+}
+
+Effect touch_camera(const ecs::Registry& registry, ecs::Entity entity, const WorldTransform* world,
+                    SceneSnapshot& snapshot) {
+    ConsumerItem* item = find(snapshot.consumers, entity);
+    const Camera* camera = registry.get<Camera>(entity);
+    const bool wanted = camera && camera->active && world && usable(*camera);
+    if (wanted != (item != nullptr)) return Effect::listing;
+    return item && put_camera(*camera, *world, *item) ? Effect::changed : Effect::none;
+}
+
+/// What list() made of the lights of an earlier snapshot.
+void keep_versions(std::vector<LightItem>& before, const ecs::Registry& registry, std::uint64_t version,
+                   std::vector<LightItem>& lights) {
+    for (LightItem& light : lights) {
+        const Light& component = *registry.get<Light>(light.entity);
+        const WorldTransform& world = *registry.get<WorldTransform>(light.entity);
+        LightItem* was = find(before, light.entity);
+        if (!was) {
+            put_light(registry, component, world, version, light);
+            light.version = light.shape_version = version;
+            continue;
+        }
+        std::swap(was->name, light.name);
+        const bool renamed = was->name != light.name;
+        put_light(registry, component, world, version, *was);
+        if (renamed) was->version = version;
+        light = std::move(*was);
+    }
+}
+
+}  // namespace
+
+void LightsAndCameras::list(const ecs::Registry& registry, glm::uvec2 viewport_px, SceneSnapshot& snapshot) {
+    std::vector<LightItem> before = std::exchange(snapshot.lights, {});
+    snapshot.consumers.clear();
+    unusable_.clear();
+    registry.each<Light, WorldTransform>([&](ecs::Entity e, const Light& light, const WorldTransform&) {
+        if (usable(light))
+            snapshot.lights.emplace_back().entity = e;
+        else
+            unusable_.push_back({e, name_of(registry, e), DropReason::absurd_light});
+    });
+    registry.each<Camera, WorldTransform>([&](ecs::Entity e, const Camera& camera, const WorldTransform& world) {
+        if (!camera.active) return;
+        if (!usable(camera)) return unusable_.push_back({e, name_of(registry, e), DropReason::absurd_camera});
+        ConsumerItem& item = snapshot.consumers.emplace_back();
+        item.entity = e;
+        item.name = name_of(registry, e);
+        item.viewport_px = viewport_px;
+        put_camera(camera, world, item);
+    });
+    sort_by_entity(snapshot.lights);
+    sort_by_entity(snapshot.consumers);
+    for (LightItem& light : snapshot.lights) light.name = name_of(registry, light.entity);
+    make_names_unique(snapshot.lights);
+    keep_versions(before, registry, snapshot.version, snapshot.lights);
+}
+
+Effect LightsAndCameras::touch(const ecs::Registry& registry, ecs::Entity entity, SceneSnapshot& snapshot) const {
+    const WorldTransform* world = registry.get<WorldTransform>(entity);
+    const Effect light = touch_light(registry, entity, world, snapshot);
+    const Effect camera = touch_camera(registry, entity, world, snapshot);
+    return std::max(light, camera);
+}
+
+Effect LightsAndCameras::rename(const ecs::Registry& registry, std::span<const ecs::Entity> named,
+                                SceneSnapshot& snapshot) const {
+    bool lights = false;
+    Effect effect = Effect::none;
+    for (const ecs::Entity e : named) {
+        lights = lights || find(snapshot.lights, e) != nullptr;
+        ConsumerItem* consumer = find(snapshot.consumers, e);
+        if (consumer && put(consumer->name, name_of(registry, e))) effect = Effect::changed;
+        const auto is_it = [&](const DroppedEntity& dropped) { return dropped.entity == e; };
+        if (std::any_of(snapshot.dropped.begin(), snapshot.dropped.end(), is_it)) return Effect::listing;
+    }
+    if (!lights) return effect;
+    std::vector<std::string> before(snapshot.lights.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+        before[i] = std::exchange(snapshot.lights[i].name, name_of(registry, snapshot.lights[i].entity));
+    make_names_unique(snapshot.lights);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] == snapshot.lights[i].name) continue;
+        snapshot.lights[i].version = snapshot.version;
+        effect = Effect::changed;
+    }
+    return effect;
+}
+
+}  // namespace gnomon
