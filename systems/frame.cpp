@@ -97,11 +97,12 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
     if (!settings.freeze_fits) frozen_.reset();
     if (!settings.freeze_fits || snapshot_.consumers.empty()) return update();
     if (!frozen_) frozen_ = snapshot_.consumers;
-    snapshot_.pictures = snapshot_.consumers;
+    pictures_ = snapshot_.consumers;
+    std::swap(snapshot_.pictures, pictures_);  // its names keep their memory from frame to frame
     std::swap(snapshot_.consumers, *frozen_);
     const shadow::ShadowFrame& shadows = update();
     std::swap(snapshot_.consumers, *frozen_);
-    snapshot_.pictures.clear();
+    std::swap(snapshot_.pictures, pictures_);
     return shadows;
 }
 

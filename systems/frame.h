@@ -104,6 +104,7 @@ private:
     std::unique_ptr<lighting::LightingSystem> lighting_;
     std::unique_ptr<debug::DebugPainter> debug_;
     std::optional<std::vector<ConsumerItem>> frozen_;  // the cameras that shadows are fitted to
+    std::vector<ConsumerItem> pictures_;               // and those that draw, as they were
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;

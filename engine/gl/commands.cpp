@@ -1,5 +1,6 @@
 #include "engine/gl/commands.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace gnomon::gl {
@@ -74,7 +75,7 @@ const char* name(Blend blend) {
 }
 
 struct Writer {
-    std::string operator()(const BeginGroup& c) const { return "BeginGroup \"" + c.label + '"'; }
+    std::string operator()(const BeginGroup& c) const { return "BeginGroup \"" + std::string(c.label.text()) + '"'; }
     std::string operator()(const EndGroup&) const { return "EndGroup"; }
     std::string operator()(const BeginPass& c) const {
         std::string text = "BeginPass" + field("target", c.target) + field("viewport", c.viewport);
@@ -154,6 +155,22 @@ struct Writer {
 };
 
 }  // namespace
+
+GroupLabel::GroupLabel(std::string_view kind, std::string_view name, std::string_view part) {
+    append(kind, kMost);
+    append(" ", kMost);
+    append(name, kMost - std::min(kMost, part.size() + 1));
+    append(" ", kMost);
+    append(part, kMost);
+}
+
+void GroupLabel::append(std::string_view text, std::size_t end) {
+    const auto continues = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xc0u) == 0x80u; };
+    std::size_t count = std::min(text.size(), end - std::min<std::size_t>(end, size_));
+    while (count > 0 && count < text.size() && continues(count)) --count;
+    std::copy_n(text.begin(), count, bytes_.begin() + size_);
+    size_ = static_cast<std::uint8_t>(size_ + count);
+}
 
 std::string to_text(const Command& command) { return std::visit(Writer{}, command); }
 

@@ -1,11 +1,13 @@
 #pragma once
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -37,9 +39,34 @@ struct PipelineState {
     bool operator==(const PipelineState&) const = default;
 };
 
+/// Text of a debug group, held in place: a frame's lists are made anew in every frame, from memory that they have. At most
+/// kMost bytes of UTF-8; what is longer is cut between two characters.
+class GroupLabel {
+public:
+    static constexpr std::size_t kMost = 63;
+
+    GroupLabel() = default;
+    template <class Text>
+        requires std::convertible_to<const Text&, std::string_view>
+    GroupLabel(const Text& text) {  // implicit, so that a group is written as BeginGroup{"surfaces"}
+        append(text, kMost);
+    }
+    /// "kind name part"; of those three the name is cut.
+    GroupLabel(std::string_view kind, std::string_view name, std::string_view part);
+
+    std::string_view text() const { return {bytes_.data(), size_}; }
+    bool operator==(const GroupLabel&) const = default;
+
+private:
+    /// Adds what fits into the first `end` bytes.
+    void append(std::string_view text, std::size_t end);
+    std::array<char, kMost> bytes_{};  // zeros from size_ on
+    std::uint8_t size_ = 0;
+};
+
 /// Labels a span of the frame (KHR_debug group). Groups nest and must close.
 struct BeginGroup {
-    std::string label;
+    GroupLabel label;
     bool operator==(const BeginGroup&) const = default;
 };
 struct EndGroup {

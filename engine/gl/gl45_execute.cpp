@@ -116,8 +116,9 @@ public:
 
     void operator()(const BeginGroup& c) {
         if (open_groups_++ >= fixtures_.group_depth) return;
-        const auto length = static_cast<GLsizei>(std::min(c.label.size(), fixtures_.message_bytes));
-        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, length, c.label.c_str());
+        const std::string_view text = c.label.text();
+        const auto length = static_cast<GLsizei>(std::min(text.size(), fixtures_.message_bytes));
+        glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, length, text.data());
     }
     void operator()(const EndGroup&) {
         if (open_groups_ == 0) return note(Failure::invalid_value);

@@ -81,13 +81,13 @@ void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
 }
 
 /// Orthographic cameras look no farther than there is something to see.
-void narrow_flat_views(const ecs::Registry& registry, SceneSnapshot& snapshot) {
+void narrow_flat_views(const ecs::Registry& registry, std::vector<glm::dvec3>& scratch, SceneSnapshot& snapshot) {
     for (ConsumerItem& consumer : snapshot.consumers) {
         if (consumer.projection != CameraProjection::orthographic) continue;
         const Camera& camera = *registry.get<Camera>(consumer.entity);
         consumer.near_m = camera.near_m;
         consumer.far_m = camera.far_m;
-        const ViewRange range = flat_range(snapshot, consumer);
+        const ViewRange range = flat_range(snapshot, consumer, scratch);
         consumer.near_m = range.near_m;
         consumer.far_m = range.far_m;
     }
@@ -340,7 +340,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
         if (anew.instances || anew.views) list_views(registry, transforms, snapshot);
         if (!anew.instances) refit_tree(snapshot);
     }
-    if (changed || resized) narrow_flat_views(registry, snapshot);
+    if (changed || resized) narrow_flat_views(registry, corners_ws_m_, snapshot);
     std::sort(snapshot.changed_instances.begin(), snapshot.changed_instances.end(),
               [&](std::uint32_t a, std::uint32_t b) {
                   return snapshot.instances[a].gpu_slot < snapshot.instances[b].gpu_slot;

@@ -63,6 +63,7 @@ private:
     std::vector<std::uint32_t> slot_of_;          // entity index -> gpu_slot, kNone
     std::vector<DroppedEntity> unusable_;         // found while making the lists
     std::vector<QuarantinedEntity> quarantined_;  // as last seen
+    std::vector<glm::dvec3> corners_ws_m_;        // scratch
     glm::uvec2 viewport_px_{0, 0};
     bool started_ = false;
 };

@@ -13,13 +13,13 @@ constexpr double kLeastSteps = 8.0;
 constexpr double kRounding = 1.0 / 4096.0;  // of the range: clipping in float takes nothing away
 
 /// The least distance along `way` from the camera of anything in its view; infinite without any.
-double nearest_m(const SceneSnapshot& scene, const ConsumerItem& camera, const glm::dvec3& way) {
+double nearest_m(const SceneSnapshot& scene, const ConsumerItem& camera, const glm::dvec3& way,
+                 std::vector<glm::dvec3>& corners_ws_m) {
     const math::Frustum seen = consumer_frustum(camera);
     const auto of_box = [&](const math::Aabb& box) {
         return glm::dot(way, math::centre(box) - camera.position_ws_m) -
                glm::dot(glm::abs(way), math::half_extent(box));
     };
-    std::vector<glm::dvec3> corners_ws_m;
     const auto of_seen_part = [&](std::uint32_t i, double lowest_m) {
         corners_ws_m.clear();
         math::clip_box(seen, scene.instances[i].bounds_ws, corners_ws_m);
@@ -33,8 +33,14 @@ double nearest_m(const SceneSnapshot& scene, const ConsumerItem& camera, const g
 }  // namespace
 
 ViewRange flat_range(const SceneSnapshot& scene, const ConsumerItem& camera) {
+    std::vector<glm::dvec3> corners_ws_m;
+    return flat_range(scene, camera, corners_ws_m);
+}
+
+ViewRange flat_range(const SceneSnapshot& scene, const ConsumerItem& camera, std::vector<glm::dvec3>& corners_ws_m) {
     const glm::dvec3 back = camera.rotation_ws[2];
-    const double least_m = nearest_m(scene, camera, -back), most_m = -nearest_m(scene, camera, back);
+    const double least_m = nearest_m(scene, camera, -back, corners_ws_m);
+    const double most_m = -nearest_m(scene, camera, back, corners_ws_m);
     if (!(least_m <= most_m)) return {camera.near_m, camera.far_m};
     // What stands across the view has no extent along it, but one as the camera shows it.
     const double extent_m = std::max(most_m - least_m, camera.half_height_m);

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "systems/extract/snapshot.h"
 
 namespace gnomon {
@@ -14,5 +16,8 @@ struct ViewRange {
 /// stands there, and places rebuilt from them as far off. The range ends on steps of an eighth of what it holds, or
 /// less, so that what moves a little changes nothing.
 ViewRange flat_range(const SceneSnapshot& scene, const ConsumerItem& orthographic_camera);
+/// The same in memory that the caller keeps, for every frame; its content is of no use.
+ViewRange flat_range(const SceneSnapshot& scene, const ConsumerItem& orthographic_camera,
+                     std::vector<glm::dvec3>& corners_ws_m);
 
 }  // namespace gnomon

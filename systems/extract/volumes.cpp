@@ -5,12 +5,12 @@
 namespace gnomon {
 namespace {
 
-math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m) {
+math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m) {
     const double half_y = c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
     const double half_x = half_y * aspect(c);
     return c.projection == CameraProjection::orthographic
-               ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, c.far_m)
-               : math::perspective_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, c.far_m);
+               ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m)
+               : math::perspective_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m);
 }
 
 }  // namespace
@@ -19,13 +19,19 @@ double aspect(const ConsumerItem& consumer) {
     return static_cast<double>(consumer.viewport_px.x) / static_cast<double>(consumer.viewport_px.y);
 }
 
-math::Frustum consumer_frustum(const ConsumerItem& c) { return frustum_from(c.position_ws_m, c, c.near_m); }
+math::Frustum consumer_frustum(const ConsumerItem& c) { return frustum_from(c.position_ws_m, c, c.near_m, c.far_m); }
 
 math::Frustum consumer_frustum(const ConsumerItem& c, double near_m) {
-    return frustum_from(c.position_ws_m, c, near_m);
+    return frustum_from(c.position_ws_m, c, near_m, c.far_m);
 }
 
-math::Frustum consumer_frustum_at_origin(const ConsumerItem& c) { return frustum_from(glm::dvec3(0.0), c, c.near_m); }
+math::Frustum consumer_frustum(const ConsumerItem& c, double near_m, double far_m) {
+    return frustum_from(c.position_ws_m, c, near_m, far_m);
+}
+
+math::Frustum consumer_frustum_at_origin(const ConsumerItem& c) {
+    return frustum_from(glm::dvec3(0.0), c, c.near_m, c.far_m);
+}
 
 math::Frustum pyramid(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws, double tan_half, double far_m) {
     return math::perspective_frustum(apex_ws_m, rotation_ws, tan_half, tan_half, 0.0, far_m);

@@ -7,9 +7,10 @@ namespace gnomon {
 /// Width over height of the consumer's picture.
 double aspect(const ConsumerItem& consumer);
 
-/// What the consumer sees, world space; and only from another near plane on.
+/// What the consumer sees, world space; and only from another near plane on, or up to another far plane as well.
 math::Frustum consumer_frustum(const ConsumerItem& consumer);
 math::Frustum consumer_frustum(const ConsumerItem& consumer, double near_m);
+math::Frustum consumer_frustum(const ConsumerItem& consumer, double near_m, double far_m);
 
 /// What it would see, stood it in the world's origin: free of the rounding that its place costs.
 math::Frustum consumer_frustum_at_origin(const ConsumerItem& consumer);

@@ -123,7 +123,7 @@ void MomentRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& 
     const ShadowView& view = frame.views[v];
     const ShadowDemand& demand = frame.demands[view.demand];
     const ShadowSlot& slot = frame.slots[v];
-    list.add(gl::BeginGroup{"moments " + scene.lights[demand.light].name + ' ' + std::to_string(view.layer)});
+    list.add(gl::BeginGroup{{"moments", scene.lights[demand.light].name, std::to_string(view.layer)}});
     list.add(gl::BeginTimer{shadow_timer(demand.light)});
     list.add(gl::BindUniforms{0, records_.handle(), offset, sizeof(MomentRecord)});
     const gl::ProgramHandle first = program(filter_row(demand.filter).file, source_of(view));

@@ -191,8 +191,8 @@ void DepthRecorder::begin(const SceneSnapshot& scene, const GpuScene& gpu, const
     const ShadowSlot& slot = frame.slots[pass.first];
     const auto size = static_cast<std::int32_t>(slot.size_px);
     const std::uint32_t light = frame.demands[frame.views[pass.first].demand].light;
-    const std::string name = "shadow " + scene.lights[light].name + ' ';
-    list.add(gl::BeginGroup{name + (pass.layered ? "faces" : std::to_string(frame.views[pass.first].layer))});
+    const std::string layer = pass.layered ? "faces" : std::to_string(frame.views[pass.first].layer);
+    list.add(gl::BeginGroup{{"shadow", scene.lights[light].name, layer}});
     list.add(gl::BeginTimer{shadow_timer(light)});
     const bool one_clear = !pass.layered || pass.views == kFaces;
     for (std::size_t v = pass.first; v < pass.end && !one_clear; ++v) {

@@ -50,7 +50,7 @@ protected:
         return static_cast<std::size_t>(std::count_if(
             last_.commands.begin(), last_.commands.end(), [&](const gl::Command& command) {
                 const auto* group = std::get_if<gl::BeginGroup>(&command);
-                return group && group->label.find("shadow") == 0 && group->label.find(text) != std::string::npos;
+                return group && group->label.text().find("shadow") == 0 && group->label.text().find(text) != std::string::npos;
             }));
     }
     void draw_and_keep() {

@@ -25,7 +25,7 @@ protected:
         std::size_t commands = 0, depth = 0;
         for (const gl::Command& command : frame->commands().commands) {
             const auto* group = std::get_if<gl::BeginGroup>(&command);
-            const bool begins = group && (group->label.starts_with("shadow ") || group->label.starts_with("moments "));
+            const bool begins = group && (group->label.text().starts_with("shadow ") || group->label.text().starts_with("moments "));
             if (begins || (depth > 0 && group)) ++depth;
             if (depth > 0) ++commands;
             if (depth > 0 && std::get_if<gl::EndGroup>(&command)) --depth;

@@ -1,5 +1,6 @@
 #include <functional>
 
+#include "components/name.h"
 #include "engine/assets/mesh_shape.h"
 #include "systems/shadow/filter_table.h"
 #include "tests/system/frame_fixture.h"
@@ -84,8 +85,15 @@ std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const 
     if (!made) return ~std::size_t{0};
     TestWorld world;
     const TestWorld::Stage parts = world.add_stage();
+    // Names that no string holds within itself: a copy of one is an allocation.
     int n = 0;
-    for (const LightKind kind : kinds) world.add_light(kind, kLightPlace_m, "l" + std::to_string(n++));
+    const std::string name = "a name of more than a string's own characters, ";
+    for (const LightKind kind : kinds) world.add_light(kind, kLightPlace_m, name + std::to_string(n++));
+    world.registry.emplace<Name>(parts.camera, {name + "camera"});
+    world.registry.emplace<Name>(parts.box, {name + "box"});
+    // And one of an entity that cannot be used, which every report says.
+    const ecs::Entity absurd = world.add_light(LightKind::point, kLightPlace_m, name + "absurd");
+    world.registry.patch<Light>(absurd, [](Light& l) { l.intensity = -1.0f; });
     std::size_t allocations = 0;
     for (int i = 0; i < frames; ++i) {
         edit(world, parts, i);
@@ -166,6 +174,31 @@ TEST_F(FrameCost, StillFramesAllocateNothing) {
 TEST_F(FrameCost, FramesWithOneMoverAllocateNothing) {
     const auto kinds = {LightKind::directional, LightKind::spot, LightKind::point};
     EXPECT_EQ(allocations_when_warm(kinds, settings, box_moves, test_library(), 2 * kWarm), 0u);
+}
+
+TEST_F(FrameCost, FramesOfFrozenFitsAllocateNothing) {
+    settings.freeze_fits = true;
+    for (const auto& edit : {std::function<void(TestWorld&, const TestWorld::Stage&, int)>(still), {moving}})
+        EXPECT_EQ(allocations_when_warm({LightKind::directional, LightKind::point}, settings, edit), 0u);
+}
+
+TEST_F(FrameCost, ADimmingLightAndAZoomingCameraAllocateNothing) {
+    const auto dims = [](TestWorld& made, const TestWorld::Stage& staged, int i) {
+        made.registry.each<Light>([&](ecs::Entity e, const Light& l) {
+            if (l.intensity > 0.0f) made.registry.patch<Light>(e, [](Light& light) { light.intensity *= 0.99f; });
+        });
+        made.registry.patch<Camera>(staged.camera, [&](Camera& c) { c.fov_y_rad = 0.9 - 0.001 * i; });
+    };
+    EXPECT_EQ(allocations_when_warm({LightKind::directional, LightKind::spot}, settings, dims), 0u);
+}
+
+TEST_F(FrameCost, AnOrthographicCameraThatWalksAllocatesNothing) {
+    const auto walks = [](TestWorld& made, const TestWorld::Stage& staged, int i) {
+        if (i == 0)
+            made.registry.patch<Camera>(staged.camera, [](Camera& c) { c.projection = CameraProjection::orthographic; });
+        made.move(staged.camera, {0.01 * i, 4, 8});
+    };
+    EXPECT_EQ(allocations_when_warm({LightKind::directional, LightKind::spot}, settings, walks), 0u);
 }
 
 TEST_F(FrameCost, FramesWithinABudgetAllocateNothing) {

@@ -74,7 +74,7 @@ protected:
         bool is_depth = false;
         Names names;
         for (const gl::Command& command : frame->commands().commands) {
-            if (const auto* g = std::get_if<gl::BeginGroup>(&command)) group = g->label;
+            if (const auto* g = std::get_if<gl::BeginGroup>(&command)) group = g->label.text();
             if (std::get_if<gl::BeginPass>(&command)) is_depth = group.rfind("shadow ", 0) == 0;
             if (const auto* b = std::get_if<gl::BindMeshes>(&command)) items = b->draw_items;
             const auto* draw = std::get_if<gl::DrawMeshes>(&command);

@@ -21,7 +21,7 @@ inline std::vector<Pass> passes_of(const gl::CommandList& list, const gl::Record
     std::vector<Pass> passes;
     std::vector<std::string> groups;
     for (const gl::Command& command : list.commands) {
-        if (const auto* g = std::get_if<gl::BeginGroup>(&command)) groups.push_back(g->label);
+        if (const auto* g = std::get_if<gl::BeginGroup>(&command)) groups.emplace_back(g->label.text());
         if (std::get_if<gl::EndGroup>(&command) && !groups.empty()) groups.pop_back();
         if (const auto* b = std::get_if<gl::BeginPass>(&command)) {
             const gl::TargetDesc* target = device.target(b->target);

@@ -45,7 +45,7 @@ protected:
         bool in = false;
         for (const gl::Command& c : frame->commands().commands) {
             const auto* group = std::get_if<gl::BeginGroup>(&c);
-            if (group && group->label.rfind("shadow ", 0) == 0) in = true;
+            if (group && group->label.text().rfind("shadow ", 0) == 0) in = true;
             if (in) found.push_back(c);
             if (std::get_if<gl::EndGroup>(&c)) in = false;
         }
@@ -100,7 +100,7 @@ TEST_F(StillCasters, OneMoverAmongTenThousandAndSixtyFourLightsIsDrawnOverACopyI
     }
     EXPECT_EQ(drawn, groups.size());
     for (std::size_t at = 0; at < commands.size(); at += kPerView) {
-        const std::string group = std::get<gl::BeginGroup>(commands[at]).label;
+        const std::string group(std::get<gl::BeginGroup>(commands[at]).label.text());
         const std::string name = group.substr(7, group.rfind(' ') - 7);
         const auto layer = static_cast<std::uint32_t>(std::stoul(group.substr(group.rfind(' ') + 1)));
         const gl::TextureHandle map = texture("shadow map " + name);

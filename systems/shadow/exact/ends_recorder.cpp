@@ -116,7 +116,7 @@ void EndsRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& fr
     const ShadowView& view = frame.views[v];
     const ShadowSlot& slot = frame.slots[v];
     const std::uint32_t light = frame.demands[view.demand].light;
-    list.add(gl::BeginGroup{"sheet ends " + scene.lights[light].name + ' ' + std::to_string(view.layer)});
+    list.add(gl::BeginGroup{{"sheet ends", scene.lights[light].name, std::to_string(view.layer)}});
     list.add(gl::BeginTimer{shadow_timer(light)});
     list.add(gl::BindTexture{kMapUnit, slot.texture, {}});
     list.add(gl::BindTexture{kBoundsUnit, slot.bounds, {}});

@@ -128,7 +128,7 @@ void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu,
     const auto size = static_cast<std::int32_t>(slot.size_px);
     const SheetFloor floor = sheet_floor(view, slot.size_px);
     const float cleared = with_margins_ ? floor.cleared : static_cast<float>(floor.departure);
-    list.add(gl::BeginGroup{"sheets " + scene.lights[demand.light].name + ' ' + std::to_string(view.layer)});
+    list.add(gl::BeginGroup{{"sheets", scene.lights[demand.light].name, std::to_string(view.layer)}});
     list.add(gl::BeginTimer{shadow_timer(demand.light)});
     list.add(
         gl::BeginPass{slot.bounds_target, {0, 0, size, size}, false, 0.0f, true, {kNoContour, cleared, 0.0f, 0.0f}});

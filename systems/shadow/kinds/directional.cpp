@@ -88,13 +88,6 @@ void override_from_eye(const ShadowDemand& demand, const SunEye& eye, Orthograph
     box.far_m = std::max(box.far_m, box.near_m + least_m);
 }
 
-/// The consumer that sees what the slice's map has to hold.
-ConsumerItem cut(ConsumerItem consumer, const CascadeSlice& slice) {
-    consumer.near_m = slice.holds_from_m;
-    consumer.far_m = slice.holds_to_m;
-    return consumer;
-}
-
 /// Corners of what is seen of the receivers in the slice, and of how many; they live until the next slice's.
 std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerItem& consumer, const FitInput& input,
                                       std::uint32_t& receivers) {
@@ -102,7 +95,7 @@ std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerI
     points_ws.clear();
     receivers = 0;
     if (!(slice.holds_from_m < slice.holds_to_m)) return {};
-    const math::Frustum frustum = consumer_frustum(cut(consumer, slice));
+    const math::Frustum frustum = consumer_frustum(consumer, slice.holds_from_m, slice.holds_to_m);
     for (const std::uint32_t r : input.receivers)
         receivers += math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws) > 0 ? 1 : 0;
     return points_ws;

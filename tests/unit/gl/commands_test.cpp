@@ -61,6 +61,28 @@ TEST(CommandList, ListsWithTheSameCommandsButOtherPayloadDiffer) {
     EXPECT_NE(a, b);
 }
 
+TEST(GroupLabel, HoldsItsTextAndComparesByIt) {
+    EXPECT_EQ(GroupLabel("sun").text(), "sun");
+    EXPECT_EQ(GroupLabel(std::string("sun")), GroupLabel("sun"));
+    EXPECT_NE(GroupLabel("sun"), GroupLabel("sung"));
+    EXPECT_EQ(GroupLabel("shadow", "sun", "3").text(), "shadow sun 3");
+    EXPECT_EQ(GroupLabel().text(), "");
+}
+
+TEST(GroupLabel, OfALongNameKeepsWhatStandsAroundIt) {
+    const GroupLabel cut("shadow", std::string(1000, 'x'), "faces");
+    EXPECT_EQ(cut.text(), "shadow " + std::string(GroupLabel::kMost - 13, 'x') + " faces");
+    EXPECT_EQ(GroupLabel(std::string(1000, 'x')).text(), std::string(GroupLabel::kMost, 'x'));
+    EXPECT_EQ(GroupLabel("shadow", "sun", std::string(1000, '7')).text().size(), GroupLabel::kMost);
+}
+
+TEST(GroupLabel, IsCutBetweenCharacters) {
+    std::string name = "x";
+    for (int i = 0; i < 100; ++i) name += "\u00e4";  // two bytes each
+    EXPECT_EQ(GroupLabel(name).text(), name.substr(0, GroupLabel::kMost)) << "63 bytes: one and 31 twos";
+    EXPECT_EQ(GroupLabel(name.substr(1)).text(), name.substr(1, GroupLabel::kMost - 1));
+}
+
 TEST(CommandText, EachCommandIsOneLineThatNamesIt) {
     const std::string text = to_text(sample());
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 5);
