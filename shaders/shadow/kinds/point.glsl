@@ -202,7 +202,7 @@ vec4 shadow_moments(ShadowPoint point) {
     float longer_texel = length(longer), shorter_texel = max(min(length(right), length(up)), 1.0);
     int taps = int(clamp(ceil(longer_texel / shorter_texel), 1.0, light.moment_sampling.z));
     float most_level = float(textureQueryLevels(shadow_map) - 1);
-    float level = clamp(log2(longer_texel / float(taps)), 0.0, most_level);
+    float level = min(log2(max(longer_texel / float(taps), 1.0)), most_level);
     vec4 sum = vec4(0.0);
     int i = 0;
     do {

@@ -1,0 +1,8 @@
+// The unit vector along v; `otherwise` where v has no direction: zero, or not finite. What floats can hold and not square is scaled first.
+vec3 unit_or(vec3 v, vec3 otherwise) {
+    const float kLeast = 1e-18, kMost = 1e18;   // their squares are normal floats
+    float size = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    if (!(size >= kLeast && size <= kMost)) v /= size;
+    float square = dot(v, v);
+    return square > 0.0 && square <= 3.0 * kMost * kMost ? normalize(v) : otherwise;
+}

@@ -1,0 +1,6 @@
+# What lights do to pictures, where visibility says nothing of it.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_pictures LABEL gl SOURCES
+    parallel_light_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_shaders)
+endif()
