@@ -15,10 +15,9 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 5> kKnownExtensions = {
-    "KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_mesh_quantization",
-    "KHR_materials_unlit",  // lit as its metallic-roughness fallback, which the extension demands to be present
-    "KHR_texture_transform"};
+constexpr std::array<std::string_view, 5> kKnownExtensions = {"KHR_lights_punctual", "KHR_materials_emissive_strength",
+                                                              "KHR_materials_unlit", "KHR_mesh_quantization",
+                                                              "KHR_texture_transform"};
 
 /// All that tinygltf is shown. Nothing else is read, so nothing else can hurt.
 constexpr std::array<const char*, 10> kParsedMembers = {"asset",   "accessors", "bufferViews", "meshes",

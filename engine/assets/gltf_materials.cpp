@@ -184,6 +184,7 @@ Material load_material(Document& document, std::size_t index, TextureLoader& tex
             unit_float(document, pbr.baseColorFactor[static_cast<std::size_t>(i)], pbr_where + "/baseColorFactor");
     }
     material.emissive = emissive_of(source, raw, where);
+    material.unlit = raw.contains(nlohmann::json::json_pointer("/extensions/KHR_materials_unlit"));
     if (pbr.baseColorTexture.index < 0) return material;
 
     if (pbr.baseColorTexture.texCoord >= kMaxUvSets) {

@@ -101,6 +101,7 @@ constexpr Row kRows[] = {
     {"/materials/*/extensions", Kind::object},
     {"/materials/*/extensions/KHR_materials_emissive_strength", Kind::object},
     {"/materials/*/extensions/KHR_materials_emissive_strength/emissiveStrength", Kind::number},
+    {"/materials/*/extensions/KHR_materials_unlit", Kind::object},
 
     {"/meshes", Kind::list, kOptional, kMaxItems},
     {"/meshes/*", Kind::object},

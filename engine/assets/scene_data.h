@@ -64,6 +64,7 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
+    bool unlit = false;  // shows base_colour by any light and exposure; casts shadows as others do
 };
 
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };

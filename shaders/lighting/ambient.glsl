@@ -1,8 +1,8 @@
 // Light from everywhere; never shadowed. Brighter from above, as under a sky.
 // C++ twin: AmbientRecord in systems/lighting/lighting_system.h.
 layout(std140, binding = 3) uniform AmbientBlock {
-    vec4 sky;      // rgb: lux from above
-    vec4 ground;   // rgb: lux from below
+    vec4 sky;      // rgb: lux from above, times w; w: what the picture holds of a radiance of 1
+    vec4 ground;   // rgb: lux from below, times sky.w; w: what the picture holds of an exposed radiance of 1 that is shown unlit
 } ambient;
 
 vec3 ambient_light(vec3 colour, vec3 normal) {

@@ -1,11 +1,15 @@
 // A blended surface, drawn forward after all others: first what it lets through and its ambient light,
-// then one pass per light that adds. The same visibility include as the deferred passes.
+// then one pass per light that adds. The same visibility include as the deferred passes. UNLIT: it is shown as it is, by no light.
 #include "shared/instances.glsl"
 #include "shared/camera_block.glsl"
 #include "shared/material.glsl"
 #include "shared/numerics.glsl"
 #include "lighting/surface_normals.glsl"
 #include "lighting/ambient.glsl"
+#include "lighting/picture_sum.glsl"
+#ifdef UNLIT
+#include "lighting/tone_curve.glsl"
+#endif
 in vec3 fragment_position_ca;
 in vec3 fragment_normal;
 in vec2 fragment_uv;
@@ -50,10 +54,12 @@ void main() {
         if (takes_shadow(received_layers(instance))) visible = visible_share(geometric, triangle);
         added = visible * incoming.radiance *
                 brdf_times_cosine(colour.rgb, material.metallic, material.roughness, shading,
-                                  normalize(to_camera(fragment_position_ca)), incoming.to_light);
+                                  unit_or(to_camera(fragment_position_ca), camera.back.xyz), incoming.to_light);
     }
-    colour_out = vec4(added * colour.a, 0.0);
+    colour_out = vec4(in_picture(added * colour.a), 0.0);
+#elif defined(UNLIT)
+    colour_out = vec4(ambient.ground.w * exposed_as(colour.rgb), colour.a);
 #else
-    colour_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, colour.a);
+    colour_out = vec4(in_picture(ambient_light(colour.rgb, shading) + material.emissive.rgb * ambient.sky.w), colour.a);
 #endif
 }

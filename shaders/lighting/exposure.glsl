@@ -1,6 +1,7 @@
-// What the picture is multiplied by before the tone curve.
+// What radiance is multiplied by before the tone curve.
 layout(std140, binding = 4) uniform ExposureBlock {
-    vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum
+    vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum. z: the radiance that 1 in the picture stands for. w: scale
+                     // where nothing lit is seen to follow from
 };
 
 // So that the logarithmic mean of what is seen becomes middle grey.
@@ -8,5 +9,5 @@ float exposure_scale(sampler2D luminance_sum) {
     if (exposure.x >= 0.0) return exposure.x;
     vec2 sum = textureLod(luminance_sum, vec2(0.5), exposure.y).rg;
     const float kMiddleGrey = 0.18;
-    return sum.g > 0.0 ? kMiddleGrey / exp2(sum.r / sum.g) : 1.0;
+    return sum.g > 0.0 ? kMiddleGrey / exp2(sum.r / sum.g) : exposure.w;
 }

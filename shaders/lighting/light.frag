@@ -1,5 +1,5 @@
 // One light over its screen rectangle: visibility times BRDF, added to the picture; or the visibility alone. READ_KEPT: as
-// it was when it was last looked up. LEAVE_UNDECIDED: but for pixels that this filter takes long for.
+// it was when it was last looked up. LEAVE_UNDECIDED: but for pixels that this filter takes long for. SOME_UNLIT: surfaces may be unlit.
 #include "lighting/surface_targets.glsl"
 #include "row.glsl"
 #include "shadow/light_block.glsl"
@@ -11,6 +11,7 @@
 #include "lighting/light_at.glsl"
 #include "lighting/visible_surface.glsl"
 #include "lighting/brdf.glsl"
+#include "lighting/picture_sum.glsl"
 #ifdef READ_KEPT
 #include "lighting/kept_visibility.glsl"
 #endif
@@ -35,8 +36,11 @@ void main() {
 #ifdef WRITE_VISIBILITY
     visibility_out = visible;
 #else
+#ifdef SOME_UNLIT
+    if (surface.unlit) visible = 0.0;
+#endif
     vec3 reflected = brdf_times_cosine(surface.colour, surface.metallic, surface.roughness, surface.shading_normal,
                                        surface.to_viewer, incoming.to_light);
-    colour_out = vec4(visible > 0.0 ? visible * incoming.radiance * reflected : vec3(0.0), 0.0);
+    colour_out = vec4(visible > 0.0 ? in_picture(visible * incoming.radiance * reflected) : vec3(0.0), 0.0);
 #endif
 }

@@ -1,7 +1,7 @@
 // Direction and strength of one light at a point, as KHR_lights_punctual defines them.
 struct LightSample {
     vec3 to_light;     // unit
-    vec3 radiance;     // lux at a surface facing the light; 0 outside range and cone
+    vec3 radiance;     // lux at a surface facing the light, times ambient.sky.w; 0 outside range and cone
     bool reaches;
 };
 
@@ -28,7 +28,8 @@ LightSample light_at(vec3 position_ca) {
     s.reaches = s.reaches && cosine > light.cone.x;
     falloff *= edge * edge;
 #endif
-    s.radiance = s.reaches ? light.radiance.rgb * falloff : vec3(0.0);
+    const float kMost_lx = 1e30;   // what a surface reflects of it is finite
+    s.radiance = s.reaches ? min(light.radiance.rgb * falloff, vec3(kMost_lx)) : vec3(0.0);
 #endif
     return s;
 }

@@ -1,10 +1,15 @@
-// Fills the surface buffers, and starts the picture with what needs no light pass: ambient and emitted light.
+// Fills the surface buffers, and starts the picture with what needs no light pass: ambient and emitted light. UNLIT: what is shown as
+// it is.
 #include "shared/instances.glsl"
 #include "shared/camera_block.glsl"
 #include "shared/material.glsl"
 #include "shared/octahedral.glsl"
 #include "lighting/surface_normals.glsl"
 #include "lighting/ambient.glsl"
+#include "lighting/picture_sum.glsl"
+#ifdef UNLIT
+#include "lighting/tone_curve.glsl"
+#endif
 in vec3 fragment_position_ca;
 in vec3 fragment_normal;
 in vec2 fragment_uv;
@@ -28,8 +33,12 @@ void main() {
     vec3 shading = shading_normal(fragment_normal, geometric);
     colour_out = vec4(colour.rgb, 1.0);
     normals_out = vec4(octahedral_from_unit(shading), octahedral_from_unit(geometric));
-    material_out = vec4(material.metallic, material.roughness, received_layers(instance) / 255.0, 0.0);
-    picture_out = vec4(ambient_light(colour.rgb, shading) + material.emissive.rgb, 1.0);
+    material_out = vec4(material.metallic, material.roughness, received_layers(instance) / 255.0, material.emissive.w);
+#ifdef UNLIT
+    picture_out = vec4(ambient.ground.w * exposed_as(colour.rgb), 2.0);
+#else
+    picture_out = vec4(in_picture(ambient_light(colour.rgb, shading) + material.emissive.rgb * ambient.sky.w), 1.0);
+#endif
 #ifdef WRITE_PLACES
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
     place_out = packed_place(SurfacePlace(interpolated_m, corner, fragment_item.x, triangle));

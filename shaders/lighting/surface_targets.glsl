@@ -2,12 +2,13 @@
 #include "shared/view_distance.glsl"
 #include "shared/pixel_ray.glsl"
 #include "shared/to_camera.glsl"
+#include "shared/unit.glsl"
 #include "shared/octahedral.glsl"
 #include "shared/numerics.glsl"
 layout(binding = 0) uniform sampler2D surface_depth;
 layout(binding = 1) uniform sampler2D surface_colour;
 layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
-layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255
+layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
 #ifdef SHADOW_RAYS
 layout(binding = 6) uniform usampler2D surface_places;     // see lighting/surface_place.glsl
 #endif
@@ -21,6 +22,7 @@ struct Surface {
     vec3 colour;
     float metallic, roughness;
     float shadow_layers;  // those it receives, as an integer
+    bool unlit;           // shows its colour whatever light falls on it
     float error_m;        // how far position_ca may be off the true surface
 #ifdef SHADOW_RAYS
     uvec4 place;          // packed
@@ -45,7 +47,7 @@ Surface read_surface(ivec2 pixel) {
     float depth = texelFetch(surface_depth, pixel, 0).r;
     s.exists = depth > 0.0;
     s.position_ca = surface_position(pixel, depth);
-    s.to_viewer = normalize(to_camera(s.position_ca));
+    s.to_viewer = unit_or(to_camera(s.position_ca), camera.back.xyz);
     vec4 normals = texelFetch(surface_normals, pixel, 0);
     s.shading_normal = unit_from_octahedral(normals.xy);
     s.geometric_normal = unit_from_octahedral(normals.zw);
@@ -54,6 +56,7 @@ Surface read_surface(ivec2 pixel) {
     s.metallic = m.r;
     s.roughness = m.g;
     s.shadow_layers = m.b * 255.0;
+    s.unlit = m.a > 0.5;
     s.error_m = surface_error_m(s.position_ca);
 #ifdef SHADOW_RAYS
     s.place = texelFetch(surface_places, pixel, 0);

@@ -1,7 +1,7 @@
 // C++ twin: MaterialRecord in systems/extract/gpu_scene.h.
 layout(std140, binding = 2) uniform MaterialBlock {
     vec4 base_colour;
-    vec4 emissive;
+    vec4 emissive;        // w: 1: unlit
     float metallic;
     float roughness;
     float alpha_cutoff;   // below 0: not masked

@@ -36,10 +36,14 @@ gl::Wrap wrap(assets::TextureWrap w) {
 
 MaterialRecord material_record(const assets::Material& m) {
     MaterialRecord r{};
-    for (int i = 0; i < 4; ++i) r.base_colour[i] = m.base_colour[i];
-    for (int i = 0; i < 3; ++i) r.emissive[i] = m.emissive[i];
-    r.metallic = m.metallic;
-    r.roughness = m.roughness;
+    // Whoever fills a library by hand may give anything; what is no number is none of it.
+    const auto within = [](float value, float most) { return value > 0.0f ? std::min(value, most) : 0.0f; };
+    constexpr float kMost = 1.0e30f;
+    for (int i = 0; i < 4; ++i) r.base_colour[i] = within(m.base_colour[i], kMost);
+    for (int i = 0; i < 3; ++i) r.emissive[i] = within(m.emissive[i], kMost);
+    r.emissive[3] = m.unlit ? 1.0f : 0.0f;
+    r.metallic = within(m.metallic, 1.0f);
+    r.roughness = within(m.roughness, 1.0f);
     r.alpha_cutoff = m.alpha_mode == assets::AlphaMode::mask ? m.alpha_cutoff : -1.0f;
     r.has_texture = m.base_colour_texture != assets::kNone ? 1.0f : 0.0f;
     return r;
@@ -106,6 +110,7 @@ void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<co
 }
 
 float most_reflected(const assets::Material& material) {
+    if (material.unlit) return 0.0f;
     constexpr float kLeastAlpha = 1.0e-3f;  // as brdf.glsl has it
     const float alpha = std::max(material.roughness * material.roughness, kLeastAlpha);
     const float colour = std::max({material.base_colour.r, material.base_colour.g, material.base_colour.b});
@@ -195,6 +200,10 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
         info.uniform_offset = static_cast<std::uint32_t>(m) * stride;
         info.alpha_mode = material.alpha_mode;
         info.double_sided = material.double_sided;
+        info.unlit = material.unlit;
+        scene.any_unlit_ |= material.unlit;
+        for (int i = 0; i < 3 && !material.unlit; ++i)
+            scene.most_emissive_ = std::max(scene.most_emissive_, material.emissive[i]);
         const auto t = material.base_colour_texture;
         info.texture = scene.textures_[t == assets::kNone ? 0 : static_cast<std::size_t>(t) + 1];
         info.sampler = t == assets::kNone ? sampler_for(assets::TextureWrap::repeat, assets::TextureWrap::repeat, false)
@@ -239,6 +248,8 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     triangle_records_ = std::move(other.triangle_records_);
     bent_meshes_ = other.bent_meshes_;
     library_ = other.library_;
+    any_unlit_ = other.any_unlit_;
+    most_emissive_ = other.most_emissive_;
     triangles_retry_ = other.triangles_retry_;
     triangles_asked_ = other.triangles_asked_;
     instance_capacity_ = std::exchange(other.instance_capacity_, 0);

@@ -25,7 +25,7 @@ static_assert(sizeof(InstanceRecord) == 64);
 /// Matches MaterialBlock in shaders/shared/material.glsl (std140).
 struct MaterialRecord {
     float base_colour[4];
-    float emissive[4];                        // rgb
+    float emissive[4];                        // rgb; 1: unlit
     float metallic, roughness, alpha_cutoff;  // alpha_cutoff < 0: not masked
     float has_texture;
 };
@@ -89,11 +89,14 @@ public:
         std::uint32_t uniform_offset = 0;
         assets::AlphaMode alpha_mode = assets::AlphaMode::opaque;
         bool double_sided = false;
+        bool unlit = false;
     };
 
     const MeshRange& mesh(std::uint32_t index) const { return meshes_[index]; }
     const SubmeshRange& submesh(std::uint32_t index) const { return submeshes_[index]; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
+    bool any_unlit() const { return any_unlit_; }           // of the materials
+    float most_emissive() const { return most_emissive_; }  // of the lit materials, in any colour
     const assets::MeshLibrary& library() const { return *library_; }
     std::size_t mesh_count() const { return meshes_.size(); }
     /// A mesh's own lists, bent as the device has them once the recorded uploads are done.
@@ -133,6 +136,8 @@ private:
 
     gl::Device* device_ = nullptr;
     const assets::MeshLibrary* library_ = nullptr;
+    bool any_unlit_ = false;
+    float most_emissive_ = 0.0f;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
     gl::BufferHandle caster_triangles_{}, caster_masks_{};
     std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer

@@ -31,11 +31,18 @@ const char* output_name(RowOutput output) {
     return "light";
 }
 
+/// Those of surfaces that blend are drawn for lit ones alone.
+bool adds_to_picture(RowOutput output) {
+    return output == RowOutput::picture || output == RowOutput::kept || output == RowOutput::decided;
+}
+
 }  // namespace
 
 LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
-    for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_}) device_.destroy(e.program);
+    for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_,
+                           unlit_surface_places_, unlit_blended_})
+        device_.destroy(e.program);
 }
 
 void LightPrograms::make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
@@ -60,10 +67,11 @@ LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ProgramRow& wa
     const bool reads_answers = row.sheets && (output == RowOutput::picture || output == RowOutput::visibility);
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
     row.sheets = wanted.sheets;
+    const bool some_unlit = some_unlit_ && adds_to_picture(output);
     const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const RowEntry& e) {
-        return e.output == output && e.fragment == fragment && e.row == row;
+        return e.output == output && e.fragment == fragment && e.some_unlit == some_unlit && e.row == row;
     });
-    return found != rows_.end() ? *found : rows_.emplace_back(RowEntry{row, output, fragment, {}});
+    return found != rows_.end() ? *found : rows_.emplace_back(RowEntry{row, output, fragment, some_unlit, {}});
 }
 
 bool LightPrograms::must_wait(const shadow::ProgramRow& row, RowOutput output) {
@@ -89,10 +97,11 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
     if (output == RowOutput::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
     if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
-    const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
-                              " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
-                              (row.manual_bias ? " manual bias" : "") +
-                              (row.filter_file.empty() && row.sheets ? "as found" : "");
+    if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
+    const std::string label =
+        std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) + " " +
+        std::string(row.kind_define) + " " + std::string(row.filter_file) + (row.manual_bias ? " manual bias" : "") +
+        (row.filter_file.empty() && row.sheets ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
     if (output == RowOutput::blended)
         make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
     else if (output == RowOutput::verdicts)
@@ -119,10 +128,22 @@ gl::ProgramHandle LightPrograms::surface(bool places) {
     }
     return needed(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag");
 }
+gl::ProgramHandle LightPrograms::wanted(Entry& entry, const char* label, const char* fragment,
+                                        std::span<const std::string> defines) {
+    if (is_due(entry)) make(entry, label, "lighting/surface.vert", fragment, defines, nullptr);
+    return entry.program;
+}
 gl::ProgramHandle LightPrograms::blended_base() {
-    if (is_due(blended_base_))
-        make(blended_base_, "blended base", "lighting/surface.vert", "lighting/blended.frag", {}, nullptr);
-    return blended_base_.program;
+    return wanted(blended_base_, "blended base", "lighting/blended.frag", {});
+}
+gl::ProgramHandle LightPrograms::unlit_surface(bool places) {
+    const std::string defines[] = {"UNLIT 1", "WRITE_PLACES 1"};
+    if (places) return wanted(unlit_surface_places_, "unlit surface with places", "lighting/surface.frag", defines);
+    return wanted(unlit_surface_, "unlit surface", "lighting/surface.frag", {defines, 1});
+}
+gl::ProgramHandle LightPrograms::unlit_blended() {
+    const std::string define = "UNLIT 1";
+    return wanted(unlit_blended_, "unlit blended", "lighting/blended.frag", {&define, 1});
 }
 gl::ProgramHandle LightPrograms::luminance() {
     return needed(luminance_, "luminance", "shared/fullscreen.vert", "lighting/luminance.frag");

@@ -54,9 +54,15 @@ public:
     gl::ProgramHandle lookups(const shadow::ProgramRow& row, std::string_view fragment) {
         return find_or_make(row, RowOutput::lookups, fragment);
     }
+    /// Whether surfaces may be unlit: programs that add light to the picture then ask each pixel for it, others need
+    /// not.
+    void set_some_unlit(bool some) { some_unlit_ = some; }
     /// `places`: writes also where exactly surfaces are, for rows that ask by rays.
     gl::ProgramHandle surface(bool places = false);
     gl::ProgramHandle blended_base();
+    /// The same for what is unlit; {0} if they cannot be made: it is then drawn by those above.
+    gl::ProgramHandle unlit_surface(bool places);
+    gl::ProgramHandle unlit_blended();
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
     gl::Failure failure() const { return failure_; }  // of the last creation
@@ -70,10 +76,13 @@ private:
         shadow::ProgramRow row;
         RowOutput output;
         std::string_view fragment;  // of lookups
+        bool some_unlit;
         Entry entry;
     };
     RowEntry& find_or_add(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
     gl::ProgramHandle find_or_make(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
+    gl::ProgramHandle wanted(Entry& entry, const char* label, const char* fragment,
+                             std::span<const std::string> defines);
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
     void make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
               std::span<const std::string> defines, const shadow::ProgramRow* row);
@@ -83,6 +92,8 @@ private:
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
+    Entry unlit_surface_, unlit_surface_places_, unlit_blended_;
+    bool some_unlit_ = false;
     std::uint64_t frame_ = 0;
     std::uint32_t rows_left_ = kNoLimit;
     gl::Failure failure_ = gl::Failure::none;

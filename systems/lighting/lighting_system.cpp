@@ -1,8 +1,8 @@
 #include "systems/lighting/lighting_system.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tuple>
 
@@ -26,28 +26,14 @@ double farthest_m(const math::Aabb& box, const glm::dvec3& place) {
     return glm::distance(math::centre(box), place) + 0.5 * glm::distance(box.min, box.max);
 }
 
-}  // namespace
-
-/// Saturation-based: L_max = 1.2 * 2^EV (ISO 12232; Lagarde & de Rousiers 2014, 4.2).
-float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
-
-AmbientRecord ambient_for(const SceneSnapshot& scene) {
-    // A clear sky gives about a tenth of the sun's light, bluish; the ground returns a fifth of that.
-    constexpr float kSkyShare = 0.1f, kGroundShare = 0.2f;
-    // What local lights send out comes back once from walls 10 m away that reflect 30 %, spread over their sphere.
-    constexpr double kReflected = 0.3, kRoom_m = 10.0;
-    glm::vec3 sky(0.0f), bounce(0.0f);
-    for (const LightItem& light : scene.lights) {
-        const glm::vec3 power = light.colour * light.intensity;
-        if (light.kind == LightKind::directional) {
-            sky += power * kSkyShare * glm::vec3(0.85f, 0.95f, 1.2f);
-            continue;
-        }
-        const double cone_share = light.kind == LightKind::spot ? 0.5 * (1.0 - std::cos(light.outer_cone_rad)) : 1.0;
-        bounce += power * static_cast<float>(kReflected * cone_share / (kRoom_m * kRoom_m));
-    }
-    return {glm::vec4(sky + bounce, 0.0f), glm::vec4(sky * kGroundShare + bounce, 0.0f)};
+/// A light's as its passes add it up; w is its source's size. Finite, whatever its candela.
+glm::vec4 in_picture(const glm::vec4& radiance, float per_radiance) {
+    constexpr float kMost = 1.0e30f;  // as lighting/light_at.glsl has it
+    const glm::vec3 scaled = glm::min(glm::vec3(radiance) * per_radiance, glm::vec3(kMost));
+    return glm::vec4(scaled, radiance.w);
 }
+
+}  // namespace
 
 LightingSystem::LightingSystem(gl::Device& device)
     : device_(device),
@@ -161,19 +147,28 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     });
 }
 
-void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
+void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                             const LightingSettings& settings, gl::CommandList& list) {
-    const AmbientRecord ambient = ambient_for(scene);
+    const SceneLight falls = scene_light(scene, midst_.find(scene));
+    const PictureRange range = picture_range(falls, gpu.most_emissive(), settings.exposure_ev);
+    AmbientRecord ambient = ambient_for(falls, range.per_radiance);
+    ambient.sky_lux.w = range.per_radiance;
+    ambient.ground_lux.w = range.per_unlit;
     ExposureRecord exposure;
     exposure.top_mip = static_cast<float>(kLuminanceTopMip);
+    exposure.radiance_per_one = 1.0f / range.per_radiance;
+    if (gpu.any_unlit()) exposure.without_surfaces = range.per_radiance / range.per_unlit;
     if (settings.exposure_ev) exposure.scale = exposure_scale(*settings.exposure_ev);
     uniform_scratch_.clear();
     put(uniform_scratch_, 0, &inputs.camera, sizeof inputs.camera);
     put(uniform_scratch_, ambient_offset_, &ambient, sizeof ambient);
     put(uniform_scratch_, exposure_offset_, &exposure, sizeof exposure);
-    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
-        put(uniform_scratch_, lights_offset_ + i * light_stride_, &inputs.lights[i].record,
-            sizeof(shadow::LightRecord));
+    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
+        const std::uint32_t offset = lights_offset_ + i * light_stride_;
+        put(uniform_scratch_, offset, &inputs.lights[i].record, sizeof(shadow::LightRecord));
+        const glm::vec4 radiance = in_picture(inputs.lights[i].record.radiance, range.per_radiance);
+        put(uniform_scratch_, offset + offsetof(shadow::LightRecord, radiance), &radiance, sizeof radiance);
+    }
     for (std::uint32_t i = 0; i < passes_.size(); ++i) {
         const gl::Rect& area = passes_[i].kept.area;
         const KeptRecord record{{area.x, area.y, area.width, area.height}};
@@ -197,17 +192,23 @@ void LightingSystem::bind_material(const GpuScene& gpu, std::uint32_t material, 
     list.add(gl::BindUniforms{2, gpu.material_uniforms(), info.uniform_offset, sizeof(MaterialRecord)});
 }
 
+gl::ProgramHandle LightingSystem::surface_program(bool unlit) {
+    const gl::ProgramHandle own = unlit ? programs_.unlit_surface(has_places_) : gl::ProgramHandle{};
+    return own ? own : programs_.surface(has_places_);
+}
+
 void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list) {
     list.add(gl::BeginGroup{"surfaces"});
     list.add(gl::BeginTimer{kSurfaceTimer});
     list.add(gl::BeginPass{
         has_places_ ? targets_.places_target : targets_.surface_target, viewport(), true, 0.0f, true, {}});
     std::uint32_t bound = 0xffffffffu;
-    gl::PipelineState state{
-        programs_.surface(has_places_), gl::CullMode::none, false, gl::DepthTest::greater, true, false, gl::Blend::off};
+    gl::PipelineState state{surface_program(false), gl::CullMode::none, false, gl::DepthTest::greater, true, false,
+                            gl::Blend::off};
     bool first = true;
     for (const SurfaceDraw& draw : draws_) {
         gl::PipelineState wanted = state;
+        wanted.program = surface_program(gpu.material(draw.material).unlit);
         wanted.cull = draw.two_sided ? gl::CullMode::none : gl::CullMode::back;
         wanted.front_is_clockwise = draw.mirrored;
         if (first || !(wanted == state)) list.add(gl::SetPipeline{wanted});
@@ -238,7 +239,9 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
     list.add(gl::BeginGroup{"blended"});
     list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
     for (const SurfaceDraw& draw : blended_) {
-        gl::PipelineState state{programs_.blended_base(),
+        const gl::ProgramHandle unlit =
+            gpu.material(draw.material).unlit ? programs_.unlit_blended() : gl::ProgramHandle{};
+        gl::PipelineState state{unlit ? unlit : programs_.blended_base(),
                                 draw.two_sided ? gl::CullMode::none : gl::CullMode::back,
                                 draw.mirrored,
                                 gl::DepthTest::greater,
@@ -252,7 +255,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
                                     draw.item_count};
         list.add(meshes);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
-            if (inputs.lights[i].screen.width <= 0) continue;
+            if (unlit || inputs.lights[i].screen.width <= 0) continue;
             const LightProgram used = light_program(inputs.lights[i], RowOutput::blended);
             report_blended_lack({used.lacks, used.unshadowed}, inputs.lights[i].plain.accuracy,
                                 report.lights[inputs.lights[i].light]);
@@ -277,6 +280,7 @@ void LightingSystem::record_finish(gl::CommandList& list) {
         {programs_.luminance(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
     list.add(gl::BindTexture{0, targets_.depth, point_sampler_});
     list.add(gl::BindTexture{1, targets_.light_sum, point_sampler_});
+    list.add(gl::BindUniforms{4, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::GenerateMips{targets_.luminance});
@@ -288,7 +292,6 @@ void LightingSystem::record_finish(gl::CommandList& list) {
     list.add(gl::BindTexture{2, targets_.depth, point_sampler_});
     list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
     list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
-    list.add(gl::BindUniforms{4, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{kFinishTimer});
@@ -301,6 +304,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
     passes_.clear();
     programs_.next_frame(settings.most_rows);
+    programs_.set_some_unlit(gpu.any_unlit());
     report.failure = prepare(inputs, scene);
     if (report.failure != gl::Failure::none) {
         // What was freed is only given back when the device has done its work: then there may be room.
@@ -309,7 +313,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
         if (report.failure != gl::Failure::none) return false;
     }
     plan_passes(inputs, scene, settings);
-    upload(inputs, scene, settings, list);
+    upload(inputs, scene, gpu, settings, list);
     record_surfaces(gpu, list);
     if (settings.sample_depths)
         depths_.record({camera, targets_.depth, point_sampler_, uniforms_.handle(), targets_.size_px()}, list);

@@ -9,27 +9,26 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
+#include "systems/lighting/ambient.h"
 #include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/exposure_meter.h"
 #include "systems/lighting/kept_visibility.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/lighting_targets.h"
 #include "systems/lighting/lookup_times.h"
+#include "systems/lighting/picture_range.h"
 #include "systems/lighting/ray_list.h"
 #include "systems/report.h"
 #include "systems/shadow/types.h"
 
 namespace gnomon::lighting {
 
-/// Matches AmbientBlock in shaders/lighting/ambient.glsl (std140).
-struct AmbientRecord {
-    glm::vec4 sky_lux{0.0f}, ground_lux{0.0f};
-};
 /// Matches ExposureBlock in shaders/lighting/exposure.glsl (std140).
 struct ExposureRecord {
     float scale = -1.0f;  // below 0: automatic
     float top_mip = 0.0f;
-    float unused[2] = {};
+    float radiance_per_one = 1.0f;  // what 1 in the picture stands for
+    float without_surfaces = 1.0f;  // scale, where it is automatic and nothing lit is seen
 };
 
 /// Matches KeptBlock in shaders/lighting/kept_visibility.glsl (std140).
@@ -44,12 +43,6 @@ struct LightingSettings {
     bool sample_depths = false;  // count the picture's pixels by view distance, for collect_depths()
     std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // of what pixels saw (KeptVisibility), over all pictures
 };
-
-/// By what the picture of a camera at this EV100 is multiplied before the tone curve.
-float exposure_scale(float ev);
-
-/// Ambient light for a scene that brings none: a share of what its lights give, bluish from above.
-AmbientRecord ambient_for(const SceneSnapshot& scene);
 
 /// Deferred lighting: surfaces, one pass per light over its screen rectangle and before its farthest depth, blended
 /// surfaces, exposure. Reads of the shadow system only the LightingInputs it is handed. Owns its device objects.
@@ -153,8 +146,9 @@ private:
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,
                       const ConsumerItem& consumer);
-    void upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const LightingSettings& settings,
-                gl::CommandList& list);
+    void upload(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
+                const LightingSettings& settings, gl::CommandList& list);
+    gl::ProgramHandle surface_program(bool unlit);
     void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
     void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                        gl::CommandList& list, FrameReport& report);
@@ -181,6 +175,7 @@ private:
     ExposureMeter exposure_;
     KeptVisibility kept_;
     LookupTimes lookup_times_;
+    MidstFinder midst_;
     std::vector<LightPass> passes_;  // of the last record(): one per light of its inputs
     GrowingBuffer items_, uniforms_;
     bool has_places_ = false;  // of the last record(): surfaces say where exactly they are

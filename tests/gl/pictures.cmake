@@ -2,5 +2,7 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_pictures LABEL gl SOURCES
     parallel_light_gl_test.cpp
+    picture_scale_gl_test.cpp
+    unlit_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_shaders)
 endif()

@@ -109,6 +109,9 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         add(lighting.surface());
         add(lighting.surface(true));
         add(lighting.blended_base());
+        add(lighting.unlit_surface(false));
+        add(lighting.unlit_surface(true));
+        add(lighting.unlit_blended());
         add(lighting.luminance());
         add(lighting.tonemap());
         // Rows with sheets share programs.

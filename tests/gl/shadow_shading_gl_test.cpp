@@ -55,7 +55,9 @@ TEST_P(ShadowShadingOf, APixelInFullShadowOfAllLightsKeepsItsAmbientValueAlone) 
     settings.exposure_ev = 11.0f;
     draw();
     const auto rgba = picture();
-    const auto ambient = lighting::ambient_for(frame().snapshot());
+    lighting::MidstFinder midst;
+    const SceneSnapshot& scene = frame().snapshot();
+    const auto ambient = lighting::ambient_for(lighting::scene_light(scene, midst.find(scene)));
     const auto dark = pixels_claimed(boxes::Claim::dark, 3), lit = pixels_claimed(boxes::Claim::lit, 3);
     ASSERT_GT(dark.size(), 100u);
     ASSERT_GT(lit.size(), 1000u);

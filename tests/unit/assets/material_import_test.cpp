@@ -168,6 +168,18 @@ TEST(MaterialImport, AppliesTextureTransforms) {
     EXPECT_NEAR(vertices.at(2).uv.y, 20.0F, 1e-5F);
 }
 
+TEST(MaterialImport, TakesUnlitForWhatItSays) {
+    GltfBuilder builder;
+    builder.doc["extensionsUsed"] = {"KHR_materials_unlit"};
+    builder.push("materials", {{"extensions", {{"KHR_materials_unlit", json::object()}}}});
+    builder.push("materials", json::object());
+    const SceneData scene = loaded(builder.gltf());
+    ASSERT_EQ(scene.materials.size(), 2U);
+    EXPECT_TRUE(scene.materials[0].unlit);
+    EXPECT_FALSE(scene.materials[1].unlit);
+    EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST(MaterialImport, ClampsFactorsWithAWarning) {
     GltfBuilder builder;
     builder.push("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 3}, {"roughnessFactor", -1}}}});
