@@ -12,6 +12,9 @@ struct Camera {
     double half_height_m = 5.0;   // orthographic: half of the visible height
     double near_m = 0.05;         // > 0 for perspective
     double far_m = 1.0e9;         // > near; infinity is allowed for perspective. Orthographic views end with what they show
+    /// Width by height of a frame that is to be seen whole: where the picture is narrower, the view is made higher.
+    /// 0 or NaN: the height alone counts.
+    double frame_aspect = 0.0;
     bool active = true;
 };
 

@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "systems/extract/drawable_basis.h"
+
 namespace gnomon::game {
 namespace {
 
@@ -51,12 +53,11 @@ public:
         Hit nearest;
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             const assets::Node& node = scene_.nodes[i];
-            const double determinant = glm::determinant(poses_[i].basis);
-            if (node.mesh == assets::kNone || !node.visible || determinant == 0.0 || !std::isfinite(determinant))
-                continue;
+            const std::optional<glm::dmat3> basis = drawable_basis(poses_[i].basis);
+            if (node.mesh == assets::kNone || !node.visible || !basis) continue;
             const assets::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
             if (mesh.deformer) continue;  // whoever lives in a room is not its walls
-            const glm::dmat3 model_from_world = glm::inverse(poses_[i].basis);
+            const glm::dmat3 model_from_world = glm::inverse(*basis);
             const glm::dvec3 origin = model_from_world * (origin_ws - poses_[i].translation_ws_m);
             const glm::dvec3 direction = model_from_world * direction_ws;  // not normalised: t stays in metres
             if (!reaches(mesh.bounds_ms, origin, direction, nearest.distance)) continue;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/matrix.hpp>
 
+#include "systems/extract/drawable_basis.h"
 #include "systems/extract/scene_tree.h"
 
 namespace gnomon::game {
@@ -45,10 +46,11 @@ void Occluders::place(std::span<const WorldTransform> poses) {
         const WorldTransform& pose = poses[nodes_[i]];
         InstanceItem& item = scene_.instances[i];
         if (!first && item.basis == pose.basis && item.translation_ws_m == pose.translation_ws_m) continue;
-        item.basis = pose.basis;
+        const std::optional<glm::dmat3> basis = drawable_basis(pose.basis);
+        item.basis = basis.value_or(pose.basis);
         item.translation_ws_m = pose.translation_ws_m;
-        item.bounds_ws = math::transformed(library_->meshes[item.mesh].bounds_ms, pose.basis, pose.translation_ws_m);
-        item.casts = glm::determinant(pose.basis) != 0.0;
+        item.bounds_ws = math::transformed(library_->meshes[item.mesh].bounds_ms, item.basis, pose.translation_ws_m);
+        item.casts = basis.has_value();
         scene_.changed_instances.push_back(i);
     }
     if (first) return build_tree(scene_);

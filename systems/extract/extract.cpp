@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <glm/matrix.hpp>
+#include <optional>
 
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
+#include "systems/extract/camera_view.h"
+#include "systems/extract/drawable_basis.h"
 #include "systems/extract/flat_range.h"
 #include "systems/extract/names.h"
 #include "systems/extract/scene_tree.h"
@@ -42,12 +45,13 @@ bool place_bent(InstanceItem& item, const PoseItem& pose) {
 
 bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& mesh, const PoseItem* pose) {
     if (pose && pose->skinned) return place_bent(item, *pose);
-    item.basis = world.basis;
+    const std::optional<glm::dmat3> basis = drawable_basis(world.basis);
+    if (!basis) return false;
+    item.basis = *basis;
     item.translation_ws_m = world.translation_ws_m;
-    item.bounds_ws = math::transformed(pose ? pose->bounds_ms : mesh.bounds_ms, world.basis, world.translation_ws_m);
-    const double determinant = glm::determinant(world.basis);
-    item.mirrored = determinant < 0.0;
-    return determinant != 0.0 && !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
+    item.bounds_ws = math::transformed(pose ? pose->bounds_ms : mesh.bounds_ms, *basis, world.translation_ws_m);
+    item.mirrored = glm::determinant(*basis) < 0.0;
+    return !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
 }
 
 enum class Marks : std::uint8_t { same, changed, recorded };
@@ -85,8 +89,7 @@ void narrow_flat_views(const ecs::Registry& registry, std::vector<glm::dvec3>& s
     for (ConsumerItem& consumer : snapshot.consumers) {
         if (consumer.projection != CameraProjection::orthographic) continue;
         const Camera& camera = *registry.get<Camera>(consumer.entity);
-        consumer.near_m = camera.near_m;
-        consumer.far_m = camera.far_m;
+        set_range(camera, consumer);
         const ViewRange range = flat_range(snapshot, consumer, scratch);
         consumer.near_m = range.near_m;
         consumer.far_m = range.far_m;
@@ -231,7 +234,7 @@ bool Extractor::any_came_or_went(const ecs::Registry& registry, const SceneSnaps
     const auto scaled = [&](ecs::Entity e) {
         const WorldTransform* world = registry.get<WorldTransform>(e);
         const bool placed = world && registry.has<MeshRef>(e) && !registry.has<Skin>(e);
-        return placed && (listed_at(e) != kNone) != (glm::determinant(world->basis) != 0.0);
+        return placed && (listed_at(e) != kNone) != drawable_basis(world->basis).has_value();
     };
     const auto exchanged = [&](ecs::Entity e) {
         const MeshRef* ref = registry.get<MeshRef>(e);
@@ -319,7 +322,10 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
     const bool resized = viewport_px != viewport_px_;
     if (resized) {
         viewport_px_ = viewport_px;
-        for (ConsumerItem& consumer : snapshot.consumers) consumer.viewport_px = viewport_px;
+        for (ConsumerItem& consumer : snapshot.consumers) {
+            consumer.viewport_px = viewport_px;
+            if (const Camera* camera = registry.get<Camera>(consumer.entity)) fit_frame(*camera, consumer);
+        }
         snapshot.tree_version = ++snapshot.version;
     }
     bool changed = anew.instances || anew.views;

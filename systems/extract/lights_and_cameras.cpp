@@ -2,30 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
 #include "components/transform.h"
-#include "engine/math/frustum.h"
+#include "systems/extract/camera_view.h"
 #include "systems/extract/names.h"
 
 namespace gnomon {
 namespace {
 
 using Effect = LightsAndCameras::Effect;
-
-/// Direction only: a light's or camera's scale and shear do not count. Columns right, up, back; orthonormal.
-glm::dmat3 orientation(const glm::dmat3& basis) {
-    const glm::dvec3 back = basis[2];
-    if (!(glm::length(back) > 0.0)) return glm::dmat3(1.0);
-    const glm::dvec3 z =
-        glm::normalize(back / glm::max(std::abs(back.x), glm::max(std::abs(back.y), std::abs(back.z))));
-    const glm::dvec3 across = glm::cross(basis[1], z);
-    if (!(glm::length(across) > 0.0)) return math::basis_from_back(z);
-    const glm::dvec3 x = glm::normalize(across);
-    return {x, glm::cross(z, x), z};
-}
 
 bool usable(const Light& light) {
     const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
@@ -73,15 +60,20 @@ bool put_light(const ecs::Registry& registry, const Light& light, const WorldTra
     return shape || any;
 }
 
-/// Writes all but name and viewport. An orthographic camera's range is as the component says: it is narrowed later.
+/// Writes all but name and viewport. An orthographic camera's range is narrowed later.
 bool put_camera(const Camera& camera, const WorldTransform& world, ConsumerItem& item) {
-    bool any = put(item.position_ws_m, world.translation_ws_m);
-    any |= put(item.rotation_ws, orientation(world.basis));
-    any |= put(item.projection, camera.projection);
-    any |= put(item.fov_y_rad, camera.fov_y_rad);
-    any |= put(item.half_height_m, camera.half_height_m);
-    any |= put(item.near_m, camera.near_m);
-    any |= put(item.far_m, camera.far_m);
+    ConsumerItem now;
+    now.projection = camera.projection;
+    now.viewport_px = item.viewport_px;
+    place_camera(camera, world, now);
+    fit_frame(camera, now);
+    bool any = put(item.position_ws_m, now.position_ws_m);
+    any |= put(item.rotation_ws, now.rotation_ws);
+    any |= put(item.projection, now.projection);
+    any |= put(item.fov_y_rad, now.fov_y_rad);
+    any |= put(item.half_height_m, now.half_height_m);
+    any |= put(item.near_m, now.near_m);
+    any |= put(item.far_m, now.far_m);
     return any;
 }
 

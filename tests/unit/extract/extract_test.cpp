@@ -2,9 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include "components/camera.h"
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
+#include "systems/extract/volumes.h"
 #include "tests/unit/extract/extracted_world.h"
 
 namespace gnomon {
@@ -202,6 +204,52 @@ TEST_F(ExtractTest, ACameraComesMovesAndGoes) {
     world.registry.patch<Camera>(camera, [](Camera& c) { c.active = false; });
     update();
     EXPECT_THAT(snapshot.consumers, IsEmpty());
+}
+
+TEST_F(ExtractTest, TheFrameThatACameraWasGivenIsSeenWhole) {
+    const ecs::Entity e = world.registry.create();
+    world.registry.emplace<Transform>(e);
+    const Camera camera{.fov_y_rad = 0.5, .half_height_m = 2.0, .frame_aspect = 4.0};
+    world.registry.emplace<Camera>(e, camera);
+    const auto half_width = [&] {
+        return std::tan(0.5 * snapshot.consumers.at(0).fov_y_rad) * aspect(snapshot.consumers[0]);
+    };
+    const double framed = std::tan(0.25) * 4.0;
+    for (const glm::uvec2 size_px : {glm::uvec2(640, 360), glm::uvec2(300, 600), glm::uvec2(100, 100)}) {
+        viewport_px = size_px;
+        update();
+        EXPECT_NEAR(half_width(), framed, 1e-12) << "the width decides: " << size_px.x;
+        EXPECT_NEAR(snapshot.consumers[0].half_height_m * aspect(snapshot.consumers[0]), 8.0, 1e-12);
+    }
+    viewport_px = {1000, 200};
+    update();
+    EXPECT_EQ(snapshot.consumers[0].fov_y_rad, 0.5) << "the height decides";
+    EXPECT_EQ(snapshot.consumers[0].half_height_m, 2.0);
+    viewport_px = {640, 360};
+    for (const double same : {0.0, 640.0 / 360.0, static_cast<double>(640.0f / 360.0f), 1.0, -4.0, std::nan("")}) {
+        world.registry.patch<Camera>(e, [&](Camera& c) { c.frame_aspect = same; });
+        update();
+        EXPECT_EQ(snapshot.consumers[0].fov_y_rad, 0.5) << same;
+        EXPECT_EQ(snapshot.consumers[0].half_height_m, 2.0) << same;
+    }
+}
+
+TEST_F(ExtractTest, AFlatViewThatBeginsBehindItsCameraIsTheSameFromThere) {
+    world.add_stage();
+    const ecs::Entity e = world.registry.create();
+    world.registry.emplace<Transform>(e, {.translation_m = {1.0, 2.0, 3.0}});
+    world.registry.emplace<Camera>(
+        e, {.projection = CameraProjection::orthographic, .half_height_m = 4.0, .near_m = -5.0, .far_m = 100.0});
+    update();
+    EXPECT_EQ(snapshot.consumers.at(0).position_ws_m, glm::dvec3(1.0, 2.0, 8.0)) << "it looks along -z";
+    EXPECT_GE(snapshot.consumers[0].near_m, 0.0);
+    EXPECT_LE(snapshot.consumers[0].far_m, 105.0);
+    world.move(e, {1.0, 2.0, 4.0});
+    update();
+    EXPECT_EQ(snapshot.consumers.at(0).position_ws_m, glm::dvec3(1.0, 2.0, 9.0));
+    world.registry.patch<Camera>(e, [](Camera& c) { c.near_m = 0.0; });
+    update();
+    EXPECT_EQ(snapshot.consumers.at(0).position_ws_m, glm::dvec3(1.0, 2.0, 4.0));
 }
 
 TEST_F(ExtractTest, ChildrenMoveWithTheirParents) {
