@@ -25,7 +25,8 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
         level = std::move(made).value();
     }
     auto world = std::make_unique<GameWorld>();
-    world->warnings = data.value().warnings;
+    for (const std::string& warning : data.value().warnings)
+        world->warnings.push_back(line.scene ? line.scene->string() + ": " + warning : warning);
     world->scene = spawn_scene(std::move(data).value(), world->registry, world->library);
     if (level) world->game = std::make_unique<GameSession>(std::move(*level), world->scene, world->registry);
     if (line.animation) {
@@ -108,8 +109,11 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, 
 
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log) {
     for (const std::string& warning : world.warnings) log.warn(on_one_line(warning));
-    for (const DroppedEntity& dropped : first_frame.dropped)
-        log.warn(on_one_line("'" + dropped.name + "' is left out: " + reason_code(dropped.reason)));
+    constexpr std::size_t kShownDropped = 64;  // as many lines as the loader gives
+    const std::vector<DroppedEntity>& dropped = first_frame.dropped;
+    for (std::size_t i = 0; i < std::min(dropped.size(), kShownDropped); ++i)
+        log.warn(on_one_line("'" + dropped[i].name + "' is left out: " + reason_code(dropped[i].reason)));
+    if (dropped.size() > kShownDropped) log.warn(std::to_string(dropped.size() - kShownDropped) + " more are left out");
 }
 
 unsigned trace_threads() { return std::max(std::thread::hardware_concurrency(), 2u) - 1u; }

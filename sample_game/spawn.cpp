@@ -53,6 +53,7 @@ Camera to_camera(const assets::CameraData& data, bool active) {
             .half_height_m = data.half_height_m,
             .near_m = data.near_m,
             .far_m = data.far_m > 0.0 ? data.far_m : std::numeric_limits<double>::infinity(),
+            .frame_aspect = data.aspect,
             .active = active};
 }
 

@@ -72,9 +72,10 @@ std::size_t stride_bytes(const Document& document, const tinygltf::Accessor& acc
     return element_bytes(accessor);
 }
 
-void validate_view(const Document& document, std::size_t i) {
+void validate_view(Document& document, std::size_t i) {
     const auto& view = document.model.bufferViews[i];
-    if (view.byteLength == 0) fail("buffer_view.empty", pointer("bufferViews", i, "byteLength"), "must not be 0");
+    if (view.byteLength == 0)
+        document.take("buffer_view.empty", pointer("bufferViews", i, "byteLength"), "is 0, taken as a view of nothing");
     const BufferData& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
     if (!buffer.available) return;  // an error as soon as something reads it
     if (view.byteOffset > buffer.bytes.size() || view.byteLength > buffer.bytes.size() - view.byteOffset) {
@@ -88,12 +89,12 @@ bool fits(std::size_t length, std::size_t offset, std::size_t count, std::size_t
     return count - 1 <= (length - offset - size) / stride;
 }
 
-void validate_sparse(const Document& document, std::size_t i) {
+void validate_sparse(Document& document, std::size_t i) {
     const auto& accessor = document.model.accessors[i];
     const auto& sparse = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
     const std::string where = pointer("accessors", i, "sparse");
-    if (count == 0 || count > accessor.count) {
+    if (count > accessor.count) {
         fail("accessor.sparse_count", where + "/count", "must lie between 1 and the accessor's count");
     }
     const int type = sparse.indices.componentType;
@@ -104,6 +105,10 @@ void validate_sparse(const Document& document, std::size_t i) {
     const auto length_of = [&](int view) {
         return document.model.bufferViews[static_cast<std::size_t>(view)].byteLength;
     };
+    if (count == 0) {
+        document.take("accessor.sparse_empty", where + "/count", "is 0, taken as nothing replaced");
+        return;
+    }
     const std::size_t index_size = component_bytes(type);
     if (!fits(length_of(sparse.indices.bufferView), static_cast<std::size_t>(sparse.indices.byteOffset), count,
               index_size, index_size)) {
@@ -116,9 +121,13 @@ void validate_sparse(const Document& document, std::size_t i) {
     }
 }
 
-void validate_accessor(const Document& document, std::size_t i, std::size_t buffer_bytes) {
+void validate_accessor(Document& document, std::size_t i, std::size_t buffer_bytes) {
     const auto& accessor = document.model.accessors[i];
-    if (accessor.count == 0) fail("accessor.empty", pointer("accessors", i, "count"), "must not be 0");
+    if (accessor.count == 0) {
+        document.take("accessor.empty", pointer("accessors", i, "count"), "is 0, taken as no elements");
+        if (accessor.sparse.isSparse) validate_sparse(document, i);
+        return;
+    }
     const std::size_t size = element_bytes(accessor);
     if (accessor.count > kMaxDecodedBytes / size) {
         fail("accessor.too_large", pointer("accessors", i, "count"), "more elements than fit the memory budget");
@@ -185,6 +194,7 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
     const ElementLayout layout = element_layout(accessor.type);
     const std::size_t components = layout.rows * layout.columns;
     std::vector<Out> out(accessor.count * components, Out{});
+    if (out.empty()) return out;
     with_component(accessor.componentType, [&]<class T>(T) {
         const auto copy = [&](const std::byte* from, std::size_t element) {
             for (std::size_t c = 0; c < components; ++c) {
@@ -197,7 +207,7 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
             const std::size_t stride = stride_bytes(document, accessor);
             for (std::size_t i = 0; i < accessor.count; ++i) copy(data + i * stride, i);
         }
-        if (!accessor.sparse.isSparse) return;
+        if (!accessor.sparse.isSparse || accessor.sparse.count == 0) return;
         const auto& sparse = accessor.sparse;
         const std::byte* values =
             view_bytes(document, sparse.values.bufferView, where).data() + sparse.values.byteOffset;
@@ -221,7 +231,7 @@ std::vector<Out> read_elements(const Document& document, int index, Convert&& co
 
 }  // namespace
 
-void validate_ranges(const Document& document) {
+void validate_ranges(Document& document) {
     for (std::size_t i = 0; i < document.model.bufferViews.size(); ++i) validate_view(document, i);
     std::size_t buffer_bytes = 0;
     for (const BufferData& buffer : document.buffers) buffer_bytes += buffer.bytes.size();
@@ -235,10 +245,15 @@ std::span<const std::byte> view_bytes(const Document& document, int index, const
     return buffer.bytes.subspan(view.byteOffset, view.byteLength);
 }
 
-std::vector<float> read_floats(const Document& document, int index) {
+std::vector<float> read_any_floats(const Document& document, int index, bool normalised) {
     const auto& accessor = document.model.accessors[static_cast<std::size_t>(index)];
-    std::vector<float> numbers = read_elements<float>(
-        document, index, [normalized = accessor.normalized](auto value) { return as_float(value, normalized); });
+    return read_elements<float>(document, index, [normalised = normalised || accessor.normalized](auto value) {
+        return as_float(value, normalised);
+    });
+}
+
+std::vector<float> read_floats(const Document& document, int index) {
+    std::vector<float> numbers = read_any_floats(document, index);
     for (const float number : numbers) {
         if (!std::isfinite(number)) fail("accessor.not_finite", pointer("accessors", index), "holds NaN or infinity");
     }

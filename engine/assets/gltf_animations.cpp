@@ -104,6 +104,7 @@ private:
             return left_out("its values have a type that glTF does not allow here");
         const std::size_t per_key = (channel.interpolation == Interpolation::cubic ? 3u : 1u) *
                                     (row.type == TINYGLTF_TYPE_SCALAR ? channel.width : 1u);
+        if (times.count == 0) return left_out("it has no keys");
         if (values.count / per_key != times.count || values.count % per_key != 0)
             return left_out("its values are not as many as its times ask for");
         document_.charge((times.count + values.count / per_key * channel.width * 3) * sizeof(float), where_);

@@ -37,6 +37,9 @@ void complete_basis(glm::dmat3& basis, const glm::dvec3& scale) {
     basis[lost] = glm::cross(basis[(lost + 1) % 3], basis[(lost + 2) % 3]);
 }
 
+/// Converges quadratically; random and nearly singular matrices take at most 6 (SceneImport, sheared matrices).
+constexpr int kJacobiSweeps = 12;
+
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 }  // namespace
@@ -47,11 +50,7 @@ glm::dmat4 matrix_of(const Trs& trs) {
             glm::dvec4(rotation[2] * trs.scale.z, 0.0), glm::dvec4(trs.translation_m, 1.0)};
 }
 
-Trs decompose(const glm::dmat4& matrix, const std::string& pointer) {
-    const glm::dvec4 last_row(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
-    if (last_row != glm::dvec4(0.0, 0.0, 0.0, 1.0)) {
-        fail("node.matrix_not_affine", pointer, "its last row must be 0 0 0 1");
-    }
+std::optional<Trs> decompose(const glm::dmat4& matrix, const std::string& pointer) {
     Trs trs;
     trs.translation_m = glm::dvec3(matrix[3]);
     glm::dmat3 basis(matrix);
@@ -71,11 +70,41 @@ Trs decompose(const glm::dmat4& matrix, const std::string& pointer) {
     const double size = largest(trs.scale);
     for (int i = 0; i < 3; ++i) {
         const double off = largest(glm::dvec3(again[i]) - glm::dvec3(matrix[i]));
-        if (!(off <= kMatrixTolerance * size)) {
-            fail("node.matrix_not_decomposable", pointer, "it is no product of translation, rotation and scale");
-        }
+        if (!(off <= kMatrixTolerance * size)) return std::nullopt;
     }
     return trs;
+}
+
+ShearedTrs decompose_sheared(const glm::dmat4& matrix, const std::string& pointer) {
+    // One-sided Jacobi: turns pairs of columns until all three stand square on each other (Golub and Van Loan, 8.6.3).
+    glm::dmat4 squared = matrix;
+    glm::dquat turned(1.0, 0.0, 0.0, 0.0);  // squared = matrix * turned
+    for (int sweep = 0; sweep < kJacobiSweeps; ++sweep)
+        for (int i = 0; i < 3; ++i) {
+            const int p = i, q = (i + 1) % 3;
+            const glm::dvec3 a(squared[p]), b(squared[q]);
+            const double twice_rad = std::atan2(2.0 * glm::dot(a, b), glm::dot(a, a) - glm::dot(b, b));
+            const double c = std::cos(0.5 * twice_rad), s = std::sin(0.5 * twice_rad);
+            squared[p] = glm::dvec4(c * a + s * b, 0.0);
+            squared[q] = glm::dvec4(c * b - s * a, 0.0);
+            glm::dvec3 axis(0.0);
+            axis[(i + 2) % 3] = 1.0;
+            turned = turned * glm::angleAxis(0.5 * twice_rad, axis);
+        }
+    const std::optional<Trs> outer = decompose(squared, pointer);
+    if (!outer) fail("node.not_finite", pointer, "it is no product of turns and scales");
+    return {*outer, glm::normalize(glm::conjugate(turned))};
+}
+
+void expect_affine(glm::dmat4& matrix, Document& document, const std::string& pointer) {
+    const glm::dvec4 last_row(matrix[0][3], matrix[1][3], matrix[2][3], matrix[3][3]);
+    const glm::dvec4 right(0.0, 0.0, 0.0, 1.0);
+    if (last_row == right) return;
+    const glm::dvec4 off = glm::abs(last_row - right);
+    if (!(std::max(std::max(off.x, off.y), std::max(off.z, off.w)) <= kMatrixTolerance))
+        fail("node.matrix_not_affine", pointer, "its last row must be 0 0 0 1");
+    for (int i = 0; i < 4; ++i) matrix[i][3] = right[i];
+    document.take("node.matrix_last_row", pointer, "its last row is off by rounding, taken as 0 0 0 1");
 }
 
 }  // namespace gnomon::assets::gltf

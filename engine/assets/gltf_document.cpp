@@ -63,6 +63,7 @@ void check_version_and_extensions(Document& document) {
 void load_buffers(Document& document, const Framing& framing) {
     const json buffers = std::exchange(document.json["buffers"], nullptr);
     std::size_t external_bytes = 0;
+    Notes notes;
     document.buffers.resize(buffers.size());
     for (std::size_t i = 0; i < buffers.size(); ++i) {
         BufferData& data = document.buffers[i];
@@ -76,8 +77,10 @@ void load_buffers(Document& document, const Framing& framing) {
             const auto& text = uri->get_ref<const std::string&>();
             data.storage = is_data_uri(text)
                                ? decode_data_uri(text, where)
-                               : read_file(resolve_uri(text, document.folder, where), kMaxFileBytes, where);
+                               : read_file(resolve_uri(text, document.folder, where, notes), kMaxFileBytes, where);
             data.bytes = data.storage;
+            for (std::string& note : notes) document.warn(std::move(note));
+            notes.clear();
             external_bytes += data.storage.size();
             if (external_bytes > kMaxExternalBytes)
                 fail("buffer.total_bytes", where, "all buffers together are too large");
@@ -103,6 +106,9 @@ tinygltf::Model parsed_model(const json& document) {
             for (json& primitive : mesh["primitives"]) primitive.erase("indices");
         }
     }
+    // It also refuses strides that are merely outside the letter.
+    const json views = shown.value("bufferViews", json::array());
+    for (std::size_t i = 0; i < views.size(); ++i) shown["bufferViews"][i].erase("byteStride");
     const std::string text = shown.dump();
     tinygltf::TinyGLTF parser;
     tinygltf::Model model;
@@ -111,6 +117,8 @@ tinygltf::Model parsed_model(const json& document) {
     const bool parsed = parser.LoadASCIIFromString(&model, &error, &warning, text.c_str(),
                                                    static_cast<unsigned int>(text.size()), std::string{});
     if (!parsed) fail("gltf.parse", "", printable(error));
+    for (std::size_t i = 0; i < views.size(); ++i)
+        model.bufferViews[i].byteStride = views[i].value("byteStride", std::size_t{0});
     return model;
 }
 
@@ -123,6 +131,10 @@ void Document::warn(std::string line) {
     } else {
         ++suppressed_warnings;
     }
+}
+
+void Document::take(const char* rule, const std::string& pointer, const std::string& message) {
+    warn(taken(rule, pointer, message));
 }
 
 bool Document::try_charge(std::size_t bytes) {
@@ -153,9 +165,12 @@ Document parse_document(std::span<const std::byte> bytes, const std::filesystem:
         framing.json = {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
     Document document;
+    for (std::string& note : framing.notes) document.warn(std::move(note));
     document.folder = folder;
     document.json = parsed_json(framing.json);
-    check_shape(document.json);
+    Notes notes;
+    check_shape(document.json, notes);
+    for (std::string& note : notes) document.warn(std::move(note));
     check_version_and_extensions(document);
     load_buffers(document, framing);
     document.model = parsed_model(document.json);

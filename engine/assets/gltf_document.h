@@ -29,6 +29,8 @@ struct Document {
     std::size_t decoded_bytes = 0;  // against kMaxDecodedBytes
 
     void warn(std::string line);
+    /// Warns of what is outside the letter of the format and was taken all the same: place, what was taken, rule.
+    void take(const char* rule, const std::string& pointer, const std::string& message);
     /// Accounts for memory that the scene will keep. False, and nothing charged, if the budget does not allow it.
     bool try_charge(std::size_t bytes);
     /// The same; throws Failure.

@@ -14,6 +14,10 @@ void fail(std::string rule, std::string pointer, std::string message) {
     throw Failure{Error{std::move(message), {}, std::move(pointer), std::move(rule)}};
 }
 
+std::string taken(std::string rule, std::string pointer, std::string message) {
+    return to_line(Error{std::move(message), {}, std::move(pointer), std::move(rule)});
+}
+
 std::string printable(std::string_view text) {
     const bool shortened = text.size() > kLongestQuote;
     std::string line{text.substr(0, kLongestQuote)};

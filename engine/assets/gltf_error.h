@@ -14,6 +14,10 @@ struct Failure {
 
 [[noreturn]] void fail(std::string rule, std::string pointer, std::string message);
 
+/// A warning's line about what is outside the letter of the format and was taken all the same, as an error's line has
+/// it.
+std::string taken(std::string rule, std::string pointer, std::string message);
+
 /// JSON pointer from keys and indices: pointer("accessors", 3, "sparse") is "/accessors/3/sparse".
 template <class... Parts>
 std::string pointer(const Parts&... parts) {

@@ -34,6 +34,14 @@ bool is_inside(const std::filesystem::path& target, const std::filesystem::path&
     return in_folder == folder.end();
 }
 
+/// The text without the zeros that some writers fill the chunk up with, where the letter has spaces.
+std::string_view without_zeros(std::string_view json, Notes& notes) {
+    const std::size_t end = json.find_last_not_of('\0');
+    if (end == std::string_view::npos || end + 1 == json.size()) return json;
+    notes.push_back(taken("glb.json_padding", "", "the JSON chunk ends in zeros, which are left out"));
+    return json.substr(0, end + 1);
+}
+
 }  // namespace
 
 Bytes read_file(const std::filesystem::path& file, std::size_t max_bytes, const std::string& pointer) {
@@ -56,17 +64,21 @@ Bytes read_file(const std::filesystem::path& file, std::size_t max_bytes, const 
     return bytes;
 }
 
-std::filesystem::path resolve_uri(std::string_view uri, const std::filesystem::path& folder,
-                                  const std::string& pointer) {
-    const std::filesystem::path relative = relative_path_of_uri(uri, pointer);
+std::filesystem::path resolve_uri(std::string_view uri, const std::filesystem::path& folder, const std::string& pointer,
+                                  Notes& notes) {
+    const std::vector<UriReading> readings = readings_of_uri(uri, pointer);
     if (folder.empty()) fail("uri.no_base_folder", pointer, "a scene from memory cannot name files");
     std::error_code failed;
     const auto root = std::filesystem::canonical(folder, failed);
     if (failed) fail("uri.not_found", pointer, "the asset's folder does not exist");
-    auto target = std::filesystem::canonical(root / relative, failed);
-    if (failed) fail("uri.not_found", pointer, "no such file: " + printable(relative.string()));
-    if (!is_inside(target, root)) fail("uri.escapes_folder", pointer, "the file lies outside the asset's folder");
-    return target;
+    for (const UriReading& reading : readings) {
+        auto target = std::filesystem::canonical(root / reading.path, failed);
+        if (failed) continue;
+        if (!is_inside(target, root)) fail("uri.escapes_folder", pointer, "the file lies outside the asset's folder");
+        if (reading.rule != nullptr) notes.push_back(taken(reading.rule, pointer, reading.message));
+        return target;
+    }
+    fail("uri.not_found", pointer, "no such file: " + printable(readings.front().path.string()));
 }
 
 bool has_glb_magic(std::span<const std::byte> bytes) {
@@ -80,23 +92,34 @@ Framing split_glb(std::span<const std::byte> bytes) {
     }
     const std::size_t length = read_u32(bytes, 8);
     if (length > bytes.size()) fail("glb.truncated", "", "the file is shorter than its header says");
-    if (length < bytes.size()) fail("glb.length", "", "the file is longer than its header says");
 
     Framing framing;
+    if (length < bytes.size()) {
+        framing.notes.push_back(
+            taken("glb.length", "", std::to_string(bytes.size() - length) + " bytes after the end are left out"));
+    }
     bool has_json = false;
     for (std::size_t at = kGlbHeaderBytes; at < length;) {
+        if (length - at < kChunkHeaderBytes && has_json) {
+            framing.notes.push_back(taken("glb.chunk_header", "", "too few bytes for a chunk at the end are left out"));
+            break;
+        }
         if (length - at < kChunkHeaderBytes) fail("glb.chunk_header", "", "a chunk header is cut short");
         const std::size_t chunk = read_u32(bytes, at);
         const std::uint32_t type = read_u32(bytes, at + 4);
         at += kChunkHeaderBytes;
         if (chunk > length - at) fail("glb.chunk_length", "", "a chunk is longer than the file");
-        if (chunk % kChunkAlignment != 0) fail("glb.chunk_alignment", "", "a chunk's length is no multiple of 4");
+        if (chunk % kChunkAlignment != 0) {
+            framing.notes.push_back(
+                taken("glb.chunk_alignment", "", "a chunk's length is no multiple of 4; taken as it is"));
+        }
         const auto content = bytes.subspan(at, chunk);
         if (!has_json && type != kChunkJson) fail("glb.first_chunk", "", "the first chunk is not JSON");
         if (type == kChunkJson) {
             if (has_json) fail("glb.duplicate_chunk", "", "two JSON chunks");
             has_json = true;
-            framing.json = {reinterpret_cast<const char*>(content.data()), content.size()};
+            framing.json =
+                without_zeros({reinterpret_cast<const char*>(content.data()), content.size()}, framing.notes);
         } else if (type == kChunkBin) {
             if (framing.has_binary) fail("glb.duplicate_chunk", "", "two BIN chunks");
             framing.has_binary = true;

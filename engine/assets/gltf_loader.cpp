@@ -24,12 +24,13 @@ SceneData load_scene(std::span<const std::byte> bytes, const std::filesystem::pa
     SceneData scene;
     scene.name = std::filesystem::path(name).stem().string();
     const std::vector<gltf::UvSource> uv_sources = gltf::load_materials(document, scene);
-    gltf::load_meshes(document, uv_sources, scene);
+    const std::vector<gltf::MeshPlace> places = gltf::load_meshes(document, uv_sources, scene);
     gltf::load_lights(document, scene);
-    gltf::load_cameras(document, scene);
-    const std::vector<std::int32_t> scene_nodes = gltf::load_nodes(document, scene);
+    const std::vector<std::int32_t> cameras = gltf::load_cameras(document, scene);
+    const std::vector<std::int32_t> scene_nodes = gltf::load_nodes(document, cameras, places, scene);
     gltf::load_skins(document, scene_nodes, scene);
     gltf::load_animations(document, scene_nodes, scene);
+    gltf::warn_of_blended_casters(document, scene);
     scene.warnings = std::move(document.warnings);
     if (document.suppressed_warnings > 0) {
         scene.warnings.push_back(std::to_string(document.suppressed_warnings) + " more warnings");

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "engine/assets/gltf_accessor.h"
@@ -15,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMaxUvSets = 16;
+constexpr std::uint64_t kMaxUvSet = std::numeric_limits<int>::max();
 
 float finite_float(double value, const std::string& pointer) {
     const auto number = static_cast<float>(value);
@@ -24,19 +27,28 @@ float finite_float(double value, const std::string& pointer) {
 }
 
 float unit_float(Document& document, double value, const std::string& pointer) {
-    const float number = finite_float(value, pointer);
-    const float clamped = std::clamp(number, 0.0f, 1.0f);
-    if (clamped != number) document.warn(pointer + ": clamped to [0, 1]");
-    return clamped;
+    const double clamped = std::clamp(value, 0.0, 1.0);
+    if (clamped != value) document.warn(pointer + ": clamped to [0, 1]");
+    return static_cast<float>(clamped);
+}
+
+/// Takes a negative number as 0.
+double not_negative(Document& document, double value, const std::string& pointer) {
+    if (value >= 0.0) return value;
+    document.take("material.negative", pointer, "is negative, taken as 0");
+    return 0.0;
 }
 
 /// Bytes of an image. Throws Failure, which the caller turns into a warning.
-Bytes image_bytes(const Document& document, const json& image, const std::string& where) {
+Bytes image_bytes(Document& document, const json& image, const std::string& where) {
     const auto uri = image.find("uri");
     if (uri != image.end()) {
         const auto& text = uri->get_ref<const std::string&>();
         if (is_data_uri(text)) return decode_data_uri(text, where);
-        return read_file(resolve_uri(text, document.folder, where), kMaxFileBytes, where);
+        Notes notes;
+        const std::filesystem::path file = resolve_uri(text, document.folder, where, notes);
+        for (std::string& note : notes) document.warn(std::move(note));
+        return read_file(file, kMaxFileBytes, where);
     }
     const auto view = image.find("bufferView");
     if (view == image.end()) fail("image.no_source", where, "an image with neither uri nor bufferView");
@@ -142,7 +154,7 @@ void read_uv_transform(const json& info, const std::string& where, UvSource& sou
         }
     }
     const auto set = found->find("texCoord");
-    if (set != found->end() && set->is_number_unsigned() && set->get<std::uint64_t>() < kMaxUvSets) {
+    if (set != found->end() && set->is_number_unsigned() && set->get<std::uint64_t>() <= kMaxUvSet) {
         source.set = set->get<int>();
     }
 }
@@ -152,14 +164,14 @@ AlphaMode alpha_mode_of(const tinygltf::Material& source) {
     return source.alphaMode == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-glm::vec3 emissive_of(const tinygltf::Material& source, const json& raw, const std::string& where) {
+glm::vec3 emissive_of(Document& document, const tinygltf::Material& source, const json& raw, const std::string& where) {
     double strength = 1.0;
     const nlohmann::json::json_pointer path("/extensions/KHR_materials_emissive_strength/emissiveStrength");
     if (raw.contains(path)) strength = raw.at(path).get<double>();
     glm::vec3 emissive{0.0f};
     for (int i = 0; i < 3; ++i) {
-        const double value = source.emissiveFactor[static_cast<std::size_t>(i)] * strength;
-        if (!(value >= 0.0)) fail("material.range", where + "/emissiveFactor", "must not be negative");
+        const double value = not_negative(document, source.emissiveFactor[static_cast<std::size_t>(i)] * strength,
+                                          where + "/emissiveFactor");
         emissive[i] = finite_float(value, where + "/emissiveFactor");
     }
     return emissive;
@@ -175,22 +187,20 @@ Material load_material(Document& document, std::size_t index, TextureLoader& tex
     material.name = source.name;
     material.double_sided = source.doubleSided;
     material.alpha_mode = alpha_mode_of(source);
-    material.alpha_cutoff = finite_float(source.alphaCutoff, where + "/alphaCutoff");
-    if (!(material.alpha_cutoff >= 0.0f)) fail("material.range", where + "/alphaCutoff", "must not be negative");
+    material.alpha_cutoff =
+        finite_float(not_negative(document, source.alphaCutoff, where + "/alphaCutoff"), where + "/alphaCutoff");
     material.metallic = unit_float(document, pbr.metallicFactor, pbr_where + "/metallicFactor");
     material.roughness = unit_float(document, pbr.roughnessFactor, pbr_where + "/roughnessFactor");
     for (int i = 0; i < 4; ++i) {
         material.base_colour[i] =
             unit_float(document, pbr.baseColorFactor[static_cast<std::size_t>(i)], pbr_where + "/baseColorFactor");
     }
-    material.emissive = emissive_of(source, raw, where);
+    material.emissive = emissive_of(document, source, raw, where);
     material.unlit = raw.contains(nlohmann::json::json_pointer("/extensions/KHR_materials_unlit"));
     if (pbr.baseColorTexture.index < 0) return material;
 
-    if (pbr.baseColorTexture.texCoord >= kMaxUvSets) {
-        fail("material.uv_set", pbr_where + "/baseColorTexture/texCoord", "names more sets than any file has");
-    }
     uv.set = pbr.baseColorTexture.texCoord;
+    uv.wanted = true;
     read_uv_transform(raw["pbrMetallicRoughness"]["baseColorTexture"], pbr_where + "/baseColorTexture", uv);
     material.base_colour_texture = textures.load(pbr.baseColorTexture.index);
     if (material.base_colour_texture == kNone && material.alpha_mode == AlphaMode::mask) {
@@ -210,6 +220,27 @@ std::vector<UvSource> load_materials(Document& document, SceneData& scene) {
     }
     if (scene.materials.empty()) scene.materials.emplace_back();
     return uv_sources;
+}
+
+void warn_of_blended_casters(Document& document, const SceneData& scene) {
+    std::set<std::uint32_t> blended;
+    for (const Node& node : scene.nodes) {
+        if (node.mesh == kNone || !node.casts_shadow) continue;
+        for (const Submesh& submesh : scene.meshes[static_cast<std::size_t>(node.mesh)].submeshes)
+            if (scene.materials[submesh.material].alpha_mode == AlphaMode::blend) blended.insert(submesh.material);
+    }
+    if (blended.empty()) return;
+    constexpr std::size_t kNamed = 4;
+    std::string names;
+    std::size_t count = 0;
+    for (const std::uint32_t material : blended) {
+        if (count++ == kNamed) break;
+        const std::string& name = scene.materials[material].name;
+        names += (names.empty() ? "" : ", ") + pointer("materials", material);
+        if (!name.empty()) names += " '" + printable(name) + "'";
+    }
+    if (blended.size() > kNamed) names += " and " + std::to_string(blended.size() - kNamed) + " more";
+    document.take("material.blend", names, "what is blended casts no shadow");
 }
 
 }  // namespace gnomon::assets::gltf

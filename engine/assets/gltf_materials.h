@@ -11,6 +11,7 @@ namespace gnomon::assets::gltf {
 /// What a material demands of the vertices that wear it.
 struct UvSource {
     int set = 0;                  // TEXCOORD_<set>
+    bool wanted = false;          // there is a texture that reads it
     glm::mat3x2 transform{1.0f};  // KHR_texture_transform, applied at load
 };
 
@@ -18,5 +19,8 @@ struct UvSource {
 /// (those that a base colour uses). A texture that cannot be had is a warning; a masked material without it becomes
 /// opaque. Returns one entry per glTF material.
 std::vector<UvSource> load_materials(Document& document, SceneData& scene);
+
+/// One warning that names the blended materials of whatever is placed to cast a shadow: nothing blended casts one.
+void warn_of_blended_casters(Document& document, const SceneData& scene);
 
 }  // namespace gnomon::assets::gltf

@@ -20,7 +20,7 @@ namespace {
 
 /// Primitives that share all of this share their vertices.
 struct VertexSource {
-    int position = kNone, normal = kNone, uv = kNone;  // accessors
+    int position = kNone, normal = kNone, uv = kNone, colour = kNone;  // accessors
     int material = kNone;                              // where it transforms texture coordinates, else kNone
     DeformingSource deforming;
     auto operator<=>(const VertexSource&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads <=>
@@ -43,6 +43,8 @@ bool is_allowed(const tinygltf::Accessor& accessor, int type, std::initializer_l
     return quantized && accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
 class MeshLoader {
 public:
     MeshLoader(Document& document, const std::vector<UvSource>& uv_sources, SceneData& scene)
@@ -57,6 +59,8 @@ public:
         }
     }
 
+    std::vector<MeshPlace> places() { return std::move(places_); }
+
 private:
     Mesh load(std::size_t index) {
         const tinygltf::Mesh& source = document_.model.meshes[index];
@@ -64,6 +68,7 @@ private:
         mesh.name = source.name;
         blocks_.clear();
         missing_normals_.clear();
+        nowhere_.clear();
         DeformerBuilder deformer(document_);
         deformer_ = &deformer;
         for (std::size_t p = 0; p < source.primitives.size(); ++p) {
@@ -71,6 +76,7 @@ private:
             const nlohmann::json& raw = document_.json["meshes"][index]["primitives"][p];
             append_primitive(source.primitives[p], raw.value("indices", kNone), mesh);
         }
+        places_.push_back(place_of(source, mesh, pointer("meshes", index)));
         if (std::find(missing_normals_.begin(), missing_normals_.end(), true) != missing_normals_.end()) {
             fill_normals(mesh, missing_normals_);
         }
@@ -79,11 +85,26 @@ private:
             mesh.bounds_ms.min = glm::min(mesh.bounds_ms.min, position);
             mesh.bounds_ms.max = glm::max(mesh.bounds_ms.max, position);
         }
+        const bool all_white = std::all_of(mesh.colours.begin(), mesh.colours.end(),
+                                           [](const glm::vec4& colour) { return colour == glm::vec4(1.0f); });
+        if (all_white) mesh.colours = {};
         mesh.topology = analyse_topology(mesh);
         mesh.deformer = deformer.finish(mesh, pointer("meshes", index));
         if (!mesh.deformer) mesh.shape = shape_of(mesh);
         if (mesh.shape) document_.charge(mesh.shape->bytes(), pointer("meshes", index));
         return mesh;
+    }
+
+    /// Moves the mesh nearer to its own origin if it lies too far away for floats.
+    MeshPlace place_of(const tinygltf::Mesh& source, Mesh& mesh, const std::string& where) {
+        MeshPlace place = near_origin(mesh);
+        if (place == MeshPlace{}) return place;
+        for (const tinygltf::Primitive& primitive : source.primitives) {
+            if (primitive.targets.empty() && attribute_of(primitive, "JOINTS_0") < 0) continue;
+            fail("position.too_large", where, "a coordinate of a mesh that bends is beyond 1e6");
+        }
+        document_.take("position.large", where, "coordinates are beyond 1e6, so it is kept nearer to its origin");
+        return place;
     }
 
     void append_primitive(const tinygltf::Primitive& primitive, int index_accessor, Mesh& mesh) {
@@ -112,7 +133,26 @@ private:
         submesh.index_count = static_cast<std::uint32_t>(triangles * 3);
         submesh.material = material_of(primitive);
         append_triangles(primitive.mode, corners, corner_count, block.first, mesh.indices);
-        mesh.submeshes.push_back(submesh);
+        leave_out_nowhere(submesh, mesh);
+        if (submesh.index_count > 0) mesh.submeshes.push_back(submesh);
+    }
+
+    void leave_out_nowhere(Submesh& submesh, Mesh& mesh) {
+        const auto is_nowhere = [&](std::uint32_t corner) { return corner < nowhere_.size() && nowhere_[corner]; };
+        std::size_t kept = submesh.first_index;
+        for (std::size_t i = submesh.first_index; i < mesh.indices.size(); i += 3) {
+            const std::uint32_t a = mesh.indices[i], b = mesh.indices[i + 1], c = mesh.indices[i + 2];
+            if (is_nowhere(a) || is_nowhere(b) || is_nowhere(c)) continue;
+            mesh.indices[kept++] = a;
+            mesh.indices[kept++] = b;
+            mesh.indices[kept++] = c;
+        }
+        const std::size_t lost = (mesh.indices.size() - kept) / 3;
+        if (lost == 0) return;
+        mesh.indices.resize(kept);
+        submesh.index_count = static_cast<std::uint32_t>(kept - submesh.first_index);
+        document_.take("position.not_finite", where_ + "/attributes/POSITION",
+                       std::to_string(lost) + " triangles with a corner that is no number are left out");
     }
 
     std::vector<std::uint32_t> checked_indices(int accessor, std::uint32_t vertex_count) const {
@@ -141,6 +181,10 @@ private:
         const UvSource uv_source =
             primitive.material >= 0 ? uv_sources_[static_cast<std::size_t>(primitive.material)] : UvSource{};
         source.uv = attribute_of(primitive, "TEXCOORD_" + std::to_string(uv_source.set));
+        if (uv_source.wanted && source.uv < 0)
+            document_.warn(where_ + "/attributes: TEXCOORD_" + std::to_string(uv_source.set) +
+                           " is missing, so the texture's first corner is taken");
+        source.colour = attribute_of(primitive, "COLOR_0");
         if (uv_source.transform != UvSource{}.transform) source.material = primitive.material;
         source.deforming = deforming_source(document_, primitive, where_);
         const auto known = blocks_.find(source);
@@ -150,69 +194,119 @@ private:
         read_positions(source, mesh, block);
         read_normals(source, mesh, block);
         read_uvs(source.uv, uv_source.transform, mesh, block);
+        read_colours(source.colour, mesh, block);
         deformer_->append(source.deforming, block.count, where_);
         blocks_.emplace(source, block);
         return block;
     }
 
-    const tinygltf::Accessor& attribute(int accessor, const char* name, int type,
-                                        std::initializer_list<int> core) const {
-        const auto& found = document_.model.accessors[static_cast<std::size_t>(accessor)];
-        if (!is_allowed(found, type, core, quantized_)) {
-            fail("attribute.type", where_ + "/attributes/" + name,
-                 "its accessor has a type that glTF does not allow here");
-        }
-        return found;
+    const tinygltf::Accessor& accessor_of(int accessor) const {
+        return document_.model.accessors[static_cast<std::size_t>(accessor)];
     }
 
-    std::vector<float> same_count_floats(int accessor, const char* name, std::size_t count) const {
-        if (document_.model.accessors[static_cast<std::size_t>(accessor)].count != count) {
-            fail("attribute.count", where_ + "/attributes/" + name, "holds another number of elements than POSITION");
+    /// An attribute that a mesh can do without. Empty, with a warning, where its accessor is not as glTF has it.
+    std::vector<float> optional_floats(int accessor, const char* name, bool is_right, std::size_t count,
+                                       bool normalised = false) {
+        const std::string where = where_ + "/attributes/" + name;
+        if (!is_right) {
+            document_.take("attribute.left_out", where, "its accessor has a type that glTF does not allow here, left out");
+            return {};
         }
-        return read_floats(document_, accessor);
+        if (accessor_of(accessor).count != count) {
+            document_.take("attribute.left_out", where, "holds another number of elements than POSITION, left out");
+            return {};
+        }
+        return read_any_floats(document_, accessor, normalised);
+    }
+
+    void warn_of_no_number(std::size_t count, const char* name, const char* taken_as) {
+        if (count == 0) return;
+        document_.take("attribute.not_finite", where_ + "/attributes/" + name,
+                       std::to_string(count) + " that are no numbers are taken as " + taken_as);
     }
 
     void read_positions(const VertexSource& source, Mesh& mesh, VertexBlock& block) {
-        const auto& accessor = attribute(source.position, "POSITION", TINYGLTF_TYPE_VEC3, {});
+        const auto& accessor = accessor_of(source.position);
+        if (!is_allowed(accessor, TINYGLTF_TYPE_VEC3, {}, quantized_)) {
+            fail("attribute.type", where_ + "/attributes/POSITION",
+                 "its accessor has a type that glTF does not allow here");
+        }
         document_.charge(accessor.count * sizeof(Vertex), where_ + "/attributes/POSITION");
         block.count = static_cast<std::uint32_t>(accessor.count);
-        const std::vector<float> numbers = read_floats(document_, source.position);
+        const std::vector<float> numbers = read_any_floats(document_, source.position);
         mesh.vertices.resize(block.first + accessor.count);
         for (std::size_t i = 0; i < accessor.count; ++i) {
             const glm::vec3 position(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-            const glm::vec3 size = glm::abs(position);
-            if (std::max({size.x, size.y, size.z}) > kMaxPosition_ms) {
-                fail("position.too_large", where_ + "/attributes/POSITION", "a coordinate is beyond 1e6");
+            if (is_finite(position)) {
+                mesh.vertices[block.first + i].position_ms = position;
+                continue;
             }
-            mesh.vertices[block.first + i].position_ms = position;
+            nowhere_.resize(mesh.vertices.size(), false);
+            nowhere_[block.first + i] = true;
         }
     }
 
     void read_normals(const VertexSource& source, Mesh& mesh, const VertexBlock& block) {
-        missing_normals_.resize(mesh.vertices.size(), source.normal < 0);
+        missing_normals_.resize(mesh.vertices.size(), true);
         if (source.normal < 0) return;
-        attribute(source.normal, "NORMAL", TINYGLTF_TYPE_VEC3, {});
-        const std::vector<float> numbers = same_count_floats(source.normal, "NORMAL", block.count);
-        for (std::size_t i = 0; i < block.count; ++i) {
+        const std::vector<float> numbers =
+            optional_floats(source.normal, "NORMAL",
+                            is_allowed(accessor_of(source.normal), TINYGLTF_TYPE_VEC3, {}, quantized_), block.count);
+        std::size_t no_number = 0;
+        for (std::size_t i = 0; 3 * i < numbers.size(); ++i) {
             const glm::dvec3 normal(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
             const double length = glm::length(normal);
-            missing_normals_[block.first + i] = !(length > 0.0);
-            if (length > 0.0) mesh.vertices[block.first + i].normal_ms = glm::vec3(normal / length);
+            if (!std::isfinite(length)) ++no_number;
+            if (!(length > 0.0) || !std::isfinite(length)) continue;
+            missing_normals_[block.first + i] = false;
+            mesh.vertices[block.first + i].normal_ms = glm::vec3(normal / length);
         }
+        warn_of_no_number(no_number, "NORMAL", "missing");
     }
 
     void read_uvs(int accessor, const glm::mat3x2& transform, Mesh& mesh, const VertexBlock& block) {
         if (accessor < 0) return;
-        attribute(accessor, "TEXCOORD", TINYGLTF_TYPE_VEC2,
-                  {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT});
-        const std::vector<float> numbers = same_count_floats(accessor, "TEXCOORD", block.count);
-        for (std::size_t i = 0; i < block.count; ++i) {
+        const bool is_right =
+            is_allowed(accessor_of(accessor), TINYGLTF_TYPE_VEC2,
+                       {TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT}, quantized_);
+        const std::vector<float> numbers = optional_floats(accessor, "TEXCOORD", is_right, block.count);
+        std::size_t no_number = 0;
+        for (std::size_t i = 0; 2 * i < numbers.size(); ++i) {
             const glm::vec2 uv = transform * glm::vec3(numbers[2 * i], numbers[2 * i + 1], 1.0f);
-            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-                fail("accessor.not_finite", where_, "a texture coordinate is not finite after its transform");
-            }
-            mesh.vertices[block.first + i].uv = uv;
+            if (std::isfinite(uv.x) && std::isfinite(uv.y))
+                mesh.vertices[block.first + i].uv = uv;
+            else
+                ++no_number;
         }
+        warn_of_no_number(no_number, "TEXCOORD", "0");
+    }
+
+    /// Makes colours of the whole mesh as soon as one primitive has any. Vertices without are white.
+    void read_colours(int accessor, Mesh& mesh, const VertexBlock& block) {
+        if (!mesh.colours.empty()) mesh.colours.resize(mesh.vertices.size(), glm::vec4(1.0f));
+        if (accessor < 0) return;
+        const auto& found = accessor_of(accessor);
+        const bool floats = found.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool integers = found.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                              found.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+        const bool is_right =
+            (found.type == TINYGLTF_TYPE_VEC3 || found.type == TINYGLTF_TYPE_VEC4) && (floats || integers);
+        if (is_right && integers && !found.normalized)
+            document_.take("attribute.not_normalised", where_ + "/attributes/COLOR_0", "integers, taken as normalised");
+        const std::vector<float> numbers = optional_floats(accessor, "COLOR_0", is_right, block.count, integers);
+        if (numbers.empty()) return;
+        const std::size_t had = mesh.colours.size();
+        document_.charge((mesh.vertices.size() - had) * sizeof(glm::vec4), where_ + "/attributes/COLOR_0");
+        mesh.colours.resize(mesh.vertices.size(), glm::vec4(1.0f));
+        const std::size_t width = found.type == TINYGLTF_TYPE_VEC4 ? 4 : 3;
+        std::size_t no_number = 0;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (std::isfinite(numbers[i]))
+                mesh.colours[block.first + i / width][static_cast<int>(i % width)] = std::clamp(numbers[i], 0.0f, 1.0f);
+            else
+                ++no_number;
+        }
+        warn_of_no_number(no_number, "COLOR_0", "1");
     }
 
     Document& document_;
@@ -223,13 +317,17 @@ private:
     std::string where_;
     std::map<VertexSource, VertexBlock> blocks_;  // of the mesh at hand
     std::vector<bool> missing_normals_;
+    std::vector<bool> nowhere_;                   // vertices that are no numbers; may be shorter
+    std::vector<MeshPlace> places_;
     DeformerBuilder* deformer_ = nullptr;         // of the same mesh
 };
 
 }  // namespace
 
-void load_meshes(Document& document, const std::vector<UvSource>& uv_sources, SceneData& scene) {
-    MeshLoader(document, uv_sources, scene).load_all();
+std::vector<MeshPlace> load_meshes(Document& document, const std::vector<UvSource>& uv_sources, SceneData& scene) {
+    MeshLoader loader(document, uv_sources, scene);
+    loader.load_all();
+    return loader.places();
 }
 
 }  // namespace gnomon::assets::gltf

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "engine/assets/gltf_error.h"
@@ -41,6 +42,16 @@ std::vector<int> parents_of(const Document& document) {
     return parents;
 }
 
+/// Whether one of the nearest kMaxNodeDepth ancestors is a root: nodes that are deeper are an error in any case.
+bool stands_below(std::size_t node, const std::vector<bool>& is_root, const std::vector<int>& parents) {
+    int at = parents[node];
+    for (std::size_t depth = 0; at != kNone && depth < kMaxNodeDepth; ++depth) {
+        if (is_root[static_cast<std::size_t>(at)]) return true;
+        at = parents[static_cast<std::size_t>(at)];
+    }
+    return false;
+}
+
 std::vector<int> roots_of(Document& document, const std::vector<int>& parents) {
     std::vector<int> roots;
     const auto scenes = document.json.find("scenes");
@@ -54,9 +65,17 @@ std::vector<int> roots_of(Document& document, const std::vector<int>& parents) {
     const json& scene = (*scenes)[index];
     const auto listed = scene.find("nodes");
     if (listed == scene.end()) return roots;
+    std::vector<bool> is_root(parents.size(), false);
+    for (const json& root : *listed) is_root[root.get<std::size_t>()] = true;
+    std::vector<bool> seen(parents.size(), false);
     for (std::size_t i = 0; i < listed->size(); ++i) {
         const auto root = (*listed)[i].get<std::size_t>();
         const std::string where = pointer("scenes", index, "nodes", i);
+        if (seen[root] || stands_below(root, is_root, parents)) {
+            document.take("scene.node_twice", where, "the scene reaches the node twice, it is shown once");
+            continue;
+        }
+        seen[root] = true;
         // Widely used models do this; like other readers we show the node without what stands above it.
         if (parents[root] != kNone) document.warn(where + ": the node has a parent, which is left out");
         roots.push_back(static_cast<int>(root));
@@ -64,38 +83,55 @@ std::vector<int> roots_of(Document& document, const std::vector<int>& parents) {
     return roots;
 }
 
-Trs read_trs(const tinygltf::Node& source, const json& raw, const std::string& where) {
-    if (!source.matrix.empty()) {
-        for (const char* member : {"translation", "rotation", "scale"}) {
-            if (raw.contains(member))
-                fail("node.matrix_and_trs", where + "/matrix", "stands beside " + std::string{member});
-        }
-        glm::dmat4 matrix(1.0);
-        for (std::size_t i = 0; i < 16; ++i) {
-            matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = source.matrix[i];
-        }
-        return decompose(matrix, where + "/matrix");
+/// What a node says of its place. `inner` turns before all else, where the node's matrix shears.
+struct Place {
+    Trs trs;
+    std::optional<glm::dquat> inner = std::nullopt;
+};
+
+Place read_matrix(Document& document, const tinygltf::Node& source, const json& raw, const std::string& where) {
+    for (const char* member : {"translation", "rotation", "scale"}) {
+        if (raw.contains(member))
+            document.take("node.matrix_and_trs", where, std::string{member} + " beside a matrix is left out");
     }
+    glm::dmat4 matrix(1.0);
+    for (std::size_t i = 0; i < 16; ++i) {
+        matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = source.matrix[i];
+    }
+    expect_affine(matrix, document, where);
+    if (const std::optional<Trs> trs = decompose(matrix, where)) return {*trs};
+    const ShearedTrs sheared = decompose_sheared(matrix, where);
+    document.take("node.matrix_sheared", where, "it shears, taken as two nodes, of which the outer one scales");
+    return {sheared.outer, sheared.inner};
+}
+
+Place read_place(Document& document, const tinygltf::Node& source, const json& raw, const std::string& where) {
+    if (!source.matrix.empty()) return read_matrix(document, source, raw, where + "/matrix");
     Trs trs;
     if (!source.translation.empty()) {
         trs.translation_m = {source.translation[0], source.translation[1], source.translation[2]};
     }
     if (!source.scale.empty()) trs.scale = {source.scale[0], source.scale[1], source.scale[2]};
-    if (!source.rotation.empty()) {
-        const glm::dquat rotation(source.rotation[3], source.rotation[0], source.rotation[1], source.rotation[2]);
-        const double length = glm::length(rotation);
-        if (!(length > 0.0) || !std::isfinite(length)) {
-            fail("node.rotation", where + "/rotation", "is no rotation: its length is 0 or not finite");
-        }
+    if (source.rotation.empty()) return {trs};
+    const glm::dquat rotation(source.rotation[3], source.rotation[0], source.rotation[1], source.rotation[2]);
+    const double length = glm::length(rotation);
+    if (!std::isfinite(length)) fail("node.rotation", where + "/rotation", "is no rotation: its length is not finite");
+    if (length > 0.0)
         trs.rotation = rotation / length;
-    }
-    return trs;
+    else
+        document.take("node.rotation_zero", where + "/rotation", "has no length, taken as no turn");
+    return {trs};
 }
 
 class NodeLoader {
 public:
-    NodeLoader(Document& document, SceneData& scene)
-        : document_(document), scene_(scene), became_(document.model.nodes.size(), kNone) {}
+    NodeLoader(Document& document, const std::vector<std::int32_t>& cameras, const std::vector<MeshPlace>& places,
+               SceneData& scene)
+        : document_(document),
+          cameras_(cameras),
+          places_(places),
+          scene_(scene),
+          became_(document.model.nodes.size(), kNone) {}
 
     std::vector<std::int32_t> load(const std::vector<int>& roots) {
         std::vector<Pending> pending;
@@ -107,8 +143,8 @@ public:
                 fail("node.too_deep", pointer("nodes", next.source),
                      "more than " + std::to_string(kMaxNodeDepth) + " levels deep");
             }
-            const auto index = static_cast<std::int32_t>(scene_.nodes.size());
             append(next.source, next.parent);
+            const std::int32_t index = became_[static_cast<std::size_t>(next.source)];
             const auto& children = document_.model.nodes[static_cast<std::size_t>(next.source)].children;
             for (auto child = children.rbegin(); child != children.rend(); ++child) {
                 pending.push_back({*child, index, next.depth + 1});
@@ -126,27 +162,58 @@ private:
 
     void append(int source_index, std::int32_t parent) {
         const auto at = static_cast<std::size_t>(source_index);
-        if (became_[at] != kNone) fail("scene.node_twice", pointer("nodes", at), "the scene reaches the node twice");
-        became_[at] = static_cast<std::int32_t>(scene_.nodes.size());
         const tinygltf::Node& source = document_.model.nodes[at];
         const json& raw = document_.json["nodes"][at];
         const std::string where = pointer("nodes", at);
-        const Trs trs = read_trs(source, raw, where);
+        const Place place = read_place(document_, source, raw, where);
         Node node;
-        node.name = source.name;
         node.parent = parent;
-        node.translation_m = trs.translation_m;
-        node.rotation = trs.rotation;
-        node.scale = trs.scale;
+        set(node, place.trs);
+        if (place.inner) {
+            add(std::exchange(node, Node{}), where);
+            node.parent = static_cast<std::int32_t>(scene_.nodes.size()) - 1;
+            node.rotation = *place.inner;
+        }
+        node.name = source.name;
         node.mesh = source.mesh;
-        node.camera = source.camera;
+        if (source.camera >= 0) node.camera = cameras_[static_cast<std::size_t>(source.camera)];
         const ExtrasReader extras(document_, raw, where);
         node.casts_shadow = extras.boolean("castShadow", true);
         node.receives_shadow = extras.boolean("receiveShadow", true);
         node.visible = extras.boolean("visible", true);
         node.motion = extras.motion();
         node.light = light_of(raw, extras);
-        check_world(trs, node, where);
+        became_[at] = static_cast<std::int32_t>(scene_.nodes.size());
+        std::optional<Node> mesh_node;
+        if (node.mesh != kNone && places_[static_cast<std::size_t>(node.mesh)] != MeshPlace{})
+            mesh_node = take_mesh(node);
+        add(std::move(node), where);
+        if (mesh_node) add(std::move(*mesh_node), where);
+    }
+
+    /// The node below `node`, which it becomes next, that has its mesh and places that.
+    Node take_mesh(Node& node) const {
+        const MeshPlace& place = places_[static_cast<std::size_t>(node.mesh)];
+        Node below;
+        below.name = node.name;
+        below.parent = static_cast<std::int32_t>(scene_.nodes.size());
+        below.translation_m = place.middle_m;
+        below.scale = glm::dvec3(place.scale);
+        below.mesh = std::exchange(node.mesh, kNone);
+        below.casts_shadow = node.casts_shadow;
+        below.receives_shadow = node.receives_shadow;
+        below.visible = node.visible;
+        return below;
+    }
+
+    static void set(Node& node, const Trs& trs) {
+        node.translation_m = trs.translation_m;
+        node.rotation = trs.rotation;
+        node.scale = trs.scale;
+    }
+
+    void add(Node node, const std::string& where) {
+        check_world({node.translation_m, node.rotation, node.scale}, node, where);
         scene_.nodes.push_back(std::move(node));
     }
 
@@ -188,6 +255,8 @@ private:
     }
 
     Document& document_;
+    const std::vector<std::int32_t>& cameras_;  // per glTF camera, of scene_.cameras
+    const std::vector<MeshPlace>& places_;      // per glTF mesh
     SceneData& scene_;
     std::vector<std::int32_t> became_;              // per glTF node
     std::vector<glm::dmat4> worlds_;                // of scene_.nodes
@@ -196,9 +265,10 @@ private:
 
 }  // namespace
 
-std::vector<std::int32_t> load_nodes(Document& document, SceneData& scene) {
+std::vector<std::int32_t> load_nodes(Document& document, const std::vector<std::int32_t>& cameras,
+                                     const std::vector<MeshPlace>& places, SceneData& scene) {
     const std::vector<int> parents = parents_of(document);
-    return NodeLoader(document, scene).load(roots_of(document, parents));
+    return NodeLoader(document, cameras, places, scene).load(roots_of(document, parents));
 }
 
 }  // namespace gnomon::assets::gltf

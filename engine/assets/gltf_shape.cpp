@@ -126,6 +126,7 @@ constexpr Row kRows[] = {
     {"/cameras/*/perspective/yfov", Kind::number, kRequired},
     {"/cameras/*/perspective/znear", Kind::number, kRequired},
     {"/cameras/*/perspective/zfar", Kind::number},
+    {"/cameras/*/perspective/aspectRatio", Kind::number},
     {"/cameras/*/orthographic", Kind::object},
     {"/cameras/*/orthographic/xmag", Kind::number, kRequired},
     {"/cameras/*/orthographic/ymag", Kind::number, kRequired},
@@ -323,7 +324,7 @@ constexpr int kComponentTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
 constexpr std::size_t kStrideStep = 4, kMaxStride = 252;
 
 /// What no row can say: of the following, tinygltf would refuse all but animations, without saying where.
-void check_across(const json& document) {
+void check_across(json& document, Notes& notes) {
     const json none = json::array();
     const auto list = [&](const char* where) -> const json& {
         const json::json_pointer path(where);
@@ -341,7 +342,8 @@ void check_across(const json& document) {
     for (std::size_t i = 0; i < views.size(); ++i) {
         const auto stride = views[i].value("byteStride", std::size_t{0});
         if (stride % kStrideStep == 0 && stride <= kMaxStride) continue;
-        fail("buffer_view.stride", pointer("bufferViews", i, "byteStride"), "must be a multiple of 4 up to 252");
+        notes.push_back(taken("buffer_view.stride", pointer("bufferViews", i, "byteStride"),
+                              std::to_string(stride) + " is no multiple of 4 up to 252, taken as it is"));
     }
     const json& cameras = list("/cameras");
     for (std::size_t i = 0; i < cameras.size(); ++i) {
@@ -357,20 +359,25 @@ void check_across(const json& document) {
                  "names an object that does not exist");
         }
     }
-    const json& lights = list("/extensions/KHR_lights_punctual/lights");
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        if (lights[i]["type"] != "spot" || lights[i].contains("spot")) continue;
-        fail("property.missing", pointer("extensions", "KHR_lights_punctual", "lights", i), "\"spot\" is missing");
+    const json::json_pointer lights("/extensions/KHR_lights_punctual/lights");
+    if (!document.contains(lights)) return;
+    json& list_of_lights = document.at(lights);
+    for (std::size_t i = 0; i < list_of_lights.size(); ++i) {
+        json& light = list_of_lights[i];
+        if (light["type"] != "spot" || light.contains("spot")) continue;
+        light["spot"] = json::object();
+        notes.push_back(taken("light.no_spot", pointer("extensions", "KHR_lights_punctual", "lights", i),
+                              "\"spot\" is missing, its cone is taken as glTF's default"));
     }
 }
 
 }  // namespace
 
-void check_shape(json& document) {
+void check_shape(json& document, Notes& notes) {
     if (!document.is_object()) fail("json.root", "", "the root is not an object");
     ShapeChecker checker(document);
     for (const Row& row : kRows) checker.check(row);
-    check_across(document);
+    check_across(document, notes);
 }
 
 }  // namespace gnomon::assets::gltf

@@ -60,7 +60,7 @@ private:
         Skin skin;
         skin.name = raw.contains("name") && raw["name"].is_string() ? raw["name"].get<std::string>() : "";
         const json& joints = raw["joints"];
-        if (joints.empty()) fail("skin.no_joints", where + "/joints", "must not be empty");
+        if (joints.empty()) document_.take("skin.no_joints", where + "/joints", "is empty; meshes stay as they are");
         document_.charge(joints.size() * sizeof(std::int32_t), where + "/joints");
         for (const json& joint : joints) skin.joints.push_back(scene_nodes_[joint.get<std::size_t>()]);
         skin.inverse_bind = inverse_bind_of(document_, raw, skin.joints.size(), where);

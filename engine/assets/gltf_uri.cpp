@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdint>
+#include <utility>
 
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_file.h"
@@ -19,7 +21,8 @@ int hex_digit(char c) {
     return kNotADigit;
 }
 
-std::string percent_decoded(std::string_view text, const std::string& pointer) {
+/// Decodes %XX. A '%' without two digits behind it stays as it is, and `broken` says so.
+std::string percent_decoded(std::string_view text, bool& broken) {
     std::string decoded;
     decoded.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -29,10 +32,22 @@ std::string percent_decoded(std::string_view text, const std::string& pointer) {
         }
         const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : kNotADigit;
         const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : kNotADigit;
-        if (high == kNotADigit || low == kNotADigit) fail("uri.percent", pointer, "a broken percent escape");
+        if (high == kNotADigit || low == kNotADigit) {
+            broken = true;
+            decoded += '%';
+            continue;
+        }
         decoded += static_cast<char>(high * 16 + low);
         i += 2;
     }
+    return decoded;
+}
+
+/// The same for data, where a broken escape is an error.
+std::string data_decoded(std::string_view text, const std::string& pointer) {
+    bool broken = false;
+    std::string decoded = percent_decoded(text, broken);
+    if (broken) fail("uri.percent", pointer, "a broken percent escape");
     return decoded;
 }
 
@@ -45,14 +60,30 @@ bool has_scheme(std::string_view uri) {
     return false;
 }
 
-bool has_parent_step(std::string_view path) {
+/// Whether ".." leads above where the path begins, at any of its steps, whichever way they are separated.
+bool leaves_folder(std::string_view path) {
+    int depth = 0;
     std::size_t begin = 0;
     while (begin <= path.size()) {
         const std::size_t end = std::min(path.find_first_of("/\\", begin), path.size());
-        if (path.substr(begin, end - begin) == "..") return true;
+        const std::string_view step = path.substr(begin, end - begin);
+        if (step == "..") {
+            if (--depth < 0) return true;
+        } else if (!step.empty() && step != ".") {
+            ++depth;
+        }
         begin = end + 1;
     }
     return false;
+}
+
+void check_path(std::string_view path, const std::string& pointer) {
+    if (path.empty()) fail("uri.empty", pointer, "an empty URI");
+    for (const char c : path) {
+        if (static_cast<unsigned char>(c) < ' ') fail("uri.control_character", pointer, "a control character");
+    }
+    if (path.front() == '/' || path.front() == '\\') fail("uri.absolute", pointer, "an absolute path");
+    if (leaves_folder(path)) fail("uri.escapes_folder", pointer, "a path that \"..\" leads out of the folder");
 }
 
 constexpr std::array<std::int8_t, 256> base64_table() {
@@ -88,16 +119,31 @@ Bytes decode_base64(std::string_view text, const std::string& pointer) {
 
 }  // namespace
 
-std::filesystem::path relative_path_of_uri(std::string_view uri, const std::string& pointer) {
+std::vector<UriReading> readings_of_uri(std::string_view uri, const std::string& pointer) {
     if (uri.empty()) fail("uri.empty", pointer, "an empty URI");
     if (has_scheme(uri)) fail("uri.scheme", pointer, "a URI with a scheme: " + printable(uri));
-    const std::string decoded = percent_decoded(uri, pointer);
-    for (const char c : decoded) {
-        if (static_cast<unsigned char>(c) < ' ') fail("uri.control_character", pointer, "a control character");
-    }
-    if (decoded.front() == '/' || decoded.front() == '\\') fail("uri.absolute", pointer, "an absolute path");
-    if (has_parent_step(decoded)) fail("uri.escapes_folder", pointer, "a path with \"..\"");
-    return {decoded};
+    std::vector<UriReading> readings;
+    const auto read_as = [&](std::string path, const char* rule, const char* message) {
+        check_path(path, pointer);
+        readings.push_back({std::filesystem::path(path).lexically_normal(), rule, message});
+        if (path.find('\\') == std::string::npos) return;
+        std::replace(path.begin(), path.end(), '\\', '/');
+        readings.push_back({std::filesystem::path(std::move(path)).lexically_normal(), "uri.backslash",
+                            "a path with '\\', taken as '/'"});
+    };
+    const auto decoded = [&](std::string_view text, const char* rule, const char* message) {
+        bool broken = false;
+        std::string path = percent_decoded(text, broken);
+        if (broken) return read_as(std::move(path), "uri.percent", "a '%' that escapes nothing, taken as it is");
+        read_as(std::move(path), rule, message);
+    };
+    decoded(uri, nullptr, nullptr);
+    if (uri.find('%') != std::string_view::npos)
+        read_as(std::string{uri}, "uri.escaped_name", "a file whose own name holds the escape");
+    const std::size_t end = uri.find_first_of("?#");
+    if (end != std::string_view::npos && end > 0)
+        decoded(uri.substr(0, end), "uri.query", "what follows '?' or '#' is left out");
+    return readings;
 }
 
 bool is_data_uri(std::string_view uri) { return uri.starts_with(kDataScheme); }
@@ -107,8 +153,10 @@ Bytes decode_data_uri(std::string_view uri, const std::string& pointer) {
     if (comma == std::string_view::npos) fail("uri.data", pointer, "a data URI without a comma");
     const std::string_view header = uri.substr(0, comma);
     const std::string_view body = uri.substr(comma + 1);
-    if (header.ends_with(kBase64Mark)) return decode_base64(body, pointer);
-    const std::string plain = percent_decoded(body, pointer);
+    const bool base64 = header.ends_with(kBase64Mark);
+    if (base64 && body.find('%') == std::string_view::npos) return decode_base64(body, pointer);
+    const std::string plain = data_decoded(body, pointer);
+    if (base64) return decode_base64(plain, pointer);
     Bytes bytes(plain.size());
     for (std::size_t i = 0; i < plain.size(); ++i) bytes[i] = static_cast<std::byte>(plain[i]);
     return bytes;

@@ -45,6 +45,7 @@ struct Topology {
 struct Mesh {
     std::string name;
     std::vector<Vertex> vertices;
+    std::vector<glm::vec4> colours;      // COLOR_0, linear, [0, 1]: one per vertex, or empty where all are 1
     std::vector<std::uint32_t> indices;  // triangle list; every index < vertices.size()
     std::vector<Submesh> submeshes;      // cover indices in order, without gaps
     math::Aabb bounds_ms;                // recomputed, never the file's
@@ -81,6 +82,7 @@ struct CameraData {
     std::string name;
     CameraKind kind = CameraKind::perspective;
     double fov_y_rad = 0.9, half_height_m = 5.0, near_m = 0.05, far_m = 0.0;  // far 0: infinite
+    double aspect = 0.0;  // width by height of the frame that its author chose; 0: none was chosen
 };
 
 enum class LightType : std::uint8_t { directional, spot, point };

@@ -87,6 +87,39 @@ class BadInput(GameTest):
         bad("nan.glb", lambda d: d["nodes"][-1].update(translation=[float("nan"), 0, 0]))
         bad("light_index.glb", lambda d: d["nodes"][-2].update(extensions={"KHR_lights_punctual": {"light": 77}}))
 
+    def test_what_is_merely_outside_the_letter_is_drawn_with_a_warning(self):
+        """A cone without an edge, a range of 0, a camera behind itself, and bytes after the end."""
+        self.make_scene("good.glb")
+        document, binary = glb_parts(self.path("good.glb"))
+        lights = document["extensions"]["KHR_lights_punctual"]["lights"]
+        lights[0]["range"] = 0
+        lights.append({"type": "spot", "spot": {"innerConeAngle": 0.4, "outerConeAngle": 0.4}})
+        document.setdefault("cameras", []).append(
+            {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": -1, "zfar": 9}})
+        write_glb(self.path("odd.glb"), document, binary)
+        with open(self.path("odd.glb"), "ab") as file:
+            file.write(b"tail")
+        done = self.run_game("--frames", 1, "--size", "64x64", "--scene", self.path("odd.glb"))
+        lines = done.stderr.decode().splitlines()
+        for rule in ("light.range", "light.cone", "camera.near", "glb.length"):
+            named = [line for line in lines if "[%s]" % rule in line]
+            self.assertEqual(len(named), 1, lines)
+            self.assertIn("warning: " + self.path("odd.glb") + ": ", named[0])
+
+    def test_names_of_lights_longer_than_names_of_files(self):
+        self.make_scene("good.glb")
+        document, binary = glb_parts(self.path("good.glb"))
+        shown = [n for n in document["nodes"] if "KHR_lights_punctual" in n.get("extensions", {})]
+        for node in shown:
+            node["name"] = "x" * 300
+        write_glb(self.path("long.glb"), document, binary)
+        folder = self.path("out")
+        self.run_game("--frames", 1, "--size", "64x64", "--scene", self.path("long.glb"), "--visibility", folder)
+        names = sorted(name for name in os.listdir(folder))
+        self.assertGreaterEqual(len(names), 2)
+        self.assertEqual(names[0], "x" * 200 + ".1.pfm")
+        self.assertIn("x" * 200 + ".pfm", names)
+
     def test_outputs_that_cannot_be_written_are_refused_before_the_work(self):
         plain = self.write("plain", b"x")
         for flag, target in (("--screenshot", self.path("no", "such", "a.png")), ("--stats", self.path("no", "s.json")),

@@ -1,5 +1,6 @@
 #include "tests/fuzz/gltf_mutator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <set>
 
+#include "engine/assets/gltf_limits.h"
 #include "tests/unit/assets/gltf_builder.h"
 
 namespace gnomon::test {
@@ -69,6 +71,7 @@ GltfBuilder rich_seed() {
     json& attributes = builder.doc["meshes"][0]["primitives"][0]["attributes"];
     attributes["NORMAL"] = builder.add_accessor<std::int8_t>({0, 0, 127, 0, 127, 0, 127, 0, 0}, "VEC3", true);
     attributes["TEXCOORD_0"] = builder.add_accessor<std::uint16_t>({0, 0, 65535, 0, 0, 65535}, "VEC2", true);
+    attributes["COLOR_0"] = builder.add_accessor<std::uint8_t>({255, 0, 0, 0, 255, 9, 1, 2, 255}, "VEC3", true);
     const std::vector<std::uint8_t> strip = {0, 1, 2, 1, 0};
     const int corners = builder.add_accessor<std::uint8_t>(strip, "SCALAR");
     builder.doc["meshes"][0]["primitives"].push_back(
@@ -234,7 +237,13 @@ void check_mesh(const assets::Mesh& mesh, std::size_t materials) {
     if (next != mesh.indices.size() || next % 3 != 0) broken("submeshes cover the indices");
     for (const std::uint32_t index : mesh.indices) {
         if (index >= mesh.vertices.size()) broken("indices in range");
+        const glm::vec3 size = glm::abs(mesh.vertices[index].position_ms);
+        if (!(std::max({size.x, size.y, size.z}) <= assets::gltf::kMaxPosition_ms)) broken("corners near the origin");
     }
+    if (!mesh.colours.empty() && mesh.colours.size() != mesh.vertices.size()) broken("a colour per vertex or none");
+    for (const glm::vec4& colour : mesh.colours)
+        for (int i = 0; i < 4; ++i)
+            if (!(colour[i] >= 0.0F && colour[i] <= 1.0F)) broken("colours from 0 to 1");
     for (const auto& vertex : mesh.vertices) {
         if (!finite(vertex.position_ms) || !finite(vertex.normal_ms) || !finite({vertex.uv, 0.0F}))
             broken("finite vertices");
@@ -332,7 +341,7 @@ void load_and_check(std::span<const std::byte> file) {
     check_living(scene);
     for (const auto& light : scene.lights) {
         if (!std::isfinite(light.intensity) || !finite(light.colour) ||
-            !(light.inner_cone_rad < light.outer_cone_rad)) {
+            !(light.inner_cone_rad <= light.outer_cone_rad)) {
             broken("lights are lights");
         }
     }

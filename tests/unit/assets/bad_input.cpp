@@ -27,18 +27,12 @@ std::vector<BadInput> framing_inputs() {
         {"WrongMagic", "glb.magic", "", spoilt_glb([](Bytes& b) { b[0] = std::byte{'x'}; }), "bad.glb"},
         {"HeaderCutShort", "glb.truncated", "", spoilt_glb([](Bytes& b) { b.resize(15); })},
         {"BodyCutShort", "glb.truncated", "", spoilt_glb([](Bytes& b) { b.resize(b.size() - 8); })},
-        {"LongerThanItsHeaderSays", "glb.length", "", spoilt_glb([](Bytes& b) { b.resize(b.size() + 4); })},
         {"GlbVersion1", "glb.version", "", spoilt_glb([](Bytes& b) { put_u32(b, 4, 1); })},
         {"ChunkTooLong", "glb.chunk_length", "", spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 0xFFFFFFF0U); })},
         {"BinChunkTooLong", "glb.chunk_length", "", spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b), 0x1000); })},
-        {"ChunkNotAligned", "glb.chunk_alignment", "", spoilt_glb([](Bytes& b) { put_u32(b, kGlbJsonLength, 21); })},
         {"FirstChunkIsNotJson", "glb.first_chunk", "", spoilt_glb([](Bytes& b) { put_u32(b, 16, 0x004E4942); })},
         {"TwoJsonChunks", "glb.duplicate_chunk", "",
          spoilt_glb([](Bytes& b) { put_u32(b, bin_chunk_at(b) + 4, 0x4E4F534A); })},
-        {"ChunkHeaderCutShort", "glb.chunk_header", "", spoilt_glb([](Bytes& b) {
-             b.resize(b.size() + 4);
-             put_u32(b, 8, static_cast<std::uint32_t>(b.size()));
-         })},
     };
 }
 
@@ -120,12 +114,6 @@ std::vector<BadInput> buffer_inputs() {
          spoilt([](json& d) { d["bufferViews"][1]["byteLength"] = 1000; })},
         {"ViewOffsetOverflows", "buffer_view.out_of_range", "/bufferViews/0",
          spoilt([](json& d) { d["bufferViews"][0]["byteOffset"] = (std::uint64_t{1} << 53); })},
-        {"EmptyView", "buffer_view.empty", "/bufferViews/0/byteLength",
-         spoilt([](json& d) { d["bufferViews"][0]["byteLength"] = 0; })},
-        {"StrideTooLarge", "buffer_view.stride", "/bufferViews/0/byteStride",
-         spoilt([](json& d) { d["bufferViews"][0]["byteStride"] = 256; })},
-        {"StrideNoMultipleOfFour", "buffer_view.stride", "/bufferViews/0/byteStride",
-         spoilt([](json& d) { d["bufferViews"][0]["byteStride"] = 14; })},
         {"ElementsOverlap", "accessor.stride", "/accessors/0",
          spoilt([](json& d) { d["bufferViews"][0]["byteStride"] = 8; })},
         {"AccessorPastItsView", "accessor.out_of_range", "/accessors/0",
@@ -142,14 +130,10 @@ std::vector<BadInput> buffer_inputs() {
              d["accessors"][0].erase("bufferView");
              d["accessors"][0]["count"] = 8'000'000;
          })},
-        {"CountOfZero", "accessor.empty", "/accessors/1/count",
-         spoilt([](json& d) { d["accessors"][1]["count"] = 0; })},
         {"UnknownComponentType", "accessor.component_type", "/accessors/0/componentType",
          spoilt([](json& d) { d["accessors"][0]["componentType"] = 5124; })},
         {"ComponentTypeFarOff", "accessor.component_type", "/accessors/1/componentType",
          spoilt([](json& d) { d["accessors"][1]["componentType"] = 0; })},
-        {"SparseCountOfZero", "accessor.sparse_count", "/accessors/0/sparse/count",
-         sparse({0}, [](json& a) { a["sparse"]["count"] = 0; })},
         {"SparseCountAboveCount", "accessor.sparse_count", "/accessors/0/sparse/count",
          sparse({0, 1, 2, 3}, [](json&) {})},
         {"SparseIndicesOfFloats", "accessor.sparse_index_type", "/accessors/0/sparse/indices/componentType",
@@ -170,6 +154,14 @@ std::vector<BadInput> mesh_inputs() {
     const char* const kPosition = "/meshes/0/primitives/0/attributes/POSITION";
     const char* const kIndices = "/meshes/0/primitives/0/indices";
     return {
+        {"FarAwayMeshThatBends", "position.too_large", "/meshes/0",
+         [] {
+             GltfBuilder builder = triangle();
+             builder.doc["accessors"][0]["bufferView"] =
+                 builder.add_view(std::vector<float>{2e6F, 0, 0, 3e6F, 0, 0, 2e6F, 1, 0}.data(), 9 * sizeof(float));
+             builder.doc["meshes"][0]["primitives"][0]["targets"] = json::array({{{"POSITION", 0}}});
+             return builder.gltf();
+         }},
         {"NoPosition", "primitive.no_position", "/meshes/0/primitives/0/attributes",
          spoilt([](json& d) { d["meshes"][0]["primitives"][0]["attributes"] = json::object(); })},
         {"ModeSeven", "primitive.mode", "/meshes/0/primitives/0/mode",
@@ -185,16 +177,6 @@ std::vector<BadInput> mesh_inputs() {
          spoilt([](json& d) { d["meshes"][0]["primitives"][0]["indices"] = 0; })},
         {"PositionOfShorts", "attribute.type", kPosition,
          spoilt([](json& d) { d["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 1; })},
-        {"NanPosition", "accessor.not_finite", "/accessors/0", positions({0, 0, 0, kNan, 0, 0, 0, 1, 0})},
-        {"InfinitePosition", "accessor.not_finite", "/accessors/0", positions({0, 0, 0, 1, -kInfinity, 0, 0, 1, 0})},
-        {"PositionTooLarge", "position.too_large", kPosition, positions({0, 0, 0, 1.1e6F, 0, 0, 0, 1, 0})},
-        {"NormalsOfAnotherCount", "attribute.count", "/meshes/0/primitives/0/attributes/NORMAL",
-         [] {
-             GltfBuilder builder = triangle();
-             const int normal = builder.add_accessor<float>({0, 0, 1}, "VEC3");
-             builder.doc["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = normal;
-             return builder.gltf();
-         }},
         {"TooManyVertices", "total.decoded_bytes", kPosition,
          [] {
              GltfBuilder builder = triangle();
@@ -237,22 +219,10 @@ std::vector<BadInput> node_inputs() {
          nodes({{{"children", {1, 1}}}, json::object()})},
         {"ChainTooDeep", "node.too_deep", "/nodes/256", nodes(chain(limits::kMaxNodeDepth + 1))},
         {"ChainMuchTooDeep", "node.too_deep", "/nodes/256", nodes(chain(100'000))},
-        {"SceneListsANodeTwice", "scene.node_twice", "/nodes/0", spoilt([](json& d) {
-             d["scenes"] = json::array({{{"nodes", {0, 0}}}});
-         })},
-        {"SceneListsAParentAndItsChild", "scene.node_twice", "/nodes/1", spoilt([](json& d) {
-             d["nodes"] = json::array({{{"children", {1}}}, json::object()});
-             d["scenes"] = json::array({{{"nodes", {0, 1}}}});
-         })},
-        {"ShearingMatrix", "node.matrix_not_decomposable", "/nodes/0/matrix",
-         nodes({{{"matrix", {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})},
         {"ProjectiveMatrix", "node.matrix_not_affine", "/nodes/0/matrix",
          nodes({{{"matrix", {1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}}})},
-        {"MatrixBesideTranslation", "node.matrix_and_trs", "/nodes/0/matrix",
-         nodes({{{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}, {"translation", {0, 0, 0}}}})},
         {"MatrixOverflows", "node.not_finite", "/nodes/0/matrix",
          nodes({{{"matrix", {1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1e300, 0, 0, 0, 0, 1}}}})},
-        {"RotationOfZero", "node.rotation", "/nodes/0/rotation", nodes({{{"rotation", {0, 0, 0, 0}}}})},
         {"RotationOverflows", "node.rotation", "/nodes/0/rotation", nodes({{{"rotation", {1e200, 0, 0, 0}}}})},
         {"OutOfTheWorld", "node.out_of_world", "/nodes/0", nodes({{{"translation", {2e10, 0, 0}}}})},
         {"ScaledOutOfTheWorld", "node.out_of_world", "/nodes/0", nodes({{{"mesh", 0}, {"scale", {1e11, 1, 1}}}})},
@@ -262,46 +232,18 @@ std::vector<BadInput> node_inputs() {
 }
 
 std::vector<BadInput> light_and_camera_inputs() {
-    static const std::string type = std::string{kLight0} + "/type", spot = std::string{kLight0} + "/spot",
-                             intensity = std::string{kLight0} + "/intensity", range = std::string{kLight0} + "/range",
+    static const std::string type = std::string{kLight0} + "/type", intensity = std::string{kLight0} + "/intensity",
                              colour = std::string{kLight0} + "/color";
-    const auto cone = [](double inner, double outer) {
-        return light({{"type", "spot"}, {"spot", {{"innerConeAngle", inner}, {"outerConeAngle", outer}}}});
-    };
     return {
         {"UnknownLightType", "property.choice", type.c_str(), light({{"type", "area"}})},
-        {"SpotWithoutSpot", "property.missing", kLight0, light({{"type", "spot"}})},
-        {"ConeInverted", "light.cone", spot.c_str(), cone(0.5, 0.4)},
-        {"ConeEmpty", "light.cone", spot.c_str(), cone(0.4, 0.4)},
-        {"ConeNegative", "light.cone", spot.c_str(), cone(-0.1, 0.4)},
-        {"ConeWiderThanAHalfSphere", "light.cone", spot.c_str(), cone(0, 1.6)},
-        {"IntensityNegative", "light.intensity", intensity.c_str(), light({{"type", "point"}, {"intensity", -1e308}})},
         {"IntensityBeyondFloat", "light.intensity", intensity.c_str(), light({{"type", "point"}, {"intensity", 1e39}})},
-        {"RangeZero", "light.range", range.c_str(), light({{"type", "point"}, {"range", 0}})},
-        {"RangeNegative", "light.range", range.c_str(), light({{"type", "point"}, {"range", -2}})},
-        {"ColourNegative", "light.colour", colour.c_str(), light({{"type", "point"}, {"color", {1, -1, 0}}})},
+        {"IntensityBelowFloat", "light.intensity", intensity.c_str(),
+         light({{"type", "point"}, {"intensity", -1e308}})},
+        {"ColourBeyondFloat", "light.colour", colour.c_str(), light({{"type", "point"}, {"color", {1, 1e39, 0}}})},
         {"UnknownCameraType", "property.choice", "/cameras/0/type", camera({{"type", "fisheye"}})},
         {"CameraWithoutLens", "property.missing", "/cameras/0", camera({{"type", "perspective"}})},
-        {"FovZero", "camera.fov", "/cameras/0/perspective/yfov", camera(perspective(0, 1, 2))},
-        {"FovOfAFullTurn", "camera.fov", "/cameras/0/perspective/yfov", camera(perspective(3.2, 1, 2))},
-        {"NearZero", "camera.near", "/cameras/0/perspective/znear", camera(perspective(1, 0, 2))},
-        {"FarBeforeNear", "camera.far", "/cameras/0/perspective/zfar", camera(perspective(1, 2, 1))},
-        {"OrthographicSizeZero", "camera.size", "/cameras/0/orthographic/ymag", camera(orthographic(0, 0, 1))},
-        {"OrthographicNearNegative", "camera.near", "/cameras/0/orthographic/znear", camera(orthographic(1, -1, 1))},
-        {"OrthographicFarBeforeNear", "camera.far", "/cameras/0/orthographic/zfar", camera(orthographic(1, 2, 2))},
-        {"EmissionNegative", "material.range", "/materials/0/emissiveFactor", spoilt([](json& d) {
-             d["materials"] = json::array({{{"emissiveFactor", {0, -1, 0}}}});
-         })},
-        {"CutoffNegative", "material.range", "/materials/0/alphaCutoff", spoilt([](json& d) {
-             d["materials"] = json::array({{{"alphaCutoff", -0.5}}});
-         })},
-        {"UvSetBeyondAnyFile", "material.uv_set", "/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord",
-         spoilt([](json& d) {
-             d["textures"] = json::array({json::object()});
-             d["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 99}}}}}}};
-         })},
-        {"FactorBeyondFloat", "material.range", "/materials/0/pbrMetallicRoughness/metallicFactor", spoilt([](json& d) {
-             d["materials"] = {{{"pbrMetallicRoughness", {{"metallicFactor", 1e300}}}}};
+        {"EmissionBeyondFloat", "material.range", "/materials/0/emissiveFactor", spoilt([](json& d) {
+             d["materials"] = json::array({{{"emissiveFactor", {0, 1e300, 0}}}});
          })},
     };
 }

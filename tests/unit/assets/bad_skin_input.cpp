@@ -34,8 +34,6 @@ std::vector<BadInput> skin_and_animation_inputs() {
         return b.doc["meshes"][0]["primitives"][0]["attributes"][name];
     };
     return {
-        {"SkinWithoutJoints", "skin.no_joints", "/skins/0/joints",
-         skin([](GltfBuilder& b) { b.doc["skins"][0]["joints"] = json::array(); })},
         {"UnknownSkin", "reference.unresolved", "/nodes/0/skin",
          skin([](GltfBuilder& b) { b.doc["nodes"][0]["skin"] = 3; })},
         {"UnknownJoint", "reference.unresolved", "/skins/0/joints/0",

@@ -62,8 +62,40 @@ TEST_F(BadUri, PathsOutOfTheFolderAreRefused) {
     EXPECT_EQ(rule_of("%2e%2e/secret.bin"), "uri.escapes_folder");
     EXPECT_EQ(rule_of("..%2Fsecret.bin"), "uri.escapes_folder");
     EXPECT_EQ(rule_of("parts/../../secret.bin"), "uri.escapes_folder");
-    EXPECT_EQ(rule_of("parts/../mesh.bin"), "uri.escapes_folder") << "no parent step at all, also a harmless one";
+    EXPECT_EQ(rule_of("parts/../%2e%2e/secret.bin"), "uri.escapes_folder");
+    EXPECT_EQ(rule_of("parts\\..\\..\\secret.bin"), "uri.escapes_folder");
+    EXPECT_EQ(rule_of("mesh.bin/../../secret.bin?v=1"), "uri.escapes_folder");
+    EXPECT_EQ(rule_of("nowhere/../../asset/mesh.bin"), "uri.escapes_folder") << "it may not even be left and entered";
     EXPECT_EQ(rule_of("..\\secret.bin"), "uri.escapes_folder");
+}
+
+TEST_F(BadUri, NamesThatOtherReadersFindAreFoundWithAWarning) {
+    write(root_ / "asset/example 10%.bin", builder_.binary);
+    write(root_ / "asset/big%20mesh.bin", builder_.binary);
+    struct Row {
+        const char* uri;
+        const char* rule;
+    };
+    const Row rows[] = {{"example 10%.bin", "uri.percent"},      {"big%20mesh.bin", "uri.escaped_name"},
+                        {"mesh.bin?v=3", "uri.query"},           {"mesh.bin#part", "uri.query"},
+                        {"parts\\my mesh.bin", "uri.backslash"}, {"parts\\..\\mesh.bin", "uri.backslash"},
+                        {"./parts/../mesh.bin", nullptr},        {"no such folder/../mesh.bin", nullptr}};
+    for (const Row& row : rows) {
+        const auto result = load_with_uri(row.uri);
+        ASSERT_TRUE(result) << row.uri << ": " << to_line(result.error());
+        EXPECT_EQ(result.value().meshes.size(), 1U);
+        if (row.rule == nullptr)
+            EXPECT_THAT(result.value().warnings, testing::IsEmpty()) << row.uri;
+        else
+            EXPECT_THAT(result.value().warnings,
+                        testing::ElementsAre(testing::AllOf(testing::StartsWith("/buffers/0/uri: "),
+                                                            testing::HasSubstr("[" + std::string(row.rule) + "]"))))
+                << row.uri;
+    }
+    write(root_ / "asset/mesh.bin?v=3", {});
+    const auto named = load_with_uri("mesh.bin?v=3");
+    ASSERT_FALSE(named) << "what the letter names comes first";
+    EXPECT_EQ(named.error().rule, "buffer.too_short");
 }
 
 TEST_F(BadUri, LinksOutOfTheFolderAreRefused) {
@@ -90,8 +122,8 @@ TEST_F(BadUri, AbsolutePathsAndSchemesAreRefused) {
 
 TEST_F(BadUri, BrokenTextIsRefused) {
     EXPECT_EQ(rule_of(""), "uri.empty");
-    EXPECT_EQ(rule_of("mesh%2"), "uri.percent");
-    EXPECT_EQ(rule_of("mesh%zz.bin"), "uri.percent");
+    EXPECT_EQ(rule_of("mesh%2"), "uri.not_found");
+    EXPECT_EQ(rule_of("?v=3"), "uri.not_found");
     EXPECT_EQ(rule_of("mesh.bin%00.png"), "uri.control_character");
     EXPECT_EQ(rule_of("mesh\n.bin"), "uri.control_character");
 }

@@ -196,6 +196,8 @@ TEST(SceneImport, ReadsCameras) {
     EXPECT_EQ(scene.cameras[1].far_m, 50.0);
     EXPECT_EQ(scene.cameras[2].kind, assets::CameraKind::orthographic);
     EXPECT_EQ(scene.cameras[2].half_height_m, 3.0);
+    EXPECT_EQ(scene.cameras[0].aspect, 0.0) << "none was chosen";
+    EXPECT_EQ(scene.cameras[2].aspect, 2.0 / 3.0);
     EXPECT_EQ(scene.nodes.at(0).camera, 2);
 }
 

@@ -186,5 +186,15 @@ TEST(LightNames, AreFitForFilesAndUnique) {
     EXPECT_EQ(names.next("../../etc", "", 6), ".._.._etc");
 }
 
+TEST(LightNames, AreShortEnoughForFilesAndStillUnique) {
+    LightNames names;
+    const std::string longer(300, 'x');
+    EXPECT_EQ(names.next(longer, "", 0), std::string(200, 'x'));
+    EXPECT_EQ(names.next(longer + "y", "", 1), std::string(200, 'x') + ".1");
+    EXPECT_EQ(names.next("", longer, 2), std::string(200, 'x') + ".2");
+    EXPECT_EQ(names.next(std::string(200, 'x'), "", 3), std::string(200, 'x') + ".3");
+    EXPECT_EQ(names.next(std::string(199, 'x'), "", 4), std::string(199, 'x')) << "what fits is kept whole";
+}
+
 }  // namespace
 }  // namespace gnomon::game
