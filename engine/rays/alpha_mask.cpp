@@ -47,6 +47,13 @@ bool is_there(const assets::MeshLibrary& library, const assets::Mesh& mesh, std:
             uv += weights[static_cast<glm::length_t>(i)] * glm::dvec2(mesh.vertices[corner[i]].uv);
         alpha *= sampled(library.textures[texture], uv);
     }
+    if (!mesh.colours.empty()) {
+        const std::uint32_t* corner = &mesh.indices[std::size_t{3} * triangle];
+        double between = 0.0;
+        for (std::size_t i = 0; i < 3; ++i)
+            between += weights[static_cast<glm::length_t>(i)] * static_cast<double>(mesh.colours[corner[i]].a);
+        alpha *= between;
+    }
     return alpha >= static_cast<double>(material.alpha_cutoff);
 }
 

@@ -5,6 +5,10 @@ layout(location = 0) in vec3 position_ms;
 layout(location = 1) in vec3 normal_ms;
 layout(location = 2) in vec2 uv;
 layout(location = 3) in uvec2 draw_item;   // instance, first triangle
+#ifdef COLOURED
+#include "shared/vertex_colour.glsl"
+out vec4 fragment_colour;
+#endif
 out vec3 fragment_position_ca;
 out vec3 fragment_normal;
 out vec2 fragment_uv;
@@ -19,6 +23,9 @@ void main() {
     fragment_position_ca = position_ca;
     fragment_normal = normal_from_model(instance, normal_ms);
     fragment_uv = uv;
+#ifdef COLOURED
+    fragment_colour = vertex_colour();
+#endif
     fragment_item = draw_item;
 #if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
     corner = uint(gl_VertexID);

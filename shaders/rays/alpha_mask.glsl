@@ -12,16 +12,19 @@ struct RayMask {
     uint width, height;
     uint wrap_u, wrap_v;
     bool linear;
+    bool coloured;           // triangles have the alpha of their corners behind their coordinates
     float chord_texel;       // how wide what it leaves is, on the average
 };
 
 RayMask ray_mask(uint at) {
     return RayMask(uintBitsToFloat(ray_masks[at]), uintBitsToFloat(ray_masks[at + 1u]), ray_masks[at + 2u],
-                   ray_masks[at + 3u], ray_masks[at + 4u], ray_masks[at + 5u], ray_masks[at + 6u], ray_masks[at + 7u] != 0u,
+                   ray_masks[at + 3u], ray_masks[at + 4u], ray_masks[at + 5u], ray_masks[at + 6u], (ray_masks[at + 7u] & 1u) != 0u, (ray_masks[at + 7u] & 2u) != 0u,
                    uintBitsToFloat(ray_masks[at + 8u]));
 }
 
 vec2 mask_uv(uint at) { return vec2(uintBitsToFloat(ray_masks[at]), uintBitsToFloat(ray_masks[at + 1u])); }
+
+float corner_alpha(uint uvs, uint corner) { return uintBitsToFloat(ray_masks[uvs + 6u + corner]); }
 
 // `texel` is a whole number.
 uint wrapped_texel(float texel, uint size, uint wrap) {
@@ -57,5 +60,7 @@ bool is_there(uint mask, uint uvs, vec3 weights) {
     float alpha = m.alpha;
     if (m.texels != kNoMaskTexture)
         alpha *= sampled_alpha(m, weights.x * mask_uv(uvs) + weights.y * mask_uv(uvs + 2u) + weights.z * mask_uv(uvs + 4u));
+    if (m.coloured)
+        alpha *= weights.x * corner_alpha(uvs, 0u) + weights.y * corner_alpha(uvs, 1u) + weights.z * corner_alpha(uvs, 2u);
     return alpha >= m.cutoff;
 }

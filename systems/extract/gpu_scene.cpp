@@ -22,6 +22,20 @@ std::vector<glm::vec4> plane_normals(const assets::MeshLibrary& library) {
     return normals;
 }
 
+/// A colour for each vertex of the library; none if no mesh has colours.
+std::vector<glm::vec4> vertex_colours(const assets::MeshLibrary& library) {
+    std::vector<glm::vec4> colours;
+    const bool any = std::any_of(library.meshes.begin(), library.meshes.end(),
+                                 [](const assets::Mesh& mesh) { return !mesh.colours.empty(); });
+    if (!any) return colours;
+    for (const assets::Mesh& mesh : library.meshes) {
+        const std::size_t first = colours.size();
+        colours.insert(colours.end(), mesh.colours.begin(), mesh.colours.end());
+        colours.resize(first + mesh.vertices.size(), glm::vec4(1.0f));
+    }
+    return colours;
+}
+
 gl::Wrap wrap(assets::TextureWrap w) {
     switch (w) {
         case assets::TextureWrap::repeat:
@@ -158,6 +172,9 @@ Result<GpuScene> GpuScene::create(gl::Device& device, const assets::MeshLibrary&
     if (f == gl::Failure::none) f = keep(scene.indices_, filled_buffer(device, "scene indices", indices));
     if (f == gl::Failure::none)
         f = keep(scene.triangle_normals_, filled_buffer(device, "triangle normals", plane_normals(library), use, true));
+    const std::vector<glm::vec4> colours = vertex_colours(library);
+    if (f == gl::Failure::none && !colours.empty())
+        f = keep(scene.colours_, filled_buffer(device, "vertex colours", colours, gl::BufferUse::fixed, true));
     if (f != gl::Failure::none) return failed("the scene's meshes", f);
 
     const std::uint32_t stride = aligned(sizeof(MaterialRecord), device.info().uniform_alignment);
@@ -244,6 +261,7 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     material_uniforms_ = std::exchange(other.material_uniforms_, {});
     caster_triangles_ = std::exchange(other.caster_triangles_, {});
     caster_masks_ = std::exchange(other.caster_masks_, {});
+    colours_ = std::exchange(other.colours_, {});
     bent_ = std::move(other.bent_);
     triangle_records_ = std::move(other.triangle_records_);
     bent_meshes_ = other.bent_meshes_;
@@ -269,8 +287,8 @@ GpuScene::~GpuScene() { release(); }
 
 void GpuScene::release() {
     if (!device_) return;
-    for (const gl::BufferHandle b :
-         {vertices_, indices_, instances_, triangle_normals_, material_uniforms_, caster_triangles_, caster_masks_})
+    for (const gl::BufferHandle b : {vertices_, indices_, instances_, triangle_normals_, material_uniforms_,
+                                     caster_triangles_, caster_masks_, colours_})
         device_->destroy(b);
     for (const gl::TextureHandle t : textures_) device_->destroy(t);
     for (const gl::SamplerHandle s : samplers_) device_->destroy(s);

@@ -45,6 +45,8 @@ float most_reflected(const assets::Material& material);
 /// Texture units of shaders/shared/instance_texels.glsl and shaders/lighting/surface_normals.glsl: above all that maps
 /// and rays use.
 inline constexpr std::uint32_t kInstanceUnit = 14, kTriangleNormalUnit = 15;
+/// Of shaders/shared/vertex_colour.glsl: one that passes over meshes leave free.
+inline constexpr std::uint32_t kColourUnit = 3;
 
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
 class GpuScene {
@@ -109,6 +111,9 @@ public:
 
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }
+    /// vec4 per vertex, white where a mesh has no colours, to be read as texels at kColourUnit by programs compiled
+    /// with COLOURED. {0}: no mesh has any.
+    gl::BufferHandle colours() const { return colours_; }
     /// InstanceRecord per slot, to be read as texels at kInstanceUnit.
     gl::BufferHandle instances() const { return instances_; }
     /// vec4 per triangle of `indices`, in model space, to be read as texels at kTriangleNormalUnit.
@@ -139,7 +144,7 @@ private:
     bool any_unlit_ = false;
     float most_emissive_ = 0.0f;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
-    gl::BufferHandle caster_triangles_{}, caster_masks_{};
+    gl::BufferHandle caster_triangles_{}, caster_masks_{}, colours_{};
     std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer
     std::vector<CasterTriangle> triangle_records_;  // of the whole library, if it has such meshes and they are provided
     std::vector<glm::vec4> normal_scratch_;

@@ -8,6 +8,8 @@ namespace gnomon {
 namespace {
 
 constexpr std::uint32_t kWordsPerTriangle = 6;  // u and v of three corners
+constexpr std::uint32_t kWordsWithColours = 9;  // and the alpha of their colours
+constexpr std::uint32_t kLinear = 1, kColoured = 2;
 constexpr std::size_t kTexelsPerWord = 4;
 
 }  // namespace
@@ -31,15 +33,19 @@ float mean_chord_texel(const assets::Texture& texture, float alpha, float cutoff
 }
 
 RayMasks::Place RayMasks::place(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t material) {
-    return {mask_of(material), uvs_of(mesh) + kWordsPerTriangle * triangle};
+    const bool coloured = !library_->meshes[mesh].colours.empty();
+    const std::uint32_t words = coloured ? kWordsWithColours : kWordsPerTriangle;
+    return {mask_of(material, coloured), uvs_of(mesh) + words * triangle};
 }
 
-std::uint32_t RayMasks::mask_of(std::uint32_t index) {
-    materials_.resize(library_->materials.size(), kUnset);
-    if (materials_[index] != kUnset) return materials_[index];
+std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
+    std::vector<std::uint32_t>& places = coloured ? coloured_ : materials_;
+    places.resize(library_->materials.size(), kUnset);
+    if (places[index] != kUnset) return places[index];
     const assets::Material& material = library_->materials[index];
     RayMask mask{.cutoff = material.alpha_cutoff,
                  .alpha = material.base_colour.a,
+                 .linear = coloured ? kColoured : 0,
                  .chord_texel = std::numeric_limits<float>::infinity()};
     const auto texture = static_cast<std::size_t>(material.base_colour_texture);
     if (material.base_colour_texture >= 0 && texture < library_->textures.size()) {
@@ -49,13 +55,13 @@ std::uint32_t RayMasks::mask_of(std::uint32_t index) {
         mask.height = t.height;
         mask.wrap_u = static_cast<std::uint32_t>(t.wrap_u);
         mask.wrap_v = static_cast<std::uint32_t>(t.wrap_v);
-        mask.linear = t.linear_filter ? 1 : 0;
+        mask.linear |= t.linear_filter ? kLinear : 0;
         if (mask.texels != kUnset) mask.chord_texel = mean_chord_texel(t, mask.alpha, mask.cutoff);
     }
     const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(RayMask) / sizeof(std::uint32_t)>>(mask);
-    materials_[index] = static_cast<std::uint32_t>(words_.size());
+    places[index] = static_cast<std::uint32_t>(words_.size());
     words_.insert(words_.end(), words.begin(), words.end());
-    return materials_[index];
+    return places[index];
 }
 
 /// kUnset, which is what shaders know as no texture, of one that holds too little.
@@ -77,9 +83,14 @@ std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
     if (uvs_[index] != kUnset) return uvs_[index];
     uvs_[index] = static_cast<std::uint32_t>(words_.size());
     const assets::Mesh& mesh = library_->meshes[index];
-    for (const std::uint32_t corner : mesh.indices)
-        for (const float coordinate : {mesh.vertices[corner].uv.x, mesh.vertices[corner].uv.y})
-            words_.push_back(std::bit_cast<std::uint32_t>(coordinate));
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const std::uint32_t* corners = &mesh.indices[i];
+        for (std::size_t c = 0; c < 3; ++c)
+            for (const float coordinate : {mesh.vertices[corners[c]].uv.x, mesh.vertices[corners[c]].uv.y})
+                words_.push_back(std::bit_cast<std::uint32_t>(coordinate));
+        for (std::size_t c = 0; c < 3 && !mesh.colours.empty(); ++c)
+            words_.push_back(std::bit_cast<std::uint32_t>(mesh.colours[corners[c]].a));
+    }
     return uvs_[index];
 }
 

@@ -13,7 +13,7 @@ struct RayMask {
     std::uint32_t texels = ~0u;  // word of the first, four to a word; ~0: alpha alone decides
     std::uint32_t width = 0, height = 0;
     std::uint32_t wrap_u = 0, wrap_v = 0;  // assets::TextureWrap
-    std::uint32_t linear = 0;
+    std::uint32_t linear = 0;  // bit 0: filtered; bit 1: triangles have their corners' alpha behind their coordinates
     float chord_texel = 0.0f;  // mean_chord_texel(); infinite where alpha alone decides
 };
 static_assert(sizeof(RayMask) == 36);
@@ -40,13 +40,14 @@ public:
 
 private:
     static constexpr std::uint32_t kUnset = ~0u;
-    std::uint32_t mask_of(std::uint32_t material);
+    std::uint32_t mask_of(std::uint32_t material, bool coloured);
     std::uint32_t texels_of(std::int32_t texture);
     std::uint32_t uvs_of(std::uint32_t mesh);
 
     const assets::MeshLibrary* library_;
     std::vector<std::uint32_t> words_;
     std::vector<std::uint32_t> materials_, textures_, uvs_;  // first word of each material's, texture's, mesh's; kUnset
+    std::vector<std::uint32_t> coloured_;                    // as materials_, on meshes with colours
 };
 
 }  // namespace gnomon

@@ -45,6 +45,19 @@ LightPrograms::~LightPrograms() {
         device_.destroy(e.program);
 }
 
+void LightPrograms::set_coloured(bool coloured) {
+    if (coloured == coloured_) return;
+    coloured_ = coloured;
+    for (Entry* entry : {&surface_, &surface_places_, &blended_base_, &unlit_surface_, &unlit_surface_places_, &unlit_blended_}) {
+        device_.destroy(entry->program);
+        *entry = {};
+    }
+    std::erase_if(rows_, [&](const RowEntry& row) {
+        if (row.output == RowOutput::blended) device_.destroy(row.entry.program);
+        return row.output == RowOutput::blended;
+    });
+}
+
 void LightPrograms::make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
                          std::span<const std::string> defines, const shadow::ProgramRow* row) {
     const std::string row_text = row ? shadow::row_glsl(*row) : std::string();
@@ -95,6 +108,7 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
     if (output == RowOutput::visibility || output == RowOutput::kept_visibility)
         defines.emplace_back("WRITE_VISIBILITY 1");
     if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
+    if (output == RowOutput::blended && coloured_) defines.emplace_back("COLOURED 1");
     if (output == RowOutput::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
     if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
@@ -120,30 +134,37 @@ gl::ProgramHandle LightPrograms::needed(Entry& entry, const char* label, const c
     return entry.program;
 }
 
-gl::ProgramHandle LightPrograms::surface(bool places) {
-    if (places) {
-        const std::string define = "WRITE_PLACES 1";
-        return needed(surface_places_, "surface with places", "lighting/surface.vert", "lighting/surface.frag",
-                      {&define, 1});
-    }
-    return needed(surface_, "surface", "lighting/surface.vert", "lighting/surface.frag");
+void LightPrograms::make_of_meshes(Entry& entry, const char* label, const char* fragment,
+                                   std::initializer_list<const char*> defines) {
+    std::vector<std::string> all(defines.begin(), defines.end());
+    if (coloured_) all.emplace_back("COLOURED 1");
+    make(entry, coloured_ ? std::string(label) + ", coloured" : label, "lighting/surface.vert", fragment, all, nullptr);
 }
-gl::ProgramHandle LightPrograms::wanted(Entry& entry, const char* label, const char* fragment,
-                                        std::span<const std::string> defines) {
-    if (is_due(entry)) make(entry, label, "lighting/surface.vert", fragment, defines, nullptr);
+gl::ProgramHandle LightPrograms::surface(bool places) {
+    Entry& entry = places ? surface_places_ : surface_;
+    if (entry.program) return entry.program;
+    if (places)
+        make_of_meshes(entry, "surface with places", "lighting/surface.frag", {"WRITE_PLACES 1"});
+    else
+        make_of_meshes(entry, "surface", "lighting/surface.frag", {});
     return entry.program;
 }
 gl::ProgramHandle LightPrograms::blended_base() {
-    return wanted(blended_base_, "blended base", "lighting/blended.frag", {});
+    if (is_due(blended_base_)) make_of_meshes(blended_base_, "blended base", "lighting/blended.frag", {});
+    return blended_base_.program;
 }
 gl::ProgramHandle LightPrograms::unlit_surface(bool places) {
-    const std::string defines[] = {"UNLIT 1", "WRITE_PLACES 1"};
-    if (places) return wanted(unlit_surface_places_, "unlit surface with places", "lighting/surface.frag", defines);
-    return wanted(unlit_surface_, "unlit surface", "lighting/surface.frag", {defines, 1});
+    Entry& entry = places ? unlit_surface_places_ : unlit_surface_;
+    if (!is_due(entry)) return entry.program;
+    if (places)
+        make_of_meshes(entry, "unlit surface with places", "lighting/surface.frag", {"UNLIT 1", "WRITE_PLACES 1"});
+    else
+        make_of_meshes(entry, "unlit surface", "lighting/surface.frag", {"UNLIT 1"});
+    return entry.program;
 }
 gl::ProgramHandle LightPrograms::unlit_blended() {
-    const std::string define = "UNLIT 1";
-    return wanted(unlit_blended_, "unlit blended", "lighting/blended.frag", {&define, 1});
+    if (is_due(unlit_blended_)) make_of_meshes(unlit_blended_, "unlit blended", "lighting/blended.frag", {"UNLIT 1"});
+    return unlit_blended_.program;
 }
 gl::ProgramHandle LightPrograms::luminance() {
     return needed(luminance_, "luminance", "shared/fullscreen.vert", "lighting/luminance.frag");

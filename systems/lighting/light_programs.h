@@ -1,4 +1,5 @@
 #pragma once
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,6 +58,9 @@ public:
     /// Whether surfaces may be unlit: programs that add light to the picture then ask each pixel for it, others need
     /// not.
     void set_some_unlit(bool some) { some_unlit_ = some; }
+    /// Whether what is drawn by meshes, surfaces and blended ones, has vertices with colours. Drops those programs if
+    /// that is not what they were made for.
+    void set_coloured(bool coloured);
     /// `places`: writes also where exactly surfaces are, for rows that ask by rays.
     gl::ProgramHandle surface(bool places = false);
     gl::ProgramHandle blended_base();
@@ -81,8 +85,9 @@ private:
     };
     RowEntry& find_or_add(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
     gl::ProgramHandle find_or_make(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
-    gl::ProgramHandle wanted(Entry& entry, const char* label, const char* fragment,
-                             std::span<const std::string> defines);
+    /// A program that draws meshes into the picture; with their vertices' colours where those are set.
+    void make_of_meshes(Entry& entry, const char* label, const char* fragment,
+                        std::initializer_list<const char*> defines);
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
     void make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
               std::span<const std::string> defines, const shadow::ProgramRow* row);
@@ -94,6 +99,7 @@ private:
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
     Entry unlit_surface_, unlit_surface_places_, unlit_blended_;
     bool some_unlit_ = false;
+    bool coloured_ = false;
     std::uint64_t frame_ = 0;
     std::uint32_t rows_left_ = kNoLimit;
     gl::Failure failure_ = gl::Failure::none;

@@ -183,6 +183,7 @@ void LightingSystem::bind_scene(const GpuScene& gpu, gl::CommandList& list) cons
     list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
     list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
     list.add(gl::BindTexels{kTriangleNormalUnit, gpu.triangle_normals()});
+    if (gpu.colours()) list.add(gl::BindTexels{kColourUnit, gpu.colours()});
     list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
 }
 
@@ -305,6 +306,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     passes_.clear();
     programs_.next_frame(settings.most_rows);
     programs_.set_some_unlit(gpu.any_unlit());
+    programs_.set_coloured(static_cast<bool>(gpu.colours()));
     report.failure = prepare(inputs, scene);
     if (report.failure != gl::Failure::none) {
         // What was freed is only given back when the device has done its work: then there may be room.

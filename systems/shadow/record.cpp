@@ -62,14 +62,16 @@ DepthRecorder::~DepthRecorder() {
 
 /// Index of a depth program. `automatic` has become one of the others by now.
 std::size_t DepthRecorder::which(const Way& way, bool masked) {
-    if (way.peel) return kPrograms - 1;
+    if (way.peel) return kPlainPrograms - 1;
     const std::size_t route =
         way.route == CubeRoute::layered_vertex ? 1 : (way.route == CubeRoute::layered_geometry ? 2 : 0);
-    return 4 * route + (way.triangles ? 2 : 0) + (masked ? 1 : 0);
+    const std::size_t coloured = masked && way.coloured ? kPlainPrograms : 0;
+    return coloured + 4 * route + (way.triangles ? 2 : 0) + (masked ? 1 : 0);
 }
 
-DepthRecorder::Way DepthRecorder::way_of(const ShadowSlot& slot) {
-    return {slot.route, static_cast<bool>(slot.triangles), static_cast<bool>(slot.second), false};
+DepthRecorder::Way DepthRecorder::way_of(const GpuScene& gpu, const ShadowSlot& slot) {
+    return {slot.route, static_cast<bool>(slot.triangles), static_cast<bool>(slot.second), false,
+            static_cast<bool>(gpu.colours())};
 }
 
 bool DepthRecorder::program(const Way& way, bool masked) {
@@ -79,6 +81,8 @@ bool DepthRecorder::program(const Way& way, bool masked) {
     std::vector<std::string> defines;
     std::string label = masked ? "depth masked" : "depth opaque";
     if (masked) defines.emplace_back("MASKED 1");
+    if (masked && way.coloured) defines.emplace_back("COLOURED 1");
+    if (masked && way.coloured) label += ", coloured";
     if (way.triangles) defines.emplace_back("TRIANGLES 1");
     if (way.triangles) label += way.peel ? ", peeled" : ", triangles";
     if (way.route != CubeRoute::six_passes) defines.emplace_back("LAYERED 1");
@@ -128,9 +132,9 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
         const LightTime time(frame, frame.demands[view.demand].light);
         const auto casters = drawn_casters(frame, v);
         const ShadowSlot& slot = frame.slots[v];
-        if (slot.whole && ready(scene, gpu, way_of(slot), casters) == Reason::depth_program_failed)
+        if (slot.whole && ready(scene, gpu, way_of(gpu, slot), casters) == Reason::depth_program_failed)
             draw_separately(frame, view.demand);
-        const Reason reason = ready(scene, gpu, way_of(slot), casters);
+        const Reason reason = ready(scene, gpu, way_of(gpu, slot), casters);
         if (reason != Reason::none) {
             drop_light(frame, view.demand, reason);
             continue;
@@ -218,6 +222,7 @@ void DepthRecorder::begin_pass_into(gl::TargetHandle target, const GpuScene& gpu
     list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
     list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
+    if (gpu.colours()) list.add(gl::BindTexels{kColourUnit, gpu.colours()});
     list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
 }
 
@@ -271,7 +276,7 @@ void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, Shad
         const ShadowSlot& slot = frame.slots[pass.first];
         pipeline_ = {};
         begin(scene, gpu, frame, pass, list);
-        const Way way = way_of(slot);
+        const Way way = way_of(gpu, slot);
         draw(scene, gpu, frame, pass, way, pass.still, list, light_report);
         if (slot.still_use == StillUse::fill) {
             list.add(gl::EndPass{});

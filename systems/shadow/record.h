@@ -40,6 +40,7 @@ private:
         bool triangles = false;  // writes which triangle each texel shows
         bool sheets = false;     // of no masked caster, and of both faces
         bool peel = false;       // of the triangles behind those
+        bool coloured = false;   // the scene's vertices have colours, whose alpha counts in masks
     };
     /// Casters that stand still, or those that move: never in one draw.
     struct Group {
@@ -54,7 +55,7 @@ private:
         Group still, moving;
     };
     static std::size_t which(const Way& way, bool masked);
-    static Way way_of(const ShadowSlot& slot);
+    static Way way_of(const GpuScene& gpu, const ShadowSlot& slot);
     bool program(const Way& way, bool masked);
     Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way,
                  std::span<const std::uint32_t> casters);
@@ -82,8 +83,9 @@ private:
                   std::uint32_t count, std::uint32_t items_per_draw, gl::CommandList& list, LightReport& report);
 
     gl::Device& device_;
-    static constexpr std::size_t kPrograms =
-        13;  // three ways to choose the layer, opaque and masked, depth alone or triangles, too; and what peels
+    /// Three ways to choose the layer, opaque and masked, depth alone or triangles, too; what peels; and masked ones
+    /// with colours, by the same way.
+    static constexpr std::size_t kPlainPrograms = 13, kPrograms = 25;
     gl::ProgramHandle programs_[kPrograms]{};
     Retry retries_[kPrograms];
     std::uint64_t frame_ = 0;

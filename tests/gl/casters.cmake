@@ -5,11 +5,13 @@ if(GNOMON_SAMPLE)
     caster_faces_gl_test.cpp
     creases_gl_test.cpp
     fine_meshes_gl_test.cpp
+    flat_casters_gl_test.cpp
     lamps_on_planes_gl_test.cpp
     ledges_gl_test.cpp
     masked_casters_gl_test.cpp
     moved_casters_gl_test.cpp
     refresh_gl_test.cpp
+    vertex_colours_gl_test.cpp
     budget_gl_test.cpp
     ../economy/both_ways.cpp
     LIBRARIES gnomon_bench_parts)

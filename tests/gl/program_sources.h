@@ -112,6 +112,14 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         add(lighting.unlit_surface(false));
         add(lighting.unlit_surface(true));
         add(lighting.unlit_blended());
+        lighting.set_coloured(true);
+        add(lighting.surface());
+        add(lighting.surface(true));
+        add(lighting.blended_base());
+        add(lighting.unlit_surface(false));
+        add(lighting.unlit_surface(true));
+        add(lighting.unlit_blended());
+        lighting.set_coloured(false);
         add(lighting.luminance());
         add(lighting.tonemap());
         // Rows with sheets share programs.
@@ -140,15 +148,16 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             for (const Source source : {Source::orthographic, Source::perspective, Source::cube})
                 if (reads_moments(filter)) add(filter.file, source);
     }
-    for (const int kind : {0, 1, 2, 3}) {
-        const bool masked = kind % 2 != 0, triangles = kind >= 2;
+    for (const int kind : {0, 1, 2, 3, 5, 7}) {
+        const bool masked = kind % 2 != 0, triangles = (kind & 2) != 0, coloured = kind >= 4;
         std::vector<std::string> defines;
         if (masked) defines.emplace_back("MASKED 1");
         if (triangles) defines.emplace_back("TRIANGLES 1");
+        if (coloured) defines.emplace_back("COLOURED 1");
         const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
         const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
         if (vertex && fragment)
-            programs.push_back({std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : ""), vertex.value(),
+            programs.push_back({std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : "") + (coloured ? ", coloured" : ""), vertex.value(),
                                 fragment.value()});
     }
     for (const char* file : {"shadow/depth_bins.comp", "lighting/exposure.comp"})

@@ -46,9 +46,10 @@ double sample_alpha(const assets::Texture& texture, const glm::dvec2& uv) {
     return upper * (1.0 - fy) + lower * fy;
 }
 
-bool passes_mask(const assets::MeshLibrary& library, const assets::Material& material, const glm::dvec2& uv) {
+bool passes_mask(const assets::MeshLibrary& library, const assets::Material& material, const glm::dvec2& uv,
+                 double vertex_alpha) {
     if (material.alpha_mode != assets::AlphaMode::mask) return true;
-    double alpha = static_cast<double>(material.base_colour.a);
+    double alpha = static_cast<double>(material.base_colour.a) * vertex_alpha;
     const std::int32_t texture = material.base_colour_texture;
     if (texture >= 0 && static_cast<std::size_t>(texture) < library.textures.size())
         alpha *= sample_alpha(library.textures[static_cast<std::size_t>(texture)], uv);

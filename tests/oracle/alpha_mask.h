@@ -9,7 +9,8 @@ namespace gnomon::oracle {
 /// A texture without texels is opaque.
 double sample_alpha(const assets::Texture& texture, const glm::dvec2& uv);
 
-/// True if the material leaves the surface there at `uv`: not masked, or alpha * factor >= cutoff.
-bool passes_mask(const assets::MeshLibrary& library, const assets::Material& material, const glm::dvec2& uv);
+/// True if the material leaves the surface there at `uv`: not masked, or alpha * factor * vertex_alpha >= cutoff.
+bool passes_mask(const assets::MeshLibrary& library, const assets::Material& material, const glm::dvec2& uv,
+                 double vertex_alpha = 1.0);
 
 }  // namespace gnomon::oracle

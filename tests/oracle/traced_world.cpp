@@ -138,7 +138,15 @@ bool TracedWorld::is_there(const WorldTriangle& triangle, const ExactHit& hit) c
     const auto uv = [&](std::uint32_t corner) {
         return glm::dvec2(mesh.vertices[mesh.indices[triangle.first_index + corner]].uv);
     };
-    return passes_mask(library_, library_.materials[triangle.material], hit.u * uv(0) + hit.v * uv(1) + hit.w * uv(2));
+    double vertex_alpha = 1.0;
+    if (!mesh.colours.empty()) {
+        const auto alpha = [&](std::uint32_t corner) {
+            return static_cast<double>(mesh.colours[mesh.indices[triangle.first_index + corner]].w);
+        };
+        vertex_alpha = hit.u * alpha(0) + hit.v * alpha(1) + hit.w * alpha(2);
+    }
+    return passes_mask(library_, library_.materials[triangle.material], hit.u * uv(0) + hit.v * uv(1) + hit.w * uv(2),
+                       vertex_alpha);
 }
 
 bool TracedWorld::on_plane(const glm::dvec3& point, std::uint32_t triangle) const {

@@ -12,8 +12,10 @@ layout(location = 3) in uvec2 draw_item;   // instance; face (LAYERED) in the lo
 #if defined(LAYERED) && !defined(LAYER_BY_VERTEX)
 layout(location = 0) flat out uvec2 vertex_item;
 #define UV_OUT vertex_uv
+#define COLOUR_OUT vertex_colour_out
 #else
 #define UV_OUT fragment_uv
+#define COLOUR_OUT fragment_colour
 #ifdef TRIANGLES
 layout(location = 0) flat out uvec2 fragment_item;
 #endif
@@ -21,6 +23,10 @@ layout(location = 0) flat out uvec2 fragment_item;
 #ifdef MASKED
 layout(location = 2) in vec2 uv;
 out vec2 UV_OUT;
+#endif
+#ifdef COLOURED
+#include "shared/vertex_colour.glsl"
+out vec4 COLOUR_OUT;
 #endif
 
 void main() {
@@ -34,6 +40,9 @@ void main() {
     gl_Position = position_cs;
 #ifdef MASKED
     UV_OUT = uv;
+#endif
+#ifdef COLOURED
+    COLOUR_OUT = vertex_colour();
 #endif
 #ifdef LAYER_BY_VERTEX
     gl_Layer = int(face);

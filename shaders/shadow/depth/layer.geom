@@ -6,6 +6,10 @@ layout(location = 0) flat in uvec2 vertex_item[];
 in vec2 vertex_uv[];
 out vec2 fragment_uv;
 #endif
+#ifdef COLOURED
+in vec4 vertex_colour_out[];
+out vec4 fragment_colour;
+#endif
 #ifdef TRIANGLES
 layout(location = 0) flat out uvec2 fragment_item;
 #endif
@@ -16,6 +20,9 @@ void main() {
         gl_Position = gl_in[i].gl_Position;
 #ifdef MASKED
         fragment_uv = vertex_uv[i];
+#endif
+#ifdef COLOURED
+        fragment_colour = vertex_colour_out[i];
 #endif
 #ifdef TRIANGLES
         fragment_item = uvec2(vertex_item[0].x, vertex_item[0].y >> 3);

@@ -123,6 +123,19 @@ TEST(LightQueries, LookThroughMaskedTexelsAndBlendedSurfaces) {
     EXPECT_EQ(scene.ask(sun, Place{{0.3, 1.5, 0.1}}), 1.0f) << "the blended one lets all through";
 }
 
+TEST(LightQueries, LookThroughVerticesThatAreClear) {
+    QueryScene scene;
+    scene.library.materials.emplace_back().alpha_mode = assets::AlphaMode::mask;
+    const std::uint32_t square = scene.add_square(1);
+    for (const assets::Vertex& vertex : scene.library.meshes[square].vertices)
+        scene.library.meshes[square].colours.emplace_back(1.0f, 1.0f, 1.0f, vertex.position_ms.x < 0.0f ? 1.0f : 0.0f);
+    scene.place(square, {0.0, 1.0, 0.0}, glm::dmat3({1, 0, 0}, {0, 0, -1}, {0, 1, 0}));
+    scene.finish();
+    const LightItem sun = scene.sun({0.0, 1.0, 0.0});
+    EXPECT_EQ(scene.ask(sun, Place{{-0.1, 0.0, 0.1}}), 0.0f) << "alpha of 0.6, or more if it is smaller";
+    EXPECT_EQ(scene.ask(sun, Place{{0.1, 0.0, 0.1}}), 1.0f);
+}
+
 TEST(LightQueries, BothFacesCastAndWhatAPlaceLiesOnDoesNot) {
     QueryScene scene;
     scene.place_floor(10.0);
