@@ -100,7 +100,9 @@ public:
             const SceneSnapshot& scene = stage_.frame().snapshot();
             const gl::Rect area = shadow::screen_rectangle(scene.lights[0], scene.consumers[0]);
             const double pixels = static_cast<double>(area.width) * area.height;
-            rows.push_back({{pixels, pixels * shadow::mean_fetches(scene.lights[0], filter)}, ns});
+            shadow::ShadowDemand demand;
+            demand.filter = filter;
+            rows.push_back({{pixels, pixels * shadow::mean_fetches(scene.lights[0], demand, demand.filter)}, ns});
         }
         return solved<glm::dmat2>(rows, residual);
     }

@@ -60,7 +60,7 @@ std::string draw_spot(const ShadowFrames& frames, std::uint32_t light) {
     const double rim = std::tan(std::min(item.outer_cone_rad, shadow::kWidestMap_rad));
     {
         Panel panel(svg, {kMargin, kHead}, {glm::dvec2(-rim), glm::dvec2(rim)}, "tangents, as the light sees them");
-        draw_footprints(panel, scene, frame, frame.sets[view.demand], view.anchor_ws_m, axes);
+        draw_footprints(panel, scene, frame, frame.sets[view.demand], shadow::apex_ws_m(view), axes);
         panel.circle({0.0, 0.0}, rim, "fill='none' stroke='#b8860b' stroke-dasharray='5 3' stroke-width='1.5'");
         const glm::dvec2 size = view.tan_high - view.tan_low;
         const MapOutline map{[&](const glm::dvec2& share) { return view.tan_low + size * share; }};

@@ -47,12 +47,12 @@ double faded(const ShadowView& view, const glm::dvec3& at, double distance_m, do
 }
 
 double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
-    return glm::dot(view.anchor_ws_m - p_ws, view.axis_back);
+    return glm::dot(apex_ws_m(view) - p_ws, view.axis_back);
 }
 
 /// Unit.
 glm::dvec3 to_light(const ShadowView& view, const glm::dvec3& p_ws) {
-    return orthographic(view) ? view.axis_back : glm::normalize(view.anchor_ws_m - p_ws);
+    return orthographic(view) ? view.axis_back : glm::normalize(apex_ws_m(view) - p_ws);
 }
 
 /// Nothing to be off but the picture's own pixels.

@@ -213,4 +213,23 @@ std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector
     return out.size() - before;
 }
 
+Aabb clipped_bounds(std::span<const Plane> planes, const Aabb& box) {
+    constexpr int kRounds = 3;  // what one plane takes from one axis lets another take from the next
+    Aabb left = box;
+    for (int round = 0; round < kRounds; ++round) {
+        for (const Plane& plane : planes) {
+            if (is_empty(left)) return left;
+            const double tolerance = kRounding * magnitude(plane, glm::max(glm::abs(left.min), glm::abs(left.max)));
+            for (int axis = 0; axis < 3; ++axis) {
+                const glm::dvec3 highest = glm::max(plane.normal * left.min, plane.normal * left.max);
+                const double others = plane.offset + tolerance + highest[(axis + 1) % 3] + highest[(axis + 2) % 3];
+                const double n = plane.normal[axis], end = -others / n;
+                if (n > 0.0 && end > left.min[axis]) left.min[axis] = end;
+                if (n < 0.0 && end < left.max[axis]) left.max[axis] = end;
+            }
+        }
+    }
+    return left;
+}
+
 }  // namespace gnomon::math

@@ -58,6 +58,9 @@ std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector
 /// By how much rounding may have moved a clipped point that is then expressed in other axes, of the size of its
 /// coordinates: 16 units (2^-52) of the clip and as many of the subtraction and the products.
 inline constexpr double kClippedRounding = 0x1p-47;
+/// A box around box ∩ planes: often the smallest, never less, no points kept. Empty only if that is; a plane
+/// or a side that is not finite takes nothing away.
+Aabb clipped_bounds(std::span<const Plane> planes, const Aabb& box);
 inline std::size_t clip_box(const Frustum& f, const Aabb& box, std::vector<glm::dvec3>& out) {
     return clip_box(planes_of(f), box, out);
 }

@@ -23,7 +23,7 @@ void add_light(const ViewInput& input, std::uint32_t light, LineDrawing& lines, 
         legend.add(range_text(view), map_colour(view.layer));
         if (view.projection == shadow::ViewProjection::orthographic) continue;
         for (std::size_t near = 4; near < corners.size(); ++near)
-            lines.add(view.anchor_ws_m, corners[near], map_colour(view.layer));
+            lines.add(shadow::apex_ws_m(view), corners[near], map_colour(view.layer));
     }
 }
 

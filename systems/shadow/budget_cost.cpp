@@ -83,9 +83,9 @@ bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& gr
            (grant.refresh_frames > 1 && light.shadow.economy);
 }
 
-double mean_fetches(const LightItem& light, ShadowFilter filter) {
+double mean_fetches(const LightItem& light, const ShadowDemand& demand, ShadowFilter filter) {
     const FilterRow& row = filter_row(filter);
-    const bool cube = light_kind_row(light.kind).texture == gl::TextureKind::cube;
+    const bool cube = map_texture(light, demand) == gl::TextureKind::cube;
     const double most = row.taps(light.shadow, cube);
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
@@ -117,8 +117,8 @@ double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double view
 
 double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
     if (grant.none) return 0.0;
-    const ShadowFilter filter = granted(*load.light, load.wanted, grant).filter;
-    return load.pixels * mean_fetches(*load.light, filter) * kFetch_ns * factors.lighting;
+    const ShadowDemand given = granted(*load.light, load.wanted, grant);
+    return load.pixels * mean_fetches(*load.light, given, given.filter) * kFetch_ns * factors.lighting;
 }
 
 double edge_harm(double rise_px) {

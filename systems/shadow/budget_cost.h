@@ -76,8 +76,8 @@ double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& f
 /// Of a light's weight, what is lost by edges that are so much farther off than they might be.
 double edge_harm(double rise_px);
 
-/// Fetches of a lookup, on the average of its pixels.
-double mean_fetches(const LightItem& light, ShadowFilter filter);
+/// Fetches of a lookup by the filter, on the average of its pixels.
+double mean_fetches(const LightItem& light, const ShadowDemand& demand, ShadowFilter filter);
 
 /// Of drawing so many views with so much in them, as it is recorded: storage_work() says how often casters are.
 double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws);

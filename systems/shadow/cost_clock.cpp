@@ -16,11 +16,13 @@ double drawn_ns(const ShadowFrame& frame, const LightReport& light, std::size_t 
 }
 
 /// As it was drawn: by its own filter, by what that fell back to, or by what was kept of what its pixels saw.
-double lit_ns(const SceneSnapshot& scene, const LightingLight& light, const LightReport& report) {
+double lit_ns(const SceneSnapshot& scene, const ShadowFrame& frame, const LightingLight& light,
+              const LightReport& report) {
     const double pixels = static_cast<double>(light.screen.width) * light.screen.height;
     const bool looks_up = !light.row.filter_file.empty() && report.filter.filter != ShadowFilter::automatic &&
                           report.kept.reason == Reason::none;
-    const double fetches = looks_up ? mean_fetches(scene.lights[light.light], report.filter.filter) : 0.0;
+    const double fetches =
+        looks_up ? mean_fetches(scene.lights[light.light], frame.demands[light.light], report.filter.filter) : 0.0;
     return pixels * (kShadedPixel_ns + fetches * kFetch_ns);
 }
 
@@ -45,7 +47,7 @@ void CostClock::submitted(std::uint64_t submission, const SceneSnapshot& scene, 
         now.modelled.drawing_ns += drawn_ns(frame, report.lights[i], i);
     if (frame.inputs.empty()) return;
     for (const LightingLight& light : frame.inputs.front().lights)
-        now.modelled.lighting_ns += lit_ns(scene, light, report.lights[light.light]);
+        now.modelled.lighting_ns += lit_ns(scene, frame, light, report.lights[light.light]);
 }
 
 void CostClock::close(Submission& submission) {

@@ -8,6 +8,7 @@
 #include "systems/shadow/filter_choice.h"
 #include "systems/shadow/filter_table.h"
 #include "systems/shadow/kinds/cone_fade.h"
+#include "systems/shadow/kinds/lamp_aim.h"
 #include "systems/shadow/kinds/splits.h"
 #include "systems/shadow/kinds/sun_eye.h"
 #include "systems/shadow/light_kinds.h"
@@ -104,7 +105,7 @@ float texels_per_pixel(const LightItem& light, const HeldLight* held, const Shad
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(demand.filter);
     if (!asks_rays(row)) return row.texels_per_pixel;
-    if (light_kind_row(light.kind).texture == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
+    if (map_texture(light, demand) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
     const bool waits = held && light.kind == LightKind::directional && is_quiet(*held);
     return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
 }
@@ -186,7 +187,7 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand&
     const FilterRow& row = filter_row(demand.filter);
     demand.filtering = filter_demand(row, shadow, size_px);
     demand.moments = moment_demand(row, shadow, size_px);
-    demand.moments.sampler_anisotropy = light_kind_row(light.kind).texture != gl::TextureKind::cube;
+    demand.moments.sampler_anisotropy = map_texture(light, demand) != gl::TextureKind::cube;
     if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
 
@@ -214,10 +215,15 @@ ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, con
     demand.depth_format = light.shadow.depth_format;
     demand.view_count = light_kind_row(light.kind).layers;
     demand.device_px = limit_px;
+    demand.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, demand);
     decide_projection(light, scene.sampled_depths.failed, demand);
     if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
     if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
+    if (demand.aim.used) {
+        demand.faces_eighths = 0;
+        demand.view_count = 1;
+    }
     if (leaves_count(light, demand)) {
         demand.most_views = demand.view_count;
         if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)

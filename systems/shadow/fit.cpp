@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/math/frustum.h"
 #include "systems/shadow/contract.h"
 #include "systems/shadow/demand.h"
 #include "systems/shadow/depth_format.h"
@@ -43,11 +44,21 @@ void state_receivers(const LightItem& light, const PotentialSets& sets, const Sh
     if (view.receivers == 0) view.receivers = beam.receivers;
 }
 
-/// Depths that differ by less are one, at the farthest receiver: 0 of floats, whose steps are a share of the distance.
+/// What floats tell apart along a lamp's rays, and doubles of its place: a share of the distance, or of the depth range
+/// of a view that is anchored in it. It is more than a texel only where a lamp is immensely far away.
+double floats_tell_m(const ShadowView& view) {
+    constexpr double kFloat = 0x1p-22, kDouble = math::kClippedRounding;
+    const double anchored_m = (view.far_m - view.near_m) * view.far_m / view.near_m;
+    const double from_m = view.apex_m > 0.0 ? std::min(view.far_m, anchored_m) : view.far_m;
+    return std::max(kFloat * from_m, kDouble * view.far_m);
+}
+
+/// Depths that differ by less are one, at the farthest receiver: 0 of a sun's floats.
 double depth_step_m(const ShadowView& view, DepthFormat format) {
     const double step = depth_format_row(format).step;
     if (view.projection == ViewProjection::orthographic) return step * (view.far_m - view.near_m);
-    return step * view.far_m * view.far_m / std::abs(view.depth_beta);  // d(alpha + beta / z)
+    return std::max(step * view.far_m * view.far_m / std::abs(view.depth_beta),  // d(alpha + beta / z)
+                    floats_tell_m(view));
 }
 
 /// The light's views, without casters, for maps of its demand's size. False if no finite volume exists.
@@ -250,7 +261,8 @@ void fit_light_views(const SceneSnapshot& scene, std::uint32_t d, const HeldLigh
     if (frame.views.size() == first) sets.skip = Reason::no_caster;  // none where its shadow would be seen
     for (std::size_t v = first; v < frame.views.size(); ++v) {
         const ShadowView& view = frame.views[v];
-        if (depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 && demand.note == Reason::none)
+        if (!demand.asks_rays && depth_step_m(view, demand.depth_format) > view.texel_m && view.texel_m > 0.0 &&
+            demand.note == Reason::none)
             demand.note = Reason::depth_coarse;
     }
     if (!select_casters(scene, first, frame)) {

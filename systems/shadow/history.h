@@ -48,6 +48,14 @@ struct ConeFade {
     bool operator==(const ConeFade&) const = default;
 };
 
+/// A ball around what is seen of what a far lamp lights, at which its one map looks (kinds/lamp_aim.h).
+struct LampAim {
+    bool used = false;
+    glm::dvec3 middle_ws_m{0.0};
+    double radius_m = 0.0;
+    bool operator==(const LampAim&) const = default;
+};
+
 /// Where a sun's cascades end along the view, on their way to where they should (kinds/gliding_ends.h).
 struct HeldSplits {
     bool used = false;
@@ -82,6 +90,7 @@ struct HeldLight {
     HeldSplits splits;
     std::array<HeldView, kHeldViews> views;
     ConeFade cone;
+    LampAim aim;
     HeldEnds sampled_ends;
     std::uint32_t large_frames = 0;  // for how many frames in a row some view was too large
     std::uint32_t tired_frames = 0;  // for so many frames from now no size becomes smaller, since some have changed

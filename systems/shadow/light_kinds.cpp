@@ -28,4 +28,8 @@ std::span<const LightKindRow> light_kind_table() { return kRows; }
 
 const LightKindRow& light_kind_row(LightKind kind) { return kRows[static_cast<std::size_t>(kind)]; }
 
+gl::TextureKind map_texture(const LightItem& light, const ShadowDemand& demand) {
+    return demand.aim.used ? gl::TextureKind::array : light_kind_row(light.kind).texture;
+}
+
 }  // namespace gnomon::shadow

@@ -45,14 +45,17 @@ struct LightKindRow {
     FitFunction fit;
 };
 
-/// A sun seen from an eye is looked up as a spot is.
-inline constexpr std::string_view kPerspectiveSunFile = "shadow/kinds/spot.glsl";
+/// A sun seen from an eye is looked up as a spot is, and so is an aimed point light.
+inline constexpr std::string_view kPerspectiveFile = "shadow/kinds/spot.glsl";
 /// A sun whose maps are warped.
 inline constexpr std::string_view kWarpedSunFile = "shadow/kinds/directional_warped.glsl";
 
 /// In the order of LightKind. To add a kind: systems/shadow/kinds/x.cpp, shaders/shadow/kinds/x.glsl, a row here.
 std::span<const LightKindRow> light_kind_table();
 const LightKindRow& light_kind_row(LightKind kind);
+
+/// Of the light's map: an aimed lamp has a flat one.
+gl::TextureKind map_texture(const LightItem& light, const ShadowDemand& demand);
 
 bool fit_directional(const FitInput& input, std::vector<ShadowView>& views);
 /// One view from the sun's eye (kinds/sun_eye.h).

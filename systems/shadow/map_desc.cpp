@@ -15,7 +15,7 @@ gl::TextureDesc without_label(const gl::TextureDesc& desc) {
 }
 
 gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand) {
-    const gl::TextureKind kind = light_kind_row(light.kind).texture;
+    const gl::TextureKind kind = map_texture(light, demand);
     return {.kind = kind,
             .format = depth_format_row(demand.depth_format).texture,
             .width = map_edge_px(demand),

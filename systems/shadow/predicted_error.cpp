@@ -23,7 +23,7 @@ double depth_from(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
 }
 
 double depth_from_light(const ShadowView& view, const glm::dvec3& p_ws) {
-    return glm::dot(view.anchor_ws_m - p_ws, view.axis_back);
+    return glm::dot(apex_ws_m(view) - p_ws, view.axis_back);
 }
 
 bool orthographic(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
@@ -47,7 +47,7 @@ double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
 }
 
 glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::dvec3 p = p_ws - view.anchor_ws_m;
+    const glm::dvec3 p = p_ws - apex_ws_m(view);
     return {glm::dot(p, view.axis_u), glm::dot(p, view.axis_v)};
 }
 
@@ -66,7 +66,7 @@ double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
 
 bool within(const ShadowView& view, const glm::dvec3& p_ws) {
     if (orthographic(view)) return true;
-    const glm::dvec3 p = p_ws - view.anchor_ws_m;
+    const glm::dvec3 p = p_ws - apex_ws_m(view);
     const double z_m = depth_from_light(view, p_ws);
     const glm::dvec2 at(glm::dot(p, view.axis_u), glm::dot(p, view.axis_v));
     const glm::dvec2 slack = kSlack * (view.tan_high - view.tan_low);
@@ -91,13 +91,13 @@ double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3
     if (orthographic(view)) return depth * (view.far_m - view.near_m);
     // alpha + beta / z: z becomes z / (1 + part), by as much of the whole way as the ray does.
     const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth_beta);
-    return glm::length(p_ws - view.anchor_ws_m) * part / (1.0 + part);
+    return glm::length(p_ws - apex_ws_m(view)) * part / (1.0 + part);
 }
 
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
                        const glm::dvec3& normal) {
     const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
-    const glm::dvec3 ray = orthographic(view) ? -view.axis_back : (p_ws - view.anchor_ws_m) / z_m;
+    const glm::dvec3 ray = orthographic(view) ? -view.axis_back : (p_ws - apex_ws_m(view)) / z_m;
     const double facing = glm::dot(ray, normal);
     if (!(z_m > 0.0) || facing == 0.0 || (is_perspective(consumer) && !(depth_from(consumer, p_ws) > 0.0)))
         return kInfinity;

@@ -26,6 +26,19 @@ constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;
 /// Perspective depth rounds in proportion to itself (bias.glsl adds that), and by 2u of its constant part alpha.
 constexpr double kAlphaRounding = 2.0 * kUnitRoundoff;
 
+/// About an anchor before the light: of a row's products with a place, and of its constant, each with its entry,
+/// product and sums, in the map and in the lookup.
+constexpr double kProductRounding = 10.0 * kUnitRoundoff, kConstantRounding = 8.0 * kUnitRoundoff;
+
+/// How far a depth may be off beside a share of itself (bias.glsl). `reach_m`: how far receivers lie from the anchor,
+/// if that is not the light.
+double projection_rounding(const ShadowView& view, double reach_m) {
+    if (view.projection == ViewProjection::orthographic) return kOrthographicRounding;
+    if (view.apex_m == 0.0) return kAlphaRounding * std::abs(view.depth_alpha);
+    const double terms_m = kProductRounding * reach_m + kConstantRounding * std::abs(view.far_m - view.apex_m);
+    return terms_m * std::abs(view.depth_alpha) / (view.apex_m - reach_m);
+}
+
 /// Of a view whose points are lit: light_block.glsl.
 constexpr float kNoLayer = -1.0f;
 
@@ -48,8 +61,8 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
     record.axis_v = with_w(view.axis_v, view.texel_v * stretch);
     record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
     // OpenGL 4.5, 2.3.5: a fixed-point value is one of the two nearest, so that it may be off by a whole step.
-    const double depth_rounding = depth_format_row(demand.depth_format).step +
-                                  (orthographic ? kOrthographicRounding : kAlphaRounding * std::abs(view.depth_alpha));
+    const double depth_rounding =
+        depth_format_row(demand.depth_format).step + projection_rounding(view, demand.aim.radius_m);
     record.numeric = {static_cast<float>(depth_rounding), at_least(slot.stale.moved_m),
                       static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
                       view.lit ? kNoLayer : static_cast<float>(view.layer)};
@@ -58,7 +71,7 @@ ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const
 }
 
 std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind) {
-    if (demand.perspective_sun) return kPerspectiveSunFile;
+    if (demand.perspective_sun || demand.aim.used) return kPerspectiveFile;
     return demand.warp > 0.0f ? kWarpedSunFile : kind.file;
 }
 
@@ -271,7 +284,7 @@ void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const
         LightingLight& out = inputs.lights[demand.light];
         const LightKindRow& kind = light_kind_row(scene.lights[demand.light].kind);
         out.row = {.kind_define = kind.define,
-                   .kind_file = kind.file,
+                   .kind_file = kind_file(demand, kind),
                    .filter_file = filter_row(demand.filter).file,
                    .rays = true,
                    .ray_masks = static_cast<bool>(rays.masks)};
@@ -330,7 +343,8 @@ void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, con
             if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
                 out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
             out.record.options.w |= 1 << view.layer;
-            if (light.kind == LightKind::spot) out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
+            if (light.kind == LightKind::spot || demand.aim.used)
+                out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
             bias_record(light.shadow, out);
             filter_record(light.shadow, demand.filtering, consumer, out.record);
             out.record.moments = demand.moments.settings;

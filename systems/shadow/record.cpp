@@ -160,7 +160,7 @@ gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowV
     if (way_.sheets) return state;
     const CasterFaces faces = light.shadow.caster_faces;
     const bool outside =
-        view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, view.anchor_ws_m) > 0.0;
+        view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, apex_ws_m(view)) > 0.0;
     if (faces == CasterFaces::both || !outside || item.folded || !gpu.mesh(item.mesh).solid) return state;
     state.cull = faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
     state.front_is_clockwise = item.mirrored;

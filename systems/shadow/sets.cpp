@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "engine/math/cone.h"
 #include "engine/math/frustum.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/beams.h"
 #include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/kinds/perspective_view.h"
+#include "systems/shadow/light_reach.h"
 #include "systems/shadow/light_time.h"
 #include "systems/shadow/nearest_receiver.h"
 #include "systems/shadow/swept_volume.h"
@@ -20,35 +19,6 @@ namespace gnomon::shadow {
 namespace {
 
 using math::Overlap;
-
-/// What a light can reach, were nothing in the way.
-class Reach {
-public:
-    explicit Reach(const LightItem& light) {
-        if (light.kind == LightKind::directional) return;
-        position_ws_m_ = light.position_ws_m;
-        if (light.range_m > 0.0) {
-            range_m_ = light.range_m;
-            around_ = {light.position_ws_m - light.range_m, light.position_ws_m + light.range_m};
-        }
-        if (light.kind == LightKind::spot)
-            cone_ = math::planes_around({light.position_ws_m, -light.rotation_ws[2], light.outer_cone_rad});
-    }
-
-    Overlap overlap(const math::Aabb& box) const {
-        if (range_m_ && math::overlap_ball(position_ws_m_, *range_m_, box) == Overlap::outside) return Overlap::outside;
-        if (cone_ && math::overlap(*cone_, box) == Overlap::outside) return Overlap::outside;
-        return range_m_ || cone_ ? Overlap::partial : Overlap::inside;
-    }
-    /// The part of a box that may be reached.
-    math::Aabb clipped(const math::Aabb& box) const { return range_m_ ? math::intersection(box, around_) : box; }
-
-private:
-    glm::dvec3 position_ws_m_{0.0};
-    std::optional<double> range_m_;
-    math::Aabb around_;
-    std::optional<std::array<math::Plane, math::kConeSides + 1>> cone_;
-};
 
 IndexRange since(std::size_t first, std::size_t end) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
@@ -162,7 +132,7 @@ private:
     const LightItem& light_;
     ShadowFrame& frame_;
     SetScratch& scratch_;
-    Reach reach_;
+    LightReach reach_;
 };
 
 /// How far beyond a lamp's beam, in tangents, casters hide part of a source with a size: as far as filters read texels.
@@ -257,7 +227,7 @@ ShadowLayers layers_of_all(const SceneSnapshot& scene, const ShadowFrame& frame)
 
 bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer) {
     if (light.kind == LightKind::directional) return true;
-    const Reach reach(light);
+    const LightReach reach(light);
     const math::Frustum frustum = consumer_frustum(consumer);
     const auto planes = math::planes_of(frustum);
     bool found = false;

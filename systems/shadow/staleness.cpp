@@ -32,7 +32,7 @@ double widest_tangent(const ShadowView& view) {
 double least_distance_m(const ShadowView& view, const math::Aabb& box) {
     double least_m = kInfinity;
     for (const glm::dvec3& corner : math::corners(box))
-        least_m = std::min(least_m, glm::dot(view.anchor_ws_m - corner, view.axis_back));
+        least_m = std::min(least_m, glm::dot(apex_ws_m(view) - corner, view.axis_back));
     return least_m;
 }
 

@@ -50,6 +50,7 @@ struct ShadowDemand {
     std::uint32_t device_px = 0;       // the device's limit on that edge
     std::uint32_t most_views = 0;      // of a sun whose count of cascades is the fit's to choose; else 0
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
+    LampAim aim;                       // of a far lamp: one view of what is seen of what it lights (kinds/lamp_aim.h)
     bool perspective_sun = false;      // one view from an eye instead of cascades
     float cascade_blend = 0.0f;        // share of a cascade that fades into the next
     float warp = 0.0f;                 // a sun's maps are warped (kinds/directional_warped.h) by so much at most
@@ -108,6 +109,7 @@ struct ShadowView {
     std::uint32_t layer = 0;  // cascade or face
     ViewProjection projection = ViewProjection::orthographic;
     glm::dvec3 anchor_ws_m{0.0};       // fixed to the light, never to a camera
+    double apex_m = 0.0;               // perspective: how far the light stands behind the anchor, along axis_back
     glm::mat4 clip_from_anchor{1.0f};  // reversed depth in [0,1]
     glm::mat4 map_from_anchor{1.0f};   // texture coordinates instead of clip
     glm::dvec3 axis_u{1.0, 0.0, 0.0}, axis_v{0.0, 1.0, 0.0}, axis_back{0.0, 0.0, 1.0};  // world, unit
@@ -136,6 +138,9 @@ struct ShadowView {
     std::uint32_t still_casters = 0;  // how many of them stand still
     bool lit = false;  // nothing can darken what it serves: it is published, but neither drawn, cleared nor looked up
 };
+
+/// Where the light of a perspective view or a cube's face stands.
+inline glm::dvec3 apex_ws_m(const ShadowView& view) { return view.anchor_ws_m + view.axis_back * view.apex_m; }
 
 /// How a view that is drawn uses the store of still casters beside its light's map (still_map.h).
 enum class StillUse : std::uint8_t {

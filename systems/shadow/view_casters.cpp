@@ -148,10 +148,10 @@ private:
         const LightOpening opening = opening_of(view_);
         Beam beam;
         const auto same = std::find_if(beams().begin(), beams().end(), [&](const Beam& b) {
-            return !b.parallel && b.origin_ws_m == view_.anchor_ws_m && b.axes == opening.axes;
+            return !b.parallel && b.origin_ws_m == apex_ws_m(view_) && b.axes == opening.axes;
         });
         if (view_.held) {
-            beam.origin_ws_m = view_.anchor_ws_m;
+            beam.origin_ws_m = apex_ws_m(view_);
             beam.axes = opening.axes;
             beam.far_m = view_.far_m;
             beam.reach_m = std::numeric_limits<double>::infinity();
@@ -173,7 +173,7 @@ private:
 
     /// Through an opening that no beam of the sets goes through: its own clip of the receivers.
     Beam beam_through(const LightOpening& opening) {
-        const auto sides = opening_planes(view_.anchor_ws_m, opening);
+        const auto sides = opening_planes(apex_ws_m(view_), opening);
         const IndexRange receivers = frame_.sets[view_.demand].receivers;
         scratch_.points_ws.clear();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
@@ -187,7 +187,7 @@ private:
         scratch_.polygon.clear();
         if (scratch_.points_ws.empty()) return {};
         const std::size_t first = frame_.outlines.size();
-        Beam beam = opening_beam(view_.anchor_ws_m, opening, scratch_.points_ws, frame_.outlines, scratch_);
+        Beam beam = opening_beam(apex_ws_m(view_), opening, scratch_.points_ws, frame_.outlines, scratch_);
         scratch_.polygon.assign(frame_.outlines.begin() + static_cast<std::ptrdiff_t>(first), frame_.outlines.end());
         frame_.outlines.resize(first);
         return beam;

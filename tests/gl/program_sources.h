@@ -33,8 +33,8 @@ inline std::vector<shadow::FilterRow> map_filters() {
     return rows;
 }
 
-/// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns in perspective
-/// and warped; and of those that ask by rays, with and without masked casters and maps.
+/// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns and
+/// points in perspective, suns warped; and of those that ask by rays, with and without masked casters and maps.
 inline std::vector<shadow::ProgramRow> all_rows() {
     std::vector<shadow::ProgramRow> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
@@ -46,9 +46,10 @@ inline std::vector<shadow::ProgramRow> all_rows() {
         for (const shadow::FilterRow& filter : map_filters())
             rows.push_back({kind.define, kind.file, filter.file, filter.reach_texel, false, reads_depths(filter), true});
     }
-    const shadow::LightKindRow& sun = shadow::light_kind_row(LightKind::directional);
+    const shadow::LightKindRow &sun = shadow::light_kind_row(LightKind::directional), &point = shadow::light_kind_row(LightKind::point);
     for (const shadow::FilterRow& filter : map_filters())
-        rows.push_back({sun.define, shadow::kPerspectiveSunFile, filter.file, filter.reach_texel, false, reads_depths(filter)});
+        for (const shadow::LightKindRow* kind : {&sun, &point})
+            rows.push_back({kind->define, shadow::kPerspectiveFile, filter.file, filter.reach_texel, false, reads_depths(filter)});
     for (const shadow::FilterRow& filter : map_filters())
         for (const bool fades : {false, true})
             rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
@@ -73,8 +74,12 @@ inline std::vector<shadow::ProgramRow> all_rows() {
         for (const shadow::FilterRow& filter : shadow::filter_table())
             for (const bool masks : {false, true})
                 for (const bool sheets : {false, true})
-                    if (shadow::asks_rays(filter))
+                    if (shadow::asks_rays(filter)) {
                         rows.push_back({.kind_define = kind.define, .kind_file = kind.file, .filter_file = filter.file, .depths = sheets, .sheets = sheets, .rays = true, .ray_masks = masks});
+                        if (kind.kind != LightKind::point) continue;
+                        rows.push_back(rows.back());
+                        rows.back().kind_file = shadow::kPerspectiveFile;
+                    }
     return rows;
 }
 

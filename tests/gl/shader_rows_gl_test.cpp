@@ -13,17 +13,17 @@ class ShaderRows : public GlTest {};
 TEST_F(ShaderRows, EveryRowAndOutputCompilesAndLinksInSilence) {
     const auto programs = all_programs();
     const std::size_t kinds = shadow::light_kind_table().size(), filters = map_filters().size();
-    const auto rows_of = [&](std::size_t some) {  // all but cubes fade; perspective and warped suns
-        return kinds * 2 * some + (kinds - 1) * some + 3 * some;
+    const auto rows_of = [&](std::size_t some) {  // all but cubes fade; perspective and warped suns, aimed points
+        return kinds * 2 * some + (kinds - 1) * some + 4 * some;
     };
     const auto prefiltered =
         static_cast<std::size_t>(std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_moments));
     const auto by_triangles = static_cast<std::size_t>(
         std::count_if(shadow::filter_table().begin(), shadow::filter_table().end(), reads_triangles));
     constexpr std::size_t kMaskedOrNot = 2;
-    // By rays alone: as every row. With sheets: what is found is read by one program of a kind to an output; blended
+    // By rays alone: as every row, and aimed points. With sheets: what is found is read by one program of a kind to an output; blended
     // surfaces, verdicts and rays have their own, masked or not.
-    const std::size_t by_rays = kinds * kMaskedOrNot * (shadow::filter_table().size() - filters);
+    const std::size_t by_rays = (kinds + 1) * kMaskedOrNot * (shadow::filter_table().size() - filters);
     const std::size_t with_sheets = 2 * kinds + 3 * by_rays;
     constexpr std::size_t kOutputs = 3, kCommon = 5, kDepth = 4, kCompute = 5, kBlur = 1, kSources = 3;
     // Those by a pixel's footprint, too, and those of masked casters.

@@ -109,7 +109,7 @@ Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow:
             if (!deciding.view && holds(view, p, demand.resolution_px, reach_texel)) deciding.view = &view;
             continue;
         }
-        const Vector at = in_axes(p - exact(view.anchor_ws_m), {view.axis_u, view.axis_v, view.axis_back});
+        const Vector at = in_axes(p - exact(apex_ws_m(view)), {view.axis_u, view.axis_v, view.axis_back});
         if (-at.z > deepest && std::abs(at.x) <= -at.z && std::abs(at.y) <= -at.z) {
             deepest = -at.z;
             deciding.view = &view;

@@ -16,7 +16,7 @@ struct SheetPlace {
     float depth, error;
     vec2 at_texel;   // from the map's corner, and how far off that may be
     float off_texel;
-#ifdef LIGHT_POINT
+#ifdef SHADOW_CUBE
     vec3 direction;  // from the light, turned back
 #endif
 };
@@ -39,7 +39,7 @@ SheetPlace place_of(vec2 place, float error_texel, int view, int layer, float de
     return found;
 }
 
-#ifdef LIGHT_POINT
+#ifdef SHADOW_CUBE
 SheetPlace sheet_place(vec3 position_ca, float error_m) {
     ViewRecord view = light.views[0];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;

@@ -30,7 +30,7 @@ SourceCone lamp_cone(ViewRecord view, vec2 tangent, float z_m) {
                       alpha_beta);
 }
 
-#ifdef LIGHT_POINT
+#ifdef SHADOW_CUBE
 SourceCone source_cone(SheetPlace place, vec3 position_ca) {
     ViewRecord view = light.views[0];
     vec3 p = turned_back(position_ca + view.anchor_from_camera.xyz);

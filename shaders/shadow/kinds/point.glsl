@@ -1,5 +1,6 @@
 // Point light: a cube of up to six perspective views with common near and far. A face stores projected depth of
 // its own axis, so the lookup needs only the largest coordinate, z.
+#define SHADOW_CUBE 1
 #include "shadow/light_block.glsl"
 #include "shadow/bias.glsl"
 #ifdef SHADOW_MANUAL_BIAS

@@ -12,15 +12,20 @@
 #include "shadow/source.glsl"
 #include "shadow/kinds/map_2d.glsl"
 
-vec3 from_light(vec3 position_ca) { return position_ca + light.views[0].anchor_from_camera.xyz; }
+vec3 from_anchor(int i, vec3 position_ca) { return position_ca + light.views[i].anchor_from_camera.xyz; }
+
+// The light stands behind the anchor, as far as the anchor lies along the view: where w is that of the origin. At it, by 0.
+vec3 from_light(int i, vec3 position_ca) {
+    return from_anchor(i, position_ca) - light.views[i].axis_back.xyz * light.views[i].map_from_anchor[3][3];
+}
 
 ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
-    vec3 position_la = from_light(position_ca);
+    vec3 position_aa = from_anchor(i, position_ca), position_la = from_light(i, position_ca);
     mat3 map_axes = mat3(view.axis_u.xyz, view.axis_v.xyz, view.axis_back.xyz);
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
-    float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_la);
+    float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_aa);
 #ifdef SHADOW_DEPTHS
     rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
 #endif
@@ -30,7 +35,7 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
 #ifdef SHADOW_MANUAL_BIAS
     if (light.options.y != 0) bias = manual_bias(perspective_place(view, normal, position_la, -position_map.z));
 #endif
-    vec3 moved = position_la + normal * bias.along_normal_m;
+    vec3 moved = position_aa + normal * bias.along_normal_m;
     ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
 #if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     point.source_texel = lamp_source_texel(view);
@@ -81,7 +86,7 @@ bool has_single_view() { return light.cone.z < 1.0 && (light.cone.z == 0.0 || (l
 // -1: none.
 int serving_view(int lookup, vec3 position_ca) {
     int view = light.options.x - 1;
-    if (lookup > 0 || !has_single_view()) view = face_toward(light.options.x - lookup, from_light(position_ca));
+    if (lookup > 0 || !has_single_view()) view = face_toward(light.options.x - lookup, from_light(0, position_ca));
     return view;
 }
 

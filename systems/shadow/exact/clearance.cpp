@@ -34,13 +34,14 @@ public:
           radius_m_(static_cast<double>(frame.demands[demand].filtering.source_radius_m)),
           least_m_(kClearance_radii * radius_m_) {
         // Places in a face without a view are looked up as well: nothing may stand before them.
-        if (light_.kind == LightKind::point)
+        const bool cube = light_.kind == LightKind::point && !frame.demands[demand].aim.used;
+        if (cube)
             for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
-        if (light_.kind == LightKind::point) count_ = kFaces;
+        if (cube) count_ = kFaces;
         for (std::size_t v = 0; v < frame.views.size(); ++v) {
             const ShadowView& view = frame.views[v];
             if (view.demand != demand) continue;
-            Opening& opening = openings_[light_.kind == LightKind::point ? view.layer : count_++];
+            Opening& opening = openings_[cube ? view.layer : count_++];
             opening = {{view.axis_u, view.axis_v, view.axis_back},
                        view.tan_low,
                        view.tan_high,

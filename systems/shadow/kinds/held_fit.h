@@ -26,6 +26,11 @@ bool is_near_free(const ShadowDemand& demand);
 PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
                             HeldView& next);
 
+/// The same as distances to both sides of an anchor that stays, none less than `least_m`: where it is far, steps of the
+/// distance itself would be much longer than what is seen. As held_range() where the near side reaches the light.
+PerspectiveRange held_range_around(double anchor_m, double least_m, double nearest_m, double farthest_m,
+                                   bool near_is_free, const HeldView& held, HeldView& next);
+
 /// `needed` within `full`, rounded outward: each side becomes a step, placed on sixteenths of itself. A side that would
 /// not gain a step against the full one stays full. Cropped to no less than a 64th of the full side: a float matrix
 /// still places a texel of an 8192 px map there to a sixteenth.

@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "systems/shadow/kinds/cone_fade.h"
+#include "systems/shadow/kinds/lamp_aim.h"
 #include "systems/shadow/kinds/perspective_view.h"
 #include "systems/shadow/light_kinds.h"
 
@@ -49,6 +50,10 @@ void add_spot(const LightItem& light, int faces_eighths, LightOpenings& openings
 
 LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand) {
     LightOpenings openings;
+    if (demand.aim.used) {
+        openings.items[openings.count++] = aimed_opening(light, demand.aim);
+        return openings;
+    }
     if (light.kind == LightKind::spot) add_spot(light, demand.faces_eighths, openings);
     if (light.kind == LightKind::point) {
         // A receiver in one face may be filtered with texels of the next.

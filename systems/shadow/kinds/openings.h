@@ -28,7 +28,8 @@ struct LightOpenings {
 /// Point: the six faces of its cube, in the order of OpenGL's table, turned by cube_turn(), each with the border that a
 /// filter reads beyond its seams. Spot: one around its cone,
 /// or a cube's five faces in its own axes, limited to what the cone can light, or these and then that (cone_fade.h).
-/// A single opening holds no more than kWidestMap_rad to each side. A sun has none.
+/// A single opening holds no more than kWidestMap_rad to each side. A lamp that is aimed has one (lamp_aim.h), a sun
+/// none.
 LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand);
 
 }  // namespace gnomon::shadow

@@ -26,11 +26,9 @@ TangentRectangle with_border(const TangentRectangle& rectangle, double size_px, 
 ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
                             const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px);
 
-/// The same with a border.
-inline ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
-                                   const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px,
-                                   double reach_texel) {
-    return perspective_view(apex_ws_m, rotation_ws, with_border(rectangle, size_px, reach_texel), range, size_px);
-}
+/// The same with a border, and the anchor so far before the apex.
+ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
+                            const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px,
+                            double reach_texel, double anchored_m = 0.0);
 
 }  // namespace gnomon::shadow

@@ -7,12 +7,14 @@
 
 #include "systems/shadow/kinds/held_fit.h"
 #include "systems/shadow/kinds/local_content.h"
+#include "systems/shadow/kinds/opening_view.h"
 #include "systems/shadow/kinds/openings.h"
 #include "systems/shadow/light_kinds.h"
 #include "systems/shadow/range_override.h"
 
 /// Point light: views of those faces of a cube map in which a receiver is seen and a caster stands. Near and far are
-/// common, since a filter's tap may cross a seam, and held in steps (held_fit.h).
+/// common, since a filter's tap may cross a seam, and held in steps (held_fit.h). A far one has one view of what is
+/// seen instead (lamp_aim.h), and is looked up as a spot is.
 namespace gnomon::shadow {
 
 const CubeFace& cube_face(std::uint32_t face) {
@@ -52,6 +54,8 @@ ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening
 
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     const LightOpenings openings = light_openings(input.light, input.demand);
+    input.next.aim = input.demand.aim;
+    if (input.demand.aim.used) return fit_opening(input, openings.items[0], input.beams[0], views);
     std::array<LocalContent, 6> faces;
     double nearest_m = HUGE_VAL, farthest_m = 0.0;
     bool any = false;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -263,6 +264,38 @@ TEST(ClipBox, ScalingByAPowerOfTwoScalesTheResultExactly) {
             for (std::size_t i = 0; i < base.size(); ++i) ASSERT_EQ(scaled[i], base[i] * factor) << "round " << round;
         }
     }
+}
+
+TEST(ClippedBounds, HoldAllThatClippingLeavesAndOftenNoMore) {
+    std::mt19937_64 random(print_seed());
+    std::uniform_real_distribution<double> number(-10.0, 10.0);
+    const auto vector = [&] { return glm::dvec3(number(random), number(random), number(random)); };
+    double shares = 0.0;
+    int clipped = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const glm::dmat3 turn = basis_from_back(vector());
+        const double far_m = round % 2 == 0 ? kInfinity : 12.0;
+        const Frustum f = round % 3 == 0 ? orthographic_frustum(vector(), turn, 3.0, 2.0, 0.1, far_m)
+                                         : perspective_frustum(vector(), turn, 0.5, 0.3, 0.1, far_m);
+        const glm::dvec3 a = vector(), b = vector();
+        const Aabb box{glm::min(a, b), glm::max(a, b)};
+        const Aabb bounds = clipped_bounds(planes_of(f), box);
+        Aabb exact;
+        for (const glm::dvec3& p : clip(f, box)) exact = extended(exact, p);
+        if (is_empty(exact)) continue;
+        ++clipped;
+        EXPECT_TRUE(glm::all(glm::lessThanEqual(bounds.min, exact.min + 1e-12)) &&
+                    glm::all(glm::greaterThanEqual(bounds.max, exact.max - 1e-12)))
+            << round;
+        shares += glm::length(half_extent(exact)) / glm::length(half_extent(bounds));
+    }
+    EXPECT_GT(clipped, 100);
+    EXPECT_GT(shares / clipped, 0.7);
+    const Aabb slab = clipped_bounds(planes_of(kSlab), {glm::dvec3(-9.0), glm::dvec3(9.0)});
+    EXPECT_LT(glm::distance(slab.min, {-2, -2, -5}) + glm::distance(slab.max, {2, 2, -1}), 1e-12);
+    EXPECT_TRUE(is_empty(clipped_bounds(planes_of(kSlab), {glm::dvec3(3.0), glm::dvec3(9.0)})));
+    const std::array<Plane, 1> broken = {Plane{glm::dvec3(kNan), 1.0}};
+    EXPECT_EQ(clipped_bounds(broken, {glm::dvec3(-1.0), glm::dvec3(1.0)}), (Aabb{glm::dvec3(-1.0), glm::dvec3(1.0)}));
 }
 
 TEST(ClipBox, FarFromTheOriginTheShapeStaysWithinTheRoundingOfItsPosition) {

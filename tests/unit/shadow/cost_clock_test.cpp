@@ -25,7 +25,8 @@ double learned_factor(ShadowFilter drawn, ShadowFilter said) {
     FrameReport report;
     report.lights.resize(1);
     report.lights[0].filter.filter = said;
-    const double fetches = drawn == ShadowFilter::automatic ? 0.0 : mean_fetches(scene.lights[0], drawn);
+    const double fetches =
+        drawn == ShadowFilter::automatic ? 0.0 : mean_fetches(scene.lights[0], frame.demands[0], drawn);
     const double model_us = kPixels * (kShadedPixel_ns + fetches * kFetch_ns) / 1000.0;
     CostClock clock;
     for (std::uint64_t i = 0; i < 32; ++i) {

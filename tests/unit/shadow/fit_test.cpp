@@ -24,11 +24,11 @@ protected:
         double deepest = 0.0;
         if (GetParam() != LightKind::directional)
             for (const ShadowView& view : frame.views)
-                deepest = std::max(deepest, glm::dot(view.anchor_ws_m - p, view.axis_back));
+                deepest = std::max(deepest, glm::dot(apex_ws_m(view) - p, view.axis_back));
         for (const ShadowView& view : frame.views) {
             const double keep = GetParam() == LightKind::point ? -1e-6 : margin;
             const glm::dvec3 q = in_map(view, p);
-            const double ahead = glm::dot(view.anchor_ws_m - p, view.axis_back);
+            const double ahead = glm::dot(apex_ws_m(view) - p, view.axis_back);
             const bool before = GetParam() == LightKind::directional || (ahead > 0.0 && ahead == deepest);
             if (before && q.x >= keep && q.y >= keep && q.x <= 1.0 - keep && q.y <= 1.0 - keep && q.z >= 0.0 && q.z <= 1.0)
                 return &view;
@@ -93,7 +93,7 @@ TEST_P(FitTest, TexelSizesAreThoseOfTheMap) {
         for (const ShadowView& view : fitted(scene).views) {
             const bool flat = view.projection == ViewProjection::orthographic;
             const double distance_m = flat ? 0.5 * (view.near_m + view.far_m) : view.far_m;
-            const glm::dvec3 p = view.anchor_ws_m - view.axis_back * distance_m +
+            const glm::dvec3 p = apex_ws_m(view) - view.axis_back * distance_m +
                                  (flat ? view.axis_u * view.centre_ls_m.x + view.axis_v * view.centre_ls_m.y
                                        : distance_m * 0.5 * (view.axis_u * (view.tan_low.x + view.tan_high.x) +
                                                              view.axis_v * (view.tan_low.y + view.tan_high.y)));

@@ -25,7 +25,7 @@ vec2x pixel_of(const ConsumerItem& c, const vec3x& p_ws) {
 /// The point of the plane (p_ws, normal) that lies texel (du, dv) beside p_ws in the map.
 vec3x beside(const ShadowView& view, const vec3x& p_ws, const vec3x& normal, Exact du, Exact dv) {
     const bool flat = view.projection == ViewProjection::orthographic;
-    const vec3x anchor(view.anchor_ws_m), back(view.axis_back);
+    const vec3x anchor(apex_ws_m(view)), back(view.axis_back);
     const Exact z_m = flat ? Exact{1} : glm::dot(anchor - p_ws, back);
     const vec3x shifted = p_ws + vec3x(view.axis_u) * (du * static_cast<Exact>(view.texel_u) * z_m) +
                           vec3x(view.axis_v) * (dv * static_cast<Exact>(view.texel_v) * z_m);

@@ -56,7 +56,7 @@ TEST(PotentialSets, HoldEveryBlockerOfEverySampledVisiblePoint) {
 /// Where a filter's outermost tap compares instead of `p`: `texels` of its view aside, at the same depth.
 oracle::Vector tap(const ShadowView& view, const glm::dvec3& p, const glm::dvec2& texels) {
     const double distance_m =
-        view.projection == ViewProjection::orthographic ? 1.0 : -glm::dot(p - view.anchor_ws_m, view.axis_back);
+        view.projection == ViewProjection::orthographic ? 1.0 : -glm::dot(p - apex_ws_m(view), view.axis_back);
     return oracle::exact(p + distance_m * (view.axis_u * (texels.x * view.texel_u) + view.axis_v * (texels.y * view.texel_v)));
 }
 

@@ -30,7 +30,7 @@ struct Counts {
 /// How many texels around a receiver, along its map's finer side, a lamp's filter looks at (source.glsl): its picture of
 /// the source is the ellipse of a disk that is small beside its distance. A large one's inner side reaches farther.
 double lamp_reads_texel(const ShadowView& view, const glm::dvec3& p, double radius_m) {
-    const glm::dvec3 d = p - view.anchor_ws_m;
+    const glm::dvec3 d = p - apex_ws_m(view);
     const double z_m = -glm::dot(d, view.axis_back);
     const glm::dvec2 tangent = glm::dvec2(glm::dot(d, view.axis_u), glm::dot(d, view.axis_v)) / z_m;
     const double stretch = std::sqrt(1.0 + glm::dot(tangent, tangent));
