@@ -39,6 +39,8 @@ void complete_basis(glm::dmat3& basis, const glm::dvec3& scale) {
 
 /// Converges quadratically; random and nearly singular matrices take at most 6 (SceneImport, sheared matrices).
 constexpr int kJacobiSweeps = 12;
+/// Of the longest column: what is shorter is rounding of a few products in double, of any direction (SceneImport).
+constexpr double kLeastColumn = 0x1p-44;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -91,6 +93,9 @@ ShearedTrs decompose_sheared(const glm::dmat4& matrix, const std::string& pointe
             axis[(i + 2) % 3] = 1.0;
             turned = turned * glm::angleAxis(0.5 * twice_rad, axis);
         }
+    const double longest = std::max({glm::length(squared[0]), glm::length(squared[1]), glm::length(squared[2])});
+    for (int i = 0; i < 3; ++i)
+        if (glm::length(squared[i]) <= kLeastColumn * longest) squared[i] = glm::dvec4(0.0);
     const std::optional<Trs> outer = decompose(squared, pointer);
     if (!outer) fail("node.not_finite", pointer, "it is no product of turns and scales");
     return {*outer, glm::normalize(glm::conjugate(turned))};

@@ -52,7 +52,17 @@ std::vector<TakenInput> taken_file_inputs() {
         {"BytesAfterTheEnd", "glb.length", "", glb_from([](auto t) { return padded(t, ' '); }, 7), whole},
         {"ZerosAfterTheJson", "glb.json_padding", "",
          glb_from([](auto t) { return padded(t + " ", 0) + std::string(4, 0); }), whole},
-        {"JsonOfOddLength", "glb.chunk_alignment", "", glb_from([](auto t) { return padded(t, ' ') + " "; }), whole},
+        {"JsonOfOddLength", "glb.chunk_alignment", "",
+         [] {
+             Bytes bytes = glb_from([](auto t) { return t; })();
+             std::uint32_t json_length = 0;
+             std::memcpy(&json_length, bytes.data() + kGlbJsonLength, sizeof(json_length));
+             bytes.insert(bytes.begin() + 20 + json_length, std::byte{' '});
+             put_u32(bytes, kGlbJsonLength, json_length + 1);
+             put_u32(bytes, 8, static_cast<std::uint32_t>(bytes.size()));
+             return bytes;
+         },
+         whole},
         {"TooFewBytesForAChunk", "glb.chunk_header", "",
          [] {
              Bytes bytes = glb_from([](auto t) { return padded(t, ' '); }, 4)();
