@@ -21,7 +21,7 @@ namespace {
 /// Primitives that share all of this share their vertices.
 struct VertexSource {
     int position = kNone, normal = kNone, uv = kNone, colour = kNone;  // accessors
-    int material = kNone;                              // where it transforms texture coordinates, else kNone
+    int material = kNone;  // where it transforms texture coordinates, else kNone
     DeformingSource deforming;
     auto operator<=>(const VertexSource&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads <=>
 };
@@ -209,11 +209,20 @@ private:
                                        bool normalised = false) {
         const std::string where = where_ + "/attributes/" + name;
         if (!is_right) {
-            document_.take("attribute.left_out", where, "its accessor has a type that glTF does not allow here, left out");
+            document_.take("attribute.left_out", where,
+                           "its accessor has a type that glTF does not allow here, left out");
             return {};
         }
         if (accessor_of(accessor).count != count) {
             document_.take("attribute.left_out", where, "holds another number of elements than POSITION, left out");
+            return {};
+        }
+        const int view = accessor_of(accessor).bufferView;
+        if (view >= 0 &&
+            !document_
+                 .buffers[static_cast<std::size_t>(document_.model.bufferViews[static_cast<std::size_t>(view)].buffer)]
+                 .available) {
+            document_.take("attribute.left_out", where, "its buffer has no data, left out");
             return {};
         }
         return read_any_floats(document_, accessor, normalised);
@@ -317,9 +326,9 @@ private:
     std::string where_;
     std::map<VertexSource, VertexBlock> blocks_;  // of the mesh at hand
     std::vector<bool> missing_normals_;
-    std::vector<bool> nowhere_;                   // vertices that are no numbers; may be shorter
+    std::vector<bool> nowhere_;  // vertices that are no numbers; may be shorter
     std::vector<MeshPlace> places_;
-    DeformerBuilder* deformer_ = nullptr;         // of the same mesh
+    DeformerBuilder* deformer_ = nullptr;  // of the same mesh
 };
 
 }  // namespace
