@@ -56,7 +56,9 @@ DeviceInfo read_info() {
     return info;
 }
 
-MessageSeverity severity_of(GLenum severity) {
+/// A driver's advice on speed is low, whatever it says itself: nothing is wrong.
+MessageSeverity severity_of(GLenum type, GLenum severity) {
+    if (type == GL_DEBUG_TYPE_PERFORMANCE && severity != GL_DEBUG_SEVERITY_NOTIFICATION) return MessageSeverity::low;
     switch (severity) {
         case GL_DEBUG_SEVERITY_HIGH:
             return MessageSeverity::high;
@@ -199,7 +201,7 @@ private:
     static void on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
                            const void* self) {
         if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP) return;  // our own labels
-        static_cast<const Gl45Device*>(self)->sink_(severity_of(severity),
+        static_cast<const Gl45Device*>(self)->sink_(severity_of(type, severity),
                                                     {text, static_cast<std::size_t>(std::max(length, 0))});
     }
 

@@ -9,7 +9,8 @@
 
 namespace gnomon::gl {
 
-/// Severity and text of a KHR_debug message; called during the GL call that caused it (synchronous).
+/// Severity and text of a KHR_debug message; called during the GL call that caused it (synchronous). Advice on speed is
+/// never above low.
 enum class MessageSeverity : std::uint8_t { notification, low, medium, high };
 using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 

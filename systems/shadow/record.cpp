@@ -79,6 +79,7 @@ bool DepthRecorder::program(const Way& way, bool masked) {
     if (programs_[i]) return true;
     if (!retries_[i].due(frame_)) return false;
     std::vector<std::string> defines;
+    defines.reserve(5);
     std::string label = masked ? "depth masked" : "depth opaque";
     if (masked) defines.emplace_back("MASKED 1");
     if (masked && way.coloured) defines.emplace_back("COLOURED 1");

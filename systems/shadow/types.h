@@ -50,7 +50,7 @@ struct ShadowDemand {
     std::uint32_t device_px = 0;       // the device's limit on that edge
     std::uint32_t most_views = 0;      // of a sun whose count of cascades is the fit's to choose; else 0
     int faces_eighths = 0;             // spot: share of cube faces against a single view (kinds/cone_fade.h)
-    LampAim aim;                       // of a far lamp: one view of what is seen of what it lights (kinds/lamp_aim.h)
+    LampAim aim = {};                  // of a far lamp: one view of what is seen of what it lights (kinds/lamp_aim.h)
     bool perspective_sun = false;      // one view from an eye instead of cascades
     float cascade_blend = 0.0f;        // share of a cascade that fades into the next
     float warp = 0.0f;                 // a sun's maps are warped (kinds/directional_warped.h) by so much at most

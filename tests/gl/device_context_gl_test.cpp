@@ -2,6 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest-spi.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "tests/gl/gl_test_context.h"
 
 // Contexts, and that the fixture of all OpenGL tests notices what it promises to notice.
@@ -40,6 +44,24 @@ TEST(HeadlessContext, EndingOneLeavesAnotherCurrent) {
     auto device = gl::make_gl45_device({});
     ASSERT_TRUE(device);
     EXPECT_TRUE(device.value()->create_buffer({.label = "alive", .size = 4}, {}));
+}
+
+TEST(HeadlessContext, AdviceOnSpeedIsNoComplaint) {
+    auto context = platform::make_headless_context(true);
+    ASSERT_TRUE(context);
+    std::vector<std::pair<gl::MessageSeverity, std::string>> heard;
+    auto device = gl::make_gl45_device(
+        [&](gl::MessageSeverity severity, std::string_view text) { heard.emplace_back(severity, std::string(text)); });
+    ASSERT_TRUE(device);
+    heard.clear();
+    const auto say = [](GLenum type, const char* text) {
+        glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, type, 1, GL_DEBUG_SEVERITY_MEDIUM, -1, text);
+    };
+    say(GL_DEBUG_TYPE_PERFORMANCE, "a shader is compiled again");
+    say(GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR, "anything may happen");
+    using Heard = std::pair<gl::MessageSeverity, std::string>;
+    EXPECT_THAT(heard, ::testing::ElementsAre(Heard(gl::MessageSeverity::low, "a shader is compiled again"),
+                                              Heard(gl::MessageSeverity::medium, "anything may happen")));
 }
 
 class GlTestSelfTest : public GlTest {
