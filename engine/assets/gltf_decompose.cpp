@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_limits.h"
@@ -35,6 +36,21 @@ void complete_basis(glm::dmat3& basis, const glm::dvec3& scale) {
     }
     const int lost = !has[0] ? 0 : !has[1] ? 1 : 2;
     basis[lost] = glm::cross(basis[(lost + 1) % 3], basis[(lost + 2) % 3]);
+}
+
+/// Makes three columns that are square but for rounding wholly so: a column far shorter than another has its rounding.
+void make_square(glm::dmat4& columns) {
+    int order[3] = {0, 1, 2};
+    const auto length = [&](int i) { return glm::length(glm::dvec3(columns[i])); };
+    std::sort(std::begin(order), std::end(order), [&](int a, int b) { return length(a) > length(b); });
+    if (!(length(order[1]) > 0.0)) return;
+    const glm::dvec3 first = glm::normalize(glm::dvec3(columns[order[0]]));
+    const glm::dvec3 second(columns[order[1]]);
+    const glm::dvec3 across = second - first * glm::dot(first, second);
+    if (!(glm::length(across) > 0.0)) return;
+    columns[order[1]] = glm::dvec4(across, 0.0);
+    const glm::dvec3 last = glm::cross(first, glm::normalize(across));
+    columns[order[2]] = glm::dvec4(last * glm::dot(last, glm::dvec3(columns[order[2]])), 0.0);
 }
 
 /// Converges quadratically; random and nearly singular matrices take at most 6 (SceneImport, sheared matrices).
@@ -96,6 +112,7 @@ ShearedTrs decompose_sheared(const glm::dmat4& matrix, const std::string& pointe
     const double longest = std::max({glm::length(squared[0]), glm::length(squared[1]), glm::length(squared[2])});
     for (int i = 0; i < 3; ++i)
         if (glm::length(squared[i]) <= kLeastColumn * longest) squared[i] = glm::dvec4(0.0);
+    make_square(squared);
     const std::optional<Trs> outer = decompose(squared, pointer);
     if (!outer) fail("node.not_finite", pointer, "it is no product of turns and scales");
     return {*outer, glm::normalize(glm::conjugate(turned))};

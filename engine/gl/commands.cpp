@@ -116,6 +116,9 @@ struct Writer {
         return "UpdateBuffer" + field("buffer", c.buffer) + field("offset", c.offset) + field("first", c.first) +
                field("size", c.size);
     }
+    std::string operator()(const ClearBuffer& c) const {
+        return "ClearBuffer" + field("buffer", c.buffer) + field("offset", c.offset) + field("size", c.size);
+    }
     std::string operator()(const BindMeshes& c) const {
         return "BindMeshes" + field("vertices", c.vertices) + field("indices", c.indices) +
                field("draw_items", c.draw_items);

@@ -131,6 +131,15 @@ struct UpdateBuffer {
     bool operator==(const UpdateBuffer&) const = default;
 };
 
+/// Fills size bytes of an updated buffer from offset with 0; both are multiples of 4. Done by the device, in its order:
+/// what shaders add up in a buffer is reset by this. Updates come from the processor, and NVIDIA's driver loses those
+/// of a buffer that shaders write. Allowed outside passes only.
+struct ClearBuffer {
+    BufferHandle buffer{};
+    std::uint64_t offset = 0, size = 0;
+    bool operator==(const ClearBuffer&) const = default;
+};
+
 /// Vertex layout "mesh": vertices = {vec3 position, vec3 normal, vec2 uv} (32 bytes), attribute locations 0,1,2;
 /// indices uint32; `draw_items` = uvec2 {instance, first_triangle} per instance, attribute location 3, divisor 1.
 struct BindMeshes {
@@ -212,8 +221,8 @@ struct EndTimer {
 
 using Command =
     std::variant<BeginGroup, EndGroup, BeginPass, EndPass, SetScissor, SetPipeline, BindTexture, BindUniforms,
-                 BindStorage, BindTexels, UpdateBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines, DrawPoints,
-                 DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
+                 BindStorage, BindTexels, UpdateBuffer, ClearBuffer, BindMeshes, DrawMeshes, DrawTriangle, DrawLines,
+                 DrawPoints, DrawPulled, Dispatch, CopyBuffer, CopyTexture, GenerateMips, Blit, BeginTimer, EndTimer>;
 
 struct CommandList {
     std::vector<Command> commands;

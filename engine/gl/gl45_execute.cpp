@@ -200,6 +200,16 @@ public:
                              list_.bytes.data() + c.first);
     }
 
+    void operator()(const ClearBuffer& c) {
+        const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
+        if (in_pass_ || buffer == nullptr || buffer->desc.use != BufferUse::updated || c.offset % 4 != 0 ||
+            c.size % 4 != 0 || !in_range(c.offset, c.size, buffer->desc.size)) {
+            return note(Failure::invalid_value);
+        }
+        glClearNamedBufferSubData(buffer->name, GL_R32UI, static_cast<GLintptr>(c.offset),
+                                  static_cast<GLsizeiptr>(c.size), GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    }
+
     void operator()(const BindMeshes& c) {
         const GlBuffer* vertices = find_object(objects_.buffers, c.vertices.id);
         indices_ = find_object(objects_.buffers, c.indices.id);

@@ -92,6 +92,16 @@ public:
                     buffer.bytes.begin() + static_cast<std::ptrdiff_t>(c.offset));
     }
 
+    void operator()(const ClearBuffer& c) {
+        if (in_pass_) find(Misuse::update_inside_pass, "a pass is open");
+        if (!known(objects_.buffers, c.buffer.id, "buffer")) return;
+        RecordedBuffer& buffer = objects_.buffers.at(c.buffer.id);
+        if (buffer.desc.use != BufferUse::updated) return find(Misuse::update_of_fixed_buffer, buffer.desc.label);
+        if (c.offset % 4 != 0 || c.size % 4 != 0 || !in_range(c.offset, c.size, buffer.bytes.size()))
+            return find(Misuse::update_out_of_range, buffer.desc.label);
+        std::fill_n(buffer.bytes.begin() + static_cast<std::ptrdiff_t>(c.offset), c.size, std::byte{0});
+    }
+
     void operator()(const BindMeshes& c) {
         const bool vertices = known(objects_.buffers, c.vertices.id, "vertices");
         const bool indices = known(objects_.buffers, c.indices.id, "indices");

@@ -39,10 +39,9 @@ void DepthSampler::record(const Picture& picture, gl::CommandList& list) {
     failed_ = !prepare();
     if (failed_) return retry_.failed(frames_);
     if (!counts_.has_room()) return;
-    static constexpr std::array<std::uint32_t, kDepthBins> kNone{};
     list.add(gl::BeginGroup{"view distances"});
     list.add(gl::BeginTimer{kDepthTimer});
-    list.update(bins_, 0, std::span<const std::uint32_t>(kNone));
+    list.add(gl::ClearBuffer{bins_, 0, kBytes});
     list.add(gl::BindUniforms{0, picture.uniforms, 0, sizeof(shadow::CameraRecord)});
     list.add(gl::BindTexture{0, picture.depth, picture.sampler});
     list.add(gl::BindStorage{0, bins_});

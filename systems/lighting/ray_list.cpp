@@ -1,7 +1,6 @@
 #include "systems/lighting/ray_list.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <span>
 
@@ -79,8 +78,7 @@ bool RayList::provide(bool wanted, glm::uvec2 size_px, gl::TextureHandle depth) 
 }
 
 void RayList::begin_verdicts(gl::CommandList& list) const {
-    static constexpr std::array<std::uint32_t, 1> kNone{};
-    list.update(pixels_, 0, std::span<const std::uint32_t>(kNone));
+    list.add(gl::ClearBuffer{pixels_, 0, kWord});
     list.add(gl::BindStorage{kBinding, pixels_});
     list.add(gl::BeginPass{verdict_target_, area_of(size_px_), false, 0.0f, false, {}});
 }

@@ -49,6 +49,20 @@ TEST_F(DeviceReadback, WhatAComputeProgramWroteComesBackOnce) {
     EXPECT_EQ(read_back(), Readback::empty);
 }
 
+// What shaders add up begins at 0 in each frame, however often the buffer was written by the processor and by shaders.
+TEST_F(DeviceReadback, WhatShadersWroteIsClearedInTheListsOrder) {
+    for (int frame = 0; frame < 16; ++frame) {
+        gl::CommandList list = doubling();
+        list.add(gl::ClearBuffer{counts, 4, 8});
+        list.add(gl::Dispatch{doubler, 1, 1});
+        list.add(gl::CopyBuffer{counts, back});
+        run(list);
+        device().finish();
+        EXPECT_EQ(read_back(), Readback::done);
+        EXPECT_THAT(values, ElementsAre(4u, 0u, 0u, 16u)) << frame;
+    }
+}
+
 TEST_F(DeviceReadback, ComesInTimeWithoutAFinishIfOneAsksAgain) {
     run(doubling());
     Readback state = Readback::pending;

@@ -155,6 +155,7 @@ TEST_F(DeviceState, CommandsOnUnknownObjectsAreLeftOutAndTheRestIsDrawn) {
                                           gl::BeginPass{.target = {999}},
                                           gl::Blit{{999}, target, {}, {}},
                                           gl::UpdateBuffer{{999}, 0, 0, 4},
+                                          gl::ClearBuffer{{999}, 0, 4},
                                           gl::EndGroup{},
                                           gl::EndTimer{3}};
     for (const gl::Command& command : bad) {

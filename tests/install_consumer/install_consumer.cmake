@@ -5,7 +5,7 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
             -DWORK=${CMAKE_CURRENT_BINARY_DIR}/install_consumer -DCOMPILER=${CMAKE_CXX_COMPILER}
             -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/build_and_run.cmake)
-  set_tests_properties(Package.AStrangerBuildsAgainstTheInstalledCopy PROPERTIES LABELS e2e TIMEOUT 600)
+  set_tests_properties(Package.AStrangerBuildsAgainstTheInstalledCopy PROPERTIES LABELS "e2e;long" TIMEOUT 600)
 endif()
 
 # The guides show that project's code, and nothing else.

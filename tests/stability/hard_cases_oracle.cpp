@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "systems/shadow/lamp_places.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::hard {
@@ -121,6 +122,15 @@ bool reached(const LightItem& light, const Vec& p) {
     if (light.kind == LightKind::point) return true;
     const Number cosine = glm::dot(to, -Vec(light.rotation_ws[2])) / distance;
     return cosine > std::cos(Number(light.outer_cone_rad)) + kClear * std::sin(Number(light.outer_cone_rad));
+}
+
+/// Whether the lamp stands off the triangle's plane by more than its shadows are looked for aside (lamp_places.h): a
+/// surface whose plane holds the lamp takes no light of it, and what else lies in that plane darkens nothing there.
+bool is_off_plane(const LightItem& light, const Triangle& t) {
+    if (light.kind == LightKind::directional) return true;
+    const Vec lamp(light.position_ws_m), normal = glm::cross(t.b - t.a, t.c - t.a);
+    const Number reach = std::max({glm::length(t.a - lamp), glm::length(t.b - lamp), glm::length(t.c - lamp)});
+    return std::abs(glm::dot(normal, lamp - t.a)) > 2 * Number(shadow::kClearOfClipping) * reach * glm::length(normal);
 }
 
 /// From the point to the light, way length 1: the light itself; a sun: beyond everything.
@@ -252,7 +262,7 @@ private:
         const LightItem& light = scene_.lights[l];
         std::size_t judged = 0;
         for (const Point& point : points) {
-            if (!reached(light, point.at)) continue;
+            if (!reached(light, point.at) || !is_off_plane(light, triangles_[point.triangle])) continue;
             if (++judged > kMostPoints) break;
             ++verdict_.seen;
             const Ray ray = to_light(light, point.at, size_);

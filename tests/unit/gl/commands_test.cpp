@@ -106,6 +106,7 @@ TEST(CommandText, CommandsThatDifferHaveDifferentText) {
                                            BindTexels{0, {1}},
                                            BindTexels{1, {1}},
                                            UpdateBuffer{{1}, 0, 4, 8},
+                                           ClearBuffer{{1}, 8, 4},
                                            BindMeshes{{1}, {2}, {3}},
                                            DrawMeshes{0, 3, 1, 0, 1},
                                            DrawMeshes{0, 3, -1, 0, 1},

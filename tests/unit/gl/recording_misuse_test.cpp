@@ -121,6 +121,11 @@ TEST_F(RecordingMisuse, UpdatesStayInTheirBufferAndPayload) {
     EXPECT_THAT(misuses_of(last), IsEmpty());
     EXPECT_THAT(misuses_of(beyond), ElementsAre(Misuse::update_out_of_range));
     EXPECT_THAT(of({UpdateBuffer{items, 0, 0, 4}}), ElementsAre(Misuse::update_out_of_range)) << "no payload";
+    EXPECT_THAT(of({ClearBuffer{items, 0, 4}}), IsEmpty());
+    EXPECT_THAT(of({ClearBuffer{items, 2, 4}}), ElementsAre(Misuse::update_out_of_range)) << "no whole words";
+    EXPECT_THAT(of({ClearBuffer{items, 0, 1u << 20}}), ElementsAre(Misuse::update_out_of_range));
+    EXPECT_THAT(of({pass(), ClearBuffer{items, 0, 4}, EndPass{}}), ElementsAre(Misuse::update_inside_pass));
+    EXPECT_THAT(of({ClearBuffer{indices, 0, 4}}), ElementsAre(Misuse::update_of_fixed_buffer));
 }
 
 TEST_F(RecordingMisuse, FixedBuffersAreNotUpdated) {

@@ -155,7 +155,8 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
             const ShadowFrame again = fitted(s, after.next_history);
             EXPECT_TRUE(keeps_contract(predicted_px(again), 1.0) ||
                         again.demands[0].resolution_px == again.demands[0].most_px)
-                << "more are given at once";
+                << "more are given at once: scene " << i << ", " << again.demands[0].resolution_px << " of "
+                << again.demands[0].most_px << " px, " << predicted_px(again) << " px off";
         }
         EXPECT_GT(given_up, 5);
     }

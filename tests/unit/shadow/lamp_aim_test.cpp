@@ -51,6 +51,13 @@ Placed truly(const ShadowView& view, const LightItem& light, const glm::dvec3& p
             view.near_m * (view.far_m + p.z) / (-p.z * (view.far_m - view.near_m))};
 }
 
+/// How far a depth that is off by so much is off along the view's axis, as a share of a texel's side there.
+double off_texel(const ShadowView& view, const LightItem& light, const glm::dvec3& p_ws, double depth_off) {
+    const double z_m = glm::dot(light.position_ws_m - p_ws, view.axis_back);
+    const double off_m = depth_off * z_m * z_m * (view.far_m - view.near_m) / (view.near_m * view.far_m);
+    return off_m / (z_m * std::max(view.texel_u, view.texel_v));
+}
+
 TEST(LampAim, HoldsAllThatIsSeenAndLittleMore) {
     const std::uint64_t seed = print_seed();
     RandomScene random(seed);
@@ -100,7 +107,10 @@ TEST(LampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
         for (const glm::dvec3& p_ws : frame.receiver_points_ws) {
             const Placed at = placed(*view, p_ws), truth = truly(*view, scene.lights[0], p_ws);
             EXPECT_LT(glm::length(at.map - truth.map) * 2048.0, kMostOff_texel) << round;
-            EXPECT_LT(std::abs(at.depth - truth.depth), 1e-5) << round;
+            // Depths as coarse as texels are said to be so: of a caster that stands beside the lamp.
+            if (frame.demands[0].note != Reason::depth_coarse) {
+                EXPECT_LT(off_texel(*view, scene.lights[0], p_ws, std::abs(at.depth - truth.depth)), 1.0) << round;
+            }
             worst_about_lamp =
                 std::max(worst_about_lamp, glm::length(placed(about_lamp, p_ws).map - truth.map) * 2048.0);
         }

@@ -223,7 +223,7 @@ TEST(SheetItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
     std::mt19937_64 random(print_seed());
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     std::size_t small = 0, large = 0;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 120; ++i) {
         oracle::AnalyticScene scene;
         const std::uint32_t cube = scene.add_cube();
         // Of a hundredth of a texel to all of the map, and around the lamp itself.
