@@ -11,6 +11,7 @@
 namespace gnomon::lighting {
 namespace {
 
+constexpr std::uint64_t kBytes = sizeof(SampledDepths::pixels);
 constexpr std::uint32_t kTile_px = 64;  // of a work group: 16 invocations of 4 pixels, to either side
 
 std::uint32_t tiles(std::uint32_t size_px) { return (size_px + kTile_px - 1) / kTile_px; }
@@ -28,7 +29,6 @@ bool DepthSampler::prepare() {
         if (!source) return false;
         program_ = device_.create_program({.label = "view distances", .compute = std::move(source).value()}).handle;
     }
-    constexpr std::uint64_t kBytes = sizeof(SampledDepths::pixels);
     if (program_ && !bins_)
         bins_ = device_.create_buffer({"view distances", kBytes, gl::BufferUse::updated}, {}).handle;
     return bins_ && counts_.prepare();
