@@ -4,7 +4,8 @@
 usage: summary.py [--most-s SECONDS --listed FILE] JUNIT[=FOLDER] ...
   JUNIT    what ctest wrote; each of its tests is a process
   FOLDER   GoogleTest's own results, a file NAME.xml for ctest's test NAME; counted test by test
-  --most-s a test that takes longer counts as failed, unless a line of FILE names it, with a reason: NAME  # reason
+  --most-s a test of the first JUNIT that takes longer counts as failed, unless a line of FILE matches its name, with a
+           reason: NAME*  # reason. Those after it run under sanitizers, several times as long
 The last line printed is exactly `N passed, N failed, N skipped`.
 Exit status: 0 if at least one test passed and none failed, else 1. A missing or broken JUNIT counts as one failure.
 """
@@ -13,6 +14,7 @@ import re
 import sys
 import xml.etree.ElementTree as ElementTree
 from collections import namedtuple
+from fnmatch import fnmatchcase
 from pathlib import Path
 
 FAILURE_LINES = 60
@@ -100,9 +102,9 @@ def read(argument):
 
 
 def listed_names(path):
-    """Names of a file of `NAME  # reason`; a line without a reason is none."""
+    """Patterns of a file of `NAME  # reason`; a line without a reason is none."""
     lines = [line.partition("#") for line in Path(path).read_text(encoding="utf-8").splitlines()]
-    return {name.strip() for name, _, reason in lines if name.strip() and reason.strip()}
+    return [name.strip() for name, _, reason in lines if name.strip() and reason.strip()]
 
 
 def main(arguments):
@@ -111,12 +113,13 @@ def main(arguments):
     parser.add_argument("--listed")
     parser.add_argument("results", nargs="+")
     options = parser.parse_args(arguments)
-    listed = listed_names(options.listed) if options.listed else set()
-    cases = [case for argument in options.results for case in read(argument)]
+    listed = listed_names(options.listed) if options.listed else []
+    cases_of = [read(argument) for argument in options.results]
+    cases = [case for own in cases_of for case in own]
     slow = [
         Case("failed", case.name, f"took {case.seconds:.0f} s, more than {options.most_s:.0f} s, and is not in {options.listed}", 0)
-        for case in cases
-        if case.seconds > options.most_s and case.name not in listed
+        for case in cases_of[0]
+        if case.seconds > options.most_s and not any(fnmatchcase(case.name, name) for name in listed)
     ]
     slowest = sorted(cases, key=lambda case: -case.seconds)[:SLOWEST]
     if slowest and slowest[0].seconds > 0:

@@ -1,7 +1,9 @@
 # Lists an executable's GoogleTest suites and writes them as ctest's tests: one process per suite, not one per test, since
 # starting a process, and a GL context in it, takes longer than most tests.
 # cmake -DEXECUTABLE= -DLABEL= -DTIMEOUT= -DRESULTS= -DLONG= -DOUT= -P discover_suites.cmake
-# LONG names the file of suites that have the label `long`, too. Each process leaves GoogleTest's own results, test by test, in RESULTS; .ci/summary.py reads them.
+# LONG names the file of suites that have the label `long`, too. Each process leaves GoogleTest's own results, test by test,
+# in RESULTS; .ci/summary.py reads them.
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${EXECUTABLE} --gtest_list_tests OUTPUT_VARIABLE listed RESULT_VARIABLE code)
 if(NOT code EQUAL 0)
   message(FATAL_ERROR "${EXECUTABLE} --gtest_list_tests ended with ${code}:\n${listed}")

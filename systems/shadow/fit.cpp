@@ -156,17 +156,22 @@ private:
         std::uint32_t spare_frames = 0;
         FittedSizes sizes;
         bool fitted = false;
-        for (int again = 0; again <= kMostSizes; ++again) {
+        for (int again = 0;; ++again) {
             frame_.views.resize(first_);
             next = held;
             fitted = fit_light(scene_, held, d_, next, frame_);
-            if (!fitted || again == kMostSizes) break;
+            // After kMostSizes one more is fitted, if they were too small: a border is another share of each size.
+            if (!fitted || again > kMostSizes || (again == kMostSizes && keeps_wish())) break;
             if (!settle_size(light_, views(), held, sizes, spare_frames, demand())) break;
             select_sets_again(scene_, d_, frame_);
         }
         next.map_px = follows_contract(light_, demand()) ? demand().resolution_px : 0;
         next.spare_frames = next.map_px == held.map_px ? spare_frames : 0;
         return fitted;
+    }
+
+    bool keeps_wish() const {
+        return keeps_contract(predicted_px(views()), wished_error_px(light_.shadow));
     }
 
     /// Whether it is time to look for another number of cascades.

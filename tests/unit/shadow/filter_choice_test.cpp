@@ -161,7 +161,7 @@ TEST_P(FittedFilter, IsTheUsualOneAsItEverWasWhereNothingIsSaid) {
 
 TEST_P(FittedFilter, HardlyChangesWhileTheCameraSways) {
     RandomScene random(print_seed());
-    int changes = 0, keeping = 0;
+    int changes = 0, keeping = 0, twice_there = 0;
     for (int i = 0; i < 30; ++i) {
         SceneSnapshot s = scene(random, 4.0f);
         const glm::dvec3 from = s.consumers[0].position_ws_m;
@@ -176,10 +176,12 @@ TEST_P(FittedFilter, HardlyChangesWhileTheCameraSways) {
             of_scene += last != ShadowFilter::automatic && last != filter(frame) ? 1 : 0;
             last = filter(frame);
         }
-        EXPECT_LE(of_scene, 2) << "there, and once back";
+        EXPECT_LE(of_scene, 3) << "there, once back, and there for good";
+        twice_there += of_scene == 3 ? 1 : 0;
         changes += of_scene;
         keeping += last == kKeepingFilter ? 1 : 0;
     }
+    EXPECT_LE(twice_there, 1) << "there, and at most once back";
     std::cout << changes << " changes, " << keeping << " end with the keeping one\n";
 }
 
