@@ -101,7 +101,9 @@ ShearedTrs decompose_sheared(const glm::dmat4& matrix, const std::string& pointe
         for (int i = 0; i < 3; ++i) {
             const int p = i, q = (i + 1) % 3;
             const glm::dvec3 a(squared[p]), b(squared[q]);
-            const double twice_rad = std::atan2(2.0 * glm::dot(a, b), glm::dot(a, a) - glm::dot(b, b));
+            // Of the two turns that do it the one below 45 degrees: the other swaps the columns, and never settles.
+            const double longer = glm::dot(a, a) - glm::dot(b, b), along = 2.0 * glm::dot(a, b);
+            const double twice_rad = std::atan2(longer < 0.0 ? -along : along, std::abs(longer));
             const double c = std::cos(0.5 * twice_rad), s = std::sin(0.5 * twice_rad);
             squared[p] = glm::dvec4(c * a + s * b, 0.0);
             squared[q] = glm::dvec4(c * b - s * a, 0.0);

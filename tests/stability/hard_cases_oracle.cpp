@@ -168,8 +168,9 @@ std::vector<Point> shadowed_points(const SceneSnapshot& scene, const std::vector
     return points;
 }
 
+/// `touch`: share of the way at its end where a crossing tells nothing: there the light touches the caster.
 std::vector<std::uint32_t> occluders(const SceneSnapshot& scene, const std::vector<Triangle>& triangles,
-                                     const Point& point, const Ray& ray) {
+                                     const Point& point, const Ray& ray, Number touch) {
     std::vector<std::uint32_t> found;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const InstanceItem& item = scene.instances[triangles[t].instance];
@@ -177,7 +178,7 @@ std::vector<std::uint32_t> occluders(const SceneSnapshot& scene, const std::vect
         bool clear = false;
         const Number at = crossing(ray, triangles[t], clear);
         const Number smallest = 1e-9L;  // of the way: coplanar neighbours touch at the point itself
-        if (clear && at > smallest && at < 1.0L - smallest) found.push_back(triangles[t].instance);
+        if (clear && at > smallest && at < 1.0L - std::max(smallest, touch)) found.push_back(triangles[t].instance);
     }
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -266,7 +267,9 @@ private:
             if (++judged > kMostPoints) break;
             ++verdict_.seen;
             const Ray ray = to_light(light, point.at, size_);
-            const auto dark = occluders(scene_, triangles_, point, ray);
+            // A lamp is kept off what it touches by this share of the way, on either side (lamp_places.h).
+            const Number touch = light.kind == LightKind::directional ? 0.0L : 4 * Number(shadow::kClearOfClipping);
+            const auto dark = occluders(scene_, triangles_, point, ray, touch);
             verdict_.darkened += !dark.empty();
             if (judged % 8 == 0) audit(ray);
             if (skipped) {
