@@ -1,6 +1,7 @@
 #include "engine/gl/shader_source.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 
 namespace gnomon::gl {

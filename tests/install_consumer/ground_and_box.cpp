@@ -1,5 +1,7 @@
 #include "ground_and_box.h"
 
+#include <cstdint>
+
 #include <glm/geometric.hpp>
 
 namespace {

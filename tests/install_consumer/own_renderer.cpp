@@ -1,6 +1,7 @@
 #include "own_renderer.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <glm/geometric.hpp>
 
