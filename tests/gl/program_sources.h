@@ -111,19 +111,15 @@ inline std::vector<gl::ProgramDesc> all_programs() {
             if (const gl::ProgramDesc* desc = device.program(handle)) programs.push_back(*desc);
             else programs.push_back({.label = "not expanded"});
         };
-        add(lighting.surface());
-        add(lighting.surface(true));
-        add(lighting.blended_base());
-        add(lighting.unlit_surface(false));
-        add(lighting.unlit_surface(true));
-        add(lighting.unlit_blended());
-        lighting.set_coloured(true);
-        add(lighting.surface());
-        add(lighting.surface(true));
-        add(lighting.blended_base());
-        add(lighting.unlit_surface(false));
-        add(lighting.unlit_surface(true));
-        add(lighting.unlit_blended());
+        for (const bool coloured : {false, true}) {
+            lighting.set_coloured(coloured);
+            add(lighting.surface());
+            add(lighting.surface(true));
+            add(lighting.blended_base());
+            add(lighting.unlit_surface(false));
+            add(lighting.unlit_surface(true));
+            add(lighting.unlit_blended());
+        }
         lighting.set_coloured(false);
         add(lighting.luminance());
         add(lighting.tonemap());
