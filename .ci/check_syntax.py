@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Lets a compiler read every source file by itself, without making code of it.
 
-usage: check_syntax.py BUILD_FOLDER
+usage: check_syntax.py BUILD_FOLDER [FOLDER_LEFT_OUT ...]
 Files of the folder's compile_commands.json, with its flags: so warnings are errors where they are configured to be, and no
-file may lack an include that a joined build would bring along. Generated files are left out.
+file may lack an include that a joined build would bring along. Generated files are left out, and those in the folders named.
 Exit status: 1 if a file is refused, or if there are none.
 """
 import json
@@ -30,9 +30,10 @@ def check(entry):
     return f"{entry['file']}\n{text}" if done.returncode != 0 or text else ""
 
 
-def main(folder):
+def main(folder, left_out):
     entries = json.loads((folder / "compile_commands.json").read_text(encoding="utf-8"))
-    entries = [entry for entry in entries if not re.search(r"/build/", entry["file"])]
+    entries = [entry for entry in entries if not re.search(r"/build/", entry["file"])
+               and not any(Path(entry["file"]).is_relative_to(folder_left_out) for folder_left_out in left_out)]
     begin = shown = time.monotonic()
     refused = 0
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -49,4 +50,4 @@ def main(folder):
 
 
 if __name__ == "__main__":
-    sys.exit(main(Path(sys.argv[1]).resolve()))
+    sys.exit(main(Path(sys.argv[1]).resolve(), [Path(argument).resolve() for argument in sys.argv[2:]]))

@@ -135,7 +135,8 @@ TEST_P(EveryGlCallFails, WithoutAFrameOrAShadowOrAnObjectLostForGood) {
         return;
     }
     ASSERT_GE(calls, kShortRunCases);
-    const std::uint64_t stride = is_long_run() ? 1 : calls / kShortRunCases;
+    // Every call of a long run fails, in turn once or with all later ones.
+    const std::uint64_t stride = is_long_run() ? 2 : calls / kShortRunCases;
     std::uint64_t cases = 0;
     for (const bool lasting : {false, true})
         for (std::uint64_t call = lasting ? stride / 2 : 0; call < calls; call += stride, ++cases) play(call, lasting);

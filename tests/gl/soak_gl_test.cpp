@@ -58,7 +58,7 @@ protected:
 
 TEST_F(GlSoak, ManyFramesLeaveNoObjectsAndNoMemoryBehind) {
     const bool is_long = is_long_run();
-    const std::size_t frames = is_long ? 12000 : 3000;
+    const std::size_t frames = is_long ? 6000 : 3000;
     world.use_everything([this] { step(); });
     const std::size_t baseline = objects_when_empty();
     churn(frames);
