@@ -90,12 +90,14 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         vec3 ab = b - a, ac = c - a;
         vec3 normal = cross(ab, ac);
         vec3 to_light = toward_light(a_ca);
-        float faces = dot(normal, to_light);
+        vec3 sides = max(vec3(length(ab), length(c - b), length(ac)), vec3(kLeastSide_m));
+        // Without, as what a node flattens, it faces nowhere: the walk crosses it as it came.
+        bool has_area = length(normal) > kPlaneRounding * max(sides.x, max(sides.y, sides.z)) * length(a);
+        float faces = has_area ? dot(normal, to_light) : facing;
         float side = faces < 0.0 ? -1.0 : 1.0;
         // Above 0: the ray passes on the inner side of the edge.
         vec3 inside = side * vec3(dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a)));
         uvec3 across = uvec3(t.across_ab, t.across_bc, t.across_ca);
-        vec3 sides = max(vec3(length(ab), length(c - b), length(ac)), vec3(kLeastSide_m));
         vec3 ways = inside / sides;   // how far beside each edge, in lengths of `ray`
         const float kBack = 3.0e38;
         ways = vec3(across.x == came_from ? kBack : ways.x, across.y == came_from ? kBack : ways.y, across.z == came_from ? kBack : ways.z);
@@ -104,7 +106,7 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         bool turns = facing * faces < 0.0;
         folds += turns ? 1 : 0;
         // The edge it came over is none to ask about again, where the ray passes beyond it: rounding might say otherwise.
-        bool met = way >= 0.0 && ((toward && !turns) || min(inside.x, min(inside.y, inside.z)) >= 0.0);
+        bool met = has_area && way >= 0.0 && ((toward && !turns) || min(inside.x, min(inside.y, inside.z)) >= 0.0);
         float behind = side * dot(normal, a);
         float rounding = error_m * length(normal) + kPlaneRounding * sides.x * sides.z * length(a);
         steps = turns && folds == 1 ? 1 : steps + 1;

@@ -13,6 +13,8 @@ protected:
         place(add_analysed(game::make_box({-1.0, -0.5, -1.0}, {1.0, 0.5, 1.0})), transform);
         add_camera({.fov_y_rad = 0.8, .near_m = 0.1, .far_m = 60.0}, {3.0, 5.0, 6.0}, {-3.0, -5.0, -6.0});
     }
+    /// Share of the pixels. Texels have steps; triangles have none, and a walk goes over the flat sides of a box.
+    static double most_wrong() { return GetParam() == ShadowFilter::hard ? 0.005 : 0.0001; }
 };
 
 INSTANTIATE_TEST_SUITE_P(Filters, FlatCasters,
@@ -36,7 +38,7 @@ TEST_P(FlatCasters, CastAndReceiveAsPlatesDo) {
             const Judged judged = judge(light);
             EXPECT_GT(judged.truly_dark, 2000u) << light;
             const auto wrong = static_cast<double>(judged.metrics.false_light + judged.metrics.false_shadow);
-            EXPECT_LT(wrong, 0.005 * static_cast<double>(judged.metrics.scored)) << light;
+            EXPECT_LE(wrong, most_wrong() * static_cast<double>(judged.metrics.scored)) << light;
             for (const float share : judged.measured) ASSERT_TRUE(std::isfinite(share));
         }
         // The middle of the picture shows the plate's upper face.
