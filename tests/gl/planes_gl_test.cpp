@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHalf_m = 5.0, kDistance_m = 8.0;
 constexpr float kNear_m = 0.02f;  // so near that a fixed-point depth is worth a decimetre where the plane is
-constexpr int kLongRunRounds = 3;
+constexpr int kLongRunRounds = 2;
 constexpr std::size_t kManyPixels = 800;  // in a round
 constexpr float kLit = 1.0f - 1e-6f;  // a sampler's weights sum up to 1 but for rounding
 
