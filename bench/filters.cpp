@@ -1,7 +1,9 @@
 #include "bench/filters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <iterator>
 
 #include "bench/accuracy.h"
 #include "bench/exact_visibility.h"

@@ -1,5 +1,6 @@
 #include "sample_game/scene_generator/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <iterator>
 
 #include "components/mesh_ref.h"
 #include "components/shadow_caster.h"

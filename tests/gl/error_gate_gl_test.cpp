@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 
 #include "bench/row_judge.h"
 #include "bench/sweep_plan.h"

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "bench/exact_visibility.h"
 #include "bench/filters.h"
 #include "bench/stability.h"

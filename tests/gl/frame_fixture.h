@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 #include <optional>

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <random>
 
 #include "bench/demand_scene.h"

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <random>
 
 #include "systems/shadow/depth_format.h"

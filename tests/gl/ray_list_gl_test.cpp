@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <glm/vec4.hpp>
 #include <random>
 #include <set>

@@ -1,6 +1,7 @@
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <bit>
 #include <random>
 

@@ -2,6 +2,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
+#include <iterator>
 #include <random>
 
 #include "sample_game/scene_generator/shapes.h"

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/oracle/soft_metrics.h"

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <glm/gtc/matrix_transform.hpp>
 #include <iterator>

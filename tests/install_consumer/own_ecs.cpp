@@ -1,5 +1,6 @@
 // Another ECS, another context: a vector of structs fills the snapshot, and Gnomon's systems do the rest without its
 // registry. Exit code 0: the shadow is where it belongs, follows the box, and an unchanged frame redraws no map.
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <string>

@@ -1,5 +1,6 @@
 #include "tests/oracle/soft_truth.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>

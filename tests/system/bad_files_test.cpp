@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "engine/gl/device_recording.h"
 #include "sample_game/spawn.h"

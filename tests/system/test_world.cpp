@@ -1,6 +1,7 @@
 #include "tests/system/test_world.h"
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <iterator>
 
 #include "systems/shadow/exact/clip_rounding.h"
 #include "systems/shadow/exact/sheet_margins.h"

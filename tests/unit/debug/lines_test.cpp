@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 

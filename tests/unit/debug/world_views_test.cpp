@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "tests/unit/debug/view_fixture.h"
 
 namespace gnomon::debug {

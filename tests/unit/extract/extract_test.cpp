@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "components/camera.h"
 #include "components/mesh_ref.h"
 #include "components/name.h"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <glm/gtc/constants.hpp>
 
 #include "sample_game/game/demo.h"
