@@ -51,11 +51,11 @@ Placed truly(const ShadowView& view, const LightItem& light, const glm::dvec3& p
             view.near_m * (view.far_m + p.z) / (-p.z * (view.far_m - view.near_m))};
 }
 
-/// How far a depth that is off by so much is off along the view's axis, as a share of a texel's side there.
+/// How far a depth that is off by so much is off along the view's axis, as a share of a texel's diagonal there.
 double off_texel(const ShadowView& view, const LightItem& light, const glm::dvec3& p_ws, double depth_off) {
     const double z_m = glm::dot(light.position_ws_m - p_ws, view.axis_back);
     const double off_m = depth_off * z_m * z_m * (view.far_m - view.near_m) / (view.near_m * view.far_m);
-    return off_m / (z_m * std::max(view.texel_u, view.texel_v));
+    return off_m / (z_m * glm::length(glm::dvec2(view.texel_u, view.texel_v)));
 }
 
 TEST(LampAim, HoldsAllThatIsSeenAndLittleMore) {
@@ -104,12 +104,15 @@ TEST(LampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
         const TangentRectangle sides{view->tan_low, view->tan_high};
         const ShadowView about_lamp = perspective_view(apex_ws_m(*view), {view->axis_u, view->axis_v, view->axis_back},
                                                        sides, {view->near_m, view->far_m}, 2048.0);
+        // The matrix's own rounding shifts all depths alike, those of casters as well: between two it says nothing.
+        const glm::dvec3& first_ws = frame.receiver_points_ws.front();
+        const double shift = placed(*view, first_ws).depth - truly(*view, scene.lights[0], first_ws).depth;
         for (const glm::dvec3& p_ws : frame.receiver_points_ws) {
             const Placed at = placed(*view, p_ws), truth = truly(*view, scene.lights[0], p_ws);
             EXPECT_LT(glm::length(at.map - truth.map) * 2048.0, kMostOff_texel) << round;
             // Depths as coarse as texels are said to be so: of a caster that stands beside the lamp.
             if (frame.demands[0].note != Reason::depth_coarse) {
-                EXPECT_LT(off_texel(*view, scene.lights[0], p_ws, std::abs(at.depth - truth.depth)), 1.0) << round;
+                EXPECT_LT(off_texel(*view, scene.lights[0], p_ws, std::abs(at.depth - truth.depth - shift)), 1.0) << round;
             }
             worst_about_lamp =
                 std::max(worst_about_lamp, glm::length(placed(about_lamp, p_ws).map - truth.map) * 2048.0);
