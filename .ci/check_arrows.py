@@ -33,6 +33,13 @@ READS_REGISTRY = ("engine/ecs/", "systems/extract/", "systems/transform/", "syst
 # Stages that must not reach the registry by any detour either, so that another ECS can take its place.
 KNOWS_NO_REGISTRY = ("systems/shadow/", "systems/lighting/", "systems/extract/snapshot.h", "components/")
 CALLS_GL = ("engine/gl/", "tests/")
+# Rooms of a folder in the order of the flow: a file may include those of its own room and of rooms before it. What lies in the
+# folder itself may include all of them.
+ROOMS = {
+    "systems/shadow/": ("frame", "projection", "request", "culling", "fitting", "budget", "maps", "update", "exact", "passes",
+                        "publish", "report"),
+    "sample_game/": ("support", "game", "gui", "app"),
+}
 # A project of its own, built against the installed copy: its paths start in its own folder, or in the package.
 STRANGER = "tests/install_consumer/"
 
@@ -55,11 +62,26 @@ def breaches_of_include(path, name, root):
         found.append(f"may not include {name}")
     if name == REGISTRY and not path.startswith(READS_REGISTRY):
         found.append(f"may not include {name}: extraction is the only reader of the registry")
-    if path.startswith("systems/lighting/") and name.startswith("systems/shadow/") and name != "systems/shadow/types.h":
-        found.append(f"may not include {name}: lighting sees of shadow only systems/shadow/types.h")
+    if path.startswith("systems/lighting/") and name.startswith("systems/shadow/") and name != "systems/shadow/frame/types.h":
+        found.append(f"may not include {name}: lighting sees of shadow only systems/shadow/frame/types.h")
     if path.startswith("systems/shadow/") and name.startswith("systems/lighting/"):
         found.append(f"may not include {name}: shadow does not know who lights with it")
     return found
+
+
+def breaches_of_order(path, name):
+    """Reasons why the file at `path` may not include `name` of a room after its own."""
+    for folder, rooms in ROOMS.items():
+        if not (path.startswith(folder) and name.startswith(folder)):
+            continue
+        own, other = path[len(folder):].split("/"), name[len(folder):].split("/")
+        if len(own) == 1:
+            continue
+        if own[0] not in rooms:
+            return [f"lies in no room of {folder}: {', '.join(rooms)}"]
+        if len(other) == 1 or rooms.index(other[0]) > rooms.index(own[0]):
+            return [f"may not include {name}: {own[0]} comes before it in the flow"]
+    return []
 
 
 def reaches(path, goal, includes):
@@ -91,7 +113,7 @@ def check(root):
             own = [name for angled, name in included(text) if not angled]
             includes[path] = own
             for name in own if not path.startswith(STRANGER) else ():
-                breaches += breaches_of_include(path, name, root)
+                breaches += breaches_of_include(path, name, root) + breaches_of_order(path, name)
             for angled, name in included(text):
                 if angled and path.startswith("components/") and not (is_standard(name) or name.startswith("glm/")):
                     breaches.append(f"may not include <{name}>: components know GLM and the standard library only")
@@ -121,29 +143,35 @@ CLEAN = {
     "shaders/embedded.h": "#pragma once\n",
     "systems/extract/snapshot.h": '#include "components/transform.h"\n',
     "systems/extract/extract.h": '#include "engine/ecs/registry.h"\n#include "systems/extract/snapshot.h"\n',
-    "systems/shadow/types.h": '#include "systems/extract/snapshot.h"\n',
-    "systems/shadow/fit.h": '#include "systems/shadow/types.h"\n',
-    "systems/lighting/lighting.cpp": '#include "shaders/embedded.h"\n#include "systems/shadow/types.h"\n',
+    "systems/shadow/frame/types.h": '#include "systems/extract/snapshot.h"\n',
+    "systems/shadow/fitting/fit_light.h": '#include "systems/shadow/frame/types.h"\n',
+    "systems/shadow/fitting/local/fit_spot.cpp": '#include "systems/shadow/fitting/fit_light.h"\n',
+    "systems/shadow/publish/publish_lights.h": '#include "systems/shadow/fitting/fit_light.h"\n',
+    "systems/shadow/shadow_system.h": '#include "systems/shadow/publish/publish_lights.h"\n',
+    "systems/lighting/lighting.cpp": '#include "shaders/embedded.h"\n#include "systems/shadow/frame/types.h"\n',
     "sample_game/main.cpp": '#include "engine/ecs/registry.h"\n#include "systems/extract/extract.h"\n',
-    "tests/install_consumer/main.cpp": '#include "own.h"\n#include "systems/shadow/types.h"\n',
-    "tests/gl/raw_test.cpp": '#include "systems/shadow/fit.h"\nvoid t() { glGetError(); }\n',
+    "tests/install_consumer/main.cpp": '#include "own.h"\n#include "systems/shadow/frame/types.h"\n',
+    "tests/gl/raw_test.cpp": '#include "systems/shadow/fitting/fit_light.h"\nvoid t() { glGetError(); }\n',
 }
 BREACHES = (
     ("components/light.h", '#include "engine/math/aabb.h"\n', "no path from"),
     ("components/light.h", '#include "engine/gl/device_gl45.cpp"\n', "may not include engine/gl"),
-    ("components/light.h", '#include "systems/shadow/types.h"\n', "may not include systems/"),
+    ("components/light.h", '#include "systems/shadow/frame/types.h"\n', "may not include systems/"),
     ("components/light.h", "#include <spdlog/spdlog.h>\n", "components know GLM"),
     ("engine/gl/device.h", '#include "components/transform.h"\n', "may not include components/"),
-    ("engine/gl/device.h", '#include "systems/shadow/types.h"\n', "may not include systems/"),
+    ("engine/gl/device.h", '#include "systems/shadow/frame/types.h"\n', "may not include systems/"),
     ("engine/gl/device.h", '  #  include "shaders/embedded.h"\n', "may not include shaders/"),
     ("engine/gl/device.h", "#include <components/transform.h>\n", "hides an arrow"),
-    ("systems/shadow/sets.cpp", '#include "sample_game/main.cpp"\n', "may not include sample_game/"),
-    ("systems/shadow/sets.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
-    ("systems/shadow/sets.cpp", '#include "engine/ecs/registry.h"\n', "only reader"),
-    ("systems/shadow/sets.cpp", '#include "systems/extract/extract.h"\n', "reaches the registry"),
-    ("systems/shadow/sets.cpp", '#include "systems/lighting/lighting.cpp"\n', "does not know who lights"),
-    ("systems/shadow/sets.cpp", "void f() { glDrawArrays(4, 0, 3); }\n", "may not call glDrawArrays"),
-    ("systems/lighting/shade.cpp", '#include "systems/shadow/fit.h"\n', "only systems/shadow/types.h"),
+    ("systems/shadow/fitting/steps.h", '#include "systems/shadow/publish/publish_lights.h"\n', "comes before it"),
+    ("systems/shadow/report/why.cpp", '#include "systems/shadow/shadow_system.h"\n', "comes before it"),
+    ("systems/shadow/rooms/fit.cpp", '#include "systems/shadow/frame/types.h"\n', "in no room"),
+    ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "sample_game/main.cpp"\n', "may not include sample_game/"),
+    ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
+    ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "engine/ecs/registry.h"\n', "only reader"),
+    ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "systems/extract/extract.h"\n', "reaches the registry"),
+    ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "systems/lighting/lighting.cpp"\n', "does not know who lights"),
+    ("systems/shadow/culling/receiver_caster_sets.cpp", "void f() { glDrawArrays(4, 0, 3); }\n", "may not call glDrawArrays"),
+    ("systems/lighting/shade.cpp", '#include "systems/shadow/fitting/fit_light.h"\n', "only systems/shadow/frame/types.h"),
     ("engine/platform/window.cpp", "#include <epoxy/gl.h>\n", "only engine/gl calls"),
     ("sample_game/hud.cpp", "void f() {\n    ::glEnable(1);\n    glEnable (1);\n}\n", "may not call glEnable"),
     ("sample_game/main.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),

@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Rows of the filter table (systems/shadow/filter_table.h), one per shaders/shadow/filters file. `automatic` is none:
-/// the accuracy contract chooses one (systems/shadow/filter_choice.h).
+/// Rows of the filter table (systems/shadow/request/filter_table.h), one per shaders/shadow/filters file. `automatic` is none:
+/// the accuracy contract chooses one (systems/shadow/request/filter_choice.h).
 enum class ShadowFilter : std::uint8_t {
     hard,
     hardware_2x2,
@@ -39,7 +39,7 @@ enum class ShadowFilter : std::uint8_t {
 enum class FilterSeed : std::uint8_t { screen, world };
 
 /// `automatic` derives the smallest offset that keeps a plane from shadowing itself; the others are there to compare
-/// with, a function each in shaders/shadow/bias_manual.glsl. bias_m and bias_texel are theirs; docs/bias.md has the
+/// with, a function each in shaders/shadow/lookup/bias/manual.glsl. bias_m and bias_texel are theirs; docs/bias.md has the
 /// formulas.
 enum class BiasMode : std::uint8_t {
     automatic,

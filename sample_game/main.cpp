@@ -4,8 +4,8 @@
 #include <exception>
 #include <memory>
 
-#include "sample_game/app.h"
-#include "sample_game/number_text.h"
+#include "sample_game/app/app.h"
+#include "sample_game/support/settings/parse_number.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include "systems/debug/debug_painter.h"
 #include "systems/extract/names.h"
 #include "systems/lighting/lighting_system.h"
-#include "systems/shadow/sampled_depths.h"
+#include "systems/shadow/fitting/directional/sdsm_splits.h"
 #include "systems/shadow/shadow_system.h"
 
 namespace gnomon {

@@ -15,8 +15,8 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
-#include "systems/shadow/grant.h"
-#include "systems/shadow/history.h"
+#include "systems/shadow/frame/fit_history.h"
+#include "systems/shadow/frame/quality_limits.h"
 #include "systems/timed_lights.h"
 #include "systems/transform/transform_system.h"
 

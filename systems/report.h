@@ -136,9 +136,9 @@ inline bool is_left_out(const LightReport& light) {
 /// What lights that ask by rays share (FilterStorage::sheets): trees over the casters, on the device and beside it, and
 /// what pictures of them hold. All 0: no light asks.
 struct RayReport {
-    std::uint64_t bytes = 0, host_bytes = 0;           // of trees
-    std::uint64_t list_bytes = 0;                      // of pixels that ask, and their answers (lighting/ray_list.h)
-    std::uint64_t place_bytes = 0;                     // of where surfaces exactly are, per pixel
+    std::uint64_t bytes = 0, host_bytes = 0;              // of trees
+    std::uint64_t list_bytes = 0;                         // of pixels that ask, and their answers (lighting/ray_list.h)
+    std::uint64_t place_bytes = 0;                        // of where surfaces exactly are, per pixel
     std::uint64_t sheet_bytes = 0, sheet_host_bytes = 0;  // of what maps of sheets are drawn from
     std::uint64_t triangles = 0, instances = 0;
     std::uint32_t meshes_written = 0;  // in this frame: those that bent
@@ -159,8 +159,8 @@ struct FrameReport {
     std::span<const ViewReport> views_of(const LightReport& light) const {
         return std::span(views).subspan(light.first_view, light.view_count);
     }
-    /// Forgets the last frame. Lights and dropped entities, whose names hold memory, are assigned over by the stages that
-    /// find them.
+    /// Forgets the last frame. Lights and dropped entities, whose names hold memory, are assigned over by the stages
+    /// that find them.
     void clear() {
         views.clear();
         still = false;

@@ -23,7 +23,8 @@ void TimedLights::submitted(std::uint64_t submission, const FrameReport& report)
     now.known = true;
     now.number = submission;
     now.lights.clear();
-    for (Submission& s : submissions_) s.lights.reserve(report.lights.size());  // at once: later frames allocate nothing
+    for (Submission& s : submissions_)
+        s.lights.reserve(report.lights.size());  // at once: later frames allocate nothing
     for (const LightReport& light : report.lights) now.lights.push_back(light.entity);
 }
 

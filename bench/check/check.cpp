@@ -6,10 +6,10 @@
 #include <thread>
 
 #include "bench/check/check_scene.h"
-#include "bench/formatted.h"
+#include "bench/text/printf_string.h"
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
-#include "sample_game/light_settings.h"
+#include "sample_game/support/settings/light_settings.h"
 
 namespace gnomon::bench {
 namespace {

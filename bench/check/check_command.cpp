@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <span>
 
-#include "sample_game/picture_files.h"
+#include "sample_game/support/files/image_files.h"
 
 namespace gnomon::bench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <cinttypes>
 
-#include "bench/formatted.h"
-#include "systems/shadow/cube_route.h"
+#include "bench/text/printf_string.h"
+#include "systems/shadow/maps/cube_layering.h"
 
 namespace gnomon::bench {
 namespace {

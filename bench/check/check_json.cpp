@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/check/check.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::bench {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/beyond_texels.h"
-#include "bench/formatted.h"
+#include "bench/accuracy/unexplained_errors.h"
+#include "bench/text/printf_string.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/soft_metrics.h"
 

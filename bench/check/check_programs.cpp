@@ -17,7 +17,7 @@ void add(std::vector<gl::ProgramDesc>& programs, const std::string& label, const
          const std::string& fragment_file, const std::vector<std::string>& defines, bool layer_by_geometry = false) {
     const auto vertex = gl::expand_shader(shader_files(), vertex_file, defines);
     const auto fragment = gl::expand_shader(shader_files(), fragment_file, defines);
-    const auto layer = gl::expand_shader(shader_files(), "shadow/depth/layer.geom", defines);
+    const auto layer = gl::expand_shader(shader_files(), "shadow/passes/depth/layer.geom", defines);
     const bool whole = vertex && fragment && layer;
     programs.push_back({label, whole ? vertex.value() : "", whole ? fragment.value() : "",
                         whole && layer_by_geometry ? layer.value() : ""});
@@ -36,22 +36,26 @@ void add_layered(std::vector<gl::ProgramDesc>& programs) {
                 add(programs,
                     std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : "") +
                         (by_geometry ? ", layer by geometry" : ", layer by vertex"),
-                    "shadow/depth/depth.vert", "shadow/depth/depth.frag", defines, by_geometry);
+                    "shadow/passes/depth/depth.vert", "shadow/passes/depth/depth.frag", defines, by_geometry);
             }
 }
 
 /// The second depth pass of exact maps, and what says where surfaces end in
 /// their texels.
 void add_sheets(std::vector<gl::ProgramDesc>& programs) {
-    add(programs, "depth opaque, peeled", "shadow/depth/depth.vert", "shadow/exact/peel.frag", {"TRIANGLES 1"});
+    add(programs, "depth opaque, peeled", "shadow/passes/depth/depth.vert", "shadow/passes/depth/depth_peel.frag",
+        {"TRIANGLES 1"});
     for (const bool points : {false, true}) {
         const std::vector<std::string> small(points ? 1 : 0, "AS_POINTS 1");
         std::vector<std::string> masked = small;
         masked.insert(masked.begin(), "MASKED 1");
         const std::string suffix = points ? ", small" : "";
-        add(programs, "sheet departures" + suffix, "shadow/exact/triangles.vert", "shadow/exact/triangles.frag", small);
-        add(programs, "sheet masks" + suffix, "shadow/exact/triangles.vert", "shadow/exact/triangles.frag", masked);
-        add(programs, "sheet contours" + suffix, "shadow/exact/contours.vert", "shadow/exact/contours.frag", small);
+        add(programs, "sheet departures" + suffix, "shadow/passes/bounds/depth_range.vert",
+            "shadow/passes/bounds/depth_range.frag", small);
+        add(programs, "sheet masks" + suffix, "shadow/passes/bounds/depth_range.vert",
+            "shadow/passes/bounds/depth_range.frag", masked);
+        add(programs, "sheet contours" + suffix, "shadow/passes/bounds/silhouettes.vert",
+            "shadow/passes/bounds/silhouettes.frag", small);
     }
 }
 

@@ -2,8 +2,8 @@
 #include "bench/check/check_rows.h"
 #include "bench/check/check_scene.h"
 #include "engine/gl/device_recording.h"
-#include "sample_game/light_settings.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/spawn_scene.h"
+#include "sample_game/support/settings/light_settings.h"
 #include "systems/frame.h"
 
 namespace gnomon::bench {

@@ -3,13 +3,13 @@
 #include <array>
 #include <cmath>
 
+#include "bench/accuracy/edge_error_bounds.h"
 #include "bench/check/check_judge.h"
-#include "bench/edge_bounds.h"
-#include "bench/row_judge.h"
-#include "bench/row_times.h"
-#include "sample_game/light_settings.h"
-#include "systems/shadow/cube_route.h"
-#include "systems/shadow/light_kinds.h"
+#include "bench/compare/evaluate_configuration.h"
+#include "bench/compare/paired_times.h"
+#include "sample_game/support/settings/light_settings.h"
+#include "systems/shadow/maps/cube_layering.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::bench {
 namespace {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/accuracy/reference_images.h"
 #include "bench/check/check_progress.h"
-#include "bench/row_setup.h"
-#include "bench/spread.h"
-#include "bench/stage.h"
-#include "bench/traced_truths.h"
-#include "systems/shadow/filter_table.h"
+#include "bench/common/configuration.h"
+#include "bench/common/median_range.h"
+#include "bench/common/stage.h"
+#include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::bench {
 

@@ -6,7 +6,7 @@
 #include "engine/assets/mesh_shape.h"
 #include "engine/assets/mesh_topology.h"
 #include "engine/math/frustum.h"
-#include "sample_game/scene_generator/shapes.h"
+#include "sample_game/support/built_in_scenes/primitives.h"
 
 namespace gnomon::bench {
 namespace {

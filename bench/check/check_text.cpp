@@ -2,8 +2,8 @@
 #include <sstream>
 
 #include "bench/check/check.h"
-#include "bench/formatted.h"
-#include "sample_game/number_text.h"
+#include "bench/text/printf_string.h"
+#include "sample_game/support/settings/parse_number.h"
 
 namespace gnomon::bench {
 namespace {

@@ -8,7 +8,7 @@
 
 namespace gnomon::gl {
 
-/// One GLSL file, embedded at build time. `path` is relative to shaders/, e.g. "shadow/filters/hard.glsl".
+/// One GLSL file, embedded at build time. `path` is relative to shaders/, e.g. "shadow/filters/pcf/hard.glsl".
 struct ShaderFile {
     std::string_view path;
     std::string_view text;

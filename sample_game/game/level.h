@@ -4,8 +4,8 @@
 
 #include "engine/assets/scene_data.h"
 #include "engine/core/result.h"
-#include "sample_game/game/occluders.h"
-#include "sample_game/game/solids.h"
+#include "sample_game/game/collision_boxes.h"
+#include "sample_game/game/light_exposure.h"
 
 namespace gnomon::game {
 

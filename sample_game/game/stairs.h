@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "engine/assets/scene_data.h"
-#include "sample_game/game/solids.h"
+#include "sample_game/game/collision_boxes.h"
 
 namespace gnomon::game {
 

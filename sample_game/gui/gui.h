@@ -10,12 +10,12 @@
 #include "engine/core/result.h"
 #include "engine/gl/device.h"
 #include "engine/platform/context.h"
-#include "sample_game/contract_curve.h"
-#include "sample_game/frozen_frame.h"
-#include "sample_game/game_world.h"
-#include "sample_game/gui/error_layer.h"
-#include "sample_game/gui/overlay.h"
-#include "sample_game/light_graph.h"
+#include "sample_game/game/game_world.h"
+#include "sample_game/gui/accuracy_cost_curve.h"
+#include "sample_game/gui/error_overlay.h"
+#include "sample_game/gui/imgui_renderer.h"
+#include "sample_game/gui/light_history.h"
+#include "sample_game/support/truth_comparison.h"
 
 namespace gnomon::game {
 

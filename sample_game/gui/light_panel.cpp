@@ -8,8 +8,8 @@
 #include <string>
 
 #include "sample_game/gui/gui.h"
-#include "sample_game/light_settings.h"
-#include "systems/shadow/filter_table.h"
+#include "sample_game/support/settings/light_settings.h"
+#include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::game {
 namespace {
@@ -134,7 +134,8 @@ std::string filter_words(const FilterReport& filter) {
 }
 
 void draw_report(const FrameReport& report) {
-    constexpr std::array kColumns{"light", "state", "reason", "filter", "texels", "KiB", "draws", "cpu us", "gpu us", "error px"};
+    constexpr std::array kColumns{"light", "state", "reason", "filter", "texels",
+                                  "KiB",   "draws", "cpu us", "gpu us", "error px"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
     if (!ImGui::BeginTable("report", static_cast<int>(kColumns.size()), flags)) return;
     for (const char* column : kColumns) ImGui::TableSetupColumn(column);

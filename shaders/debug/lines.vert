@@ -1,5 +1,5 @@
 // Lines in the world, two vertices each.
-#include "shared/camera_block.glsl"
+#include "common/camera_block.glsl"
 // C++ twin: LineVertex in systems/debug/lines.h.
 struct LineVertex {
     vec4 position_ca;   // from the camera's anchor, metres

@@ -1,13 +1,13 @@
 // What debug views of a light's lookups share: the light's own lookup, at every surface that makes one. A view defines
 // show_lookup(), which is told of each lookup and of its share in what the surface gets: 1, then what it fades into.
-#include "lighting/surface_targets.glsl"
+#include "lighting/gbuffer/gbuffer_read.glsl"
 #include "row.glsl"
-#include "shadow/light_block.glsl"
+#include "shadow/lookup/light_block.glsl"
 void show_lookup(ShadowPoint point, vec3 normal, float share);
-#include "shadow/visibility.glsl"
-#include "shadow/layers.glsl"
-#include "lighting/light_at.glsl"
-#include "lighting/visible_surface.glsl"
+#include "shadow/lookup/visibility.glsl"
+#include "shadow/lookup/shadow_layers.glsl"
+#include "lighting/lights/light_sample.glsl"
+#include "lighting/lights/surface_visibility.glsl"
 // C++ twin: ShownScale in systems/debug/shown_scale.h.
 layout(std140, binding = 5) uniform ShownScale {
     vec4 colours[8];   // rgb: linear; w: the length it stands for, metres

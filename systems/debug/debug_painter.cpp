@@ -39,7 +39,7 @@ gl::ProgramHandle DebugPainter::program(std::string_view vertex, std::string_vie
 bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const gl::Rect& area,
                                gl::TargetHandle target, gl::CommandList& list) {
     if (!raw_) raw_ = device_.create_sampler({.label = "debug raw"}).handle;
-    const gl::ProgramHandle used = program("shared/fullscreen.vert", row.fragment);
+    const gl::ProgramHandle used = program("common/fullscreen.vert", row.fragment);
     if (!raw_ || !used || !block_.reserve(drawing.block.size())) return false;
     list.update(block_.handle(), 0, std::span<const std::byte>(drawing.block));
     list.add(gl::BeginPass{.target = target, .viewport = area});

@@ -11,7 +11,7 @@
 
 #include "engine/gl/commands.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 /// Pictures of what the frame knows, drawn over its own: one row of a table, one C++ file and one shader per view.
 namespace gnomon::debug {
@@ -47,7 +47,7 @@ enum class ViewScope : std::uint8_t { one_light, one_or_all };
 
 /// How a view is drawn.
 enum class ViewMedium : std::uint8_t {
-    flat,     // one triangle over the area, by shared/fullscreen.vert and the row's shader
+    flat,     // one triangle over the area, by common/fullscreen.vert and the row's shader
     lines,    // in the world, against the depths of the picture; hidden ones are fainter
     lookups,  // over every surface, by the row's shader, which is told of a light's own lookups
               // (shaders/debug/lookup.glsl)

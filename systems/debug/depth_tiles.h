@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/gl/commands.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 /// Where each depth map of a light lies in the debug view "depth", and how its depths become metres.
 namespace gnomon::debug {

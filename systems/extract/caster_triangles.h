@@ -12,8 +12,8 @@ namespace gnomon {
 /// RayMask, and its texture coordinates.
 inline constexpr std::uint32_t kMaskedTriangle = 0xFFFFFFFEU;
 
-/// What shaders/shadow/caster_records.glsl reads, a texel for each corner: it in model space, and what lies beyond the
-/// edge that starts there.
+/// What shaders/shadow/filters/triangles/triangle_buffer.glsl reads, a texel for each corner: it in model space, and
+/// what lies beyond the edge that starts there.
 struct CasterTriangle {
     struct Corner {
         glm::vec3 position_ms{0.0f};

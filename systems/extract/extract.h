@@ -54,7 +54,7 @@ private:
     Cursors cursors_;
     PoseExtractor poses_;
     LightsAndCameras views_;
-    std::vector<std::uint32_t> bent_;             // indices into snapshot.instances: those with a pose
+    std::vector<std::uint32_t> bent_;  // indices into snapshot.instances: those with a pose
     /// Since the last frame, maybe repeated: placed or bent otherwise; showing or casting otherwise; lights and cameras
     /// that were written; named otherwise.
     std::vector<ecs::Entity> moved_, shown_, edited_, named_;

@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// Matches InstanceRecord in shaders/shared/instances.glsl. 64 bytes.
+/// Matches InstanceRecord in shaders/common/instances.glsl. 64 bytes.
 /// w components hold the high part of the translation; `low` its low part and the layers it receives shadows of.
 struct InstanceRecord {
     float basis_x_high_x[4], basis_y_high_y[4], basis_z_high_z[4];
@@ -22,7 +22,7 @@ struct InstanceRecord {
 };
 static_assert(sizeof(InstanceRecord) == 64);
 
-/// Matches MaterialBlock in shaders/shared/material.glsl (std140).
+/// Matches MaterialBlock in shaders/common/material.glsl (std140).
 struct MaterialRecord {
     float base_colour[4];
     float emissive[4];                        // rgb; 1: unlit
@@ -34,18 +34,18 @@ static_assert(sizeof(MaterialRecord) == 48);
 /// What the surfaces' geometric normals come from: of each triangle of `indices`, zero where it has no area. In double:
 /// the cross product of float edges is exact enough that the normal is right to float rounding. The bits of w say what
 /// that rounded away, to 2^-35 along each axis: three signed whole numbers of 10 bits, x lowest, of which 511 are
-/// 2^-25 (plane_normal() in shaders/lighting/exact_place.glsl).
+/// 2^-25 (plane_normal() in shaders/lighting/gbuffer/surface_position_f64.glsl).
 void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
                           std::vector<glm::vec4>& normals);
 
-/// Bound of shaders/lighting/brdf.glsl over all directions, its cosine included, per unit of light: Lambert's term, and
-/// GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
+/// Bound of shaders/lighting/lights/brdf.glsl over all directions, its cosine included, per unit of light: Lambert's
+/// term, and GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
 float most_reflected(const assets::Material& material);
 
-/// Texture units of shaders/shared/instance_texels.glsl and shaders/lighting/surface_normals.glsl: above all that maps
-/// and rays use.
+/// Texture units of shaders/common/instance_buffer.glsl and shaders/lighting/gbuffer/triangle_normals.glsl: above all
+/// that maps and rays use.
 inline constexpr std::uint32_t kInstanceUnit = 14, kTriangleNormalUnit = 15;
-/// Of shaders/shared/vertex_colour.glsl: one that passes over meshes leave free.
+/// Of shaders/common/vertex_colour.glsl: one that passes over meshes leave free.
 inline constexpr std::uint32_t kColourUnit = 3;
 
 /// Meshes, materials, textures and instance records on the device. Owns what it makes.
@@ -120,7 +120,8 @@ public:
     gl::BufferHandle triangle_normals() const { return triangle_normals_; }
     /// CasterTriangle per triangle of `indices`, to be read as texels; {0} until provided.
     gl::BufferHandle caster_triangles() const { return caster_triangles_; }
-    /// The masks of those that are masked, as shaders/rays/alpha_mask.glsl reads them; {0}: none is, or not provided.
+    /// The masks of those that are masked, as shaders/ray_tracing/alpha_mask.glsl reads them; {0}: none is, or not
+    /// provided.
     gl::BufferHandle caster_masks() const { return caster_masks_; }
     gl::BufferHandle material_uniforms() const { return material_uniforms_; }
 

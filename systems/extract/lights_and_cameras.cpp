@@ -80,9 +80,8 @@ bool put_camera(const Camera& camera, const WorldTransform& world, ConsumerItem&
 /// Both lists are in the order of entity indices.
 template <class Item>
 Item* find(std::vector<Item>& items, ecs::Entity entity) {
-    const auto at =
-        std::lower_bound(items.begin(), items.end(), entity.index,
-                         [](const Item& item, std::uint32_t index) { return item.entity.index < index; });
+    const auto at = std::lower_bound(items.begin(), items.end(), entity.index,
+                                     [](const Item& item, std::uint32_t index) { return item.entity.index < index; });
     return at != items.end() && at->entity == entity ? &*at : nullptr;
 }
 

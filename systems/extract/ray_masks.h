@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// Matches RayMask in shaders/rays/alpha_mask.glsl: nine words of its buffer.
+/// Matches RayMask in shaders/ray_tracing/alpha_mask.glsl: nine words of its buffer.
 struct RayMask {
     float cutoff = 0.0f, alpha = 1.0f;
     std::uint32_t texels = ~0u;  // word of the first, four to a word; ~0: alpha alone decides

@@ -8,7 +8,7 @@ namespace gnomon {
 
 /// Bin i holds view distances from 2^((i + kFirstDepthStep) / 4) m to the next bin's: 6e-8 m to 1e12 m. Being fixed to
 /// the metre and not to a camera, bins stay where they are while cameras move, and a scene scaled by 2^k shifts its
-/// counts by 4 k bins. Also in shaders/shadow/depth_bins.comp.
+/// counts by 4 k bins. Also in shaders/lighting/post/depth_histogram.comp.
 inline constexpr std::uint32_t kDepthBins = 256;
 inline constexpr int kFirstDepthStep = -96;
 

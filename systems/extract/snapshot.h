@@ -49,7 +49,7 @@ struct LightItem {
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
     bool has_shadow = false;  // a LightShadow component exists
     LightShadow shadow = {};
-    std::uint64_t version = 0;  // grows whenever any of the above changed
+    std::uint64_t version = 0;        // grows whenever any of the above changed
     std::uint64_t shape_version = 0;  // grows whenever any but name, colour and intensity did: what shadows follow from
 };
 
@@ -136,13 +136,13 @@ struct SceneSnapshot {
                                                    // whose version grew with it; 0: nobody counts, all is new always
     std::uint64_t list_version = 0;  // the version since which an index means the same instance, that is seen and casts
                                      // as it did; 0: not known
-    math::BoundsTree tree;  // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
+    math::BoundsTree tree;           // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
     /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all:
     /// the instances' bounds stand for it, as they must where a mesh changes.
     std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
     SampledDepths sampled_depths;  // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
     /// By what the picture's radiance is multiplied before the tone curve, where that is known: lights are then left
-    /// out of shadowing whose shadows nobody could see (systems/shadow/dim_lights.h). Empty: none is.
+    /// out of shadowing whose shadows nobody could see (systems/shadow/culling/contribution_culling.h). Empty: none is.
     std::optional<double> exposure = {};
     std::uint64_t tree_version = 0;  // the version it is of; of another one it is not used
 };

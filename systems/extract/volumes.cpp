@@ -6,7 +6,8 @@ namespace gnomon {
 namespace {
 
 math::Frustum frustum_from(const glm::dvec3& place_m, const ConsumerItem& c, double near_m, double far_m) {
-    const double half_y = c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+    const double half_y =
+        c.projection == CameraProjection::orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
     const double half_x = half_y * aspect(c);
     return c.projection == CameraProjection::orthographic
                ? math::orthographic_frustum(place_m, c.rotation_ws, half_x, half_y, near_m, far_m)

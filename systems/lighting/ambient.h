@@ -7,7 +7,7 @@
 
 namespace gnomon::lighting {
 
-/// Matches AmbientBlock in shaders/lighting/ambient.glsl (std140).
+/// Matches AmbientBlock in shaders/lighting/lights/ambient.glsl (std140).
 struct AmbientRecord {
     glm::vec4 sky_lux{0.0f}, ground_lux{0.0f};
 };

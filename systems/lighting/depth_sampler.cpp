@@ -6,7 +6,7 @@
 
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 namespace gnomon::lighting {
 namespace {
@@ -25,7 +25,7 @@ DepthSampler::~DepthSampler() {
 
 bool DepthSampler::prepare() {
     if (!program_) {
-        auto source = gl::expand_shader(shader_files(), "shadow/depth_bins.comp", {});
+        auto source = gl::expand_shader(shader_files(), "lighting/post/depth_histogram.comp", {});
         if (!source) return false;
         program_ = device_.create_program({.label = "view distances", .compute = std::move(source).value()}).handle;
     }

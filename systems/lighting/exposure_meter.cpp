@@ -17,7 +17,7 @@ ExposureMeter::~ExposureMeter() {
 
 bool ExposureMeter::prepare() {
     if (!program_) {
-        auto source = gl::expand_shader(shader_files(), "lighting/exposure.comp", {});
+        auto source = gl::expand_shader(shader_files(), "lighting/post/exposure.comp", {});
         if (!source) return false;
         program_ = device_.create_program({.label = "exposure", .compute = std::move(source).value()}).handle;
     }

@@ -48,7 +48,8 @@ LightPrograms::~LightPrograms() {
 void LightPrograms::set_coloured(bool coloured) {
     if (coloured == coloured_) return;
     coloured_ = coloured;
-    for (Entry* entry : {&surface_, &surface_places_, &blended_base_, &unlit_surface_, &unlit_surface_places_, &unlit_blended_}) {
+    for (Entry* entry :
+         {&surface_, &surface_places_, &blended_base_, &unlit_surface_, &unlit_surface_places_, &unlit_blended_}) {
         device_.destroy(entry->program);
         *entry = {};
     }
@@ -117,14 +118,14 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
         std::string(row.kind_define) + " " + std::string(row.filter_file) + (row.manual_bias ? " manual bias" : "") +
         (row.filter_file.empty() && row.sheets ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
     if (output == RowOutput::blended)
-        make(entry, label, "lighting/surface.vert", "lighting/blended.frag", defines, &row);
+        make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended.frag", defines, &row);
     else if (output == RowOutput::verdicts)
-        make(entry, label, "shared/fullscreen.vert", "lighting/verdicts.frag", defines, &row);
+        make(entry, label, "common/fullscreen.vert", "lighting/trace/classify_pixels.frag", defines, &row);
     else if (output == RowOutput::rays)
-        make(entry, label, "lighting/rays.vert", "lighting/rays.frag", defines, &row);
+        make(entry, label, "lighting/trace/trace_pixels.vert", "lighting/trace/trace_pixels.frag", defines, &row);
     else
-        make(entry, label, "shared/fullscreen.vert", fragment.empty() ? "lighting/light.frag" : fragment, defines,
-             &row);
+        make(entry, label, "common/fullscreen.vert", fragment.empty() ? "lighting/lights/light.frag" : fragment,
+             defines, &row);
     return entry.program;
 }
 
@@ -138,39 +139,42 @@ void LightPrograms::make_of_meshes(Entry& entry, const char* label, const char* 
                                    std::initializer_list<const char*> defines) {
     std::vector<std::string> all(defines.begin(), defines.end());
     if (coloured_) all.emplace_back("COLOURED 1");
-    make(entry, coloured_ ? std::string(label) + ", coloured" : label, "lighting/surface.vert", fragment, all, nullptr);
+    make(entry, coloured_ ? std::string(label) + ", coloured" : label, "lighting/gbuffer/gbuffer.vert", fragment, all,
+         nullptr);
 }
 gl::ProgramHandle LightPrograms::surface(bool places) {
     Entry& entry = places ? surface_places_ : surface_;
     if (entry.program) return entry.program;
     if (places)
-        make_of_meshes(entry, "surface with places", "lighting/surface.frag", {"WRITE_PLACES 1"});
+        make_of_meshes(entry, "surface with places", "lighting/gbuffer/gbuffer.frag", {"WRITE_PLACES 1"});
     else
-        make_of_meshes(entry, "surface", "lighting/surface.frag", {});
+        make_of_meshes(entry, "surface", "lighting/gbuffer/gbuffer.frag", {});
     return entry.program;
 }
 gl::ProgramHandle LightPrograms::blended_base() {
-    if (is_due(blended_base_)) make_of_meshes(blended_base_, "blended base", "lighting/blended.frag", {});
+    if (is_due(blended_base_)) make_of_meshes(blended_base_, "blended base", "lighting/lights/blended.frag", {});
     return blended_base_.program;
 }
 gl::ProgramHandle LightPrograms::unlit_surface(bool places) {
     Entry& entry = places ? unlit_surface_places_ : unlit_surface_;
     if (!is_due(entry)) return entry.program;
     if (places)
-        make_of_meshes(entry, "unlit surface with places", "lighting/surface.frag", {"UNLIT 1", "WRITE_PLACES 1"});
+        make_of_meshes(entry, "unlit surface with places", "lighting/gbuffer/gbuffer.frag",
+                       {"UNLIT 1", "WRITE_PLACES 1"});
     else
-        make_of_meshes(entry, "unlit surface", "lighting/surface.frag", {"UNLIT 1"});
+        make_of_meshes(entry, "unlit surface", "lighting/gbuffer/gbuffer.frag", {"UNLIT 1"});
     return entry.program;
 }
 gl::ProgramHandle LightPrograms::unlit_blended() {
-    if (is_due(unlit_blended_)) make_of_meshes(unlit_blended_, "unlit blended", "lighting/blended.frag", {"UNLIT 1"});
+    if (is_due(unlit_blended_))
+        make_of_meshes(unlit_blended_, "unlit blended", "lighting/lights/blended.frag", {"UNLIT 1"});
     return unlit_blended_.program;
 }
 gl::ProgramHandle LightPrograms::luminance() {
-    return needed(luminance_, "luminance", "shared/fullscreen.vert", "lighting/luminance.frag");
+    return needed(luminance_, "luminance", "common/fullscreen.vert", "lighting/post/luminance.frag");
 }
 gl::ProgramHandle LightPrograms::tonemap() {
-    return needed(tonemap_, "tonemap", "shared/fullscreen.vert", "lighting/tonemap.frag");
+    return needed(tonemap_, "tonemap", "common/fullscreen.vert", "lighting/post/tonemap.frag");
 }
 
 }  // namespace gnomon::lighting

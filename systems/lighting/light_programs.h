@@ -7,7 +7,7 @@
 
 #include "engine/gl/device.h"
 #include "systems/retry.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 namespace gnomon::lighting {
 

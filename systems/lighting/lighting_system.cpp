@@ -28,7 +28,7 @@ double farthest_m(const math::Aabb& box, const glm::dvec3& place) {
 
 /// A light's as its passes add it up; w is its source's size. Finite, whatever its candela.
 glm::vec4 in_picture(const glm::vec4& radiance, float per_radiance) {
-    constexpr float kMost = 1.0e30f;  // as lighting/light_at.glsl has it
+    constexpr float kMost = 1.0e30f;  // as lighting/lights/light_sample.glsl has it
     const glm::vec3 scaled = glm::min(glm::vec3(radiance) * per_radiance, glm::vec3(kMost));
     return glm::vec4(scaled, radiance.w);
 }

@@ -19,11 +19,11 @@
 #include "systems/lighting/picture_range.h"
 #include "systems/lighting/ray_list.h"
 #include "systems/report.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 namespace gnomon::lighting {
 
-/// Matches ExposureBlock in shaders/lighting/exposure.glsl (std140).
+/// Matches ExposureBlock in shaders/lighting/post/exposure.glsl (std140).
 struct ExposureRecord {
     float scale = -1.0f;  // below 0: automatic
     float top_mip = 0.0f;
@@ -31,7 +31,7 @@ struct ExposureRecord {
     float without_surfaces = 1.0f;  // scale, where it is automatic and nothing lit is seen
 };
 
-/// Matches KeptBlock in shaders/lighting/kept_visibility.glsl (std140).
+/// Matches KeptBlock in shaders/lighting/lights/visibility_cache.glsl (std140).
 struct KeptRecord {
     glm::ivec4 area{0};
 };
@@ -94,7 +94,7 @@ public:
     void forget_exposure() { exposure_.forget(); }
 
     /// Binds the camera (uniforms 0) and the surfaces (textures 0 to 3) of the last record(), as
-    /// shaders/lighting/surface_targets.glsl names them.
+    /// shaders/lighting/gbuffer/gbuffer_read.glsl names them.
     void bind_surface_textures(gl::CommandList& list) const;
 
     gl::TextureHandle picture_texture() const { return targets_.picture; }  // srgb8_a8

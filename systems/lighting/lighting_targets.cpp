@@ -3,7 +3,7 @@
 namespace gnomon::lighting {
 namespace {
 
-/// SurfacePlace of shaders/lighting/surface_place.glsl.
+/// SurfacePlace of shaders/lighting/gbuffer/visible_triangle.glsl.
 constexpr gl::Format kPlaceFormat = gl::Format::rgba32ui;
 constexpr gl::Format kDepthFormat = gl::Format::d32f;
 

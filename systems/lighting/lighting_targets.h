@@ -6,7 +6,7 @@
 
 namespace gnomon::lighting {
 
-/// Edge of the luminance target: 65536 samples settle an exposure. kSide in shaders/lighting/luminance.frag.
+/// Edge of the luminance target: 65536 samples settle an exposure. kSide in shaders/lighting/post/luminance.frag.
 inline constexpr std::uint32_t kLuminanceSide_px = 256;
 inline constexpr std::uint32_t kLuminanceTopMip = 8;  // log2 of the side
 
@@ -25,11 +25,11 @@ public:
     bool ensure_visibility();
     /// Beside the surfaces, where exactly they are: made when asked for, gone when not. False: there is no room.
     bool provide_places(bool wanted);
-    /// A second depth of the surfaces, with the light's sum: of those that a light's first draw leaves to its second. Made
-    /// when asked for, gone when not. False: there is no room, and lights do with one draw.
+    /// A second depth of the surfaces, with the light's sum: of those that a light's first draw leaves to its second.
+    /// Made when asked for, gone when not. False: there is no room, and lights do with one draw.
     bool provide_undecided(bool wanted);
     glm::uvec2 size_px() const { return size_px_; }
-    std::uint64_t place_bytes() const;  // of `places`
+    std::uint64_t place_bytes() const;                // of `places`
     gl::Failure failure() const { return failure_; }  // of the last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},

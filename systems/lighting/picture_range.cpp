@@ -23,7 +23,7 @@ float power_to(double target, double value) {
 float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 PictureRange picture_range(const SceneLight& light, float most_emissive, std::optional<float> exposure_ev) {
-    // White is 8 after the exposure (shaders/lighting/tone_curve.glsl). That is far below what 16 bits hold, and a
+    // White is 8 after the exposure (shaders/lighting/post/tone_curve.glsl). That is far below what 16 bits hold, and a
     // thousandth of a display's step far above their least.
     constexpr double kExposedIn16Bits = 64.0;
     if (exposure_ev) {

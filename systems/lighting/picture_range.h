@@ -5,7 +5,8 @@ namespace gnomon::lighting {
 
 struct SceneLight;
 
-/// The greatest finite number of 16 bits, in which the picture is summed up. Twin: shaders/lighting/picture_sum.glsl.
+/// The greatest finite number of 16 bits, in which the picture is summed up. Twin:
+/// shaders/lighting/post/picture_sum.glsl.
 inline constexpr float kMostInPicture = 65504.0f;
 
 /// By what the picture of a camera at this EV100 is multiplied before the tone curve.

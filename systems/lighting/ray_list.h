@@ -7,7 +7,8 @@
 namespace gnomon::lighting {
 
 /// Texels of the picture in which the rays of a list are drawn and their answers lie: room for each pixel of a picture
-/// of up to 2^28 (16384 x 16384), neither edge longer than 16384. GLSL twin: shaders/lighting/listed.glsl.
+/// of up to 2^28 (16384 x 16384), neither edge longer than 16384. GLSL twin:
+/// shaders/lighting/trace/ray_list_layout.glsl.
 glm::uvec2 ray_list_size_px(glm::uvec2 picture_px);
 
 /// Pixels of which a light's map is not certain (docs/exact.md), gathered so that rays cost no others: what the map
@@ -30,7 +31,7 @@ public:
     void end_verdicts(gl::CommandList& list) const;
     /// A pass of one ray for each listed pixel.
     void record_rays(gl::ProgramHandle program, gl::CommandList& list) const;
-    /// Binds both for the pass that reads them (shaders/lighting/answers.glsl).
+    /// Binds both for the pass that reads them (shaders/lighting/trace/ray_results.glsl).
     void bind_answers(gl::CommandList& list) const;
     /// After it: another light's go into the same textures.
     void unbind_answers(gl::CommandList& list) const;

@@ -1,6 +1,6 @@
 #pragma once
 #include "systems/report.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 namespace gnomon::lighting {
 

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <utility>
 
-#include "systems/shadow/demand.h"
-#include "systems/shadow/exact/clearance.h"
-#include "systems/shadow/exact/ray_load.h"
-#include "systems/shadow/explain.h"
-#include "systems/shadow/fit.h"
-#include "systems/shadow/sets.h"
+#include "systems/shadow/budget/ray_budget.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/exact/near_light_clearance.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/report/light_report.h"
+#include "systems/shadow/request/decide_requests.h"
 
 namespace gnomon::shadow {
 
@@ -168,7 +168,8 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     frame_.shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
     fit_views(scene, history_, frame_);
     count_quiet_frames(scene, history_, frame_);
-    budget_.decide(scene, gpu, history_, maps_, frame_);
+    maps_.waiting_bytes(scene, waiting_bytes_);
+    budget_.decide(scene, gpu, history_, waiting_bytes_, frame_);
     provide_triangles(gpu);
     provide_rays(scene, gpu, lacked && !rays_lack_, list);
     maps_.set_limit(budget_.limits().bytes);

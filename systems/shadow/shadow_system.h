@@ -1,25 +1,27 @@
 #pragma once
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
-#include "systems/shadow/budget_stage.h"
-#include "systems/shadow/caster_motion.h"
-#include "systems/shadow/cost_clock.h"
-#include "systems/shadow/dim_lights.h"
-#include "systems/shadow/draw_times.h"
-#include "systems/shadow/exact/ends_recorder.h"
-#include "systems/shadow/exact/ray_load.h"
-#include "systems/shadow/exact/sheet_recorder.h"
-#include "systems/shadow/lamp_places.h"
-#include "systems/shadow/map_store.h"
-#include "systems/shadow/moment_recorder.h"
-#include "systems/shadow/publish.h"
-#include "systems/shadow/record.h"
-#include "systems/shadow/still_frame.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/budget/apply_budget.h"
+#include "systems/shadow/budget/cost_calibration.h"
+#include "systems/shadow/budget/ray_budget.h"
+#include "systems/shadow/culling/contribution_culling.h"
+#include "systems/shadow/culling/lamp_offsets.h"
+#include "systems/shadow/culling/static_dynamic_casters.h"
+#include "systems/shadow/exact/bounds_pass.h"
+#include "systems/shadow/exact/occluder_pyramid_pass.h"
+#include "systems/shadow/frame/types.h"
+#include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/passes/depth_pass.h"
+#include "systems/shadow/passes/prefilter_pass.h"
+#include "systems/shadow/publish/publish_lights.h"
+#include "systems/shadow/report/draw_times.h"
+#include "systems/shadow/update/frame_reuse.h"
 #include "systems/visibility/ray_scene.h"
 
 namespace gnomon::shadow {
@@ -78,6 +80,7 @@ private:
     DrawTimes draw_times_;
     DimLights dim_lights_;
     BudgetStage budget_;
+    std::vector<std::optional<std::uint64_t>> waiting_bytes_;  // one per light
     std::uint64_t most_rays_ = 0;
     std::vector<RayAsker> ray_askers_;
     bool rays_lack_ = false;

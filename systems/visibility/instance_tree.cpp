@@ -13,7 +13,8 @@ namespace gnomon::visibility {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-24;
-/// kBoxUnits of shaders/rays/box.glsl: the same roundings, carried into the mesh's space, and the inverse's own.
+/// kBoxUnits of shaders/ray_tracing/ray_box.glsl: the same roundings, carried into the mesh's space, and the inverse's
+/// own.
 constexpr double kBoxUnits = 48.0;
 /// Of a corner as shaders place it: its basis, three products, three sums.
 constexpr double kCornerUnits = 8.0;

@@ -18,8 +18,8 @@ struct MeshTreePlace {
 };
 
 /// The upper level of the trees that shaders ask: a box per instance that casts, or several of a large one, relative to
-/// an anchor amid them, so that floats hold it wherever in the world that is. Plain arrays as shaders/rays/scene.glsl
-/// reads them.
+/// an anchor amid them, so that floats hold it wherever in the world that is. Plain arrays as
+/// shaders/ray_tracing/bvh_buffers.glsl reads them.
 class InstanceTree {
 public:
     /// Takes the snapshot's casters; `meshes` by mesh. Refits where the same ones moved, unless that has made walks

@@ -7,7 +7,7 @@
 /// What shaders under shaders/rays read, beside BvhNode and BvhTriangle (engine/rays), which serve there as they are.
 namespace gnomon::visibility {
 
-/// Matches RayInstance in shaders/rays/scene.glsl, five texels.
+/// Matches RayInstance in shaders/ray_tracing/bvh_buffers.glsl, five texels.
 struct RayInstance {
     glm::vec3 to_model_x{0.0f};  // image of the world's x axis in the mesh's space
     std::uint32_t first_node = 0;

@@ -16,8 +16,9 @@
 
 namespace gnomon::visibility {
 
-/// A snapshot's casters as shaders ask them by rays (shaders/rays/walk.glsl): the trees of CasterTrees, and one over the
-/// instances, in storage buffers. Owns them. Holds nothing until update() is called for the first time.
+/// A snapshot's casters as shaders ask them by rays (shaders/ray_tracing/bvh_traversal.glsl): the trees of CasterTrees,
+/// and one over the instances, in storage buffers. Owns them. Holds nothing until update() is called for the first
+/// time.
 class RayScene {
 public:
     explicit RayScene(gl::Device& device) : device_(device) {}

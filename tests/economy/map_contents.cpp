@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "systems/extract/gpu_scene.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 namespace gnomon {
 namespace {

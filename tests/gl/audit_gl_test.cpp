@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/audit_command.h"
+#include "bench/audit/audit_command.h"
 #include "tests/gl/hard_case_fixture.h"
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"

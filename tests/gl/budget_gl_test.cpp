@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <iostream>
 
-#include "bench/edge_bounds.h"
+#include "bench/accuracy/edge_error_bounds.h"
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/oracle/edge_exceptions.h"
 

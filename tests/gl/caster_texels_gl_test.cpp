@@ -14,8 +14,8 @@ constexpr std::size_t kWords =
     (sizeof(CasterTriangle) + sizeof(InstanceRecord) + sizeof(glm::vec4)) / sizeof(std::uint32_t);
 
 const std::string kProbe =
-    "#include \"shared/instances.glsl\"\n#include \"shadow/caster_records.glsl\"\n"
-    "#include \"shared/camera_block.glsl\"\n#include \"lighting/surface_normals.glsl\"\n"
+    "#include \"common/instances.glsl\"\n#include \"shadow/filters/triangles/triangle_buffer.glsl\"\n"
+    "#include \"common/camera_block.glsl\"\n#include \"lighting/gbuffer/triangle_normals.glsl\"\n"
     R"(layout(local_size_x = 1) in;
 layout(std430, binding = 1) buffer Out { uint words[]; };
 void write(uint at, vec3 v, uint n) {

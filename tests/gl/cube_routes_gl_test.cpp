@@ -89,9 +89,9 @@ TEST_F(CubeRoutes, MaskedCastersHaveTheirProgramsToo) {
     };
     for (const bool by_vertex : {false, true}) {
         if (by_vertex && !device().info().vertex_layer) continue;
-        const auto made = device().create_program({"masked", source("shadow/depth/depth.vert", by_vertex),
-                                                   source("shadow/depth/depth.frag", by_vertex),
-                                                   by_vertex ? std::string() : source("shadow/depth/layer.geom", false)});
+        const auto made = device().create_program({"masked", source("shadow/passes/depth/depth.vert", by_vertex),
+                                                   source("shadow/passes/depth/depth.frag", by_vertex),
+                                                   by_vertex ? std::string() : source("shadow/passes/depth/layer.geom", false)});
         EXPECT_TRUE(made) << made.log;
         device().destroy(made.handle);
     }

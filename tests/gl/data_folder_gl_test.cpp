@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "engine/assets/gltf_loader.h"
-#include "sample_game/motion.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/node_motion.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/frame.h"
 #include "tests/data/data_files.h"
 #include "tests/gl/gl_test_context.h"

@@ -2,7 +2,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "systems/debug/debug_view.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/frame_fixture.h"
 
 // The debug view "depth" against distances that are known: pixels of grey against metres.

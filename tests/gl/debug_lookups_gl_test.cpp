@@ -3,8 +3,9 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/debug_picture.h"
 
 // What debug views of a light's lookups show, pixel by pixel, against what the scene and the labels say.

@@ -12,5 +12,5 @@ vec3 filter_tap(ShadowPoint point, vec4 setup, int i) {
 
 vec4 filter_box(ShadowPoint point, vec4 setup) { return vec4(-1.0, -1.0, 1.0, 1.0); }
 
-#include "shadow/filters/multi_tap.glsl"
+#include "shadow/filters/pcf/multi_tap.glsl"
 // [file]

@@ -2,7 +2,7 @@
 #include <bit>
 #include <iostream>
 
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/economy/both_ways.h"
 #include "tests/economy/changing_world.h"
 #include "tests/gl/gl_test_context.h"

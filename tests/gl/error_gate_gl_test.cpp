@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <iterator>
 
-#include "bench/row_judge.h"
-#include "bench/sweep_plan.h"
-#include "bench/traced_truths.h"
+#include "bench/accuracy/reference_images.h"
+#include "bench/compare/evaluate_configuration.h"
+#include "bench/sweep/sweep_plan.h"
 #include "components/shadow_caster.h"
 #include "tests/gl/recorded_errors.h"
 #include "tests/gl/truth_scenes.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <string>
 
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/held_frame_fixture.h"
 
 /// All rows of light kinds and filters in one frame: none is disturbed by another, whatever stands before it.

@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "bench/exact_visibility.h"
-#include "bench/filters.h"
-#include "bench/stability.h"
-#include "bench/stability_scene.h"
-#include "systems/shadow/filter_table.h"
+#include "bench/compare/filter_gallery.h"
+#include "bench/flicker/flicker.h"
+#include "bench/flicker/map_readback.h"
+#include "bench/glsl_on_cpu/cpu_lookup.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/gl/truth_scenes.h"
 
 // The flicker bench looks maps up in double; that must be the lookup of the shaders.

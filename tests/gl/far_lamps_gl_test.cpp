@@ -3,9 +3,9 @@
 #include <random>
 #include <sstream>
 
-#include "bench/promise.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "bench/accuracy/default_limits.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/traced_frame_fixture.h"
 
 /// Lamps from a few metres to ten thousand kilometres away that light the same place as brightly: the farther one

@@ -4,7 +4,7 @@
 #include "tests/gl/traced_frame_fixture.h"
 
 /// Meshes whose triangles are a few to a texel: the walk from the one that a texel shows reaches the one above the
-/// receiver all the same (shaders/shadow/caster_triangles.glsl, kMostSteps).
+/// receiver all the same (shaders/shadow/filters/triangles/mesh_walk.glsl, kMostSteps).
 namespace gnomon {
 namespace {
 

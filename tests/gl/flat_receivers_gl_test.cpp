@@ -1,7 +1,7 @@
 #include <array>
 
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/box_fixture.h"
 #include "tests/long_run.h"
 

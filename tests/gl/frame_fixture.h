@@ -11,7 +11,7 @@
 #include "components/name.h"
 #include "components/shadow_caster.h"
 #include "components/transform.h"
-#include "sample_game/scene_generator/shapes.h"
+#include "sample_game/support/built_in_scenes/primitives.h"
 #include "systems/frame.h"
 #include "tests/gl/gl_test_context.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <glm/gtc/constants.hpp>
 
-#include "sample_game/scene_generator/shapes.h"
+#include "sample_game/support/built_in_scenes/primitives.h"
 
 namespace gnomon {
 

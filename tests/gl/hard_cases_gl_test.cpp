@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "bench/edge_bounds.h"
+#include "bench/accuracy/edge_error_bounds.h"
 #include "tests/gl/hard_case_fixture.h"
 #include "tests/oracle/edge_exceptions.h"
 #include "tests/oracle/metrics.h"

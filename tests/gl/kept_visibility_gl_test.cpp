@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/gl/held_frame_fixture.h"
 #include "tests/long_run.h"
 

@@ -5,7 +5,7 @@
 #include "tests/gl/traced_frame_fixture.h"
 
 /// Mouldings: ledges one below the other, each narrower than a texel of the map, so that some show in no texel near
-/// what they darken. Walks from those that do go on over undersides (shaders/shadow/caster_triangles.glsl).
+/// what they darken. Walks from those that do go on over undersides (shaders/shadow/filters/triangles/mesh_walk.glsl).
 namespace gnomon {
 namespace {
 

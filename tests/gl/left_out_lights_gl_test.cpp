@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/row_judge.h"
-#include "bench/traced_truths.h"
-#include "sample_game/scene_generator/facing.h"
-#include "sample_game/scene_generator/glb_builder.h"
+#include "bench/accuracy/reference_images.h"
+#include "bench/compare/evaluate_configuration.h"
+#include "sample_game/support/built_in_scenes/glb_writer.h"
+#include "sample_game/support/built_in_scenes/look_rotation.h"
 #include "tests/gl/truth_scenes.h"
 
 /// Lights whose shadows are left out on purpose, since nobody could see them: the bench names them and counts nothing.

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <random>
 
-#include "bench/demand_scene.h"
-#include "sample_game/spawn.h"
-#include "systems/shadow/publish.h"
+#include "bench/scaling/many_lights_scene.h"
+#include "sample_game/support/scene/spawn_scene.h"
+#include "systems/shadow/publish/publish_lights.h"
 #include "tests/gl/held_frame_fixture.h"
 
 /// A light's pass leaves out pixels that the light cannot reach, and no other.

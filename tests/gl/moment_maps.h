@@ -1,7 +1,10 @@
 #pragma once
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/moment_recorder.h"
+#include "systems/shadow/passes/prefilter_pass.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/request/map_textures.h"
+#include "systems/shadow/request/prefilter_settings.h"
 #include "tests/gl/gl_test_context.h"
 
 namespace gnomon {

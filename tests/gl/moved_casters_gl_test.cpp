@@ -1,4 +1,4 @@
-#include "systems/shadow/caster_motion.h"
+#include "systems/shadow/culling/static_dynamic_casters.h"
 #include "tests/gl/traced_frame_fixture.h"
 
 /// What is kept of a map while others move must be what drawing it again would give, bit for bit.

@@ -10,7 +10,7 @@
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
 #include "systems/frame.h"
-#include "systems/shadow/map_store.h"
+#include "systems/shadow/maps/map_cache.h"
 #include "tests/system/test_world.h"
 
 // Memory that runs out for real: a child process under an address-space limit asks for maps that do not fit.

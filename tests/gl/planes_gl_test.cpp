@@ -1,9 +1,9 @@
 #include <cmath>
 #include <random>
 
-#include "systems/shadow/depth_format.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/frame/depth_format.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/frame_fixture.h"
 #include "tests/long_run.h"
 #include "tests/unit/math/random_seed.h"

@@ -3,6 +3,8 @@
 #include <glm/geometric.hpp>
 #include <random>
 
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/box_fixture.h"
 #include "tests/gl/moment_maps.h"
 #include "tests/long_run.h"

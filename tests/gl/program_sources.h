@@ -9,9 +9,9 @@
 #include "shaders/embedded.h"
 #include "systems/debug/debug_view.h"
 #include "systems/lighting/light_programs.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/moment_recorder.h"
+#include "systems/shadow/passes/prefilter_pass.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon {
 
@@ -155,18 +155,18 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         if (masked) defines.emplace_back("MASKED 1");
         if (triangles) defines.emplace_back("TRIANGLES 1");
         if (coloured) defines.emplace_back("COLOURED 1");
-        const auto vertex = gl::expand_shader(shader_files(), "shadow/depth/depth.vert", defines);
-        const auto fragment = gl::expand_shader(shader_files(), "shadow/depth/depth.frag", defines);
+        const auto vertex = gl::expand_shader(shader_files(), "shadow/passes/depth/depth.vert", defines);
+        const auto fragment = gl::expand_shader(shader_files(), "shadow/passes/depth/depth.frag", defines);
         if (vertex && fragment)
             programs.push_back({std::string(masked ? "depth masked" : "depth opaque") + (triangles ? ", triangles" : "") + (coloured ? ", coloured" : ""), vertex.value(),
                                 fragment.value()});
     }
-    for (const char* file : {"shadow/depth_bins.comp", "lighting/exposure.comp"})
+    for (const char* file : {"lighting/post/depth_histogram.comp", "lighting/post/exposure.comp"})
         if (const auto compute = gl::expand_shader(shader_files(), file, {}))
             programs.push_back({.label = file, .compute = compute.value()});
     for (const char* define : {"", "CUBE 1", "OF_LEVEL 1"}) {
         const std::vector<std::string> defines(*define ? 1 : 0, define);
-        if (const auto compute = gl::expand_shader(shader_files(), "shadow/exact/ends.comp", defines))
+        if (const auto compute = gl::expand_shader(shader_files(), "shadow/passes/bounds/occluder_pyramid.comp", defines))
             programs.push_back({.label = std::string("ends ") + define, .compute = compute.value()});
     }
     const auto add_view = [&](std::string_view vertex_file, std::string_view fragment_file) {
@@ -176,7 +176,7 @@ inline std::vector<gl::ProgramDesc> all_programs() {
     };
     add_view("debug/lines.vert", "debug/lines.frag");
     for (const debug::ViewRow& view : debug::view_table())
-        if (view.medium == debug::ViewMedium::flat) add_view("shared/fullscreen.vert", view.fragment);
+        if (view.medium == debug::ViewMedium::flat) add_view("common/fullscreen.vert", view.fragment);
     return programs;
 }
 

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/gl/box_fixture.h"
 
 // A sun that projects from an eye, and depth ranges that are given: the shadows are those of a lamp at the eye, inside

@@ -11,7 +11,7 @@
 namespace gnomon {
 namespace {
 
-const std::string kListProbe = R"(#include "lighting/listed.glsl"
+const std::string kListProbe = R"(#include "lighting/trace/ray_list_layout.glsl"
 layout(local_size_x = 1) in;
 layout(std430, binding = 2) buffer Asked { ivec4 asked[]; };
 layout(std430, binding = 1) buffer Found { ivec4 found[]; };

@@ -27,7 +27,7 @@ constexpr std::uint32_t kRecords = 5;
 constexpr std::size_t kWords = 8 + 12 + 8 + 8 + 17;
 
 const std::string kProbe =
-    "#include \"rays/scene.glsl\"\n"
+    "#include \"ray_tracing/bvh_buffers.glsl\"\n"
     R"(layout(local_size_x = 1) in;
 layout(std430, binding = 1) buffer Out { uint words[]; };
 void write(uint at, vec3 v, uint n) {

@@ -7,7 +7,7 @@
 #include "engine/gl/shader_source.h"
 #include "shaders/embedded.h"
 #include "systems/extract/gpu_scene.h"
-#include "systems/shadow/publish.h"
+#include "systems/shadow/publish/publish_lights.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/sheet_worlds.h"
 #include "tests/unit/math/random_seed.h"
@@ -22,7 +22,7 @@ using test::chance;
 using test::QueryScene;
 using test::Random;
 
-/// Texels of shaders/lighting/surface_place.glsl, each with its pixel.
+/// Texels of shaders/lighting/gbuffer/visible_triangle.glsl, each with its pixel.
 struct Asked {
     glm::uvec4 place{0u};
     glm::uvec4 pixel{0u};
@@ -139,7 +139,7 @@ private:
         if (held) return held;
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
         const std::string probe =
-            "#include \"lighting/exact_place.glsl\"\n#include \"lighting/seen_place.glsl\"\n"
+            "#include \"lighting/gbuffer/surface_position_f64.glsl\"\n#include \"lighting/gbuffer/surface_position.glsl\"\n"
             "struct Asked { uvec4 place, pixel; };\n"
             "layout(std430, binding = 1) readonly buffer AskedBuffer { Asked asked[]; };\n"
             "layout(location = 0) out vec4 answer;\n"
@@ -155,7 +155,7 @@ private:
             "1.0);\n"
             "}\n";
         files.push_back({"probe.frag", probe});
-        const auto vertex = gl::expand_shader(files, "shared/fullscreen.vert", {});
+        const auto vertex = gl::expand_shader(files, "common/fullscreen.vert", {});
         const auto fragment = gl::expand_shader(files, "probe.frag", {});
         EXPECT_TRUE(vertex && fragment);
         if (!vertex || !fragment) return {};

@@ -10,7 +10,7 @@
 #include "systems/debug/shown_scale.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/lighting/lighting_system.h"
-#include "systems/shadow/exact/ends_recorder.h"
+#include "systems/shadow/exact/occluder_pyramid_pass.h"
 #include "systems/visibility/ray_records.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/program_sources.h"

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/gl/program_sources.h"
 

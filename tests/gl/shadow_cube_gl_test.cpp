@@ -1,5 +1,5 @@
-#include "systems/shadow/filter_demand.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/gl/room_fixture.h"
 
 // A point light amid a room: every face of its cube and every seam between them.

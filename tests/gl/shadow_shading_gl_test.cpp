@@ -7,7 +7,7 @@ namespace {
 
 constexpr float kPi = 3.14159265f;
 
-/// shaders/lighting/tonemap.frag and the target's encoding, for a fixed exposure.
+/// shaders/lighting/post/tonemap.frag and the target's encoding, for a fixed exposure.
 int encoded(float luminance, float ev) {
     constexpr float kWhite = 8.0f, kCalibration = 1.2f;
     const float x = luminance / (kCalibration * std::exp2(ev));

@@ -1,7 +1,7 @@
 #include <ostream>
 
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/box_fixture.h"
 
 // One box above a plane: the shadow's polygon is known.

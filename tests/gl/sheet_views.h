@@ -1,9 +1,10 @@
 #pragma once
 #include <vector>
 
-#include "systems/shadow/kinds/orthographic_view.h"
-#include "systems/shadow/kinds/perspective_view.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/projection/orthographic_view.h"
+#include "systems/shadow/projection/perspective_view.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/sheet_worlds.h"
 
 /// Lights over such worlds, and views of them.

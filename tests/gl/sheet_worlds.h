@@ -5,8 +5,8 @@
 #include <iterator>
 #include <random>
 
-#include "sample_game/scene_generator/shapes.h"
-#include "systems/shadow/types.h"
+#include "sample_game/support/built_in_scenes/primitives.h"
+#include "systems/shadow/frame/types.h"
 #include "tests/unit/rays/triangle_soup.h"
 #include "tests/unit/visibility/query_scene.h"
 

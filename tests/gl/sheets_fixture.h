@@ -3,13 +3,14 @@
 #include <glm/geometric.hpp>
 
 #include "shaders/embedded.h"
-#include "systems/shadow/exact/clearance.h"
-#include "systems/shadow/exact/ends_recorder.h"
-#include "systems/shadow/exact/sheet_recorder.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/publish.h"
-#include "systems/shadow/record.h"
+#include "systems/shadow/exact/bounds_pass.h"
+#include "systems/shadow/exact/near_light_clearance.h"
+#include "systems/shadow/exact/occluder_pyramid_pass.h"
+#include "systems/shadow/passes/depth_pass.h"
+#include "systems/shadow/publish/publish_lights.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/gl_test_context.h"
 
 namespace gnomon {
@@ -195,8 +196,8 @@ private:
         const auto& row = shadow::light_kind_row(kind);
         std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
         const std::string text =
-            "#include \"" + std::string(row.file) + "\"\n#include \"shadow/exact/verdict.glsl\"\n" +
-            (is_of_source(ask) ? "#include \"shadow/exact/soft_verdict.glsl\"\n" : "") +
+            "#include \"" + std::string(row.file) + "\"\n#include \"shadow/filters/exact/classify.glsl\"\n" +
+            (is_of_source(ask) ? "#include \"shadow/filters/exact/classify_soft.glsl\"\n" : "") +
             "layout(std430, binding = 9) readonly buffer Places { vec4 places[]; };\n"
             "layout(location = 0) out float verdict;\n"
             "void main() {\n"
@@ -213,7 +214,7 @@ private:
                                          std::string(row.define) + " 1"};
         if (!margins) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
         if (ask == Ask::source_without_reach) defines.emplace_back("SHEETS_WITHOUT_REACH 1");
-        const auto vertex = gl::expand_shader(files, "shared/fullscreen.vert", defines);
+        const auto vertex = gl::expand_shader(files, "common/fullscreen.vert", defines);
         const auto fragment = gl::expand_shader(files, "verdict.frag", defines);
         EXPECT_TRUE(vertex && fragment);
         if (!vertex || !fragment) return {};

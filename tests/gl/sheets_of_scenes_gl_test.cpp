@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "sample_game/scene_source.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/extract.h"
 #include "systems/transform/transform_system.h"
 #include "tests/gl/sheet_views.h"

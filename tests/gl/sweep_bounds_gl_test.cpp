@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 
-#include "bench/row_judge.h"
-#include "bench/sweep_plan.h"
-#include "bench/traced_truths.h"
+#include "bench/accuracy/reference_images.h"
+#include "bench/compare/evaluate_configuration.h"
+#include "bench/sweep/sweep_plan.h"
 #include "tests/gl/truth_scenes.h"
 
 // What is predicted of shadow edges holds for every way to cast shadows, not for the defaults alone.

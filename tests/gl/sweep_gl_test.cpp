@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "bench/sweep.h"
-#include "bench/sweep_json.h"
+#include "bench/sweep/sweep.h"
+#include "bench/sweep/sweep_json.h"
 #include "tests/gl/truth_scenes.h"
 
 // The sweep on the real pipeline: what it finds depends on a row alone.

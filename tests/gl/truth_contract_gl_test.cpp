@@ -2,7 +2,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
-#include "bench/demand_scene.h"
+#include "bench/scaling/many_lights_scene.h"
 #include "components/transform.h"
 #include "tests/gl/truth_scenes.h"
 #include "tests/unit/math/random_seed.h"

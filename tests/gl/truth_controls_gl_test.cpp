@@ -1,6 +1,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "bench/audit.h"
+#include "bench/audit/audit.h"
 #include "tests/gl/truth_scenes.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"

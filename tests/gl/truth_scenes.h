@@ -6,16 +6,16 @@
 #include <string>
 #include <utility>
 
-#include "bench/accuracy.h"
-#include "bench/promise.h"
-#include "bench/stage.h"
-#include "sample_game/picture_files.h"
-#include "sample_game/scene_generator/courtyard.h"
+#include "bench/accuracy/accuracy.h"
+#include "bench/accuracy/default_limits.h"
+#include "bench/common/stage.h"
+#include "sample_game/support/built_in_scenes/courtyard/courtyard.h"
+#include "sample_game/support/files/image_files.h"
 #include "tests/own_folder.h"
 
 namespace gnomon {
 
-// The bounds that every light of every scene must meet with default settings, and no acne (bench/promise.h).
+// The bounds that every light of every scene must meet with default settings, and no acne (bench/accuracy/default_limits.h).
 inline constexpr double kMostWrong = bench::kMostWrongByDefault, kMostLeak = bench::kMostLeakByDefault;
 
 /// A folder that is gone at the end of the test.

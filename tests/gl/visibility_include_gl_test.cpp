@@ -10,9 +10,12 @@
 
 #include "engine/math/projection.h"
 #include "shaders/embedded.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/request/prefilter_settings.h"
 #include "tests/gl/moment_maps.h"
 #include "tests/source_paths.h"
 
@@ -100,7 +103,7 @@ protected:
         const auto& kind_row = shadow::light_kind_row(kind);
         const std::string row = "#include \"" + std::string(kind_row.file) + "\"\n#include \"" + std::string(row_.file) + "\"\n";
         const std::string fragment =
-            "#include \"row.glsl\"\n#include \"shadow/visibility.glsl\"\n"
+            "#include \"row.glsl\"\n#include \"shadow/lookup/visibility.glsl\"\n"
             "layout(std430, binding = 7) readonly buffer Probes { vec4 probes[]; };\n"
             "layout(location = 0) out float result;\n"
             "void main() { result = shadow_visibility(probes[2 * int(gl_FragCoord.x)].xyz, probes[2 * int(gl_FragCoord.x) + 1].xyz, 0.0); }\n";
@@ -113,7 +116,7 @@ protected:
         if (reads_depths()) defines.emplace_back("SHADOW_DEPTHS 1");
         if (reads_moments()) defines.emplace_back("SHADOW_MOMENTS 1");
         if (reads_triangles()) defines.emplace_back("SHADOW_TRIANGLES 1");
-        const auto vertex = gl::expand_shader(files, "shared/fullscreen.vert", defines);
+        const auto vertex = gl::expand_shader(files, "common/fullscreen.vert", defines);
         const auto expanded = gl::expand_shader(files, "probe.frag", defines);
         if (!vertex || !expanded) {
             ADD_FAILURE() << "the include does not stand alone";

@@ -47,9 +47,9 @@ void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2
 /// One light's visibility over what the depth buffer shows, written into all channels: the colour mask chooses one.
 constexpr const char* kMask = R"(
 #include "row.glsl"
-#include "shadow/light_block.glsl"
-#include "shadow/visibility.glsl"
-#include "lighting/light_at.glsl"
+#include "shadow/lookup/light_block.glsl"
+#include "shadow/lookup/visibility.glsl"
+#include "lighting/lights/light_sample.glsl"
 layout(binding = 0) uniform sampler2D my_depth;
 layout(binding = 1) uniform sampler2D my_normals;   // geometric
 uniform mat4 camera_from_clip;

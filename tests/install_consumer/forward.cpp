@@ -38,9 +38,9 @@ void main() {
 // [fragment]
 constexpr const char* kFragment = R"(
 #include "row.glsl"
-#include "shadow/light_block.glsl"
-#include "shadow/visibility.glsl"
-#include "lighting/light_at.glsl"
+#include "shadow/lookup/light_block.glsl"
+#include "shadow/lookup/visibility.glsl"
+#include "lighting/lights/light_sample.glsl"
 in vec3 position_ca;
 layout(location = 0) out vec4 colour;
 void main() {

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "systems/after_submission.h"
-#include "systems/shadow/sampled_depths.h"
+#include "systems/shadow/fitting/directional/sdsm_splits.h"
 
 using namespace gnomon;
 

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 namespace gnomon::oracle {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "systems/shadow/kinds/cone_fade.h"
+#include "systems/shadow/projection/spot_cube_transition.h"
 
 namespace gnomon::oracle {
 namespace {

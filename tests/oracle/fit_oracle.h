@@ -5,7 +5,7 @@
 #include <span>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
 
 /// What sets and fits must be true of, decided in long double and in another way than they decide it: point by point.
 /// Points are world space. Bounds stand for meshes, as they do for sets and fits.

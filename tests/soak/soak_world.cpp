@@ -7,9 +7,9 @@
 
 #include "components/shadow_caster.h"
 #include "systems/lighting/kept_visibility.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/map_store.h"
+#include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon {
 namespace {

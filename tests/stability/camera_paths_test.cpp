@@ -6,14 +6,14 @@
 #include <optional>
 #include <random>
 
-#include "bench/stability_path.h"
-#include "bench/stability_scene.h"
-#include "sample_game/light_settings.h"
-#include "sample_game/scene_source.h"
-#include "systems/shadow/demand.h"
-#include "systems/shadow/fit.h"
-#include "systems/shadow/kinds/gliding_ends.h"
-#include "systems/shadow/sets.h"
+#include "bench/flicker/camera_path.h"
+#include "bench/flicker/map_readback.h"
+#include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/settings/light_settings.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/fitting/directional/split_transition.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/request/decide_requests.h"
 
 /// A sun's fits along the whole paths of the flicker bench, built-in scene, without a GPU: when views step, and how
 /// points pass from one cascade to the next.
@@ -147,7 +147,7 @@ private:
         const glm::dvec3 q = glm::dvec3(view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f));
         return q.x >= 0.0 && q.y >= 0.0 && q.z >= 0.0 && q.x <= 1.0 && q.y <= 1.0 && q.z <= 1.0;
     }
-    /// As shaders/shadow/kinds/directional.glsl chooses where maps are held.
+    /// As shaders/shadow/lookup/kinds/directional.glsl chooses where maps are held.
     static Shares shares_at(const std::vector<const ShadowView*>& views, const glm::dvec3& p_ws, double distance_m,
                             Walk& walk) {
         Shares shares{};

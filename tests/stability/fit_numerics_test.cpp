@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// The fits do not care how large the world is or where it lies, and stay finite whatever they are given.

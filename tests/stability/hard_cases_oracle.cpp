@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "systems/shadow/lamp_places.h"
+#include "systems/shadow/culling/lamp_offsets.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::hard {
@@ -124,7 +124,7 @@ bool reached(const LightItem& light, const Vec& p) {
     return cosine > std::cos(Number(light.outer_cone_rad)) + kClear * std::sin(Number(light.outer_cone_rad));
 }
 
-/// Whether the lamp stands off the triangle's plane by more than its shadows are looked for aside (lamp_places.h): a
+/// Whether the lamp stands off the triangle's plane by more than its shadows are looked for aside (lamp_offsets.h): a
 /// surface whose plane holds the lamp takes no light of it, and what else lies in that plane darkens nothing there.
 bool is_off_plane(const LightItem& light, const Triangle& t) {
     if (light.kind == LightKind::directional) return true;
@@ -267,7 +267,7 @@ private:
             if (++judged > kMostPoints) break;
             ++verdict_.seen;
             const Ray ray = to_light(light, point.at, size_);
-            // A lamp is kept off what it touches by this share of the way, on either side (lamp_places.h).
+            // A lamp is kept off what it touches by this share of the way, on either side (lamp_offsets.h).
             const Number touch = light.kind == LightKind::directional ? 0.0L : 4 * Number(shadow::kClearOfClipping);
             const auto dark = occluders(scene_, triangles_, point, ray, touch);
             verdict_.darkened += !dark.empty();

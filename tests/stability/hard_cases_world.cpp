@@ -6,7 +6,7 @@
 
 #include "components/mesh_ref.h"
 #include "components/shadow_caster.h"
-#include "sample_game/light_settings.h"
+#include "sample_game/support/settings/light_settings.h"
 
 namespace gnomon::hard {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/assets/mesh_library.h"
 #include "engine/ecs/registry.h"
 #include "engine/gl/device_recording.h"
-#include "sample_game/scene_generator/shapes.h"
+#include "sample_game/support/built_in_scenes/primitives.h"
 #include "systems/extract/extract.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/shadow/shadow_system.h"

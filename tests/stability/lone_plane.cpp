@@ -9,17 +9,19 @@
 #include <string_view>
 #include <utility>
 
-#include "bench/exact_record.h"
+#include "bench/glsl_on_cpu/light_block_values.h"
 #include "engine/math/projection.h"
-#include "systems/shadow/depth_format.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/publish.h"
+#include "systems/shadow/frame/depth_format.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/publish/publish_lights.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::bench::glsl {
 namespace {
 
-#include "bench/exact_shaders.inc"
+#include "bench/glsl_on_cpu/shader_structs.inc"
 
 /// One row of the shaders' table, whatever its struct.
 class Lookup {
@@ -73,8 +75,8 @@ struct CompiledRow {
     std::string_view filter_file;
     std::array<std::unique_ptr<Lookup> (*)(bool), static_cast<std::size_t>(PlaneKind::count)> make;
 };
-#define ROWS_OF_FILTER(name, reading)                                                                      \
-    {"shadow/filters/" #name ".glsl",                                                                      \
+#define ROWS_OF_FILTER(name, reading, file)                                                                 \
+    {file,                                                                      \
      {make_lookup<reading::directional::row_##name>, make_lookup<reading::directional_warped::row_##name>, \
       make_lookup<reading::spot::row_##name>, make_lookup<reading::point::row_##name>}},
 constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "components/light_shadow.h"
-#include "systems/shadow/kinds/perspective_view.h"
-#include "systems/shadow/types.h"
+#include "systems/shadow/frame/types.h"
+#include "systems/shadow/projection/perspective_view.h"
 
 /// One plane alone in the maps of one light, as a rasteriser would draw it, looked up by the shaders' own text
-/// (bench/exact_shaders.inc).
+/// (bench/glsl_on_cpu/shader_structs.inc).
 namespace gnomon {
 
 enum class PlaneKind : std::uint8_t { sun, warped_sun, spot, point, count };
@@ -60,7 +60,7 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// False if a filter's text is none of exact_shaders.inc: nothing can be judged.
+/// False if a filter's text is none of shader_structs.inc: nothing can be judged.
 bool can_judge(ShadowFilter filter);
 
 }  // namespace gnomon

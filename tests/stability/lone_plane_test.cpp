@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/kinds/perspective_view.h"
+#include "systems/shadow/projection/perspective_view.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/stability/lone_plane.h"
 
 /// Planes that random ones led to, reduced to what mattered.

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::shadow {
 namespace {

@@ -7,11 +7,11 @@
 #include <iostream>
 
 #include "engine/math/frustum.h"
-#include "systems/shadow/demand.h"
-#include "systems/shadow/fit.h"
-#include "systems/shadow/kinds/sun_eye.h"
-#include "systems/shadow/light_kinds.h"
-#include "systems/shadow/sets.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/projection/sun_viewpoint.h"
+#include "systems/shadow/request/decide_requests.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/long_run.h"
 #include "tests/oracle/fit_oracle.h"
 #include "tests/unit/math/random_seed.h"

@@ -5,9 +5,9 @@
 #include <random>
 #include <vector>
 
-#include "systems/shadow/kinds/directional_warped.h"
-#include "systems/shadow/kinds/orthographic_view.h"
-#include "systems/shadow/kinds/perspective_view.h"
+#include "systems/shadow/fitting/directional/fit_lispsm.h"
+#include "systems/shadow/projection/orthographic_view.h"
+#include "systems/shadow/projection/perspective_view.h"
 
 namespace gnomon {
 namespace {
@@ -167,7 +167,7 @@ LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& plac
     const glm::dvec3 far_m = glm::abs(place.position_m);
     const bool orthographic = view.projection == shadow::ViewProjection::orthographic;
     const double counted_m = orthographic ? far_m.x + far_m.y + far_m.z : glm::length(far_m);
-    const double half_rounding = 6.0 * bounds.unit_roundoff;  // half of kPositionRounding in numerics.glsl
+    const double half_rounding = 6.0 * bounds.unit_roundoff;  // half of kPositionRounding in float_rounding.glsl
     plane.receiver_m = place.position_m + random.direction() * (half_rounding * counted_m);
     // The receiver stays where its texel is worst: it is the plane that lies off it, on this side of the light.
     const double off_m = share() * plane.error_m, light_m = -glm::dot(normal, place.position_m);

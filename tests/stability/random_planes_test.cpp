@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "systems/shadow/depth_format.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/frame/depth_format.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/long_run.h"
 #include "tests/stability/random_planes.h"
 #include "tests/unit/math/random_seed.h"

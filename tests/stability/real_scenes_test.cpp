@@ -6,13 +6,13 @@
 #include <set>
 
 #include "engine/assets/gltf_loader.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/extract.h"
-#include "systems/shadow/kinds/slice_sphere.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/fitting/directional/slice_sphere.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "systems/transform/transform_system.h"
 #include "tests/data/data_files.h"
-#include "tests/unit/shadow/cascade_waste.h"
+#include "tests/unit/shadow/fitting/directional/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
 
 /// What fits waste on scenes that others made: every file of the test data, seen by its first camera, with a sun for

@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "engine/gl/device_recording.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/frame.h"
 #include "systems/lighting/kept_visibility.h"
 #include "tests/unit/assets/bad_input.h"

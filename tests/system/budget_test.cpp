@@ -6,13 +6,13 @@
 #include <numbers>
 #include <tuple>
 
-#include "bench/demand_scene.h"
+#include "bench/scaling/many_lights_scene.h"
 #include "components/camera.h"
 #include "components/light.h"
 #include "components/light_shadow.h"
 #include "components/transform.h"
 #include "engine/math/frustum.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/frame.h"
 #include "tests/system/timed_device.h"
 

@@ -1,6 +1,6 @@
 #include <bit>
 
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
 /// What a light whose filter reads triangles asks for, and that no other light pays for it.

@@ -1,4 +1,5 @@
-#include "systems/shadow/publish.h"
+#include "systems/shadow/projection/screen_bounds.h"
+#include "systems/shadow/publish/publish_lights.h"
 #include "tests/system/frame_fixture.h"
 
 /// The whole first frame of the smallest shadowed scene, command by command.
@@ -99,7 +100,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BeginTimer{1},
         BeginPass{target("light sum"), picture, false, 0.0f, false, {}},
         SetScissor{picture},
-        screen("light LIGHT_SPOT shadow/filters/hardware_2x2.glsl", Blend::add, DepthTest::less),
+        screen("light LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl", Blend::add, DepthTest::less),
         BindUniforms{0, uniforms, 0, 160},
         BindTexture{0, depth, point},
         BindTexture{1, texture("surface colour"), point},

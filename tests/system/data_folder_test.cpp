@@ -4,8 +4,8 @@
 
 #include "engine/assets/gltf_loader.h"
 #include "engine/gl/device_recording.h"
-#include "sample_game/motion.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/node_motion.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/frame.h"
 #include "tests/data/data_files.h"
 

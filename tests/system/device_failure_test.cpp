@@ -1,6 +1,6 @@
 #include "engine/gl/device_recording.h"
 #include "systems/retry.h"
-#include "systems/shadow/map_store.h"
+#include "systems/shadow/maps/map_cache.h"
 #include "tests/system/frame_fixture.h"
 
 /// A device that refuses what it is asked for: the frame goes on, the light is lit, the report says why,
@@ -199,17 +199,17 @@ TEST_P(DeviceFailure, AMaskedDepthShaderThatDoesNotCompileLeavesOnlyItsLightsLit
 
 TEST_P(DeviceFailure, AFilterThatDoesNotCompileLeavesOneTapOfTheSameMap) {
     EXPECT_CALL(device, create_program).Times(::testing::AnyNumber());
-    EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, HasSubstr("filters/hardware_2x2"))))
+    EXPECT_CALL(device, create_program(Field(&gl::ProgramDesc::label, HasSubstr("filters/pcf/hardware_2x2"))))
         .WillOnce(refusal<gl::ProgramHandle>(gl::Failure::compile_failed));
     for (int i = 0; i < 3; ++i) {  // asked for once, not in every frame
         step();
         EXPECT_EQ(report().state, LightState::degraded);
         EXPECT_STREQ(reason_code(report().reason), "filter_program_failed");
-        EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/hard.glsl")));
+        EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/pcf/hard.glsl")));
         EXPECT_GT(report().views, 0u);
     }
     end_fault();
-    EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/hardware_2x2.glsl")));
+    EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/pcf/hardware_2x2.glsl")));
 }
 
 TEST_P(DeviceFailure, ALightingShaderThatDoesNotCompileInAnyFormLeavesTheLightLit) {

@@ -1,4 +1,4 @@
-#include "systems/shadow/dim_lights.h"
+#include "systems/shadow/culling/contribution_culling.h"
 
 #include <algorithm>
 #include <cmath>

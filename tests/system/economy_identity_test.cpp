@@ -4,7 +4,7 @@
 #include <set>
 
 #include "engine/gl/device_recording.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/economy/both_ways.h"
 #include "tests/economy/changing_world.h"
 #include "tests/economy/map_contents.h"

@@ -1,6 +1,6 @@
 #include "components/shadow_caster.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/system/frame_fixture.h"
 
 /// What must cost nothing: counted in commands, bytes and programs.

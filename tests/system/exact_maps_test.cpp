@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "systems/shadow/exact/ray_load.h"
-#include "systems/shadow/map_desc.h"
+#include "systems/shadow/budget/ray_budget.h"
+#include "systems/shadow/request/map_textures.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"
 

@@ -1,7 +1,7 @@
 #include <set>
 
-#include "systems/shadow/contract.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/accuracy_target.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
 /// Whatever a light falls back to while its pictures are recorded, its report says how it is looked up, and how well.
@@ -106,11 +106,11 @@ constexpr Loss kLosses[] = {
     {"as found", kExact, kHard, Reason::filter_program_failed},
     {"ray trees of meshes", kExact, kHard, Reason::buffer_failed},
     {"ray instances", kSoft, kHard, Reason::buffer_failed},
-    {"filters/triangles", kTriangles, kHard, Reason::filter_program_failed},
-    {"filters/vsm", kMoments, kHard, Reason::filter_program_failed},
-    {"moments shadow/filters/vsm", kMoments, kHard, Reason::filter_program_failed},
+    {"filters/triangles/triangles", kTriangles, kHard, Reason::filter_program_failed},
+    {"filters/prefiltered/vsm", kMoments, kHard, Reason::filter_program_failed},
+    {"moments shadow/filters/prefiltered/vsm", kMoments, kHard, Reason::filter_program_failed},
     {"filters/", kTriangles, kNone, Reason::lighting_program_failed},
-    {"filters/hard", kHard, kNone, Reason::lighting_program_failed},
+    {"filters/pcf/hard", kHard, kNone, Reason::lighting_program_failed},
     {"caster triangles", kTriangles, kNone, Reason::buffer_failed},
     {"shadow moment records", kMoments, kNone, Reason::buffer_failed},
     {"shadow map", kExact, kExact, Reason::map_allocation_failed},

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/system/passes.h"
 
 namespace gnomon {

@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
-#include "sample_game/motion.h"
-#include "sample_game/scene_source.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/node_motion.h"
+#include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "tests/system/test_world.h"
 
 namespace gnomon {

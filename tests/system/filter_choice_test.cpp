@@ -1,4 +1,4 @@
-#include "systems/shadow/filter_choice.h"
+#include "systems/shadow/request/filter_choice.h"
 
 #include <gtest/gtest.h>
 

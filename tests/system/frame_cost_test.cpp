@@ -2,7 +2,7 @@
 
 #include "components/name.h"
 #include "engine/assets/mesh_shape.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/unit/allocation_counter.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "systems/frame.h"
-#include "systems/shadow/map_store.h"
+#include "systems/shadow/maps/map_cache.h"
 #include "tests/system/passes.h"
 #include "tests/system/test_world.h"
 

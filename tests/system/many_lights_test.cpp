@@ -4,15 +4,16 @@
 #include <set>
 #include <string>
 
-#include "bench/demand_scene.h"
+#include "bench/scaling/many_lights_scene.h"
 #include "components/name.h"
 #include "components/transform.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame.h"
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/publish.h"
-#include "systems/shadow/sets.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/projection/screen_bounds.h"
+#include "systems/shadow/publish/publish_lights.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/passes.h"
 
 /// A level with 1000 lights, 200 of them with shadows: what is made, drawn and kept, to the last pass and byte.

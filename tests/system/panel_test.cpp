@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "engine/gl/device_recording.h"
-#include "sample_game/presets.h"
-#include "sample_game/scene_source.h"
-#include "systems/shadow/filter_table.h"
+#include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/settings/presets.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/panel_hand.h"
 
 /// The panel of lights (F1) under a mouse, in the built-in scene, on the recording device: what is clicked and dragged

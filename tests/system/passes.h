@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/gl/device_recording.h"
-#include "systems/shadow/map_desc.h"
+#include "systems/shadow/request/map_textures.h"
 
 namespace gnomon {
 

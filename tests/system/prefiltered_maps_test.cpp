@@ -1,5 +1,5 @@
-#include "systems/shadow/filter_table.h"
-#include "systems/shadow/moment_recorder.h"
+#include "systems/shadow/passes/prefilter_pass.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
 /// What a light with a prefiltered map makes, records and keeps, and that no other light pays for it.
@@ -63,7 +63,7 @@ TEST_F(PrefilteredMaps, OfOneSpotAreExactlyTheseCommands) {
     const gl::BufferHandle records{id("shadow moment records", Kind::create_buffer)};
     const gl::TextureHandle depth{id("shadow map lamp", Kind::create_texture)}, scratch{id("shadow map lamp, scratch", Kind::create_texture)};
     const gl::TargetHandle half{id("shadow map lamp, scratch", Kind::create_target)}, whole{id("shadow map lamp, moments", Kind::create_target)};
-    const gl::PipelineState converts{{id("moments shadow/filters/vsm.glsl PERSPECTIVE 1", Kind::create_program)}},
+    const gl::PipelineState converts{{id("moments shadow/filters/prefiltered/vsm.glsl PERSPECTIVE 1", Kind::create_program)}},
         blurs{{id("moments blur", Kind::create_program)}};
     const gl::Rect map{0, 0, kSize_px, kSize_px};
     const std::vector<gl::Command> wanted{

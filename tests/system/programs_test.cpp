@@ -23,7 +23,7 @@ protected:
     }
 };
 
-constexpr const char* kSpot2x2 = "light LIGHT_SPOT shadow/filters/hardware_2x2.glsl";
+constexpr const char* kSpot2x2 = "light LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl";
 
 TEST_F(Programs, ALightWithoutShadowNeedsNoShadowProgram) {
     world.add_stage();
@@ -44,7 +44,7 @@ TEST_F(Programs, NothingIsMadeTwice) {
     for (int i = 0; i < 3; ++i) world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     for (int i = 0; i < 10; ++i) step();
     EXPECT_THAT(made(), ElementsAre("depth opaque", "kept light LIGHT_SPOT ", kSpot2x2, "luminance", "surface", "tonemap",
-                                    "visibility LIGHT_SPOT shadow/filters/hardware_2x2.glsl"));
+                                    "visibility LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl"));
 }
 
 TEST_F(Programs, EachFilterInUseIsARow) {
@@ -53,8 +53,8 @@ TEST_F(Programs, EachFilterInUseIsARow) {
     step();
     world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.filter = ShadowFilter::pcf_grid; });
     step();
-    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf_grid.glsl"));
-    EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/hard.glsl")));
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf/pcf_grid.glsl"));
+    EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/pcf/hard.glsl")));
 }
 
 TEST_F(Programs, TheMaskedOneIsMadeWhenAMaskedCasterComes) {
@@ -128,7 +128,7 @@ TEST_F(Programs, BlendedRowsAreMadeOnlyWhereABlendedSurfaceIsSeen) {
     world.add_mesh(kBlendedBox, {1, 1, 0}, false);
     step();
     EXPECT_THAT(made(), Contains("blended base"));
-    EXPECT_THAT(made(), Contains("blended light LIGHT_SPOT shadow/filters/hardware_2x2.glsl"));
+    EXPECT_THAT(made(), Contains("blended light LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl"));
 }
 
 TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
@@ -152,7 +152,7 @@ TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
     };
     step();
     EXPECT_THAT(waiting(), ElementsAre("lamp1", "lamp2"));
-    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/hard.glsl")) << "what stands in never waits";
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf/hard.glsl")) << "what stands in never waits";
     const std::size_t first = made().size();
     step();
     EXPECT_THAT(waiting(), ElementsAre("lamp2"));
@@ -172,7 +172,7 @@ TEST_F(Programs, OfALightOfSeveralComeOneAfterTheOther) {
     const auto own = [&] {
         std::vector<std::string> labels = made();
         std::erase_if(labels, [](const std::string& label) {
-            return label.find("LIGHT_SPOT") == std::string::npos || label.find("filters/hard") != std::string::npos;
+            return label.find("LIGHT_SPOT") == std::string::npos || label.find("filters/pcf/hard") != std::string::npos;
         });
         return labels.size();
     };
@@ -194,8 +194,8 @@ TEST_F(Programs, ThatMakeMomentsAndDoNotCompileLeaveOneTapOfTheDepths) {
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_STREQ(reason_code(light("lamp").reason), "filter_program_failed");
         EXPECT_EQ(light("lamp").views, 1u);
-        EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/hard.glsl"));
-        EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/vsm.glsl")));
+        EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf/hard.glsl"));
+        EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/prefiltered/vsm.glsl")));
         const auto& all = frame->commands().commands;
         const auto bind = std::find_if(all.begin(), all.end(), [](const gl::Command& c) {
             const auto* texture = std::get_if<gl::BindTexture>(&c);
@@ -206,7 +206,7 @@ TEST_F(Programs, ThatMakeMomentsAndDoNotCompileLeaveOneTapOfTheDepths) {
     }
     device.stop_failing();
     for (std::uint64_t i = 0; i <= Retry::kFrames; ++i) step();
-    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/vsm.glsl"));
+    EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/prefiltered/vsm.glsl"));
     EXPECT_TRUE(light("lamp").state != LightState::degraded) << reason_code(light("lamp").reason);
 }
 

@@ -1,8 +1,8 @@
 #include <map>
 
 #include "components/shadow_caster.h"
-#include "systems/shadow/exact/caster_surfaces.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/exact/caster_topology.h"
+#include "systems/shadow/request/filter_table.h"
 #include "systems/visibility/ray_records.h"
 #include "tests/system/frame_fixture.h"
 
@@ -200,7 +200,7 @@ TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceThenByTrianglesAndItIsTried
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
         EXPECT_GT(light("lamp").predicted_error_px, 0.0) << "as a map by itself has";
-        EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("filters/hard")));
+        EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("filters/pcf/hard")));
         for (int i = 0; i < 2; ++i) {
             step();
             EXPECT_EQ(light("lamp").state, LightState::degraded);

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "components/shadow_caster.h"
-#include "systems/shadow/demand.h"
-#include "systems/shadow/fit.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/request/decide_requests.h"
 #include "tests/source_paths.h"
 #include "tests/system/frame_fixture.h"
 
@@ -160,7 +160,7 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
         {Reason::lighting_program_failed,
          changed([this] { device.fail_label("filters", gl::Failure::compile_failed); })},
         {Reason::filter_program_failed,
-         changed([this] { device.fail_label("filters/hardware_2x2", gl::Failure::compile_failed); })},
+         changed([this] { device.fail_label("filters/pcf/hardware_2x2", gl::Failure::compile_failed); })},
         {Reason::filter_program_waits, changed([this] { settings.programs_per_frame = 0; })},
         {Reason::buffer_failed, refused(Kind::create_buffer, "shadow draw items", gl::Failure::out_of_memory)},
         {Reason::sampler_failed, refused(Kind::create_sampler, "shadow compare linear", gl::Failure::out_of_memory)},

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "components/mesh_ref.h"
-#include "systems/shadow/caster_motion.h"
+#include "systems/shadow/culling/static_dynamic_casters.h"
 #include "tests/system/frame_fixture.h"
 
 /// LightShadow::refresh_error_px: maps that may show casters where they were, as far as nobody would see it.

@@ -105,7 +105,7 @@ private:
     }
     double lookup_ns(gl::ProgramHandle program) const {
         const std::string& label = recording.program(program)->label;
-        if (label.find("filters/hard") != std::string::npos) return speeds.plain_pixel;
+        if (label.find("filters/pcf/hard") != std::string::npos) return speeds.plain_pixel;
         return label.find("filters/") != std::string::npos ? speeds.filtered_pixel : 0.0;
     }
     void time(const gl::CommandList& list) {

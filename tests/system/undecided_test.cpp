@@ -1,5 +1,5 @@
 #include "components/light_shadow.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
 /// A light whose filter takes long at edges is drawn twice: what the first draw decides, and the rest.

@@ -1,5 +1,5 @@
 #include "components/shadow_caster.h"
-#include "systems/shadow/filter_table.h"
+#include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 
 /// What the report says of each view, and the numbers behind it.

@@ -5,7 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "systems/shadow/light_kinds.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::debug {
 namespace {

@@ -1,4 +1,4 @@
-#include "bench/spread.h"
+#include "bench/common/median_range.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 
 #include "engine/math/frustum.h"
 #include "systems/extract/volumes.h"
-#include "systems/shadow/demand.h"
-#include "systems/shadow/fit.h"
-#include "systems/shadow/sets.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/request/decide_requests.h"
 #include "tests/unit/math/random_seed.h"
 
 namespace gnomon::shadow {

@@ -1,8 +1,8 @@
 #pragma once
 #include "engine/assets/mesh_library.h"
 #include "engine/ecs/registry.h"
-#include "sample_game/scene_source.h"
-#include "sample_game/spawn.h"
+#include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/extract.h"
 #include "systems/transform/transform_system.h"
 

@@ -1,0 +1,161 @@
+#include "bench/accuracy/accuracy.h"
+
+#include <chrono>
+#include <cstring>
+
+#include "bench/accuracy/edge_error_bounds.h"
+#include "bench/accuracy/surface_mismatch.h"
+#include "bench/accuracy/unexplained_errors.h"
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::bench {
+namespace {
+
+// The second frame is the first whose automatic choices (sizes, caches) could have settled.
+constexpr int kSettlingFrames = 2;
+// Timings of a query may arrive this many frames late.
+constexpr std::uint32_t kTimingLag = 3;
+// Two ways to the same bound differ in their last digits.
+constexpr double kRounding = 1.0e-9;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Bit for bit, so that NaN equals itself.
+std::size_t count_differing(const std::vector<float>& a, const std::vector<float>& b) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) count += std::memcmp(&a[i], &b[i], sizeof(float)) != 0;
+    return count;
+}
+
+std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<std::uint32_t>& indices) {
+    const SceneSnapshot& snapshot = stage.frame().snapshot();
+    if (snapshot.consumers.empty()) return Error{"no usable camera", accuracy.scene, "", "bench.camera"};
+    for (std::uint32_t i = 0; i < snapshot.lights.size(); ++i) {
+        if (!snapshot.lights[i].has_shadow) {
+            accuracy.unshadowed.push_back(snapshot.lights[i].name);
+            continue;
+        }
+        LightAccuracy light;
+        light.report = stage.frame().report().lights[i];
+        if (!stage.frame().read_visibility(i, light.measured))
+            return Error{"visibility of light '" + snapshot.lights[i].name + "' cannot be read", accuracy.scene, "",
+                         "bench.visibility"};
+        accuracy.lights.push_back(std::move(light));
+        indices.push_back(i);
+    }
+    return std::nullopt;
+}
+
+void judge_edges(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& snapshot,
+                 const EdgeBounds& bounds, std::uint32_t index, const AccuracyOptions& options, LightAccuracy& light) {
+    const auto texel_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+        return bounds.at(index, point, normal, options.telling);
+    };
+    light.exceptions = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
+                                               light.truth, light.metrics.edge, texel_at);
+    const auto promised_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
+        return bounds.promised(index, point, normal, options.wished);
+    };
+    if (light.report.keeps_max_error)
+        light.contract = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
+                                                 light.truth, light.metrics.edge, promised_at);
+    for (std::size_t i = 0; i < hits.count(); ++i) {
+        if (light.truth.scored[i] == 0) continue;
+        const glm::dvec3 &point = hits.position_rel_m[i], &normal = hits.normal_ws[i];
+        const double stated_px = bounds.stated_px(index, point, normal);
+        light.beyond_stated += stated_px > 0.0 && texel_at(point, normal).error_px > stated_px * (1.0 + kRounding);
+    }
+}
+
+void judge_source(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const LightItem& light,
+                  LightAccuracy& accuracy) {
+    SoftAccuracy& soft = accuracy.soft.emplace();
+    soft.source = oracle::source_size(light);
+    soft.truth = tracer.trace_source(hits, light, {});
+    soft.metrics = oracle::compare_soft(hits, soft.truth, accuracy.measured);
+}
+
+PromisedErrors promised_errors(const LightAccuracy& light) {
+    const oracle::Metrics& m = light.metrics;
+    const oracle::FarErrors& far = light.far;
+    return {m.fraction(m.wrong), m.fraction(m.leak), m.fraction(m.acne),
+            m.fraction(far.false_shadow + far.crease_shadow), m.fraction(far.false_light + far.crease_light)};
+}
+
+void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector<std::uint32_t>& indices,
+                 Accuracy& accuracy) {
+    const auto start = std::chrono::steady_clock::now();
+    const SceneSnapshot& snapshot = stage.frame().snapshot();
+    const ConsumerItem& camera = snapshot.consumers.front();
+    const oracle::ReferenceTracer tracer(snapshot, stage.library(), camera.position_ws_m);
+    const oracle::PrimaryHits hits = tracer.trace_primary(camera);
+    const auto other = other_surfaces(stage, tracer, hits);
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        const LightItem& light = snapshot.lights[indices[k]];
+        accuracy.lights[k].truth = tracer.trace_light(hits, light, options.with_ambiguous);
+        if (other) accuracy.lights[k].other_surface = leave_out(*other, accuracy.lights[k].truth);
+        if (oracle::source_size(light) > 0.0 && !is_left_out(accuracy.lights[k].report))
+            judge_source(tracer, hits, light, accuracy.lights[k]);
+    }
+    accuracy.trace_s = seconds_since(start);
+    accuracy.camera_ws_m = camera.position_ws_m;
+    const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().held_fits());
+    const std::vector<std::uint8_t> creases = oracle::creases(hits);
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        LightAccuracy& light = accuracy.lights[k];
+        if (is_left_out(light.report)) continue;
+        light.metrics = oracle::compare(
+            {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
+        judge_edges(tracer, hits, snapshot, bounds, indices[k], options, light);
+        light.far =
+            errors_beyond_texels({tracer, hits, creases, snapshot, indices[k], light.truth}, bounds, light.measured);
+        if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
+            light.promised = promised_errors(light);
+    }
+}
+
+void time_lights(Stage& stage, std::uint32_t frames, const std::vector<std::uint32_t>& indices, Accuracy& accuracy) {
+    std::vector<std::vector<double>> gpu_us(indices.size()), cpu_us(indices.size());
+    stage.set_economy(false);
+    for (std::uint32_t i = 0; i < frames + kTimingLag; ++i) {
+        stage.run_frame();
+        if (i < kTimingLag) continue;
+        for (std::size_t k = 0; k < indices.size(); ++k) {
+            const LightReport& report = stage.frame().report().lights[indices[k]];
+            cpu_us[k].push_back(report.cpu_us);
+            if (report.gpu_us) gpu_us[k].push_back(*report.gpu_us);
+        }
+    }
+    std::vector<float> redrawn;
+    for (std::size_t k = 0; k < indices.size(); ++k) {
+        LightAccuracy& light = accuracy.lights[k];
+        light.redrawn_differs = light.measured.size();
+        if (stage.frame().read_visibility(indices[k], redrawn) && redrawn.size() == light.measured.size())
+            light.redrawn_differs = count_differing(light.measured, redrawn);
+        light.gpu_us = spread_of(gpu_us[k]);
+        light.cpu_us = spread_of(cpu_us[k]);
+    }
+}
+
+}  // namespace
+
+Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options) {
+    Accuracy accuracy;
+    accuracy.scene = stage.scene_name();
+    accuracy.device = stage.device().info().name;
+    // What is judged are lookups, and what a light holds its maps.
+    (void)stage.apply_setting("keep_visibility=off");
+    for (int i = 0; i < kSettlingFrames; ++i) stage.run_frame();
+    std::vector<std::uint32_t> indices;
+    if (!stage.frame().snapshot().consumers.empty())
+        accuracy.size_px = stage.frame().snapshot().consumers.front().viewport_px;
+    if (auto error = read_lights(stage, accuracy, indices)) return *error;
+    trace_truth(stage, options, indices, accuracy);
+    if (options.timed_frames > 0) time_lights(stage, options.timed_frames, indices, accuracy);
+    accuracy.gl_complaints = stage.gl_complaints();
+    return accuracy;
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,114 @@
+#include <algorithm>
+
+#include "bench/accuracy/accuracy.h"
+#include "bench/text/printf_string.h"
+
+namespace gnomon::bench {
+namespace {
+
+constexpr double kPercent = 100.0;
+constexpr double kUsPerMs = 1000.0;
+constexpr double kBytesPerMb = 1.0e6;
+
+void append_light(const LightAccuracy& light, std::string& text) {
+    if (is_left_out(light.report)) {
+        text += formatted("%-18.18s left out, its shadow could not be seen: %s\n", light.report.name.c_str(),
+                          reason_code(light.report.reason));
+        return;
+    }
+    const oracle::Metrics& m = light.metrics;
+    const auto percent = [&m](std::size_t pixels) { return kPercent * m.fraction(pixels); };
+    const oracle::FarErrors& far = light.far;
+    text += formatted(
+        "%-18.18s %8zu %8.4f %8.4f %8.4f %8.4f %8.4f %6zu %6zu %6zu %6zu %6.2f %6.2f %6.2f %5zu %5zu %6zu %6zu %7.2f",
+        light.report.name.c_str(), m.scored, percent(m.wrong), percent(m.false_shadow), percent(m.false_light),
+        percent(m.acne), percent(m.leak), far.false_shadow, far.false_light, far.crease_shadow, far.crease_light,
+        m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, m.ambiguous, m.uncovered, m.coverage_mismatch,
+        light.report.predicted_error_px);
+    text += formatted(" %10llu %8.2f", static_cast<unsigned long long>(light.report.texels),
+                      static_cast<double>(light.report.bytes) / kBytesPerMb);
+    if (light.gpu_us.count == 0)
+        text += formatted(" %24s", "not measured");
+    else
+        text += formatted(" %8.2f (%6.2f-%6.2f)", light.gpu_us.median / kUsPerMs, light.gpu_us.min / kUsPerMs,
+                          light.gpu_us.max / kUsPerMs);
+    text += formatted("  %s%s%s\n", to_text(light.report.state), light.report.reason == Reason::none ? "" : ": ",
+                      light.report.reason == Reason::none ? "" : reason_code(light.report.reason));
+}
+
+void append_soft(const Accuracy& accuracy, std::string& text) {
+    const auto is_soft = [](const LightAccuracy& light) { return light.soft.has_value(); };
+    if (std::none_of(accuracy.lights.begin(), accuracy.lights.end(), is_soft)) return;
+    text += formatted("\n%-18s %8s %8s %8s %8s %8s %8s %8s %7s %6s %20s\n", "soft light", "source", "error%", "umbra",
+                      "leak%", "lit", "loss%", "penumbra", "error%", "widths", "ratio (10-90 %)");
+    for (const LightAccuracy& light : accuracy.lights) {
+        if (!light.soft) continue;
+        const oracle::SoftMetrics& m = light.soft->metrics;
+        text +=
+            formatted("%-18.18s %8.4f %8.4f %8zu %8.4f %8zu %8.4f %8zu %7.3f %6zu %6.3f (%5.3f-%5.3f)\n",
+                      light.report.name.c_str(), light.soft->source, kPercent * m.mean_error, m.umbra,
+                      kPercent * m.umbra_leak, m.lit, kPercent * m.lit_loss, m.penumbra, kPercent * m.penumbra_error,
+                      m.widths.places, m.widths.median_ratio, m.widths.p10_ratio, m.widths.p90_ratio);
+    }
+    text +=
+        "\nsource: radius in metres, or the tangent of a sun's. error: mean difference from the fraction of the source "
+        "that\n"
+        "256 rays say is seen. leak: mean light where none of it is; loss: mean light missing where all is. widths: "
+        "places\n"
+        "where a penumbra is measured; ratio: from a tenth to nine tenths of the light, as drawn, of what is true "
+        "there.\n";
+}
+
+}  // namespace
+
+std::string accuracy_table(const Accuracy& accuracy) {
+    std::string text;
+    text += formatted("scene   %s\ndevice  %s\npicture %u x %u\n\n", accuracy.scene.c_str(), accuracy.device.c_str(),
+                      accuracy.size_px.x, accuracy.size_px.y);
+    text += formatted(
+        "%-18s %8s %8s %8s %8s %8s %8s %6s %6s %6s %6s %6s %6s %6s %5s %5s %6s %6s %7s %10s %8s %24s  %s\n", "light",
+        "pixels", "wrong%", "fshadow%", "flight%", "acne%", "leak%", "fs far", "fl far", "fs cr", "fl cr", "edge",
+        "p95", "max", "lost", "ambig", "uncov", "cover", "predict", "texels", "MB", "ms (min-max)", "state");
+    for (const LightAccuracy& light : accuracy.lights) append_light(light, text);
+    for (const std::string& name : accuracy.unshadowed) text += formatted("%-18.18s has no shadow\n", name.c_str());
+    text +=
+        "\npixels: surfaces the light reaches and faces; every % is of them. acne, leak: wrong more than 2 px from "
+        "any\n"
+        "true edge. fs, fl far: pixels of false shadow and light that are also farther than half a texel and the "
+        "filter's\n"
+        "half-width from true edges and from creases of the surface; cr: near creases alone. edge, p95, max, predict: "
+        "distance of shadow edges from the true ones in pixels; lost: places with\n"
+        "no edge within 8 px. ambig: left out, the truth hangs on the last digits, or the picture shows another "
+        "surface than\n"
+        "the pixel's ray meets. uncov: no surface measured, counted as wrong. cover: the same over the whole picture. "
+        "ms: depth and lighting pass, every view drawn anew.\n";
+    append_soft(accuracy, text);
+    for (const LightAccuracy& light : accuracy.lights)
+        if (const oracle::EdgeExceptions& e = light.exceptions; e.beyond() > 0)
+            text += formatted(
+                "%s: %zu of %zu places on edges are farther off than is predicted there: sub_texel_caster %zu, "
+                "truth_ambiguous %zu, unexplained %zu.\n",
+                light.report.name.c_str(), e.beyond(), light.metrics.edge.places, e.sub_texel_caster, e.truth_ambiguous,
+                e.unexplained);
+    for (const LightAccuracy& light : accuracy.lights)
+        if (const std::string above = light.promised ? promise_words(*light.promised) : ""; !above.empty())
+            text += light.report.name + ": above what defaults are to keep: " + above +
+                    ". What reaching it takes: --sweep full.\n";
+    for (const LightAccuracy& light : accuracy.lights)
+        if (!is_left_out(light.report))
+            text +=
+                light.other_surface
+                    ? formatted(
+                          "%s: %zu pixels show another surface than their ray meets (gnomon bench audit lists them).\n",
+                          light.report.name.c_str(), *light.other_surface)
+                    : formatted("%s: this device does not tell which triangle a pixel shows.\n",
+                                light.report.name.c_str());
+    for (const LightAccuracy& light : accuracy.lights)
+        if (light.redrawn_differs > 0)
+            text += formatted("%s: %zu pixels changed when every view was drawn anew.\n", light.report.name.c_str(),
+                              light.redrawn_differs);
+    if (accuracy.gl_complaints > 0) text += formatted("OpenGL complained %u times.\n", accuracy.gl_complaints);
+    return text;
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,176 @@
+#include "bench/accuracy/edge_error_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "bench/glsl_on_cpu/cpu_lookup.h"
+#include "systems/shadow/budget/cost_model.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/fitting/error_bound.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/request/accuracy_target.h"
+#include "systems/shadow/request/decide_requests.h"
+
+namespace gnomon::bench {
+namespace {
+
+using shadow::ShadowView;
+
+/// A cascade's lookup may lie this far from the point, beside the filter's reach: it is moved along the normal.
+constexpr double kMovedTexel = 1.0;
+
+/// A hard shadow's edge is where it is half lit.
+constexpr double kHalf = 0.5;
+
+bool orthographic(const ShadowView& view) { return view.projection == shadow::ViewProjection::orthographic; }
+
+/// Where the point lies in the map of a cascade: u, v, depth, each 0 to 1 if inside.
+glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
+    const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.anchor_ws_m, 1.0);
+    return q.w > 0.0 ? glm::dvec3(q) / q.w : glm::dvec3(-1.0);
+}
+
+bool holds(const glm::dvec3& at, double margin) {
+    return at.x >= margin && at.y >= margin && at.x <= 1.0 - margin && at.y <= 1.0 - margin && at.z >= 0.0 &&
+           at.z <= 1.0;
+}
+
+/// How far a point has faded out of a cascade that holds it, 0 to 1: what a map holds beyond its slice it serves up to
+/// its border, unless it serves by distance.
+double faded(const ShadowView& view, const glm::dvec3& at, double distance_m, double margin, double blend) {
+    if (!(blend > 0.0)) return 0.0;
+    const double share = faded_by_distance(view.fades_from_m, view.fades_to_m, distance_m);
+    if (view.seen_to_m > 0.0) return share;
+    const glm::dvec3 inside = glm::min(at, 1.0 - at);
+    return std::min(share, faded_near_border(std::min({inside.x - margin, inside.y - margin, inside.z}), blend));
+}
+
+double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
+    return glm::dot(apex_ws_m(view) - p_ws, view.axis_back);
+}
+
+/// Unit.
+glm::dvec3 to_light(const ShadowView& view, const glm::dvec3& p_ws) {
+    return orthographic(view) ? view.axis_back : glm::normalize(apex_ws_m(view) - p_ws);
+}
+
+/// Nothing to be off but the picture's own pixels.
+oracle::TexelThere lit() {
+    oracle::TexelThere texel;
+    texel.error_px = shadow::edge_error_px(0.0, 0.0);
+    return texel;
+}
+
+/// How many texels aside the offset along the normal takes a lookup: shaders/shadow/lookup/bias/automatic.glsl.
+double moved_texel(const ShadowView& view, const shadow::ShadowDemand& demand, const shadow::TexelSides& sides,
+                   const glm::dvec3& p_ws, const glm::dvec3& normal, double filter_texel) {
+    const double along_m =
+        filter_texel * (std::abs(glm::dot(normal, sides.u_m)) + std::abs(glm::dot(normal, sides.v_m)));
+    const glm::dvec3 moved = glm::abs(in_map(view, p_ws + normal * along_m) - in_map(view, p_ws));
+    return std::max(moved.x, moved.y) * demand.resolution_px;
+}
+
+/// The texel around the point, under a filter of that half-width, without an error.
+oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowDemand& demand, const glm::dvec3& p_ws,
+                               const glm::dvec3& normal, double filter_texel) {
+    const shadow::TexelSides sides = shadow::texel_sides(view, p_ws);
+    oracle::TexelThere texel{
+        .u_m = sides.u_m, .v_m = sides.v_m, .filter_texel = filter_texel, .reach_texel = filter_texel};
+    texel.depth_m = shadow::told_apart_m(view, demand.depth_format, p_ws);
+    const double cosine = glm::dot(to_light(view, p_ws), normal);
+    if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
+        texel.reach_texel += moved_texel(view, demand, sides, p_ws, normal, filter_texel);
+    }
+    return texel;
+}
+
+}  // namespace
+
+EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held)
+    : scene_(scene) {
+    shadow::decide_demand(scene, device, true, held, frame_.demands);
+    for (shadow::ShadowDemand& demand : frame_.demands) {
+        const LightItem& light = scene.lights[demand.light];
+        const shadow::HeldLight* last = find(held, light.entity, demand.light);
+        if (last && !(last->grant == shadow::Grant{})) demand = shadow::granted(light, demand, last->grant);
+    }
+    shadow::select_sets(scene, frame_);
+    shadow::fit_views(scene, held, frame_);
+}
+
+double EdgeBounds::reach_texel(const ShadowView& view) const {
+    return static_cast<double>(frame_.demands[view.demand].filtering.widest_texel);
+}
+
+double EdgeBounds::edge_texel(const ShadowView& view) const {
+    const shadow::FilterDemand& filter = frame_.demands[view.demand].filtering;
+    return static_cast<double>(filter.widest_texel - filter.still_texel);
+}
+
+/// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken, as
+/// where most of the light has faded into it.
+const ShadowView* EdgeBounds::view_of(std::uint32_t light, const glm::dvec3& point_ws_m) const {
+    const ConsumerItem& consumer = scene_.consumers.front();
+    const double distance_m = -glm::dot(point_ws_m - consumer.position_ws_m, consumer.rotation_ws[2]);
+    const ShadowView* best = nullptr;
+    const ShadowView* nearer = nullptr;
+    for (const ShadowView& view : frame_.views) {
+        const shadow::ShadowDemand& demand = frame_.demands[view.demand];
+        if (demand.light != light) continue;
+        if (orthographic(view)) {
+            const bool passed = view.seen_to_m > 0.0 && distance_m > view.seen_to_m;
+            const double margin = (reach_texel(view) + kMovedTexel) / demand.resolution_px;
+            const glm::dvec3 at = in_map(view, point_ws_m);
+            if (passed || !holds(at, margin)) continue;
+            const bool decides =
+                nearer || faded(view, at, distance_m, margin, static_cast<double>(demand.cascade_blend)) < kHalf;
+            if (decides) return &view;
+            nearer = &view;
+            continue;
+        }
+        if (!best || depth_from(view, point_ws_m) > depth_from(*best, point_ws_m)) best = &view;
+    }
+    if (nearer) return nearer;  // with nothing to fade into
+    return best && depth_from(*best, point_ws_m) > 0.0 ? best : nullptr;
+}
+
+oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                  double telling) const {
+    const ConsumerItem& consumer = scene_.consumers.front();
+    const glm::dvec3 p_ws = consumer.position_ws_m + point_rel_m;
+    const ShadowView* view = view_of(light, p_ws);
+    if (!view) return lit();
+    oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, reach_texel(*view));
+    texel.u_m *= telling;
+    texel.v_m *= telling;
+    texel.error_px =
+        shadow::edge_error_px(shadow::texel_extent_px(*view, consumer, p_ws, normal) * telling, texel.filter_texel);
+    return texel;
+}
+
+oracle::TexelThere EdgeBounds::promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                        double wished) const {
+    return within(light, point_rel_m, normal, shadow::wished_error_px(scene_.lights[light].shadow), wished);
+}
+
+oracle::TexelThere EdgeBounds::within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
+                                      double error_px, double wished) const {
+    const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
+    const ShadowView* view = view_of(light, p_ws);
+    if (!view) return lit();
+    oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, edge_texel(*view));
+    texel.u_m *= wished;
+    texel.v_m *= wished;
+    texel.error_px = shadow::allowed_error_px(wished * error_px, glm::dot(to_light(*view, p_ws), normal));
+    return texel;
+}
+
+double EdgeBounds::stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const {
+    const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
+    const ShadowView* view = view_of(light, p_ws);
+    if (!view) return 0.0;
+    return shadow::stated_error_px(*view, glm::dot(to_light(*view, p_ws), normal), reach_texel(*view));
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/common/stage.h"
+#include "engine/core/result.h"
+#include "tests/oracle/reference_tracer.h"
+#include "tests/oracle/soft_truth.h"
+
+namespace gnomon::bench {
+
+struct TracedLight {
+    std::uint32_t index = 0;  // into the snapshot's lights
+    std::string name;
+    LightKind kind = LightKind::point;
+    oracle::LightTruth point;                  // ambiguous as well where other_surfaces() are
+    std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
+    oracle::SoftTruth disk;                    // about disk_source(); empty if it was not asked for
+};
+
+/// What every row is held against: of a scene that stands still, traced once.
+struct TracedTruths {
+    std::unique_ptr<oracle::ReferenceTracer> tracer;
+    oracle::PrimaryHits hits;
+    std::vector<std::uint8_t> creases;  // oracle::creases(hits)
+    std::vector<TracedLight> lights;    // those with a LightShadow
+    double trace_s = 0.0;
+    std::vector<std::uint32_t> indices() const;  // of the lights
+};
+
+/// Leaves the lights with disk_source() if `disks`. Errors: "bench.camera", "set.*".
+Result<TracedTruths> trace_truths(Stage& stage, bool disks);
+
+}  // namespace gnomon::bench

@@ -1,0 +1,47 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/check/check_command.h"
+#include "bench/common/stage.h"
+#include "bench/cost_model/calibrate.h"
+#include "bench/flicker/flicker.h"
+#include "bench/queries/queries.h"
+#include "bench/scaling/light_count.h"
+
+namespace CLI {
+class App;
+}
+
+namespace gnomon::bench {
+
+/// Of all commands; each reads those that it has options for.
+
+struct Arguments {
+    StageOptions stage;
+    std::vector<std::string> scenes, against;
+    std::string camera, size = "1280x720", demand_size = "320x180", offset, json, pictures, filter;
+    std::uint32_t repeat = 9, rounds = 5;
+    StabilityOptions stability;
+    std::string plot, drawings, filters, rows, markdown;
+    DemandOptions demand;
+    SpeedOptions speeds;
+    QueriesOptions queries;
+    CheckCommand check;
+    std::string sweep, sweep_rows;
+    bool quick = false, audit = false;
+    std::string out = "gnomon_sweep";
+    bool rounds_given = false, repeat_given = false, size_given = false;
+};
+
+/// A command's options.
+using AddOptions = void(CLI::App& command, Arguments& arguments);
+AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
+    add_budget, add_redraws, add_common, add_queries, add_check;
+
+/// What follows from what was given. Errors: "scene", "size", "offset", "time".
+std::optional<Error> complete(Arguments& arguments);
+
+}  // namespace gnomon::bench

@@ -1,0 +1,92 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/common/configuration.h"
+#include "components/light_shadow.h"
+#include "engine/assets/mesh_library.h"
+#include "engine/core/result.h"
+#include "engine/ecs/registry.h"
+#include "engine/gl/device.h"
+#include "engine/platform/context.h"
+#include "sample_game/support/scene/spawn_scene.h"
+#include "systems/frame.h"
+
+namespace gnomon::bench {
+
+struct StageOptions {
+    std::optional<std::filesystem::path> scene;  // empty: the built-in scene
+    std::optional<std::string> camera;           // name or index; empty: the first
+    glm::uvec2 size_px{1280, 720};
+    std::vector<std::string> settings;  // KEY=VALUE, for every LightShadow
+    double time_s = 0.0;                // scene time
+    glm::dvec3 offset_m{0.0};           // moves the whole scene
+};
+
+/// The real pipeline on a headless context, with a scene spawned and still.
+class Stage {
+public:
+    /// Errors: those of the loader, the context and the device; "set.*"; "camera.unknown".
+    static Result<std::unique_ptr<Stage>> open(const StageOptions& options);
+    /// The same with a scene that was made, not loaded; `options.scene` is its name.
+    static Result<std::unique_ptr<Stage>> open(const StageOptions& options, assets::SceneData scene);
+    ~Stage();
+
+    void run_frame() { frame_->run(world_, settings_); }
+    /// Everything in the scene where it is at that time, see everything_moving(). Until then only what the file moves
+    /// has left its place.
+    void move_to(double time_s) {
+        game::apply_motion(moving_, time_s, world_);
+        game::play(spawned_.played, time_s, world_);
+    }
+    void show_shadows(bool on) { settings_.shadows = on; }
+    void set_economy(bool on);
+    /// "KEY=VALUE" for every LightShadow. Errors: "set.*".
+    std::optional<Error> apply_setting(const std::string& key_value);
+    /// Every light of these kinds as it was when the scene was opened, with these settings; lights of other kinds cast
+    /// no shadows. Runs a frame without any shadows in between, so that neither fits nor maps remember what was before.
+    /// Lights are looked up in every frame, still ones as well (LightShadow::keep_visibility): that tells rows apart.
+    /// Errors: "set.*"; then nothing is changed.
+    std::optional<Error> start_over(std::span<const std::string> settings, LightKinds kinds = kAllKinds);
+
+    Frame& frame() { return *frame_; }
+    gl::Device& device() { return *device_; }
+    const assets::MeshLibrary& library() const { return library_; }
+    ecs::Registry& world() { return world_; }
+    const FrameSettings& settings() const { return settings_; }
+    double time_s() const { return time_s_; }  // of the scene when it was opened
+    const game::SpawnedScene& spawned() const { return spawned_; }
+    const std::string& scene_name() const { return scene_name_; }
+    const StageOptions& options() const { return options_; }
+    double load_s() const { return load_s_; }                       // file to entities; 0: it was made
+    std::uint32_t gl_complaints() const { return gl_complaints_; }  // debug messages of medium or high severity
+
+private:
+    Stage() = default;
+    std::optional<Error> spawn(const StageOptions& options, assets::SceneData scene);
+    std::optional<Error> prepare(const StageOptions& options);
+
+    std::unique_ptr<platform::Context> context_;
+    std::unique_ptr<gl::Device> device_;
+    ecs::Registry world_;
+    assets::MeshLibrary library_;
+    game::SpawnedScene spawned_;
+    std::vector<game::MovingEntity> moving_;
+    std::vector<std::pair<ecs::Entity, LightShadow>> opened_;  // as the scene and the options have them
+    FrameSettings settings_;
+    std::unique_ptr<Frame> frame_;
+    StageOptions options_;
+    std::string scene_name_;
+    double time_s_ = 0.0, load_s_ = 0.0;
+    std::uint32_t gl_complaints_ = 0;
+};
+
+}  // namespace gnomon::bench

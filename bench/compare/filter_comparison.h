@@ -1,0 +1,57 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/common/stage.h"
+#include "bench/compare/filter_variants.h"
+#include "bench/compare/metrics_row.h"
+#include "engine/core/result.h"
+
+namespace gnomon::bench {
+
+/// What a front is made of: which error, and which time.
+enum class RowTruth : std::uint8_t { point, disk };
+enum class RowCost : std::uint8_t { drawn, kept };
+inline constexpr std::array<RowTruth, 2> kRowTruths = {RowTruth::point, RowTruth::disk};
+inline constexpr std::array<RowCost, 2> kRowCosts = {RowCost::drawn, RowCost::kept};
+
+struct FilterRows {
+    std::string scene, device;
+    glm::uvec2 size_px{0, 0};
+    std::vector<FilterVariant> variants;
+    std::vector<std::string> lights;
+    std::vector<std::uint32_t> resolutions_px;  // 0: each row's own
+    /// Of a resolution, a variant, a light.
+    std::vector<std::vector<std::vector<RowFigures>>> figures;
+
+    /// Whether the truth judges that row: none does where the light's shadow is left out on purpose.
+    bool is_judged(std::size_t resolution, std::size_t variant, std::size_t light, RowTruth truth) const {
+        const RowFigures& row = figures[resolution][variant][light];
+        return truth == RowTruth::point ? row.wrong.has_value() : row.disk_error.has_value();
+    }
+    /// Of each variant, whether it is the best at some cost; 0 also for those that the truth does not judge.
+    std::vector<std::uint8_t> front(std::size_t resolution, std::size_t light, RowTruth truth, RowCost cost) const;
+    /// Names of rows none of whose variants is on any front.
+    std::vector<std::string> never_best() const;
+};
+
+struct FilterRowsOptions {
+    std::string only;                      // rows whose name has this part, and `hard`; empty: all
+    std::uint32_t rounds = 5, frames = 9;  // frames of each kind that are timed per round; 0: no timing
+};
+
+/// Every row of the filter table against the truths that it may be judged by, at one size of maps for all (the power of
+/// two at most the picture's larger side, so that what is coarse shows) and at each row's own. Truth is traced once.
+/// Errors: "bench.visibility", "bench.camera", "set.*".
+Result<FilterRows> measure_filter_rows(Stage& stage, const FilterRowsOptions& options);
+
+/// A table for people, and which rows are the best at some cost.
+std::string filter_rows_table(const FilterRows& rows);
+/// The same in Markdown.
+std::string filter_rows_markdown(const FilterRows& rows);
+/// Everything, for scripts: bench/README.md lists the keys.
+std::string filter_rows_json(const FilterRows& rows);
+
+}  // namespace gnomon::bench

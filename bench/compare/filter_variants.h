@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "bench/common/configuration.h"
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::bench {
+
+/// A row of the filter table; its name is followed by its width or taps.
+struct FilterVariant : RowSetup {
+    const shadow::FilterRow* row = nullptr;
+    LightShadow shadow;  // what the settings make of the defaults
+    /// It softens by the source's size, so that it is judged by a source with a size alone.
+    bool by_source() const { return row->width == shadow::FilterWidth::source; }
+};
+
+/// Every row, those of a chosen width or number of taps with several; those that soften by the source have
+/// disk_source().
+std::vector<FilterVariant> filter_variants();
+
+/// Settings of the disk that softened rows are judged by: two degrees of sky, and four centimetres of lamp.
+const std::vector<std::string>& disk_source();
+
+}  // namespace gnomon::bench

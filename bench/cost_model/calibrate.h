@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <string>
+
+#include "bench/common/median_range.h"
+#include "engine/core/result.h"
+
+/// How fast the device at hand does the kinds of work that budgets reckon with (systems/shadow/budget/cost_model.h).
+namespace gnomon::bench {
+
+struct SpeedOptions {
+    glm::uvec2 size_px{640, 360};
+    std::uint32_t frames = 5;  // of each row in a round, of which the median counts
+    std::uint32_t rounds = 9;
+};
+
+/// One kind of work: what the model takes it to cost, and what it was found to, over the rounds. Both nanoseconds.
+struct Speed {
+    const char* work = "";
+    double model_ns = 0.0;
+    Spread measured_ns;
+};
+
+struct BudgetSpeeds {
+    std::string device;
+    std::array<Speed, 6> speeds;
+    /// How far rows are from what the figures of their round make of them, at worst, as a share: the median round's.
+    double drawing_residual = 0.0, lighting_residual = 0.0;
+};
+
+/// Rows that differ in one kind of work each, in turn, round by round; each round's times are solved by least squares,
+/// relative to each row's time, for what a unit of each kind takes. Errors: those of the stage.
+Result<BudgetSpeeds> measure_budget_speeds(const SpeedOptions& options);
+
+std::string budget_speeds_markdown(const BudgetSpeeds& speeds);
+
+}  // namespace gnomon::bench

@@ -1,6 +1,0 @@
-// Takes the place of the shaders' own file where their text is compiled as C++ (exact_shaders.inc): the casters in double,
-// which no texel holds.
-#include "shadow/caster_triangle.glsl"
-StorageBuffer<CasterTriangle> caster_triangles;
-
-CasterTriangle caster_triangle(uint triangle) { return caster_triangles[triangle]; }

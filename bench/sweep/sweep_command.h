@@ -1,0 +1,26 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/common/stage.h"
+#include "bench/sweep/sweep_report.h"
+
+namespace gnomon::bench {
+
+struct SweepCommand {
+    SweepSize size = SweepSize::full;
+    StageOptions stage;
+    std::vector<std::filesystem::path> scenes;  // empty: the built-in one
+    std::filesystem::path folder = "gnomon_sweep";
+    std::string only;  // as SweepOptions::only
+    std::optional<std::uint32_t> rounds;
+    std::uint32_t frames = 0;        // 0: by the device
+    std::filesystem::path markdown;  // empty: none
+};
+
+/// Sweeps each scene in turn, says on stderr how far it is, and writes the report into the folder. Errors: those of
+/// Stage::open, measure_sweep and write_sweep; "page.*" of the Markdown page.
+Result<std::vector<SceneSweep>> run_sweep(const SweepCommand& command);
+
+}  // namespace gnomon::bench

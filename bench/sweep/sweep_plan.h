@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/common/configuration.h"
+
+namespace gnomon::bench {
+
+enum class SweepSize : std::uint8_t { quick, full };
+
+/// The row that nothing is set for: all others are compared with it.
+inline constexpr std::string_view kDefaultsRow = "defaults";
+/// Rows of what a tutorial gives, by the start of their name.
+inline constexpr std::string_view kTutorialFactor = "tutorial";
+
+struct SweepRow : RowSetup {
+    std::string factor;  // what is varied: kDefaultsRow, "filter", "resolution x bias", kTutorialFactor ...
+};
+
+/// More lights' rows than anybody compares, or waits for.
+inline constexpr std::size_t kMostSweepRows = 400;
+
+/// What is compared: the defaults, one factor at a time around them (fit, cascades, resolution, format, filter, bias),
+/// resolution against filter, bias and cascades, and what tutorials set up; for lights of these kinds, each with what
+/// its kind knows. No two rows have the same settings for a kind of light; the first is kDefaultsRow. Pure: the same
+/// rows in the same order every time.
+std::vector<SweepRow> sweep_plan(SweepSize size, LightKinds kinds = kAllKinds);
+
+/// One per row and kind of light: at most kMostSweepRows.
+std::size_t light_rows(const std::vector<SweepRow>& plan);
+
+}  // namespace gnomon::bench

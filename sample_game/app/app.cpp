@@ -1,0 +1,146 @@
+#include "sample_game/app/app.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <thread>
+
+#include "components/light_shadow.h"
+#include "engine/gl/device_gl45.h"
+#include "sample_game/app/debug_option.h"
+#include "sample_game/support/files/image_files.h"
+#include "sample_game/support/scene/open_scene.h"
+#include "sample_game/support/settings/light_settings.h"
+#include "sample_game/support/settings/parse_number.h"
+
+namespace gnomon::game {
+
+Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
+    const bool game = plays_game(line);
+    Result<assets::SceneData> data = game ? load_game_scene() : load_scene(line.scene);
+    if (!data) return data.error();
+    std::optional<Level> level;
+    if (game) {
+        Result<Level> made = courtyard_level(data.value());
+        if (!made) return made.error();
+        level = std::move(made).value();
+    }
+    auto world = std::make_unique<GameWorld>();
+    for (const std::string& warning : data.value().warnings)
+        world->warnings.push_back(line.scene ? line.scene->string() + ": " + warning : warning);
+    world->scene = spawn_scene(std::move(data).value(), world->registry, world->library);
+    if (level) world->game = std::make_unique<GameSession>(std::move(*level), world->scene, world->registry);
+    if (line.animation) {
+        const Result<std::size_t> animation = find_animation(world->scene.animations, *line.animation);
+        if (!animation) return animation.error();
+        world->scene.played = played_channels(world->scene.animations, world->scene.nodes, animation.value());
+    }
+    if (line.camera) {
+        const Result<std::size_t> camera = find_camera(world->scene, *line.camera);
+        if (!camera) return camera.error();
+        world->camera = camera.value();
+        activate_camera(world->scene, world->camera, world->registry);
+    }
+    if (line.fit_camera) {
+        const Result<std::size_t> camera = find_camera(world->scene, *line.fit_camera, "--fit-camera");
+        if (!camera) return camera.error();
+        world->fit_camera = camera.value();
+    }
+    for (const NamedEntity& light : world->scene.lights) {
+        if (!world->registry.has<LightShadow>(light.entity)) continue;
+        world->registry.patch<LightShadow>(light.entity, [&](LightShadow& shadow) {
+            if (line.preset) apply_preset(*line.preset, shadow);
+            for (const std::string& setting : line.settings) apply_setting(shadow, setting);
+        });
+    }
+    std::vector<std::string> shadowed;
+    for (const NamedEntity& light : world->scene.lights)
+        if (world->registry.has<LightShadow>(light.entity)) shadowed.push_back(light.name);
+    if (auto error = check_debug_light(line.debug, shadowed)) return *error;
+    if (line.truth_light)
+        if (auto error = check_shadowed_light("--truth-light", *line.truth_light, shadowed)) return *error;
+    return world;
+}
+
+std::optional<Error> check_outputs(const CommandLine& line) {
+    for (const auto& file : {line.stats, line.screenshot, line.truth})
+        if (file)
+            if (auto error = check_writable(*file)) return error;
+    for (const auto& folder : {line.visibility, line.program_cache})
+        if (folder && !folder->empty())
+            if (auto error = make_writable_folder(*folder)) return error;
+    return std::nullopt;
+}
+
+void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings) {
+    if (!world.fit_camera) return;
+    settings.freeze_fits = true;
+    activate_camera(world.scene, *world.fit_camera, world.registry);
+    frame.run(world.registry, settings);
+    activate_camera(world.scene, world.camera, world.registry);
+}
+
+void set_timing(gl::Device& device, bool on) {
+    const gl::TimingMode mode = device.info().is_software ? gl::TimingMode::finish : gl::TimingMode::query;
+    device.set_timing(on ? mode : gl::TimingMode::off);
+}
+
+bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device) {
+    return line.stats || (budget.gpu_ms > 0.0f && !device.info().is_software);
+}
+
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
+    // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
+    Result<std::unique_ptr<gl::Device>> device =
+        gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {},
+                             program_folder(line, std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")));
+    if (!device) return device.error();
+    Renderer renderer{std::move(device).value(), nullptr};
+    const gl::DeviceInfo& info = renderer.device->info();
+    if (line.size_px.x > info.max_texture_px || line.size_px.y > info.max_texture_px)
+        return Error{
+            .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
+            .rule = "command_line"};
+    set_timing(*renderer.device, wants_timing(line, line.shadow_budget, *renderer.device));
+    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, held_fits);
+    if (!frame) return frame.error();
+    renderer.frame = std::move(frame).value();
+    return renderer;
+}
+
+void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log) {
+    for (const std::string& warning : world.warnings) log.warn(on_one_line(warning));
+    constexpr std::size_t kShownDropped = 64;  // as many lines as the loader gives
+    const std::vector<DroppedEntity>& dropped = first_frame.dropped;
+    for (std::size_t i = 0; i < std::min(dropped.size(), kShownDropped); ++i)
+        log.warn(on_one_line("'" + dropped[i].name + "' is left out: " + reason_code(dropped[i].reason)));
+    if (dropped.size() > kShownDropped) log.warn(std::to_string(dropped.size() - kShownDropped) + " more are left out");
+}
+
+unsigned trace_threads() { return std::max(std::thread::hardware_concurrency(), 2u) - 1u; }
+
+std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px) {
+    std::vector<std::uint8_t> rgba;
+    if (!frame.read_picture(rgba))
+        return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
+    return write_png(file, size_px.x, size_px.y, rgba);
+}
+
+std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats) {
+    if (line.screenshot)
+        if (auto error = write_picture(*line.screenshot, frame, size_px)) return error;
+    if (line.visibility) {
+        const std::vector<LightItem>& lights = frame.snapshot().lights;
+        std::vector<float> values;
+        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+            if (!lights[i].has_shadow) continue;
+            if (!frame.read_visibility(i, values))
+                return Error{.message = "the device could not draw the visibility of " + lights[i].name,
+                             .rule = "output.visibility"};
+            if (auto error = write_pfm(*line.visibility / (lights[i].name + ".pfm"), size_px.x, size_px.y, values))
+                return error;
+        }
+    }
+    return line.stats ? stats.write(*line.stats) : std::nullopt;
+}
+
+}  // namespace gnomon::game

@@ -1,0 +1,55 @@
+#pragma once
+#include <spdlog/logger.h>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "engine/gl/device.h"
+#include "sample_game/app/command_line.h"
+#include "sample_game/app/stats_json.h"
+#include "sample_game/game/game_world.h"
+#include "systems/frame.h"
+
+namespace gnomon::game {
+
+/// Loads, spawns, applies --set, chooses the cameras, finds the light of --debug.
+Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
+
+/// Whether every output named on the command line can be written; makes the folder of --visibility.
+std::optional<Error> check_outputs(const CommandLine& line);
+
+/// Device and frame for the context that is current on this thread.
+struct Renderer {
+    std::unique_ptr<gl::Device> device;
+    std::unique_ptr<Frame> frame;
+};
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {});
+
+/// With --fit-camera: runs a frame for that camera and freezes its fits, so that what follows shows them from the
+/// other.
+void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings);
+
+/// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
+void set_timing(gl::Device& device, bool on);
+/// Whether the times are needed: for --stats, or for a budget of them, unless measuring would slow each frame down.
+bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device);
+
+/// Warns once of everything that is odd about the scene and yet no error.
+void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);
+
+/// The threads that a trace may take beside the one that draws.
+unsigned trace_threads();
+
+/// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
+std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats);
+
+/// Writes the picture as it is to `file`.
+std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px);
+
+/// Run until done. Empty: all went well.
+std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);
+std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlog::logger& log);
+
+}  // namespace gnomon::game

@@ -1,0 +1,53 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/core/result.h"
+#include "sample_game/support/settings/presets.h"
+#include "systems/debug/debug_view.h"
+#include "systems/shadow/frame/quality_limits.h"
+
+namespace gnomon::game {
+
+/// The game's command line, checked as far as can be without touching a file.
+struct CommandLine {
+    std::optional<std::filesystem::path> scene;  // empty: the built-in scene
+    std::optional<std::string> camera;           // name or index
+    std::optional<std::string> fit_camera;       // name or index; empty: shadows are fitted to what is drawn
+    std::optional<std::string> animation;        // name or index; empty: all at once
+    glm::uvec2 size_px{1280, 720};
+    bool headless = false;
+    bool demo = false;
+    std::optional<std::uint64_t> frames;  // > 0; empty: 1 headless, endless in a window
+    std::optional<double> time_s;         // scene time of the last frame
+    std::optional<float> exposure_ev;     // empty: automatic
+    shadow::ShadowBudget shadow_budget;   // what shadows may take
+    std::optional<std::filesystem::path> stats, screenshot, visibility;
+    std::optional<std::filesystem::path> truth;          // the last frame beside its truth: picture with errors over it
+    std::optional<std::string> truth_light;              // whose errors it shows; empty: each pixel's worst
+    std::optional<std::filesystem::path> program_cache;  // folder; empty path: off; nothing: see program_folder()
+    debug::Request debug;                                // its light is not checked against a scene
+    const Preset* preset = nullptr;                      // applied before the settings
+    std::vector<std::string> settings;                   // KEY=VALUE, each known to be right
+    std::string print;                                   // not empty (--help, --list): print it and exit with 0
+};
+
+/// Errors: rules "command_line" and those of apply_setting() and read_debug_request(); the message is one line.
+Result<CommandLine> parse_command_line(int argc, const char* const* argv);
+
+/// Whether the game is played: --demo, or a window without --scene, --camera, --fit-camera, --animation, --frames and
+/// --time.
+bool plays_game(const CommandLine& line);
+
+/// Where compiled programs are kept: as --program-cache says; else, in a window, in `cache_home` ($XDG_CACHE_HOME) or
+/// below `home` ($HOME), if they name an absolute path; nullptr: not set. Empty: nowhere.
+std::filesystem::path program_folder(const CommandLine& line, const char* cache_home, const char* home);
+
+/// Scene time of frame `index` of `frames`: the last one is at `line.time_s`, or, without it, the first one at 0.
+double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames);
+
+}  // namespace gnomon::game

@@ -1,0 +1,140 @@
+#include "sample_game/app/stats_json.h"
+
+#include <span>
+
+#include "sample_game/support/files/image_files.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::game {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Unknown is null, never 0.
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+void add_why(const Why& why, Json& json) {
+    json["receivers"] = why.receivers;
+    json["casters"] = why.casters;
+    json["bytes_saved"] = why.bytes_saved;
+    json["stale_px"] = why.stale_px;
+    json["saved_us"] = or_null(why.saved_us);
+}
+
+/// A light's why, its views' included.
+Json why_stats(const FrameReport& report, const LightReport& light) {
+    Json why, views = Json::array();
+    add_why(light.why, why);
+    why["display_steps"] = or_null(light.why.display_steps);
+    for (const ViewReport& view : report.views_of(light)) {
+        Json entry = {{"view", view.layer}, {"state", to_text(view.state)}, {"reason", reason_code(view.reason)}};
+        add_why(view.why, entry);
+        views.push_back(std::move(entry));
+    }
+    why["views"] = std::move(views);
+    return why;
+}
+
+Json budget_stats(const BudgetReport& budget) {
+    return {{"wanted_px", budget.wanted_px},
+            {"px", budget.px},
+            {"wanted_views", budget.wanted_views},
+            {"views", budget.views},
+            {"plain", budget.plain},
+            {"refresh_frames", budget.refresh_frames},
+            {"wanted_bytes", budget.wanted_bytes},
+            {"bytes", budget.bytes},
+            {"wanted_us", budget.wanted_us},
+            {"model_us", budget.us},
+            {"harm", budget.harm}};
+}
+
+Json kept_stats(const KeptReport& kept) {
+    return {{"reason", reason_code(kept.reason)}, {"bytes", kept.bytes}, {"saved_us", or_null(kept.saved_us)}};
+}
+
+Json filter_stats(const FilterReport& filter) {
+    return {{"name", shadow::filter_row(filter.filter).name},
+            {"reason", reason_code(filter.reason)},
+            {"usual_error_px", or_null(filter.usual_error_px)}};
+}
+
+Json light_stats(const FrameReport& report, const LightReport& light) {
+    return {{"name", light.name},
+            {"kind", shadow::light_kind_row(light.kind).name},
+            {"state", to_text(light.state)},
+            {"reason", reason_code(light.reason)},
+            {"predicted_error_px", light.predicted_error_px},
+            {"keeps_max_error", light.keeps_max_error},
+            {"filter", light.filter.filter == ShadowFilter::automatic ? Json(nullptr) : filter_stats(light.filter)},
+            {"views", light.views},
+            {"views_drawn", light.views_drawn},
+            {"texels", light.texels},
+            {"bytes", light.bytes},
+            {"draws", light.draws},
+            {"clears", light.clears},
+            {"triangles", light.triangles},
+            {"cpu_us", light.cpu_us},
+            {"gpu_us", or_null(light.gpu_us)},
+            {"kept", light.kept.bytes > 0 ? kept_stats(light.kept) : Json(nullptr)},
+            {"budget", light.budget ? budget_stats(*light.budget) : Json(nullptr)},
+            {"why", why_stats(report, light)}};
+}
+
+}  // namespace
+
+Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) {
+    std::uint64_t views = 0, draws = 0, clears = 0, triangles = 0, bytes = 0;
+    Json lights = Json::array(), dropped = Json::array();
+    for (const LightReport& light : report.lights) {
+        views += light.views_drawn;
+        draws += light.draws;
+        clears += light.clears;
+        triangles += light.triangles;
+        bytes += light.bytes;
+        lights.push_back(light_stats(report, light));
+    }
+    for (const DroppedEntity& entity : report.dropped)
+        dropped.push_back({{"name", entity.name}, {"reason", reason_code(entity.reason)}});
+    Json shadow = {{"cpu_us", report.shadow_cpu_us},
+                   {"gpu_us", or_null(report.shadow_gpu_us)},
+                   {"still", report.still},
+                   {"views", views},
+                   {"draws", draws},
+                   {"clears", clears},
+                   {"triangles", triangles},
+                   {"bytes", bytes},
+                   {"ray_bytes", report.rays.bytes},
+                   {"ray_picture_bytes", report.rays.list_bytes + report.rays.place_bytes},
+                   {"sheet_bytes", report.rays.sheet_bytes}};
+    return {{"index", index},
+            {"time_s", time_s},
+            {"cpu_us", report.cpu_us},
+            {"gpu_us", or_null(report.gpu_us)},
+            {"programs", {{"compiled", report.programs.compiled}, {"cached", report.programs.cached}}},
+            {"shadow", std::move(shadow)},
+            {"lights", std::move(lights)},
+            {"dropped", std::move(dropped)}};
+}
+
+void StatsFile::add(const FrameReport& report, std::uint64_t index, double time_s, const GameState* game) {
+    frames_.push_back(frame_stats(report, index, time_s));
+    if (!game) return;
+    frames_.back()["game"] = {{"phase", to_text(game->phase)},
+                              {"time_s", game->time_s()},
+                              {"feet_m", {game->feet_m.x, game->feet_m.y, game->feet_m.z}},
+                              {"light", game->light},
+                              {"seen", game->seen}};
+}
+
+std::optional<Error> StatsFile::write(const std::filesystem::path& file) const {
+    Json document = {{"device", device_}, {"frames", frames_}};
+    if (!truth_.is_null()) document["truth"] = truth_;
+    constexpr int kIndent = 1;
+    // Names come from files: text that is not UTF-8 is replaced, not thrown at the user.
+    const std::string text = document.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+    return write_file(file, std::as_bytes(std::span(text)));
+}
+
+}  // namespace gnomon::game

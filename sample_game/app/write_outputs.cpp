@@ -1,0 +1,36 @@
+#include "sample_game/app/write_outputs.h"
+
+namespace gnomon::game {
+namespace {
+
+/// Freezes it, waits for the truth about it, and gives its figures to `stats`.
+std::optional<Error> judge(const CommandLine& line, const GameWorld& world, Frame& frame, FrozenFrame& frozen,
+                           StatsFile& stats) {
+    frozen.freeze(frame, world.library, trace_threads() + 1);  // nothing is drawn meanwhile
+    frozen.finish(frame);
+    if (!frozen.on()) return Error{.message = "--truth: no camera sees anything", .rule = "output.truth"};
+    for (std::size_t i = 0; i < frozen.lights().size(); ++i) {
+        const JudgedLight& light = frozen.lights()[i];
+        if (!light.metrics)
+            return Error{.message = "the device could not draw the visibility of " + light.name,
+                         .rule = "output.visibility"};
+        if (line.truth_light == light.name) frozen.choose(i);
+    }
+    stats.set_truth(truth_stats(frozen));
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
+                                      const FrameSettings& settings, Gui* gui, StatsFile& stats) {
+    if (line.truth)
+        if (auto error = judge(line, world, frame, gui->frozen, stats)) return error;
+    if (auto error = write_outputs(line, frame, settings.viewport_px, stats)) return error;
+    if (!line.truth) return std::nullopt;
+    frame.run(world.registry, settings);  // again, for a picture that nothing was drawn over
+    gui->draw(world, frame, settings.viewport_px, nullptr, kStep_s, false);
+    return write_picture(*line.truth, frame, settings.viewport_px);
+}
+
+}  // namespace gnomon::game

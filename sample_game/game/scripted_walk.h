@@ -1,0 +1,10 @@
+#pragma once
+#include "sample_game/game/rules.h"
+
+namespace gnomon::game {
+
+/// The scripted walk of --demo: from the start of the courtyard behind its screens to the gate.
+/// A function of the state alone, so that the same level gives the same walk.
+GameInput demo_input(const GameState& state);
+
+}  // namespace gnomon::game

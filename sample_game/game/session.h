@@ -1,0 +1,47 @@
+#pragma once
+#include "engine/ecs/registry.h"
+#include "engine/platform/context.h"
+#include "sample_game/game/rules.h"
+#include "sample_game/support/scene/spawn_scene.h"
+
+namespace gnomon::game {
+
+/// The game among the entities: its state moves the player's body, the camera behind it, the sun and all that moves.
+class GameSession {
+public:
+    /// `scene`: spawned from the scene that `level` was made of. Makes its camera the only active one.
+    GameSession(Level level, const SpawnedScene& scene, ecs::Registry& registry);
+
+    /// Plays `dt_s` more in whole steps; what is left over waits for the next call, as do presses and turns.
+    void advance(double dt_s, const GameInput& input);
+    /// The same by the script of --demo.
+    void advance_demo(double dt_s);
+    /// Plays the script from where the game is until `time_s` or the end of the game.
+    void play_demo_until(double time_s);
+
+    bool ended() const { return state().phase == Phase::won || state().phase == Phase::lost; }
+    const GameState& state() const { return game_.state(); }
+
+    /// Brings the entities to the game's state. What did not move is not touched.
+    void apply(ecs::Registry& registry);
+
+private:
+    void apply_sun(ecs::Registry& registry);
+
+    Game game_;
+    std::vector<MovingEntity> moving_;
+    std::vector<PlayedChannel> played_;
+    ecs::Entity body_, sun_, camera_;
+    Transform sun_at_dusk_;
+    float sun_lux_ = 0.0f;
+    GameInput pending_;
+    double left_over_s_ = 0.0;
+    double applied_sun_hours_ = 0.0;
+    double applied_time_s_ = -1.0;
+};
+
+/// What keys and mouse ask for since the last poll.
+/// `look`: whether the mouse turns the head.
+GameInput to_game_input(const platform::Input& input, bool look);
+
+}  // namespace gnomon::game

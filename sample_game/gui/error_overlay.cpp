@@ -1,0 +1,148 @@
+#include "sample_game/gui/error_overlay.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sample_game/gui/imgui_renderer.h"
+
+namespace gnomon::game {
+namespace {
+
+constexpr ImU32 kBehind = IM_COL32(10, 10, 14, 215), kInk = IM_COL32(230, 225, 210, 255),
+                kChosen = IM_COL32(255, 225, 140, 255), kBar = IM_COL32(120, 170, 255, 255);
+constexpr float kAir_px = 6.0f, kBar_px = 6.0f;
+
+struct LegendRow {
+    ImU32 colour;
+    const char* meaning;
+};
+constexpr std::array kLegend{
+    LegendRow{IM_COL32(255, 40, 40, 255), "false shadow"}, LegendRow{IM_COL32(60, 120, 255, 255), "false light"},
+    LegendRow{IM_COL32(255, 220, 0, 255), "not covered"}, LegendRow{IM_COL32(255, 255, 255, 255), "truth unsure"}};
+
+/// A box of lines in the picture's upper right corner; the font is of one width.
+class Words {
+public:
+    void add(const std::string& line, ImU32 colour = kInk) { lines_.push_back({line, colour}); }
+
+    /// Where the box ends below.
+    ImVec2 draw(glm::vec2 size_px, float more_px) const {
+        float width = 0.0f;
+        for (const Line& line : lines_) width = std::max(width, ImGui::CalcTextSize(line.text.c_str()).x);
+        const float height = ImGui::GetTextLineHeight();
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        const ImVec2 low{std::max(size_px.x - width - 3.0f * kAir_px, 0.0f), kAir_px};
+        const ImVec2 high{size_px.x - kAir_px, low.y + 2.0f * kAir_px + static_cast<float>(lines_.size()) * height};
+        list.AddRectFilled(low, {high.x, high.y + more_px}, kBehind);
+        ImVec2 at{low.x + kAir_px, low.y + kAir_px};
+        for (const Line& line : lines_) {
+            list.AddText(at, line.colour, line.text.c_str());
+            at.y += height;
+        }
+        return at;
+    }
+
+private:
+    struct Line {
+        std::string text;
+        ImU32 colour;
+    };
+    std::vector<Line> lines_;
+};
+
+/// Whether it has less than it asks for: then the reason belongs beside the errors.
+bool has_less(const LightReport& light) {
+    return light.state == LightState::degraded || light.state == LightState::skipped;
+}
+
+std::string figures(const JudgedLight& light, const LightReport& report) {
+    char text[192];
+    if (!light.metrics) {
+        std::snprintf(text, sizeof text, "%-14.14s %s", light.name.c_str(),
+                      light.stale ? "is being read" : "its visibility cannot be read");
+        return text;
+    }
+    const truth::Metrics& m = *light.metrics;
+    const auto percent = [&](std::size_t pixels) { return 100.0 * m.fraction(pixels); };
+    std::snprintf(text, sizeof text, "%-14.14s %8.4f %8.4f %8.4f %8.4f %8.4f %7.2f %9.2f %s", light.name.c_str(),
+                  percent(m.wrong), percent(m.false_shadow), percent(m.false_light), percent(m.acne), percent(m.leak),
+                  m.edge.max_px, report.predicted_error_px, has_less(report) ? reason_code(report.reason) : "");
+    return text;
+}
+
+void draw_legend(ImVec2 at) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float side = ImGui::GetTextLineHeight();
+    for (const LegendRow& row : kLegend) {
+        list.AddRectFilled(at, {at.x + side, at.y + side}, row.colour);
+        list.AddText({at.x + side + kAir_px, at.y}, kInk, row.meaning);
+        at.x += side + 3.0f * kAir_px + ImGui::CalcTextSize(row.meaning).x;
+    }
+}
+
+void draw_progress(const FrozenFrame& frozen, glm::vec2 size_px) {
+    Words words;
+    char text[64];
+    std::snprintf(text, sizeof text, "tracing the truth: %3.0f %%   F5 cancels", 100.0 * frozen.share());
+    words.add(text);
+    const ImVec2 at = words.draw(size_px, kBar_px);
+    const float whole_px = ImGui::CalcTextSize(text).x;
+    const float done_px = whole_px * static_cast<float>(std::clamp(frozen.share(), 0.0, 1.0));
+    ImGui::GetBackgroundDrawList()->AddRectFilled(at, {at.x + done_px, at.y + kBar_px}, kBar);
+}
+
+void draw_figures(const FrozenFrame& frozen, const FrameReport& report, glm::vec2 size_px) {
+    Words words;
+    words.add("against ray-traced truth, frozen: F5 goes on, F2 shows the next light");
+    char head[128];
+    std::snprintf(head, sizeof head, "  %-14s %8s %8s %8s %8s %8s %7s %9s", "light", "wrong %", "f.shad %", "f.lit %",
+                  "acne %", "leak %", "edge px", "predicted");
+    words.add(head);
+    words.add(frozen.chosen() ? "  each pixel's worst" : "> each pixel's worst", frozen.chosen() ? kInk : kChosen);
+    for (std::size_t i = 0; i < frozen.lights().size(); ++i) {
+        const JudgedLight& light = frozen.lights()[i];
+        const LightReport none, &of = light.index < report.lights.size() ? report.lights[light.index] : none;
+        const bool chosen = frozen.chosen() == i;
+        words.add((chosen ? "> " : "  ") + figures(light, of), chosen ? kChosen : kInk);
+    }
+    const float legend_px = ImGui::GetTextLineHeight() + 2.0f * kAir_px;
+    const ImVec2 below = words.draw(size_px, legend_px);
+    draw_legend({below.x, below.y + kAir_px});
+}
+
+}  // namespace
+
+void ErrorLayer::upload(const FrozenFrame& frozen) {
+    if (image_ && version_ == frozen.version()) return;
+    device_.destroy(image_);
+    version_ = frozen.version();
+    image_ = device_
+                 .create_texture({.label = "shadow errors",
+                                  .format = gl::Format::srgb8_a8,
+                                  .width = frozen.size_px().x,
+                                  .height = frozen.size_px().y},
+                                 std::as_bytes(std::span(frozen.tints())))
+                 .handle;
+}
+
+void ErrorLayer::draw(const FrozenFrame& frozen, const FrameReport& report, glm::vec2 size_px) {
+    if (frozen.state() != FrozenFrame::State::shown || frozen.tints().empty()) {
+        device_.destroy(image_);
+        image_ = {};
+        if (frozen.on()) draw_progress(frozen, size_px);
+        return;
+    }
+    upload(frozen);
+    if (image_)  // without memory for it the figures are still there
+        ImGui::GetBackgroundDrawList()->AddImage(image_of(image_), {0.0f, 0.0f}, {size_px.x, size_px.y}, {0.0f, 1.0f},
+                                                 {1.0f, 0.0f});
+    draw_figures(frozen, report, size_px);
+}
+
+}  // namespace gnomon::game

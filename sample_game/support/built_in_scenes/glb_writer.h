@@ -1,0 +1,107 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sample_game/support/built_in_scenes/primitives.h"
+
+namespace gnomon::game {
+
+struct MaterialSpec {
+    std::string name;
+    glm::vec4 base_colour{1.0f};                // linear
+    std::optional<std::uint32_t> texture = {};  // of add_texture()
+    float metallic = 0.0f, roughness = 0.8f;
+    glm::vec3 emissive{0.0f};
+    std::optional<float> alpha_cutoff = {};  // set: alpha mask
+    bool double_sided = false;
+};
+
+/// Which joints of its skin a vertex follows: one, and partly another.
+struct JointShare {
+    std::uint8_t joint = 0, other = 0;
+    float of_other = 0.0f;
+};
+
+/// One primitive of a mesh.
+struct PartSpec {
+    const Shape& shape;
+    std::uint32_t material;
+    std::span<const JointShare> joints = {};  // per vertex; or none at all
+};
+
+/// A joint is a node that stands unturned at `rest_m`, in the mesh's space, when nothing moves.
+struct JointSpec {
+    std::uint32_t node = 0;
+    glm::dvec3 rest_m{0.0};
+};
+
+/// What moves a node: "translation" or "rotation" (x, y, z, w), a value per key, linear in between.
+struct ChannelSpec {
+    std::uint32_t node = 0;
+    std::string path;
+    std::uint32_t times = 0;  // of add_times()
+    std::vector<float> values = {};
+};
+
+struct NodeSpec {
+    std::string name;
+    std::optional<std::uint32_t> parent = {};  // of add_node(); none: below the root
+    glm::dvec3 translation_m{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    std::optional<std::uint32_t> mesh = {}, light = {}, camera = {};
+    nlohmann::ordered_json extras = {};  // null: none
+};
+
+struct RootSpec {
+    std::string name;
+    glm::dvec3 translation_m{0.0};
+    double scale = 1.0;
+};
+
+/// Collects a scene and writes it as binary glTF 2.0 with one buffer. Same calls, same bytes.
+class GlbBuilder {
+public:
+    std::uint32_t add_texture(const std::string& name, std::span<const std::uint8_t> png);
+    std::uint32_t add_material(const MaterialSpec& spec);
+    std::uint32_t add_mesh(const std::string& name, std::span<const PartSpec> parts);
+    std::uint32_t add_mesh(const std::string& name, const Shape& shape, std::uint32_t material);
+    std::uint32_t add_light(nlohmann::ordered_json light);    // an object of KHR_lights_punctual
+    std::uint32_t add_camera(nlohmann::ordered_json camera);  // an object of glTF's cameras
+    std::uint32_t add_skin(const std::string& name, std::span<const JointSpec> joints);
+    std::uint32_t add_times(std::span<const float> times_s);  // rising
+    void add_animation(const std::string& name, std::span<const ChannelSpec> channels);
+    std::uint32_t add_node(const NodeSpec& spec);
+    /// Of a node that was added before the skin was.
+    void set_skin(std::uint32_t node, std::uint32_t skin) { nodes_[node]["skin"] = skin; }
+
+    /// Every node without a parent becomes a child of one root.
+    std::vector<std::byte> finish(const RootSpec& root);
+
+    std::uint64_t triangle_count() const { return triangles_; }  // over all nodes with a mesh
+
+private:
+    using Json = nlohmann::ordered_json;
+    std::uint32_t add_view(std::span<const std::byte> bytes, std::optional<int> target);
+    std::uint32_t add_accessor(Json accessor);
+    std::uint32_t add_floats(std::span<const float> numbers, std::size_t width, const char* type);
+    void add_joints(std::span<const JointShare> shares, Json& attributes);
+    Json primitive(const PartSpec& part);
+
+    std::vector<std::byte> binary_;
+    Json views_ = Json::array(), accessors_ = Json::array(), images_ = Json::array(), textures_ = Json::array();
+    Json materials_ = Json::array(), meshes_ = Json::array(), lights_ = Json::array(), cameras_ = Json::array();
+    Json nodes_ = Json::array(), skins_ = Json::array(), animations_ = Json::array();
+    std::vector<std::uint32_t> top_nodes_;
+    std::vector<std::uint64_t> mesh_triangles_;
+    std::uint64_t triangles_ = 0;
+};
+
+}  // namespace gnomon::game

@@ -1,0 +1,119 @@
+#include "sample_game/support/truth_comparison.h"
+
+#include <algorithm>
+
+#include "systems/truth/error_tints.h"
+
+namespace gnomon::game {
+
+void FrozenFrame::freeze(const Frame& frame, const assets::MeshLibrary& library, unsigned threads) {
+    thaw();
+    const SceneSnapshot& scene = frame.snapshot();
+    if (scene.consumers.empty()) return;
+    size_px_ = scene.consumers.front().viewport_px;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (!scene.lights[i].has_shadow) continue;
+        lights_.push_back({.name = scene.lights[i].name, .index = i, .metrics = {}});
+        layers_.push_back(scene.lights[i].shadow.layers);
+    }
+    if (chosen_ && *chosen_ >= lights_.size()) chosen_.reset();
+    trace_ = std::make_unique<truth::BackgroundTrace>(scene, library, threads);
+    state_ = State::tracing;
+}
+
+void FrozenFrame::thaw() {
+    trace_.reset();
+    lights_.clear();
+    layers_.clear();
+    tints_.clear();
+    ++version_;
+    state_ = State::off;
+}
+
+void FrozenFrame::update(Frame& frame) {
+    if (!on()) return;
+    const SceneSnapshot& scene = frame.snapshot();
+    bool same = !scene.consumers.empty() && scene.consumers.front().viewport_px == size_px_;
+    for (std::size_t i = 0; same && i < lights_.size(); ++i)
+        same = lights_[i].index < scene.lights.size() && scene.lights[lights_[i].index].shadow.layers == layers_[i];
+    if (!same) return thaw();
+    if (!frame.report().still)
+        for (JudgedLight& light : lights_) light.stale = true;
+    if (!trace_->finished()) return;
+    state_ = State::shown;
+    for (std::size_t i = 0; i < lights_.size(); ++i) {
+        last_judged_ = (last_judged_ + 1) % lights_.size();  // in turn: frames may change one of them again and again
+        if (lights_[last_judged_].stale) return judge(frame, last_judged_);
+    }
+}
+
+void FrozenFrame::finish(Frame& frame) {
+    if (!on()) return;
+    trace_->truth();
+    state_ = State::shown;
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        if (lights_[i].stale) judge(frame, i);
+}
+
+bool FrozenFrame::judged() const {
+    return state_ == State::shown &&
+           std::none_of(lights_.begin(), lights_.end(), [](const JudgedLight& light) { return light.stale; });
+}
+
+void FrozenFrame::judge(Frame& frame, std::size_t index) {
+    JudgedLight& light = lights_[index];
+    light.stale = false;
+    light.metrics.reset();
+    if (!frame.read_visibility(light.index, light.measured)) light.measured.clear();
+    const auto& traced = trace_->truth().lights;
+    if (index < traced.size() && light.measured.size() == traced[index].truth.visibility.size()) {
+        const truth::LightTruth& truth = traced[index].truth;
+        light.metrics = truth::compare({size_px_, light.measured, truth.visibility, truth.scored, truth.ambiguous});
+    }
+    paint();
+}
+
+void FrozenFrame::choose(std::optional<std::size_t> light) {
+    chosen_ = light && *light < lights_.size() ? light : std::nullopt;
+    if (state_ == State::shown) paint();
+}
+
+void FrozenFrame::choose_next() { choose(chosen_ ? *chosen_ + 1 : 0); }
+
+void FrozenFrame::paint() {
+    std::vector<truth::DrawnLight> shown;
+    const auto& traced = trace_->truth().lights;
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        if (lights_[i].metrics && (!chosen_ || *chosen_ == i)) shown.push_back({lights_[i].measured, &traced[i].truth});
+    truth::tint_errors(size_px_, shown, tints_);
+    ++version_;
+}
+
+nlohmann::ordered_json truth_stats(const FrozenFrame& frozen) {
+    nlohmann::ordered_json lights = nlohmann::ordered_json::array();
+    for (const JudgedLight& light : frozen.lights()) {
+        if (!light.metrics) continue;
+        const truth::Metrics& m = *light.metrics;
+        lights.push_back({{"name", light.name},
+                          {"scored_px", m.scored},
+                          {"wrong_px", m.wrong},
+                          {"false_shadow_px", m.false_shadow},
+                          {"false_light_px", m.false_light},
+                          {"uncovered_px", m.uncovered},
+                          {"acne_px", m.acne},
+                          {"leak_px", m.leak},
+                          {"ambiguous_px", m.ambiguous},
+                          {"coverage_mismatch_px", m.coverage_mismatch},
+                          {"wrong", m.fraction(m.wrong)},
+                          {"edge",
+                           {{"places", m.edge.places},
+                            {"lost", m.edge.lost},
+                            {"mean_px", m.edge.mean_px},
+                            {"p95_px", m.edge.p95_px},
+                            {"p99_px", m.edge.p99_px},
+                            {"max_px", m.edge.max_px}}}});
+    }
+    return {{"lights", std::move(lights)}};
+}
+
+}  // namespace gnomon::game

@@ -1,0 +1,12 @@
+// How far off position_from_anchor() may be, along each axis. C++ twins of the constants: systems/shadow/exact/error_margins.h.
+#include "common/instances.glsl"
+#include "common/float_rounding.glsl"
+const float kPlacedUnits = 6.0;            // of 2^-24, of what is added: basis, products, translation and anchor
+const float kSplitUnits = 3.5527137e-15;   // of a position given as two floats, 2^-48
+
+vec3 placed_error_m(InstanceRecord instance, vec3 position_ms, vec3 anchor_high, vec3 anchor_low) {
+    vec3 high = vec3(instance.basis_x.w, instance.basis_y.w, instance.basis_z.w), size_ms = abs(position_ms);
+    vec3 local = abs(instance.basis_x.xyz) * size_ms.x + abs(instance.basis_y.xyz) * size_ms.y + abs(instance.basis_z.xyz) * size_ms.z;
+    vec3 offset = abs((high - anchor_high) + (instance.low.xyz - anchor_low));
+    return kPlacedUnits * kUnitRoundoff * (local + offset) + kSplitUnits * (abs(high) + abs(anchor_high));
+}

@@ -1,0 +1,65 @@
+// The surface buffers as the light passes read them.
+#include "common/view_distance.glsl"
+#include "common/pixel_ray.glsl"
+#include "common/view_vector.glsl"
+#include "common/unit.glsl"
+#include "common/octahedral.glsl"
+#include "common/float_rounding.glsl"
+layout(binding = 0) uniform sampler2D surface_depth;
+layout(binding = 1) uniform sampler2D surface_colour;
+layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
+layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
+#ifdef SHADOW_RAYS
+layout(binding = 6) uniform usampler2D surface_places;     // see lighting/gbuffer/visible_triangle.glsl
+#endif
+
+struct Surface {
+    bool exists;
+    vec3 position_ca;     // from the camera's anchor
+    vec3 to_viewer;
+    vec3 shading_normal;
+    vec3 geometric_normal;
+    vec3 colour;
+    float metallic, roughness;
+    float shadow_layers;  // those it receives, as an integer
+    bool unlit;           // shows its colour whatever light falls on it
+    float error_m;        // how far position_ca may be off the true surface
+#ifdef SHADOW_RAYS
+    uvec4 place;          // packed
+#endif
+};
+
+vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel, view_distance(depth)); }
+
+// Rebuilding rounds; and the rasteriser may have moved corners by half a sub-pixel step (2^-9 pixel) each way, so by half its diagonal.
+const float kHalfDiagonal = 0.70711;   // of a square, of its side
+float surface_error_m(vec3 position_ca) {
+    bool orthographic = camera.back.w > 0.5;
+    float distance_m = length(position_ca);
+    float pixel = 2.0 * camera.up.w / camera.unproject.w;
+    float pixel_m = orthographic ? pixel : pixel * distance_m;
+    float depth_m = orthographic ? kFlatRebuiltRelative * camera.unproject.y : 0.0;
+    return kRebuiltRelative * distance_m + depth_m + pixel_m * (kHalfDiagonal * kRasterSnap_texel);
+}
+
+Surface read_surface(ivec2 pixel) {
+    Surface s;
+    float depth = texelFetch(surface_depth, pixel, 0).r;
+    s.exists = depth > 0.0;
+    s.position_ca = surface_position(pixel, depth);
+    s.to_viewer = unit_or(to_camera(s.position_ca), camera.back.xyz);
+    vec4 normals = texelFetch(surface_normals, pixel, 0);
+    s.shading_normal = unit_from_octahedral(normals.xy);
+    s.geometric_normal = unit_from_octahedral(normals.zw);
+    s.colour = texelFetch(surface_colour, pixel, 0).rgb;
+    vec4 m = texelFetch(surface_material, pixel, 0);
+    s.metallic = m.r;
+    s.roughness = m.g;
+    s.shadow_layers = m.b * 255.0;
+    s.unlit = m.a > 0.5;
+    s.error_m = surface_error_m(s.position_ca);
+#ifdef SHADOW_RAYS
+    s.place = texelFetch(surface_places, pixel, 0);
+#endif
+    return s;
+}

@@ -1,0 +1,27 @@
+// Which triangle a pixel shows, as the surface pass says it for lights that are asked by rays; what follows from that is found out
+// where it is asked for, since many fragments of small triangles are drawn for one that stays.
+#include "common/instances.glsl"
+#include "lighting/gbuffer/triangle_normals.glsl"
+layout(binding = 9) uniform usamplerBuffer scene_vertices;   // two texels each, position first
+
+struct SurfacePlace {
+    float interpolated_m;        // along the view, as the rasteriser says
+    uint corner;                 // a vertex of the triangle
+    uint instance, triangle;
+};
+
+uvec4 packed_place(SurfacePlace place) {
+    return uvec4(floatBitsToUint(place.interpolated_m), place.corner, place.instance, place.triangle);
+}
+SurfacePlace unpacked_place(uvec4 place) { return SurfacePlace(uintBitsToFloat(place.x), place.y, place.z, place.w); }
+
+// As rays know it.
+uvec2 receiver_of(SurfacePlace place) { return uvec2(place.instance, place.triangle); }
+
+vec3 vertex_position(uint vertex) { return uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz); }
+
+// What a plane says of the distance is believed unless it is seen edge-on or is none.
+bool is_believed(float distance_m, float interpolated_m) {
+    const float kMostOff = 0.5;   // of the distance
+    return abs(distance_m - interpolated_m) <= kMostOff * interpolated_m;
+}

@@ -1,0 +1,63 @@
+// Whether a receiver is certainly lit or certainly dark, by what a texel's sheets say of all of it (docs/exact.md). Bring the
+// light's kind first, with SHADOW_DEPTHS.
+#include "shadow/filters/exact/map_position.glsl"
+layout(binding = 7) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles
+
+const float kNoReach = 3.0e38;        // kNoEnd: all the way
+const float kReachUnits = 16.0;       // kStoredUnits, and what a reach is computed by
+const float kMostFloorShare = 0.5;    // of wider texels nothing is said
+const int kCertainlyLit = 0, kCertainlyDark = 1, kUncertain = 2;
+
+// By how much facets that are not drawn may depart from a depth, FlatFacets, as a share of that depth less the far end's; the map of
+// a sun is cleared to it.
+float sheet_floor_share(SheetPlace place) {
+#ifdef LIGHT_DIRECTIONAL
+    return 0.0;
+#else
+    // Along a walk 1/z changes by no more than this share of itself in half a texel.
+    float share = 0.5 * kFloorTangent * max(light.views[place.view].axis_u.w, light.views[place.view].axis_v.w);
+    return kDepartureFactor * share * (1.0 + 2.0 * share);
+#endif
+}
+
+float sheet_floor(SheetPlace place, float depth) {
+#ifdef LIGHT_DIRECTIONAL
+    return 0.0;
+#else
+    return sheet_floor_share(place) * (depth - light.views[place.view].numeric.z);
+#endif
+}
+
+// `receiver_casts`: the receiver's own surface is among the casters of the map; else the nearest of those, too, may not lie
+// before it.
+int sheet_verdict(SheetPlace place, bool receiver_casts) {
+    if (place.is_open) return kCertainlyLit;
+    if (!place.is_known) return kUncertain;
+    float first = first_depth(place), second = texelFetch(sheet_second, place.texel, 0).x;
+    vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
+    float nearest = max(first, place.depth);
+    float contour = bounds.x;
+    float off = max(bounds.y, sheet_floor(place, nearest)) + place.error + kRoundings * kStoredUnits * kUnitRoundoff * nearest;
+    if (first - off > max(place.depth, contour)) return kCertainlyDark;
+    return place.depth - off > max(receiver_casts ? second : first, contour) ? kCertainlyLit : kUncertain;
+}
+
+// How far toward the light anything may stand before a receiver, as a share of that way (a sun: in metres): no farther than what its
+// texel shows, or where a sheet ends there, and what sheets depart by from that.
+float sheet_reach(SheetPlace place) {
+    if (!place.is_known) return kNoReach;
+    vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
+    float shown = max(first_depth(place), bounds.x);
+    float rounding = place.error + kRoundings * kReachUnits * kUnitRoundoff * max(shown, place.depth);
+#ifdef LIGHT_DIRECTIONAL
+    float nearest = shown + bounds.y + rounding;
+    float reach = (nearest - place.depth) * light.views[place.view].axis_back.w;
+#else
+    // Of what stands there, not of what is shown: d departs by no more than share * (d - alpha).
+    float share = min(sheet_floor_share(place), kMostFloorShare), alpha = light.views[place.view].numeric.z;
+    float nearest = shown + max(bounds.y, (shown - alpha) * share / (1.0 - share)) + rounding;
+    float reach = share < kMostFloorShare ? (nearest - place.depth + rounding) / (nearest - alpha) : kNoReach;
+#endif
+    // What lies before the near plane counts as on it.
+    return nearest < 1.0 ? max(reach, 0.0) * (1.0 + kRoundings * kReachUnits * kUnitRoundoff) : kNoReach;
+}

@@ -1,0 +1,23 @@
+// The casters' triangles themselves decide, by one ray from the receiver to the light. SHADOW_SHEETS: unless the light's map is
+// certain (docs/exact.md).
+#include "shadow/filters/exact/shadow_ray.glsl"
+
+// `normal`: of the surface; one ray does not ask.
+float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
+    return lit_along(position_ca, way_to_light(position_ca), reach, error_m, receiver);
+}
+
+#ifdef SHADOW_SHEETS
+#include "shadow/filters/exact/classification.glsl"
+
+// `error_m`: how far position_ca may be off the surface.
+int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
+    return sheet_verdict(sheet_place(position_ca, error_m), receiver_casts(receiver));
+}
+
+// ShadowRay::reach, where that is uncertain.
+float uncertain_reach(vec3 position_ca, float error_m) {
+    return sheet_reach(sheet_place(position_ca, error_m));
+}
+#endif
+#include "shadow/filters/exact/classify_or_trace.glsl"

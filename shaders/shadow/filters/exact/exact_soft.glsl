@@ -1,0 +1,36 @@
+// The same for a source with a size: the share of it that is seen, by as many rays as asked for. SHADOW_SHEETS: unless the
+// light's map is certain that it is seen whole or not at all (docs/exact.md, "A source with a size").
+#include "shadow/filters/exact/shadow_ray.glsl"
+#include "shadow/filters/disk/noise_seed.glsl"
+#include "shadow/filters/disk/stratified_disk.glsl"
+
+// Of those rays that leave the surface, along `normal`; the middle's reach says nothing of the others'.
+float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
+    dvec3 middle = way_to_light(position_ca);
+    vec3 toward = normalize(vec3(middle));
+    vec3 helper = abs(toward.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 right = normalize(cross(toward, helper)), up = cross(toward, right);
+    vec2 seed = cell_seed(vec3(position_ca));
+    int lit = 0, rays = 0;
+    for (int i = 0; i < light.filtering.y; ++i) {
+        vec2 at = light.radiance.w * stratified_disk(seed, i, light.filtering.y);
+        dvec3 along = middle + dvec3(right * at.x + up * at.y);
+        if (!(dot(vec3(along), normal) > 0.0)) continue;
+        ++rays;
+        lit += int(lit_along(position_ca, along, kNoEnd, error_m, receiver));
+    }
+    return rays > 0 ? float(lit) / float(rays) : 0.0;
+}
+
+#ifdef SHADOW_SHEETS
+#include "shadow/filters/exact/classification.glsl"
+#include "shadow/filters/exact/classify_soft.glsl"
+
+// `error_m`: how far position_ca may be off the surface.
+int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
+    return soft_verdict(sheet_place(position_ca, error_m), position_ca, receiver_casts(receiver));
+}
+
+float uncertain_reach(vec3 position_ca, float error_m) { return kNoEnd; }
+#endif
+#include "shadow/filters/exact/classify_or_trace.glsl"

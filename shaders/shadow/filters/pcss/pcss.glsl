@@ -1,0 +1,130 @@
+// Shadows as soft as the source is large (percentage-closer soft shadows, Fernando 2005): a search finds how far before the
+// receiver its casters are, so how wide its penumbra; then as wide a disk of taps says how much of the source they hide.
+// A texel counts only if what it shows stands above the receiver's plane, and within the cone from the receiver to the
+// source (light_size.glsl): high casters that lie too far aside darken nothing, nor does the wall that the receiver meets.
+// Lengths along the map are held in the depth at which the cone is as wide. Where the penumbra is narrower than a texel
+// votes tell where its middle is; of a source without a size they decide.
+#include "shadow/filters/disk/noise_seed.glsl"
+#include "shadow/filters/disk/stratified_disk.glsl"
+#include "shadow/filters/pcf/texel_vote.glsl"
+
+// Penumbrae of a smaller radius are left to votes, which tell how far away the edge is up to about a texel.
+const float kLeastPenumbra_texel = 0.75;
+// Where four texels agree, the edge is this far away at least.
+const float kAgreed_texel = 0.5;
+// From votes to texels, see lit_by_sixteen().
+const float kTexelPerVotes = 0.9291;
+// A smooth step is as steep as the share of a disk beside an edge if it is wider than the disk by so much.
+const float kDiskStep = 1.13;
+// The search looks at all scales alike, since a low caster's cone is a small part of a high one's.
+const float kSearchTapsPerOctave = 4.0;
+// From this on, since a penumbra of this radius is as good as none.
+const float kLeastSearch_texel = 0.5;
+// Casters whose heights differ by no more than this are one, for which one disk does.
+const float kSameLayer = 2.0;
+// A caster this many times farther aside than its cone is wide has no edge in the penumbra.
+const float kFarAside = 3.0;
+// What stands at no less than this share of the mean height before the receiver is the caster that the disk is for: it may
+// lean away from the receiver.
+const float kSameCaster = 0.7;
+// Of the disk's taps these come first, the outermost: where all of them are dark, or lit and the search found nothing
+// between them, so are the others.
+const int kRimTaps = 8;
+// Taps per texel of the penumbra's radius: the disk has more texels, but a straight edge crosses no more of its rings.
+const float kTapsPerTexel = 4.0;
+
+// Texels from the receiver, at depth 1 of the cone.
+vec2 on_map(ShadowPoint point, vec2 disk) {
+    float stretch = 1.0 / (source_stretch(point.tangent) + 1.0);
+    return point.source_texel * (disk + point.tangent * (dot(point.tangent, disk) * stretch));
+}
+
+// How far, in depth, what is stored there stands before the receiver; 0 where it is not above the receiver's plane.
+float stands_before(ShadowPoint point, vec2 place, vec2 offset_texel) {
+    vec2 middle = floor(place + offset_texel) + 0.5;
+    float stored = shadow_depth(point, middle);
+    bool above = stored > point.reference + dot(point.slope, middle - place);
+    return above ? max(stored - point.reference, 0.0) : 0.0;
+}
+
+// Casters of two heights, since a low one's shadow is sharp also where a high one's is not. In the order they are found.
+struct Casters {
+    vec2 before;    // mean distance before the receiver, in depth; those whose cones hold the receiver count most
+    vec2 weights;   // 0: there is none
+    float aside;    // of the nearest, in radii of its own cone
+};
+
+// `reach`: the widest cone, in depth; `octaves`: from penumbrae that votes decide up to it.
+Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, float octaves) {
+    Casters found;
+    found.before = found.weights = vec2(0.0);
+    found.aside = kFarAside;
+    int taps = int(ceil(kSearchTapsPerOctave * octaves));
+    for (int i = 0; i < taps; ++i) {
+        float share = (float(i) + seed.x) / float(taps);
+        float aside = reach * exp2(-octaves * share);
+        float before = stands_before(point, place, aside * on_map(point, on_circle(seed.y + kGolden * float(i))));
+        float cones = before > 0.0 ? aside / before : kFarAside;
+        if (cones >= kFarAside) continue;
+        float weight = 1.0 / max(1.0, cones * cones * cones * cones);
+        float first = found.before.x;
+        int layer = first == 0.0 || max(first, before) < kSameLayer * min(first, before) ? 0 : 1;
+        found.weights[layer] += weight;
+        found.before[layer] += (before - found.before[layer]) * (weight / found.weights[layer]);
+        found.aside = min(found.aside, cones);
+    }
+    return found;
+}
+
+// How much of the source is seen past the casters that stand `before` the receiver: the disk's radius, in depth. Those that
+// stand less than `from` do not count; what stands `to` or more hides what is below.
+float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float before, float from, float to, bool clear_inside) {
+    float lit = 0.0;
+    float known = 0.0;
+    for (int i = taps - 1; i >= 0; --i) {
+        vec2 disk = stratified_disk(seed, i, taps);
+        float stands = stands_before(point, place, before * on_map(point, disk));
+        if (stands >= to) continue;
+        known += 1.0;
+        lit += stands > max(from, before * min(length(disk), kSameCaster)) ? 0.0 : 1.0;
+        if (i == taps - kRimTaps && (lit == 0.0 || (lit == known && clear_inside))) break;
+    }
+    return known > 0.0 ? lit / known : 1.0;
+}
+
+// A penumbra around the edge that sixteen texels vote for. Unless `asked`, the cheaper of both.
+float lit_by_votes(ShadowPoint point, float radius_texel, bool asked) {
+    FourTexels four = four_texels(point);
+    bool agreed = (four.all_lit || four.all_dark) && radius_texel < kAgreed_texel;
+    float votes = lit_by_sixteen(point, four.place, four.corner, agreed || !asked ? 0 : 4);
+    if (agreed) return four.all_lit ? 1.0 : 0.0;
+    if (radius_texel == 0.0) return votes >= 0.0 ? 1.0 : 0.0;
+    float half_width = kDiskStep * radius_texel;
+    return smoothstep(-half_width, half_width, votes * kTexelPerVotes);
+}
+
+float shadow_filter(ShadowPoint point) {
+    vec2 place = shadow_place(point);
+    vec2 seed = shadow_seed(point);
+    float texels = max(point.source_texel.x, point.source_texel.y) * source_stretch(point.tangent);
+    float reach_texel = source_reach_texel(point.source_texel, point.tangent, point.reference);
+    float octaves = max(log2(max(reach_texel, kLeastSearch_texel) / kLeastSearch_texel), 0.0);
+    float reach = octaves > 0.0 ? reach_texel / texels : 0.0;
+    Casters found = find_casters(point, place, seed, reach, octaves);
+    bool two = found.weights.y > 0.0;
+    float split = two ? sqrt(found.before.x * found.before.y) : 0.0;
+    float radius_texel = min(found.before.x, reach) * texels;
+    bool narrow = !two && radius_texel < kLeastPenumbra_texel;
+#ifdef SHADOW_SHOWN
+    blurred_texel = min(max(found.before.x, found.before.y), reach) * source_stretch(point.tangent) * point.source_texel;
+#endif
+    float lit = lit_by_votes(point, radius_texel, narrow);
+    if (!narrow) lit = 1.0;
+    for (int layer = 0; layer < (narrow ? 0 : (two ? 2 : 1)); ++layer) {
+        float before = clamp(found.before[layer], kLeastPenumbra_texel / texels, reach);
+        int taps = min(max(kRimTaps, int(ceil(kTapsPerTexel * texels * before))), light.filtering.y);
+        bool low = two && found.before[layer] < split;
+        lit *= lit_by_disk(point, place, seed, taps, before, low ? 0.0 : split, low ? split : 2.0, found.aside >= 1.0);
+    }
+    return lit;
+}

@@ -1,0 +1,4 @@
+// What four texels show, in textureGather's order: (-,+) (+,+) (+,-) (-,-). See shadow/filters/triangles/mesh_walk.glsl.
+struct FourTriangles {
+    uvec4 instance, triangle;
+};

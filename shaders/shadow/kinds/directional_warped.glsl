@@ -1,3 +1,0 @@
-// Directional light whose maps are warped: cascades as ever, another bias.
-#define SHADOW_WARPED
-#include "shadow/kinds/directional.glsl"

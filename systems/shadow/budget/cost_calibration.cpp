@@ -1,0 +1,75 @@
+#include "systems/shadow/budget/cost_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/frame_timers.h"
+
+namespace gnomon::shadow {
+namespace {
+
+double drawn_ns(const ShadowFrame& frame, const LightReport& light, std::size_t i) {
+    if (light.views_drawn == 0) return 0.0;
+    const ShadowDemand& demand = frame.demands[i];
+    return drawing_ns(demand, map_edge_px(demand), light.views_drawn, static_cast<double>(light.triangles),
+                      light.draws);
+}
+
+/// As it was drawn: by its own filter, by what that fell back to, or by what was kept of what its pixels saw.
+double lit_ns(const SceneSnapshot& scene, const ShadowFrame& frame, const LightingLight& light,
+              const LightReport& report) {
+    const double pixels = static_cast<double>(light.screen.width) * light.screen.height;
+    const bool looks_up = !light.row.filter_file.empty() && report.filter.filter != ShadowFilter::automatic &&
+                          report.kept.reason == Reason::none;
+    const double fetches =
+        looks_up ? mean_fetches(scene.lights[light.light], frame.demands[light.light], report.filter.filter) : 0.0;
+    return pixels * (kShadedPixel_ns + fetches * kFetch_ns);
+}
+
+}  // namespace
+
+double learned(double factor, double measured_ns, double modelled_ns, std::uint32_t& frames) {
+    if (!(modelled_ns >= CostClock::kLeastWork_ns) || !(measured_ns > 0.0) || !std::isfinite(measured_ns))
+        return factor;
+    const double gain = frames < CostClock::kFirstFrames ? CostClock::kFirstGain : CostClock::kGain;
+    frames = std::min(frames + 1, CostClock::kFirstFrames);
+    const double step = (std::log(measured_ns / modelled_ns) - std::log(factor)) * gain;
+    return std::clamp(factor * std::exp(std::clamp(step, -CostClock::kMostStep, CostClock::kMostStep)),
+                      CostClock::kLeastFactor, CostClock::kMostFactor);
+}
+
+void CostClock::submitted(std::uint64_t submission, const SceneSnapshot& scene, const ShadowFrame& frame,
+                          const FrameReport& report) {
+    Submission& now = submissions_[next_];
+    next_ = (next_ + 1) % kFrames;
+    now = {submission, true, {}, {}};
+    for (std::size_t i = 0; i < report.lights.size(); ++i)
+        now.modelled.drawing_ns += drawn_ns(frame, report.lights[i], i);
+    if (frame.inputs.empty()) return;
+    for (const LightingLight& light : frame.inputs.front().lights)
+        now.modelled.lighting_ns += lit_ns(scene, frame, light, report.lights[light.light]);
+}
+
+void CostClock::close(Submission& submission) {
+    submission.open = false;
+    factors_.drawing =
+        learned(factors_.drawing, submission.measured.drawing_ns, submission.modelled.drawing_ns, learned_.drawing);
+    factors_.lighting =
+        learned(factors_.lighting, submission.measured.lighting_ns, submission.modelled.lighting_ns, learned_.lighting);
+}
+
+/// Timers of a submission may come in parts: it is closed by the first of a later one.
+void CostClock::learn(std::span<const gl::Timing> timings) {
+    for (const gl::Timing& timing : timings) {
+        if (timing.id >= kSurfaceTimer) continue;
+        for (Submission& s : submissions_) {
+            if (s.open && s.number < timing.submission && s.measured.drawing_ns + s.measured.lighting_ns > 0.0)
+                close(s);
+            if (!s.open || s.number != timing.submission) continue;
+            const bool drawing = timing.id == shadow_timer(timing.id / 2);
+            (drawing ? s.measured.drawing_ns : s.measured.lighting_ns) += timing.gpu_us * 1000.0;
+        }
+    }
+}
+
+}  // namespace gnomon::shadow

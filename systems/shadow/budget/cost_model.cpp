@@ -1,0 +1,148 @@
+#include "systems/shadow/budget/cost_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/shadow/request/decide_requests.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/request/map_textures.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// However coarse, a shadow says half of what it has to say: that something stands there.
+constexpr double kMostByEdges = 0.5;
+/// Edges that are off by so much, a twentieth of the height of a picture of 720 lines, lose half of the rest.
+constexpr double kHalfLost_px = 36.0;
+/// Of what moves across a picture of 1280 columns in five seconds.
+constexpr double kMotion_px_per_frame = 1280.0 / 300.0;
+/// Each cascade about doubles the depth that one texel size can serve (light_kinds.cpp).
+constexpr double kTexelsPerCascade = 2.0;
+/// Share of the pixels that a filter looks at more closely whose first fetch settles all others.
+constexpr double kSeldom = 1.0 / 8.0;
+
+bool has_cascades(const LightItem& light, const ShadowDemand& demand) {
+    return light.kind == LightKind::directional && demand.view_count > 1 &&
+           light.shadow.splits != CascadeSplits::manual;  // which names them all
+}
+
+/// What is no number counts as all.
+double share_in_bounds(double share) { return share < 1.0 ? std::max(share, 0.0) : 1.0; }
+
+/// Half-width of what can be seen of a filter's footprint, in texels.
+double seen_texel(const ShadowDemand& demand) {
+    return static_cast<double>(demand.filtering.widest_texel - filter_row(demand.filter).still_texel);
+}
+
+/// Of the bound on how far off an edge is, what it is on the average, against a filter that counts texels alone: a
+/// fifth where the casters' own triangles are asked, a half where texels vote (docs/accuracy.md, "Filters and sizes").
+double usual_share(const FilterRow& row) {
+    if (row.storage == FilterStorage::depth_and_triangle) return 0.2;
+    return row.reading == MapReading::depths ? 0.5 : 1.0;
+}
+
+double usual_error_px(const ShadowDemand& demand, double extent_px) {
+    return usual_share(filter_row(demand.filter)) * (0.5 + seen_texel(demand)) * extent_px;
+}
+
+/// How much farther off edges are than as wanted, on the average.
+double rise_px(const LightLoad& load, const ShadowDemand& given, const Grant& grant) {
+    const ShadowDemand& wanted = load.wanted;
+    const double coarser = static_cast<double>(wanted.resolution_px) / given.resolution_px *
+                           std::pow(kTexelsPerCascade, static_cast<double>(wanted.view_count - given.view_count));
+    const double extent_px = load.extent_px * coarser;
+    double rise = std::max(usual_error_px(given, extent_px) - usual_error_px(wanted, load.extent_px), 0.0);
+    // A narrower filter may err less; it looks other than was asked for.
+    rise += std::abs(seen_texel(wanted) - seen_texel(given)) * extent_px;
+    return rise + 0.5 * (grant.refresh_frames - 1) * share_in_bounds(load.activity) * kMotion_px_per_frame;
+}
+
+}  // namespace
+
+ShadowDemand granted(const LightItem& light, const ShadowDemand& wanted, const Grant& grant) {
+    ShadowDemand demand = wanted;
+    if (grant.none) return demand;
+    if (grant.plain) demand.filter = kPlainFilter;
+    demand.asks_rays = demand.asks_rays && !grant.plain;
+    if (has_cascades(light, wanted)) {
+        demand.view_count = std::clamp(grant.most_views, 1u, wanted.view_count);
+        demand.most_views = std::min(wanted.most_views, std::max(grant.most_views, 1u));
+        if (demand.view_count == 1) demand.cascade_blend = 0.0f;
+    }
+    demand.most_px = std::min(wanted.most_px, grant.most_px);
+    const std::uint32_t edge_px = std::min(wanted.resolution_px, demand.most_px);
+    if (edge_px != wanted.resolution_px || demand.filter != wanted.filter) set_resolution(light, edge_px, demand);
+    demand.refresh_frames = light.shadow.economy ? grant.refresh_frames : 1;
+    return demand;
+}
+
+bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& grant) {
+    return grant.none || (grant.plain && wanted.filter != kPlainFilter) || grant.most_px < wanted.resolution_px ||
+           (has_cascades(light, wanted) && grant.most_views < wanted.view_count) ||
+           (grant.refresh_frames > 1 && light.shadow.economy);
+}
+
+double mean_fetches(const LightItem& light, const ShadowDemand& demand, ShadowFilter filter) {
+    const FilterRow& row = filter_row(filter);
+    const bool cube = map_texture(light, demand) == gl::TextureKind::cube;
+    const double most = row.taps(light.shadow, cube);
+    return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
+}
+
+StorageWork storage_work(FilterStorage storage) {
+    constexpr double kDepth = 4.0, kTriangle = 8.0, kBounds = 8.0;
+    switch (storage) {
+        case FilterStorage::depth_and_triangle:
+            return {.texel_bytes = kDepth + kTriangle};
+        case FilterStorage::sheets:
+        case FilterStorage::soft_sheets:
+            return {.passes = 3.0, .casters = 3.0, .texel_bytes = kDepth + kTriangle + kDepth + kBounds};
+        case FilterStorage::depth:
+        case FilterStorage::moments:
+            break;
+    }
+    return {};
+}
+
+double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws) {
+    const FilterStorage storage = filter_row(demand.filter).storage;
+    const StorageWork work = storage_work(storage);
+    const double texels = static_cast<double>(edge_px) * edge_px;
+    double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / StorageWork{}.texel_bytes;
+    if (storage == FilterStorage::moments) view_ns += 2.0 * (kPass_ns + texels * demand.filtering.size * kFetch_ns);
+    return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
+}
+
+double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
+    if (grant.none) return 0.0;
+    const ShadowDemand given = granted(*load.light, load.wanted, grant);
+    return load.pixels * mean_fetches(*load.light, given, given.filter) * kFetch_ns * factors.lighting;
+}
+
+double edge_harm(double rise_px) {
+    return std::isfinite(rise_px) ? kMostByEdges * rise_px / (rise_px + kHalfLost_px) : kMostByEdges;
+}
+
+Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
+    const double weight = share_in_bounds(load.weight);
+    if (grant.none) return {0, 0, weight};
+    const ShadowDemand given = granted(*load.light, load.wanted, grant);
+    Cost cost;
+    cost.bytes = map_bytes(*load.light, given);
+    const double share =
+        static_cast<double>(given.view_count) / static_cast<double>(std::max(load.wanted.view_count, 1u));
+    const double casters = share * storage_work(filter_row(given.filter).storage).casters;
+    const double drawing =
+        drawing_ns(given, given.resolution_px, load.views * share, static_cast<double>(load.triangles) * casters,
+                   static_cast<double>(load.draws) * casters);
+    const double ns = drawing * share_in_bounds(load.activity) / given.refresh_frames * factors.drawing +
+                      lookup_ns(load, grant, factors);
+    constexpr double kMost_ns = 1.0e15;  // eleven days, so that sums stay in range
+    cost.ns = static_cast<std::uint64_t>(ns < kMost_ns ? std::max(ns, 0.0) : kMost_ns);
+    if (is_less(*load.light, load.wanted, grant))
+        cost.harm = weight * edge_harm(std::max(rise_px(load, given, grant), 0.0));
+    return cost;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,104 @@
+#include "systems/shadow/culling/contribution_culling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "engine/math/aabb.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Of the sRGB encoding at black, IEC 61966-2-1; the tone curve (lighting/post/tonemap.frag) is nowhere steeper than 1.
+constexpr double kSteepestEncoding = 12.92;
+constexpr double kDisplaySteps = 255.0;
+
+/// Beside the brightest, which lights a whole receiver. That alone lights the picture to middle grey, 0.18, or more
+/// would: 0.18 * 12.92 * 255 steps; a light is left out below 0.4 of one, a fourth of that where the exposure is
+/// measured late.
+constexpr double kFaint = 4096.0;
+
+/// Of a light at an exposure of 1, over all receivers, with a local light as far from each as `distance_m` says.
+template <class Distance>
+double most_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
+                  std::span<const std::uint32_t> receivers, Distance distance_m) {
+    const double brightest = static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
+    const double emitted = static_cast<double>(light.intensity) * brightest;
+    double most = 0.0;
+    for (const std::uint32_t r : receivers) {
+        const InstanceItem& item = scene.instances[r];
+        double received = emitted;
+        if (light.kind != LightKind::directional) {
+            const double away_m = distance_m(item.bounds_ws);
+            if (!(away_m > 0.0)) return std::numeric_limits<double>::infinity();
+            received = emitted / (away_m * away_m);
+        }
+        most = std::max(most, received * static_cast<double>(gpu.mesh(item.mesh).most_reflected));
+    }
+    return most * kSteepestEncoding * kDisplaySteps;
+}
+
+/// The same of the receiver that it lights most throughout: by its farthest corner.
+double steps_throughout(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
+                        std::span<const std::uint32_t> receivers) {
+    return most_steps(scene, gpu, light, receivers, [&](const math::Aabb& box_ws) {
+        return glm::length(glm::abs(light.position_ws_m - math::centre(box_ws)) + math::half_extent(box_ws));
+    });
+}
+
+bool comes_before(ecs::Entity a, ecs::Entity b) {
+    return a.index != b.index ? a.index < b.index : a.version < b.version;
+}
+
+}  // namespace
+
+double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
+                          std::span<const std::uint32_t> receivers, double exposure) {
+    return exposure * most_steps(scene, gpu, light, receivers,
+                                 [&](const math::Aabb& box_ws) { return math::distance(box_ws, light.position_ws_m); });
+}
+
+void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame) {
+    const bool known = std::isfinite(*scene.exposure);
+    const auto asked = [](const PotentialSets& sets) { return sets.skip == Reason::none; };
+    if (!known && std::count_if(frame.sets.begin(), frame.sets.end(), asked) < 2) return;  // faint beside what?
+    double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;            // steps at an exposure of 1
+    for (std::uint32_t d = 0; d < frame.demands.size(); ++d) {
+        const std::uint32_t light = frame.demands[d].light;
+        const LightItem& item = scene.lights[light];
+        const PotentialSets& sets = frame.sets[d];
+        if (sets.skip != Reason::none || !item.shadow.economy) continue;
+        const auto receivers = std::span(frame.receiver_items).subspan(sets.receivers.first, sets.receivers.count);
+        const double at_one = most_display_steps(scene, gpu, item, receivers, 1.0);
+        faintest = std::min(faintest, at_one);
+        brightest = std::max(brightest, steps_throughout(scene, gpu, item, receivers));
+        if (!known) continue;
+        const double steps = at_one * *scene.exposure;
+        steps_[light] = steps;
+        const bool was_out = std::binary_search(out_.begin(), out_.end(), item.entity, comes_before);
+        if (steps <= kMostSteps) candidates_.push_back({steps, d, was_out});
+    }
+    wants_exposure_ = brightest > 0.0 && faintest * kFaint <= brightest;
+}
+
+void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    steps_.assign(scene.lights.size(), std::nullopt);
+    candidates_.clear();
+    wants_exposure_ = false;
+    if (scene.exposure) ask_lights(scene, gpu, frame);
+    // Of equals the first, whatever their order in memory.
+    std::sort(candidates_.begin(), candidates_.end(),
+              [](const Dim& a, const Dim& b) { return a.steps != b.steps ? a.steps < b.steps : a.demand < b.demand; });
+    out_.clear();
+    double sum = 0.0;
+    for (const Dim& dim : candidates_) {
+        sum += dim.steps;
+        if (!(sum <= (dim.was_out ? kMostSteps : kNewlyMostSteps))) break;
+        frame.sets[dim.demand].skip = Reason::below_display_step;
+        out_.push_back(scene.lights[frame.demands[dim.demand].light].entity);
+    }
+    std::sort(out_.begin(), out_.end(), comes_before);
+}
+
+}  // namespace gnomon::shadow

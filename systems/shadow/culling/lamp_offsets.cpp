@@ -1,0 +1,165 @@
+#include "systems/shadow/culling/lamp_offsets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <optional>
+
+#include "engine/core/signature.h"
+#include "engine/math/frustum.h"
+#include "engine/math/shape_tree.h"
+#include "systems/extract/scene_tree.h"
+#include "systems/shadow/culling/triangle_distance.h"
+#include "systems/shadow/frame/cpu_timer.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// A corner relative to the lamp, and the plane through three of them, round a dozen times on numbers no larger than
+/// the coordinates they come from.
+constexpr double kPlaneUnits = 64.0 * 0x1p-53;
+/// Normals that differ by less are of one plane, seen from either side: a float mesh says no more of them.
+constexpr double kOpposite = -1.0 + 0x1p-20;
+/// Rounds of projections onto the planes; as many suffice for a wedge of 15 degrees.
+constexpr int kRounds = 64;
+/// Of the wished height: what is left when a projection counts as done.
+constexpr double kDone = 0x1p-10;
+/// How often the height is halved where sheets leave less room than that.
+constexpr int kHalvings = 8;
+/// How far aside a lamp may go, in heights: into a wedge of 15 degrees.
+constexpr double kFarthest = 8.0;
+
+double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+/// Whether any of the mesh's parts may come so near to the lamp; `from_lamp_m`: from there to the mesh's origin. NaN:
+/// it may.
+bool may_touch(const math::ShapeTree& shape, const InstanceItem& item, const glm::dvec3& from_lamp_m, double clear_m,
+               std::vector<glm::dvec3>& scratch) {
+    std::array<math::Plane, 6> planes;
+    double sum = 0.0;
+    for (int i = 0; i < 6; ++i) {
+        glm::dvec3 inward(0.0);
+        inward[i / 2] = i % 2 == 0 ? 1.0 : -1.0;
+        planes[static_cast<std::size_t>(i)] = {inward * item.basis, glm::dot(inward, from_lamp_m) + clear_m};
+        sum += glm::dot(planes[static_cast<std::size_t>(i)].normal, glm::dvec3(1.0)) + from_lamp_m[i / 2];
+    }
+    if (!std::isfinite(sum)) return true;
+    constexpr double kNone = 1.0;  // above what the even ramp has anywhere
+    return shape.lowest({}, planes, kNone, scratch) < kNone;
+}
+
+}  // namespace
+
+/// Instances that cast, with a part near the lamp, by rising index: what follows must not hang on the tree's shape.
+void LampPlaces::find_near(const SceneSnapshot& scene, const LightItem& light, double share) {
+    const glm::dvec3& lamp_ws_m = light.position_ws_m;
+    near_.clear(scene.instances.size());
+    const auto touches = [&](const math::Aabb& box_ws) {
+        const bool near = math::distance(box_ws, lamp_ws_m) <= share * math::farthest_distance(box_ws, lamp_ws_m);
+        return near ? math::Overlap::partial : math::Overlap::outside;
+    };
+    visit_instances(scene, touches, [&](std::uint32_t i) {
+        const InstanceItem& item = scene.instances[i];
+        if (!casts_under(light, item)) return;
+        const math::ShapeTree* shape = item.mesh < scene.shapes.size() ? scene.shapes[item.mesh].get() : nullptr;
+        const double clear_m = share * math::farthest_distance(item.bounds_ws, lamp_ws_m);
+        if (!shape || may_touch(*shape, item, item.translation_ws_m - lamp_ws_m, clear_m, scratch_)) near_.add(i);
+    });
+}
+
+/// Two faces of one sheet, both in the lamp's plane: the first says which side is before it.
+void LampPlaces::add_side(Side side) {
+    for (const Side& other : sides_)
+        if (side.in_plane && other.in_plane && glm::dot(side.normal, other.normal) < kOpposite) return;
+    sides_.push_back(side);
+}
+
+void LampPlaces::find_sides(const GpuScene& gpu, const LightItem& light, const InstanceItem& item, double share) {
+    const GpuScene::MeshShape shape = gpu.shape(item.mesh);
+    const GpuScene::MeshRange& mesh = gpu.mesh(item.mesh);
+    const auto& indices = *shape.indices;
+    const glm::dvec3 origin = item.translation_ws_m - light.position_ws_m;
+    const double reach_m = math::farthest_distance(item.bounds_ws, light.position_ws_m);
+    const double size_m = largest(item.translation_ws_m) + largest(light.position_ws_m) + reach_m;
+    for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
+        const GpuScene::SubmeshRange& submesh = gpu.submesh(mesh.first_submesh + s);
+        if (gpu.material(submesh.material).alpha_mode == assets::AlphaMode::blend) continue;
+        const std::size_t first = submesh.first_index - mesh.first_index;
+        for (std::size_t i = first; i + 2 < first + submesh.index_count; i += 3) {
+            Corners c;
+            for (std::size_t k = 0; k < 3; ++k)
+                c[k] = origin + item.basis * glm::dvec3((*shape.vertices)[indices[i + k]].position_ms);
+            const double corner_m = std::max({glm::length(c[0]), glm::length(c[1]), glm::length(c[2])});
+            const double clear_m = std::max(kClearOfPlanes * reach_m, share * corner_m);
+            if (!(distance_to(c) < clear_m)) continue;
+            const glm::dvec3 across = glm::cross(c[1] - c[0], c[2] - c[0]) * (item.mirrored ? -1.0 : 1.0);
+            const double area = glm::length(across);
+            if (!(area > 0.0)) continue;
+            const double height_m = -glm::dot(across, c[0]) / area;
+            const bool in_plane = std::abs(height_m) <= kPlaneUnits * size_m;
+            const double side = in_plane || height_m > 0.0 ? 1.0 : -1.0;
+            add_side({across * (side / area), std::abs(height_m), clear_m, in_plane});
+        }
+    }
+}
+
+/// From the lamp to where it is high enough above all of these planes, or to as much of that as there is room for; by
+/// projections onto them in turn. 0: there is none.
+glm::dvec3 LampPlaces::step_m() const {
+    double share = 1.0;
+    for (int halving = 0; halving <= kHalvings; ++halving, share *= 0.5) {
+        glm::dvec3 step(0.0);
+        double lacking = HUGE_VAL, clear_m = 0.0;
+        for (int round = 0; round < kRounds && lacking > kDone * clear_m; ++round) {
+            lacking = 0.0;
+            for (const Side& side : sides_) {
+                const double gap_m = share * side.clear_m - side.height_m - glm::dot(side.normal, step);
+                clear_m = std::max(clear_m, share * side.clear_m);
+                lacking = std::max(lacking, gap_m);
+                if (gap_m > 0.0) step += side.normal * gap_m;
+            }
+        }
+        if (lacking <= kDone * clear_m && glm::length(step) <= kFarthest * clear_m) return step;
+    }
+    return glm::dvec3(0.0);
+}
+
+glm::dvec3 LampPlaces::place_of(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light, double share,
+                                Held& held) {
+    find_near(scene, light, share);
+    Signature signature;
+    signature.add(share);
+    bool any = false;
+    for (int i = 0; i < 3; ++i) signature.add(light.position_ws_m[i]);
+    near_.for_each([&](std::uint32_t i) {
+        const InstanceItem& item = scene.instances[i];
+        signature.add(std::uint64_t{item.entity.version} << 32 | item.entity.index);
+        signature.add(item.version);
+        any = true;
+    });
+    if (!any) return light.position_ws_m;
+    // A scene that counts no versions says nothing of what moved.
+    if (scene.version != 0 && held.signature == signature.value()) return held.place_ws_m;
+    sides_.clear();
+    near_.for_each([&](std::uint32_t i) { find_sides(gpu, light, scene.instances[i], share); });
+    held = {signature.value(), light.position_ws_m + step_m()};
+    return held.place_ws_m;
+}
+
+void LampPlaces::update(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    held_.resize(scene.lights.size());
+    frame.lamps_ws_m.resize(scene.lights.size());
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const LightItem& light = scene.lights[i];
+        frame.lamps_ws_m[i] = light.position_ws_m;
+        if (light.kind == LightKind::directional || frame.demands[i].skip != Reason::none) continue;
+        const LightTime time(frame, i);
+        const double share = frame.demands[i].asks_rays ? kClearOfPlanes : kClearOfClipping;
+        frame.lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,193 @@
+#include "systems/shadow/culling/swept_volume.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
+
+#include "engine/math/cone.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Longer outlines lose their shortest edges, which grows the volume a little; as many as kMostPlanes has room for. 4
+/// seen boxes have 8 to 12, widening adds 4.
+constexpr std::size_t kMostEdges = 18;
+/// In slacks of the beam: shorter edges are what widening by two slacks makes of a corner, at most 4 √2, and have no
+/// direction but by rounding.
+constexpr double kShortestEdge = 8.0;
+/// Squares of lengths this close are equal (widened corners have edges of one length): the first ones in order count.
+constexpr double kAsLong = 1.0 - 1.0 / (1 << 20);
+/// Coordinates are wrong by a few of their last bits; see kRounding in engine/math/frustum.cpp.
+constexpr double kRounding = 0x1p-48;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+class Builder {
+public:
+    Builder(const Beam& beam, std::span<const glm::dvec2> polygon) : beam_(beam), polygon_(polygon) {
+        volume_.origin_ws_m = beam.origin_ws_m;
+        volume_.reach_m = beam.reach_m;
+    }
+
+    SweptVolume build(std::span<const math::Plane> seen, double slack_m) {
+        bound();
+        add_edges();
+        for (int axis = 0; axis < 3; ++axis) add_world_axis(axis);
+        // From the farthest receiver toward the light, and from the light on.
+        add(beam_.axes[2], beam_.far_m - glm::dot(beam_.axes[2], beam_.origin_ws_m));
+        if (!beam_.parallel) add(-beam_.axes[2], glm::dot(beam_.axes[2], beam_.origin_ws_m));
+        for (const math::Plane& plane : seen) add_seen(plane, slack_m);
+        return volume_;
+    }
+
+private:
+    void add(const glm::dvec3& normal, double offset) {
+        if (volume_.plane_count < SweptVolume::kMostPlanes) volume_.planes[volume_.plane_count++] = {normal, offset};
+    }
+
+    /// dot(normal, p) >= least over the polygon, as a plane along the light's rays.
+    void add_line(const glm::dvec2& normal) {
+        double least = kInfinity;
+        for (const glm::dvec2& p : polygon_) least = std::min(least, glm::dot(normal, p));
+        const glm::dvec3 across = beam_.axes[0] * normal.x + beam_.axes[1] * normal.y;
+        if (beam_.parallel) {
+            add(across, -least - glm::dot(across, beam_.origin_ws_m));
+        } else {
+            const glm::dvec3 through_light = across + beam_.axes[2] * least;
+            add(through_light, -glm::dot(through_light, beam_.origin_ws_m));
+        }
+    }
+
+    void add_edges() {
+        const auto edge = [&](std::size_t i) { return polygon_[(i + 1) % polygon_.size()] - polygon_[i]; };
+        // Length, squared, of the shortest edge that counts.
+        double least = kShortestEdge * kShortestEdge * beam_.slack * beam_.slack;
+        if (polygon_.size() > kMostEdges) {
+            std::array<double, kMostEdges> longest{};
+            for (std::size_t i = 0; i < polygon_.size(); ++i) {
+                const double length = glm::dot(edge(i), edge(i));
+                const auto smallest = std::min_element(longest.begin(), longest.end());
+                *smallest = std::max(*smallest, length);
+            }
+            least = std::max(least, kAsLong * *std::min_element(longest.begin(), longest.end()));
+        }
+        std::size_t edges = 0;
+        for (std::size_t i = 0; i < polygon_.size() && edges < kMostEdges; ++i) {
+            const glm::dvec2 along = edge(i);
+            if (!(glm::dot(along, along) >= least) || along == glm::dvec2(0.0)) continue;
+            add_line({-along.y, along.x});
+            ++edges;
+        }
+        if (polygon_.size() > 2 && edges > 0) return;  // a point or a line has no sides
+        for (const glm::dvec2 normal : {glm::dvec2(1, 0), glm::dvec2(-1, 0), glm::dvec2(0, 1), glm::dvec2(0, -1)})
+            add_line(normal);
+    }
+
+    void add_world_axis(int axis) {
+        if (beam_.parallel)
+            add_slab(axis);
+        else
+            add_pencil(axis);
+    }
+
+    /// Parallel light: the two planes along the rays and one of the world's axes that hold the outline.
+    void add_slab(int axis) {
+        glm::dvec3 edge(0.0);
+        edge[axis] = 1.0;
+        const glm::dvec3 across = glm::cross(edge, beam_.axes[2]);
+        const glm::dvec2 normal(glm::dot(across, beam_.axes[0]), glm::dot(across, beam_.axes[1]));
+        add_line(normal);
+        add_line(-normal);
+    }
+
+    /// Light from a point: the two planes through it and one of the world's axes that hold the outline, if there are
+    /// any.
+    void add_pencil(int axis) {
+        const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+        const auto ray = [&](const glm::dvec2& p) {
+            const glm::dvec3 r = beam_.axes[0] * p.x + beam_.axes[1] * p.y - beam_.axes[2];
+            return glm::dvec2(r[first], r[second]);
+        };
+        glm::dvec2 low = ray(polygon_.front()), high = low;
+        for (const glm::dvec2& p : polygon_) {
+            const glm::dvec2 r = ray(p);
+            if (cross(low, r) < 0.0) low = r;
+            if (cross(high, r) > 0.0) high = r;
+        }
+        // The axis itself, forward or back, may lie in the outline: then rays go all around it.
+        for (const glm::dvec2& p : polygon_) {
+            const glm::dvec2 r = ray(p);
+            const double slack = kRounding * (std::abs(r.x) + std::abs(r.y));
+            if (cross(low, r) < -slack * (std::abs(low.x) + std::abs(low.y)) ||
+                cross(high, r) > slack * (std::abs(high.x) + std::abs(high.y)))
+                return;
+        }
+        const auto add_half = [&](const glm::dvec2& inward) {
+            glm::dvec3 normal(0.0);
+            normal[first] = inward.x;
+            normal[second] = inward.y;
+            add(normal, -glm::dot(normal, beam_.origin_ws_m));
+        };
+        add_half({-low.y, low.x});
+        add_half({high.y, -high.x});
+    }
+
+    void add_seen(const math::Plane& plane, double slack_m) {
+        const double toward_light = beam_.parallel ? glm::dot(plane.normal, beam_.axes[2])
+                                                   : glm::dot(plane.normal, beam_.origin_ws_m) + plane.offset;
+        if (toward_light >= 0.0) add(plane.normal, plane.offset + slack_m * glm::length(plane.normal));
+    }
+
+    /// Around the polygon at the far end and the light.
+    void bound() {
+        math::Aabb& bounds = volume_.bounds;
+        if (!beam_.parallel) bounds = math::extended(bounds, beam_.origin_ws_m);
+        for (const glm::dvec2& p : polygon_) {
+            const glm::dvec3 across = beam_.axes[0] * p.x + beam_.axes[1] * p.y;
+            const glm::dvec3 offset =
+                beam_.parallel ? across - beam_.axes[2] * beam_.far_m : (across - beam_.axes[2]) * beam_.far_m;
+            bounds = math::extended(bounds, beam_.origin_ws_m + offset);
+        }
+        const glm::dvec3 slack = kRounding * glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+        bounds.min -= slack;
+        bounds.max += slack;
+        if (!beam_.parallel) return;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (beam_.axes[2][axis] > 0.0) bounds.max[axis] = kInfinity;
+            if (beam_.axes[2][axis] < 0.0) bounds.min[axis] = -kInfinity;
+        }
+    }
+
+    const Beam& beam_;
+    std::span<const glm::dvec2> polygon_;
+    SweptVolume volume_;
+};
+
+bool holds(const math::Aabb& outer, const math::Aabb& inner) {
+    return glm::all(glm::lessThanEqual(outer.min, inner.min)) && glm::all(glm::lessThanEqual(inner.max, outer.max));
+}
+
+math::Overlap both(math::Overlap a, math::Overlap b) {
+    if (a == math::Overlap::outside || b == math::Overlap::outside) return math::Overlap::outside;
+    return a == b ? a : math::Overlap::partial;
+}
+
+}  // namespace
+
+SweptVolume swept_volume(const Beam& beam, std::span<const glm::dvec2> polygon, std::span<const math::Plane> seen,
+                         double slack_m) {
+    return Builder(beam, polygon).build(seen, slack_m);
+}
+
+math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box) {
+    if (!math::overlaps(volume.bounds, box)) return math::Overlap::outside;
+    math::Overlap planes = math::overlap({volume.planes.data(), volume.plane_count}, box);
+    if (planes == math::Overlap::inside && !holds(volume.bounds, box)) planes = math::Overlap::partial;
+    if (planes == math::Overlap::outside || !std::isfinite(volume.reach_m)) return planes;
+    return both(planes, math::overlap_ball(volume.origin_ws_m, volume.reach_m, box));
+}
+
+}  // namespace gnomon::shadow

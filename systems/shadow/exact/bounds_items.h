@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/exact/caster_topology.h"
+#include "systems/shadow/exact/error_margins.h"
+#include "systems/shadow/exact/facet_depth_range.h"
+#include "systems/shadow/frame/types.h"
+
+namespace gnomon::shadow {
+
+/// A triangle or an edge that the passes of sheets draw. Matches SheetItem in
+/// shaders/shadow/passes/bounds/bounds_item.glsl (std430).
+struct SheetItem {
+    std::uint32_t instance = 0;         // slot of its record
+    std::uint32_t a = 0, b = 0, c = 0;  // vertices of the common buffer; of an edge c is a
+    bool operator==(const SheetItem&) const = default;
+};
+static_assert(sizeof(SheetItem) == 16);
+
+/// What one view draws over its sheets.
+struct SheetItems {
+    enum Kind : std::uint8_t {
+        triangles,  // opaque ones that depart from their depth by more than the floor
+        contours,   // edges where a sheet ends as this light sees it
+        masked,
+        kinds
+    };
+    /// `large` are drawn as quads, six vertices each; `small` as points, one vertex each: they lie before the light, in
+    /// a square of kSmall_texel, so that a point of most_point_px() covers all texels that they may overlap.
+    std::vector<SheetItem> large[kinds], small[kinds];
+    void clear() {
+        for (auto& items : large) items.clear();
+        for (auto& items : small) items.clear();
+    }
+};
+
+/// Appends what the instance of that surface brings to the view's map, but for what lies beside it. A facet seen so
+/// nearly edge-on that double's and float's rounding could turn it has its edges among the contours whatever is beside
+/// it.
+class SheetGatherer {
+public:
+    /// `max_point_px`: DeviceInfo's; where that is less than most_point_px() all items are large.
+    explicit SheetGatherer(std::uint32_t max_point_px) : draws_points_(max_point_px >= most_point_px()) {}
+    bool draws_points() const { return draws_points_; }
+
+    void append(const GpuScene& gpu, const CasterSurface& surface, const InstanceItem& item, const ShadowView& view,
+                std::uint32_t size_px, SheetItems& items);
+
+private:
+    struct Placed {
+        double distance_m = 0.0;   // along the view (perspective)
+        glm::vec2 at_texel{0.0f};  // of the map, if is_placed
+        bool is_placed = false;    // before the light, and float is off by less than kSmallMoved_texel there
+        std::uint8_t beyond = 0;   // a bit per side of the map beyond which it lies, and one for behind the light
+    };
+    void place(const std::vector<assets::Vertex>& vertices, const CasterSurface& surface, const InstanceItem& item,
+               const ShadowView& view, std::uint32_t size_px);
+    bool is_small(const Placed& a, const Placed& b, const Placed& c) const;
+    bool draws_points_;
+    std::vector<std::int8_t> facing_;  // per facet: 1 toward the light, -1 away, 0 not known
+    std::vector<Placed> placed_;       // per vertex of the mesh
+};
+
+}  // namespace gnomon::shadow

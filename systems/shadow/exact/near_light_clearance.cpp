@@ -1,0 +1,149 @@
+#include "systems/shadow/exact/near_light_clearance.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "systems/extract/scene_tree.h"
+#include "systems/shadow/culling/triangle_distance.h"
+#include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Of a map: what ends at its border may go on in the next one.
+constexpr double kInset = 1e-6;
+
+/// What one map shows, or would show.
+struct Opening {
+    glm::dmat3 axes{1.0};
+    glm::dvec2 tan_low{-1.0}, tan_high{1.0};
+    double near_m = 0.0;
+    bool drawn = false;
+};
+
+class Clearance {
+public:
+    Clearance(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::uint32_t demand)
+        : scene_(scene),
+          gpu_(gpu),
+          light_(scene.lights[frame.demands[demand].light]),
+          radius_m_(static_cast<double>(frame.demands[demand].filtering.source_radius_m)),
+          least_m_(kClearance_radii * radius_m_) {
+        // Places in a face without a view are looked up as well: nothing may stand before them.
+        const bool cube = light_.kind == LightKind::point && !frame.demands[demand].aim.used;
+        if (cube)
+            for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
+        if (cube) count_ = kFaces;
+        for (std::size_t v = 0; v < frame.views.size(); ++v) {
+            const ShadowView& view = frame.views[v];
+            if (view.demand != demand) continue;
+            Opening& opening = openings_[cube ? view.layer : count_++];
+            opening = {{view.axis_u, view.axis_v, view.axis_back},
+                       view.tan_low,
+                       view.tan_high,
+                       view.near_m,
+                       frame.slots[v].texture && !view.lit};
+            least_m_ = std::max(least_m_, kClearance_nears * view.near_m);
+        }
+    }
+
+    double run() {
+        const auto near_enough = [this](const math::Aabb& box) {
+            const glm::dvec3 nearest = glm::clamp(light_.position_ws_m, box.min, box.max);
+            const bool reaches = glm::distance(nearest, light_.position_ws_m) < least_m_;
+            return reaches ? math::Overlap::partial : math::Overlap::outside;
+        };
+        visit_instances(scene_, near_enough, [this](std::uint32_t i) {
+            if (casts_under(light_, scene_.instances[i])) visit(scene_.instances[i]);
+        });
+        return least_m_;
+    }
+
+private:
+    static constexpr std::size_t kFaces = 6;
+
+    static glm::dmat3 turned_axes(std::uint32_t face) {
+        const CubeFace& axes = cube_face(face);
+        return glm::mat3_cast(cube_turn()) * glm::dmat3(axes.axis_u, axes.axis_v, axes.axis_back);
+    }
+
+    void visit(const InstanceItem& item) {
+        const GpuScene::MeshShape shape = gpu_.shape(item.mesh);
+        const GpuScene::MeshRange& mesh = gpu_.mesh(item.mesh);
+        const auto& indices = *shape.indices;
+        const glm::dvec3 origin = item.translation_ws_m - light_.position_ws_m;
+        for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
+            const GpuScene::SubmeshRange& submesh = gpu_.submesh(mesh.first_submesh + s);
+            if (gpu_.material(submesh.material).alpha_mode == assets::AlphaMode::blend) continue;
+            const std::size_t first = submesh.first_index - mesh.first_index;
+            for (std::size_t i = first; i + 2 < first + submesh.index_count; i += 3) {
+                Corners c;
+                for (std::size_t k = 0; k < 3; ++k)
+                    c[k] = origin + item.basis * glm::dvec3((*shape.vertices)[indices[i + k]].position_ms);
+                const double distance_m = distance_to(c);
+                if (distance_m < least_m_ && counts(c)) least_m_ = distance_m;
+            }
+        }
+    }
+
+    /// For any opening: whoever is looked up there knows of it from that one's map alone.
+    bool counts(const Corners& corners) const {
+        for (std::size_t i = 0; i < count_; ++i)
+            if (is_near(openings_[i], corners) && !is_held(openings_[i], corners)) return true;
+        return false;
+    }
+
+    /// Whether it may come within the source's radius of the opening's pyramid, in which all ways to the source's
+    /// middle lie; those to the rest of it are no farther from them.
+    bool is_near(const Opening& opening, const Corners& corners) const {
+        const glm::dvec3 &u = opening.axes[0], &v = opening.axes[1], &back = opening.axes[2];
+        const std::array<glm::dvec3, 5> outward{-u - opening.tan_low.x * back, u + opening.tan_high.x * back,
+                                                -v - opening.tan_low.y * back, v + opening.tan_high.y * back, back};
+        return std::none_of(outward.begin(), outward.end(), [&](const glm::dvec3& normal) {
+            const double beyond = radius_m_ * glm::length(normal) * (1.0 + kInset);
+            return std::all_of(corners.begin(), corners.end(),
+                               [&](const glm::dvec3& c) { return glm::dot(c, normal) > beyond; });
+        });
+    }
+
+    /// By its map, whole.
+    static bool is_held(const Opening& opening, const Corners& corners) {
+        const glm::dvec2 inset = kInset * (opening.tan_high - opening.tan_low);
+        const auto inside = [&](const glm::dvec3& c) {
+            const double z_m = -glm::dot(c, opening.axes[2]);
+            const glm::dvec2 at(glm::dot(c, opening.axes[0]), glm::dot(c, opening.axes[1]));
+            const glm::dvec2 low = at - (opening.tan_low + inset) * z_m, high = (opening.tan_high - inset) * z_m - at;
+            return z_m >= opening.near_m && std::min({low.x, low.y, high.x, high.y}) >= 0.0;
+        };
+        return opening.drawn && std::all_of(corners.begin(), corners.end(), inside);
+    }
+
+    const SceneSnapshot& scene_;
+    const GpuScene& gpu_;
+    const LightItem& light_;
+    double radius_m_, least_m_;
+    std::array<Opening, kMaxViews> openings_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+void measure_clearances(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+        ShadowDemand& demand = frame.demands[d];
+        demand.clear_m = 0.0;
+        const bool soft = filter_row(demand.filter).storage == FilterStorage::soft_sheets;
+        if (!soft || demand.skip != Reason::none || frame.sets[d].skip != Reason::none || demand.traced ||
+            scene.lights[demand.light].kind == LightKind::directional)
+            continue;
+        const LightTime time(frame, demand.light);
+        demand.clear_m = Clearance(scene, gpu, frame, static_cast<std::uint32_t>(d)).run();
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,153 @@
+#include "systems/shadow/exact/occluder_pyramid_pass.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "shaders/embedded.h"
+#include "systems/frame_timers.h"
+#include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/update/drawn_views.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// In shaders/shadow/passes/bounds/occluder_pyramid.comp: squares that a work group makes along an edge, and what it
+/// reads.
+constexpr std::uint32_t kGroup = 8, kBoundsUnit = 8, kMapUnit = 4, kEndsBinding = 2;
+
+bool has_ends(const ShadowFrame& frame, std::size_t view) { return is_drawn(frame, view) && frame.slots[view].ends; }
+
+std::uint32_t levels_of(std::uint32_t size_px) {
+    std::uint32_t levels = 1;
+    for (EndsLevel level = first_ends(size_px); level.side > 1; level = next_ends(level)) ++levels;
+    return levels;
+}
+
+glm::ivec4 place_of(const EndsLevel& level, std::uint32_t before) {
+    return {static_cast<std::int32_t>(before + level.first), static_cast<std::int32_t>(level.side), 0, 0};
+}
+
+double size_of(const FilterDemand& filter, const ShadowView& view) {
+    const bool parallel = view.projection == ViewProjection::orthographic;
+    return static_cast<double>(parallel ? filter.sun_radius_tan : filter.source_radius_m);
+}
+
+}  // namespace
+
+EndsRecorder::EndsRecorder(gl::Device& device, bool with_margins)
+    : device_(device), with_margins_(with_margins), records_(device, "shadow sheet ends") {}
+
+EndsRecorder::~EndsRecorder() {
+    for (const Program& p : programs_) device_.destroy(p.program);
+}
+
+EndsRecorder::Source EndsRecorder::first_source(const ShadowView& view) {
+    return view.projection == ViewProjection::cube_face ? Source::cube : Source::map;
+}
+
+bool EndsRecorder::program(Source source) {
+    Program& made = programs_[static_cast<std::size_t>(source)];
+    if (made.program) return true;
+    if (!made.retry.due(frame_)) return false;
+    std::vector<std::string> defines;
+    if (source == Source::level) defines.emplace_back("OF_LEVEL 1");
+    if (source == Source::cube) defines.emplace_back("CUBE 1");
+    if (!with_margins_) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
+    const auto text = gl::expand_shader(shader_files(), "shadow/passes/bounds/occluder_pyramid.comp", defines);
+    const char* const label = source == Source::level ? "sheet ends" : "sheet ends of texels";
+    if (text) made.program = device_.create_program({.label = label, .compute = text.value()}).handle;
+    if (!made.program) made.retry.failed(frame_);
+    return static_cast<bool>(made.program);
+}
+
+void EndsRecorder::prepare(ShadowFrame& frame) {
+    ++frame_;
+    std::size_t records = 0;
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (!has_ends(frame, v)) continue;
+        if (program(first_source(frame.views[v])) && program(Source::level))
+            records += levels_of(frame.slots[v].size_px);
+        else
+            drop_light(frame, frame.views[v].demand, Reason::depth_program_failed);
+    }
+    if (records == 0 || records_.reserve(records * aligned(sizeof(EndsRecord), device_.info().uniform_alignment)))
+        return;
+    for (std::size_t v = 0; v < frame.views.size(); ++v)
+        if (has_ends(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
+}
+
+void EndsRecorder::append_records(const ShadowFrame& frame, std::size_t v) {
+    const ShadowView& view = frame.views[v];
+    const ShadowDemand& demand = frame.demands[view.demand];
+    const std::uint32_t size_px = frame.slots[v].size_px, before = view.layer * ends_count(size_px);
+    // A map that had to be shrunk has larger texels than the fit planned.
+    const double stretch = static_cast<double>(demand.resolution_px) / static_cast<double>(size_px);
+    const double texel_u = view.texel_u * stretch, texel_v = view.texel_v * stretch;
+    const bool parallel = view.projection == ViewProjection::orthographic;
+    EndsRecord record;
+    if (view.projection == ViewProjection::cube_face) {
+        const CubeFace& face = cube_face(view.layer);
+        record.axis_u = glm::vec4(glm::vec3(face.axis_u), 0.0f);
+        record.axis_v = glm::vec4(glm::vec3(face.axis_v), 0.0f);
+        record.axis_back = glm::vec4(glm::vec3(face.axis_back), 0.0f);
+    }
+    record.numbers = {parallel ? 0.0f : static_cast<float>(std::max(texel_u, texel_v)),
+                      static_cast<float>(view.depth_alpha),
+                      static_cast<float>(steepest(view, texel_u, texel_v, size_of(demand.filtering, view))), 0.0f};
+    const auto append = [&] {
+        const std::size_t at = record_scratch_.size();
+        record_scratch_.resize(at + aligned(sizeof record, device_.info().uniform_alignment));
+        std::memcpy(record_scratch_.data() + at, &record, sizeof record);
+    };
+    const auto layer = static_cast<std::int32_t>(view.layer);
+    record.from = {0, static_cast<std::int32_t>(size_px), layer, 0};
+    EndsLevel level = first_ends(size_px);
+    for (;; level = next_ends(level)) {
+        record.to = place_of(level, before);
+        append();
+        if (level.side == 1) return;
+        record.from = record.to;
+    }
+}
+
+void EndsRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v,
+                               std::uint32_t& offset, gl::CommandList& list) {
+    const ShadowView& view = frame.views[v];
+    const ShadowSlot& slot = frame.slots[v];
+    const std::uint32_t light = frame.demands[view.demand].light;
+    list.add(gl::BeginGroup{{"sheet ends", scene.lights[light].name, std::to_string(view.layer)}});
+    list.add(gl::BeginTimer{shadow_timer(light)});
+    list.add(gl::BindTexture{kMapUnit, slot.texture, {}});
+    list.add(gl::BindTexture{kBoundsUnit, slot.bounds, {}});
+    list.add(gl::BindStorage{kEndsBinding, slot.ends});
+    Source source = first_source(view);
+    EndsLevel level = first_ends(slot.size_px);
+    for (;; level = next_ends(level), source = Source::level) {
+        const std::uint32_t groups = (level.side + kGroup - 1) / kGroup;
+        list.add(gl::BindUniforms{0, records_.handle(), offset, sizeof(EndsRecord)});
+        list.add(gl::Dispatch{programs_[static_cast<std::size_t>(source)].program, groups, groups});
+        offset += aligned(sizeof(EndsRecord), device_.info().uniform_alignment);
+        if (level.side == 1) break;
+    }
+    list.add(gl::EndTimer{shadow_timer(light)});
+    list.add(gl::EndGroup{});
+}
+
+void EndsRecorder::record(const SceneSnapshot& scene, ShadowFrame& frame, gl::CommandList& list) {
+    record_scratch_.clear();
+    for (std::size_t v = 0; v < frame.views.size(); ++v)
+        if (has_ends(frame, v)) append_records(frame, v);
+    if (record_scratch_.empty()) return;
+    list.update(records_.handle(), 0, std::span<const std::byte>(record_scratch_));
+    std::uint32_t offset = 0;
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (!has_ends(frame, v)) continue;
+        const LightTime time(frame, frame.demands[frame.views[v].demand].light);
+        record_view(scene, frame, v, offset, list);
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
+#include "systems/growing_buffer.h"
+#include "systems/retry.h"
+#include "systems/shadow/frame/types.h"
+#include "systems/shadow/request/occluder_pyramid.h"
+
+namespace gnomon::shadow {
+
+/// Matches EndsBlock in shaders/shadow/passes/bounds/occluder_pyramid.comp (std140).
+struct EndsRecord {
+    glm::vec4 axis_u{0.0f}, axis_v{0.0f}, axis_back{0.0f};
+    glm::ivec4 from{0}, to{0};
+    glm::vec4 numbers{0.0f};
+};
+static_assert(sizeof(EndsRecord) == 96);
+
+/// For views with ShadowSlot::ends the last of their passes, after the SheetRecorder's: a dispatch for each level.
+/// Programs and buffers are made when first called for.
+class EndsRecorder {
+public:
+    /// `with_margins`: as the SheetRecorder's.
+    explicit EndsRecorder(gl::Device& device, bool with_margins = true);
+    ~EndsRecorder();
+    EndsRecorder(const EndsRecorder&) = delete;
+    EndsRecorder& operator=(const EndsRecorder&) = delete;
+
+    /// A light that cannot have it loses its slots, as with SheetRecorder::prepare(). Call before record().
+    void prepare(ShadowFrame& frame);
+    /// Call after SheetRecorder::record().
+    void record(const SceneSnapshot& scene, ShadowFrame& frame, gl::CommandList& list);
+
+    /// No light has such views any more: frees all but programs.
+    void release() { records_.release(); }
+
+private:
+    enum class Source : std::uint8_t { map, cube, level, count };
+    struct Program {
+        gl::ProgramHandle program{};
+        Retry retry;
+    };
+    static Source first_source(const ShadowView& view);
+    bool program(Source source);
+    void append_records(const ShadowFrame& frame, std::size_t view);
+    void record_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t view, std::uint32_t& offset,
+                     gl::CommandList& list);
+
+    gl::Device& device_;
+    bool with_margins_;
+    GrowingBuffer records_;
+    Program programs_[static_cast<std::size_t>(Source::count)];
+    std::uint64_t frame_ = 0;
+    std::vector<std::byte> record_scratch_;
+};
+
+}  // namespace gnomon::shadow

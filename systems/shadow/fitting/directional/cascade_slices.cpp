@@ -1,0 +1,151 @@
+#include "systems/shadow/fitting/directional/cascade_slices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "systems/extract/scene_tree.h"
+#include "systems/shadow/fitting/directional/cascade_fit.h"
+#include "systems/shadow/fitting/directional/sdsm_splits.h"
+#include "systems/shadow/fitting/directional/split_transition.h"
+#include "systems/shadow/fitting/local/fit_hysteresis.h"
+#include "systems/shadow/fitting/size_steps.h"
+#include "systems/shadow/projection/cascade_splits.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// The depths that cascades share are held while what is seen fills at least a quarter of them.
+constexpr int kHoldDepthSteps = 8;
+
+double view_distance(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
+    return -glm::dot(p_ws - consumer.position_ws_m, consumer.rotation_ws[2]);
+}
+
+/// Of all that can be seen and receives.
+math::Aabb bounds_of_receivers(const SceneSnapshot& scene) {
+    const auto least = [&](auto&& side) {
+        return lowest_of_instances(scene, side, [&](std::uint32_t i, double lowest) {
+            const InstanceItem& item = scene.instances[i];
+            return item.visible && item.receives ? std::min(lowest, side(item.bounds_ws)) : lowest;
+        });
+    };
+    math::Aabb all;
+    for (int axis = 0; axis < 3; ++axis) {
+        all.min[axis] = least([axis](const math::Aabb& box) { return box.min[axis]; });
+        all.max[axis] = -least([axis](const math::Aabb& box) { return -box.max[axis]; });
+    }
+    return all;
+}
+
+/// Neither turning nor walking among receivers may change it: as far as receivers lie apart; seen from outside, as far
+/// as the farthest one.
+DepthSpan stable_span(const SceneSnapshot& scene, const ConsumerItem& consumer) {
+    const math::Aabb all = bounds_of_receivers(scene);
+    if (math::is_empty(all)) return {consumer.near_m, 0.0};
+    const double across_m = 2.0 * glm::length(math::half_extent(all));
+    return {consumer.near_m, std::max(across_m, math::farthest_distance(all, consumer.position_ws_m))};
+}
+
+DepthSpan seen_span(std::span<const glm::dvec3> points_ws, const ConsumerItem& consumer) {
+    DepthSpan span{std::numeric_limits<double>::infinity(), 0.0};
+    for (const glm::dvec3& p : points_ws) {
+        const double distance_m = view_distance(consumer, p);
+        span.lowest = std::min(span.lowest, distance_m);
+        span.highest = std::max(span.highest, distance_m);
+    }
+    return span;
+}
+
+/// Between which view distances the cascades lie.
+DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
+    const ShadowFit fit = input.light.shadow.fit;
+    DepthSpan span =
+        fit == ShadowFit::stable ? stable_span(input.scene, consumer) : seen_span(input.receiver_points_ws, consumer);
+    span.lowest = std::max(span.lowest, std::max(consumer.near_m, span.highest * kLeastExtent));
+    span.highest = std::max(span.highest, span.lowest);
+    if (fit == ShadowFit::tight || !std::isfinite(span.highest)) return span;
+
+    const HeldSplits& held = input.held.splits;
+    HeldSplits& next = input.next.splits;
+    const int patience = fit == ShadowFit::stable ? kHoldSteps : kHoldDepthSteps;
+    next.far_step = hold_above(span.highest, held.used, held.far_step, patience);
+    next.near_step = hold_below(span.lowest, held.used, held.near_step, patience);
+    next.used = true;
+    return {step_size(next.near_step), step_size(next.far_step)};
+}
+
+/// Diagonal of what is seen, across the view.
+double seen_width_m(std::span<const glm::dvec3> points_ws, const ConsumerItem& consumer) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    glm::dvec2 low(kInfinity), high(-kInfinity);
+    for (const glm::dvec3& p : points_ws) {
+        const glm::dvec2 across((p - consumer.position_ws_m) * consumer.rotation_ws);
+        low = glm::min(low, across);
+        high = glm::max(high, across);
+    }
+    return glm::distance(low, high);
+}
+
+/// By the pixels of an earlier picture. False: nothing is known of them.
+bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const DepthSpan& whole, CascadeEnds& ends) {
+    const LightShadow& shadow = input.light.shadow;
+    if (shadow.splits != CascadeSplits::sampled || !are_splits(shadow)) return false;
+    const double width_m = shadow.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
+                                                           : seen_width_m(input.receiver_points_ws, consumer);
+    const SampledSplit split{input.scene.sampled_depths, consumer, input.demand.view_count, whole, width_m};
+    if (shadow.fit == ShadowFit::tight) return sampled_ends(split, ends);
+    return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
+}
+
+/// More than one map is chosen only where depths lie so far apart that even parts of them, however small their share,
+/// leave nothing to what is near: 4.6 % wrong instead of 0.8 in a valley of kilometres (docs/cost.md).
+LightShadow with_ends_for_count(LightShadow shadow, const ShadowDemand& demand) {
+    if (demand.most_views > 0 && shadow.splits == CascadeSplits::practical) shadow.split_lambda = 1.0f;
+    return shadow;
+}
+
+CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
+    const LightShadow& shadow = input.light.shadow;
+    const DepthSpan whole = whole_span(input, consumer);
+    CascadeEnds ends{};
+    if (ends_by_pixels(input, consumer, whole, ends)) return ends;
+    std::vector<DepthSpan>& receivers = input.scratch.depths;
+    receivers.clear();
+    if (shadow.splits == CascadeSplits::seen || shadow.splits == CascadeSplits::sampled)
+        for (const std::uint32_t r : input.receivers) {
+            const math::Aabb& box = input.scene.instances[r].bounds_ws;
+            const double middle = view_distance(consumer, math::centre(box));
+            const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
+            receivers.push_back({middle - reach, middle + reach});
+        }
+    return cascade_ends(with_ends_for_count(shadow, input.demand), input.demand.view_count, whole,
+                        consumer.projection == CameraProjection::perspective, receivers);
+}
+
+}  // namespace
+
+CascadeSlices cascade_slices(const FitInput& input) {
+    const ConsumerItem& consumer = input.scene.consumers.front();
+    const CascadeEnds wanted = wanted_ends(input, consumer);
+    const std::uint32_t count = input.demand.view_count;
+    // Several consumers: all cascades serve by what they hold, none by distance.
+    const bool moves_slowly = input.light.shadow.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
+    const double blend = static_cast<double>(input.demand.cascade_blend);
+    const GlidingEnds ends = moves_slowly ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
+                                          : GlidingEnds{wanted, wanted, wanted};
+    if (!moves_slowly) input.next.splits.count = 0;
+    CascadeSlices slices{};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto holds_from = [&](const CascadeEnds& e) { return i == 0 ? e[0] : fade_start(e, i, blend); };
+        slices[i].holds_from_m = std::min(holds_from(ends.from_m), holds_from(ends.to_m));
+        slices[i].holds_to_m = std::max(ends.from_m[i + 1], ends.to_m[i + 1]);
+        slices[i].fades_from_m = fade_start(ends.at_m, i + 1, blend);
+        slices[i].serves_to_m = ends.at_m[i + 1];
+    }
+    return slices;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,190 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "systems/extract/volumes.h"
+#include "systems/shadow/fitting/directional/cascade_fit.h"
+#include "systems/shadow/fitting/directional/cascade_slices.h"
+#include "systems/shadow/fitting/directional/caster_depth_range.h"
+#include "systems/shadow/fitting/directional/fit_lispsm.h"
+#include "systems/shadow/fitting/directional/sdsm_splits.h"
+#include "systems/shadow/fitting/error_bound.h"
+#include "systems/shadow/projection/depth_range_override.h"
+#include "systems/shadow/projection/perspective_view.h"
+#include "systems/shadow/projection/sun_viewpoint.h"
+#include "systems/shadow/request/accuracy_target.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+
+/// Directional light: cascades along the first consumer's view, each an orthographic view that LightShadow::fit places.
+/// Casters nearer to the light than the depth range are flattened onto the near plane by depth clamping and cast all
+/// the same.
+namespace gnomon::shadow {
+
+CascadeFit cascade_fit(ShadowFit mode) {
+    switch (mode) {
+        case ShadowFit::stable:
+            return fit_stable;
+        case ShadowFit::quantised:
+            return fit_quantised;
+        case ShadowFit::tight:
+            break;
+    }
+    return fit_tight;
+}
+
+glm::dvec3 lattice_anchor(const glm::dvec3& centre_ws, double extent_m) {
+    const double cell_m = std::exp2(std::ceil(std::log2(extent_m)) + 2.0);
+    return glm::round(centre_ws / cell_m) * cell_m;
+}
+
+double with_border(double extent_m, const FitInput& input) {
+    const double size_px = input.demand.resolution_px;
+    return extent_m * size_px / (size_px - 2.0 * border_px(size_px, static_cast<double>(input.reach_texel)));
+}
+
+namespace {
+
+/// Texels of height by which the bias may lift a receiver, per texel of the filter's reach: kSteepTangent of
+/// bias/automatic.glsl along both sides of a texel, 4 sqrt(2), and rounding. Beyond it moves along the normal, by less.
+constexpr double kMostRise = 6.0;
+
+double bias_room(const ShadowDemand& demand, const glm::dvec2& extent_m) {
+    const FilterDemand& filter = demand.filtering;
+    const auto reach_texel = static_cast<double>(needs_distances(filter) ? filter.reach_texel : filter.widest_texel);
+    return kMostRise * reach_texel * std::max(extent_m.x, extent_m.y) / demand.resolution_px;
+}
+
+}  // namespace
+
+void place(const CascadeInput& input, const glm::dvec3& centre_ws, const glm::dvec2& extent_m, double depth_m,
+           OrthographicBox& box) {
+    const double largest_m = std::max({extent_m.x, extent_m.y, depth_m});
+    const double slack_m = kDepthSlack * largest_m;
+    box.anchor_ws_m = lattice_anchor(centre_ws, largest_m);
+    const glm::dvec3 c = (centre_ws - box.anchor_ws_m) * box.axes;
+    box.centre_m = glm::dvec2(c);
+    box.half_extent_m = 0.5 * extent_m;
+    box.near_m = -c.z - 0.5 * depth_m - slack_m - bias_room(input.light.demand, extent_m);
+    box.far_m = -c.z + 0.5 * depth_m + slack_m;
+}
+
+namespace {
+
+/// Filters that weigh distances lose a caster that is flattened onto the receiver nearest to the light: before it they
+/// get as much room, in depth ranges, as tells the two apart in 16 bits (docs/filters.md, "Prefiltered maps").
+constexpr double kRoomForCasters = 0.5;
+
+/// The depth range that the demand asks for, counted from the sun's eye.
+void override_from_eye(const ShadowDemand& demand, const SunEye& eye, OrthographicBox& box) {
+    const double eye_at_m = -glm::dot(eye.position_ws_m - box.anchor_ws_m, box.axes[2]);
+    double near_m = box.near_m - eye_at_m, far_m = box.far_m - eye_at_m;
+    override_range(demand, near_m, far_m);
+    box.near_m = near_m + eye_at_m;
+    box.far_m = far_m + eye_at_m;
+    // A range that its own place rounds away.
+    const double least_m = (std::abs(box.near_m) + std::abs(box.far_m)) * kLeastExtent;
+    box.far_m = std::max(box.far_m, box.near_m + least_m);
+}
+
+/// Corners of what is seen of the receivers in the slice, and of how many; they live until the next slice's.
+std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerItem& consumer, const FitInput& input,
+                                      std::uint32_t& receivers) {
+    std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
+    points_ws.clear();
+    receivers = 0;
+    if (!(slice.holds_from_m < slice.holds_to_m)) return {};
+    const math::Frustum frustum = consumer_frustum(consumer, slice.holds_from_m, slice.holds_to_m);
+    for (const std::uint32_t r : input.receivers)
+        receivers += math::clip_box(frustum, input.scene.instances[r].bounds_ws, points_ws) > 0 ? 1 : 0;
+    return points_ws;
+}
+
+/// The view serves up to there, and fades into none.
+void end_before(double distance_m, ShadowView& view) {
+    if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = view.fades_to_m = distance_m;
+}
+
+/// Whether a held size of some cascade is no longer the one that the last frame had.
+bool has_stepped(const FitInput& input) {
+    for (std::size_t i = 0; i < kHeldViews; ++i) {
+        const HeldView &held = input.held.views[i], &next = input.next.views[i];
+        if (held.used && (next.extent_step != held.extent_step || next.far_step != held.far_step)) return true;
+    }
+    return false;
+}
+
+void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, Stepping stepping,
+                  std::vector<ShadowView>& views) {
+    const bool counts_from_eye = input.demand.near_m > 0.0 || input.demand.far_m > 0.0;
+    const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
+    const ConsumerItem& consumer = input.scene.consumers.front();
+    // Several consumers share the cascades: the last one then holds whatever any of them sees.
+    const bool alone = input.scene.consumers.size() == 1;
+    const std::uint32_t count = input.demand.view_count;
+    const std::size_t before = views.size();
+    for (HeldView& view : input.next.views) view.too_large = false;  // of those that are fitted the fit says it
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const CascadeSlice& slice = slices[i];
+        const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
+        const bool whole = of_all || (last && first);
+        auto receivers = static_cast<std::uint32_t>(input.receivers.size());
+        const auto points_ws = whole ? input.receiver_points_ws : points_in(slice, consumer, input, receivers);
+        OrthographicBox box;
+        const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws, stepping};
+        if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
+        // Where maps hold true distances they reach up to the casters.
+        if (filter_row(input.demand.filter).storage == FilterStorage::moments &&
+            !needs_distances(input.demand.filtering))
+            box.near_m -= kRoomForCasters * (box.far_m - box.near_m);
+        if (counts_from_eye) override_from_eye(input.demand, eye, box);
+        // No receiver lies in the slices that were left out, their part of the fading included.
+        if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());
+        // What a map holds beyond its slice it serves as well, with the texels that a warp makes coarsest: only the
+        // last one holds nothing of others.
+        const auto warp = static_cast<double>(input.demand.warp);
+        ShadowView view = warp > 0.0 ? warped_view(cascade, last ? warp : 0.0, box)
+                                     : orthographic_view(box, input.demand.resolution_px);
+        view.layer = i;
+        view.receivers = receivers;
+        view.held = input.light.shadow.fit != ShadowFit::tight;
+        view.seen_from_m = alone ? slice.holds_from_m : 0.0;
+        view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
+        view.fades_from_m = alone ? slice.fades_from_m : 0.0;
+        view.fades_to_m = alone ? slice.serves_to_m : 0.0;
+        if (view.warp != glm::dvec2(0.0))
+            state_error(consumer, points_ws,
+                        static_cast<double>(input.reach_texel - input.demand.filtering.still_texel), view);
+        views.push_back(view);
+    }
+}
+
+}  // namespace
+
+bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
+    const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
+    if (input.demand.perspective_sun) return fit_perspective_sun(input, basis, views);
+    const CascadeSlices slices = cascade_slices(input);
+    const std::size_t before = views.size();
+    const HeldLight& held = input.held;
+    HeldLight& next = input.next;
+    fit_cascades(input, basis, slices, held.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
+    const bool too_large =
+        std::any_of(next.views.begin(), next.views.end(), [](const HeldView& view) { return view.too_large; });
+    next.large_frames = too_large ? held.large_frames + 1 : 0;
+    next.tired_frames = std::max(held.tired_frames, 1u) - 1;
+    if (has_stepped(input) || next.large_frames >= kSpareFrames) {
+        // A step shows. Sizes that would soon follow do it in the same frame, and what becomes smaller then waits.
+        views.resize(before);
+        next.views = held.views;
+        fit_cascades(input, basis, slices, Stepping::together, views);
+        next.large_frames = 0;
+        next.tired_frames = kSpareFrames;
+    }
+    return views.size() > before;
+}
+
+}  // namespace gnomon::shadow

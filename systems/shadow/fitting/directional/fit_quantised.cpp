@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+
+#include "systems/shadow/fitting/directional/cascade_fit.h"
+#include "systems/shadow/fitting/light_space_extents.h"
+#include "systems/shadow/fitting/size_steps.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// One side of the box, along one of the light's axes, from the world's origin.
+struct Side {
+    double low = 0.0, size = 0.0;
+};
+
+/// How long a size is kept, in steps: one that is more than `patience` too large is given up in time, one more than
+/// `most` at once; what follows is `headroom` larger than it need be.
+struct Holding {
+    int patience, most, headroom;
+};
+
+/// A turning camera lengthens and shortens a slice's sides all the time, and each change of a size shows: over a roll
+/// by 300 degrees sides vary by six to twelve steps (tests/stability/camera_paths_test.cpp).
+constexpr Holding kAcross{6, 12, 2};
+/// A depth range costs no sharpness: its rounding is a hundred-thousandth of a texel. So it may be generous.
+constexpr Holding kAlong{12, 12, 4};
+
+/// Steps beyond the headroom that stay in a frame in which another size steps anyway.
+constexpr int kSpare = 2;
+
+/// The step for `needed`, and whether it is held.
+int held_step_for(double needed, const HeldView& held, int held_step, const Holding& holding, Stepping stepping,
+                  HeldView& next) {
+    const int closest = step_at_or_above(needed);
+    if (!held.used) return closest;
+    const bool together = stepping == Stepping::together;
+    const int least = closest + (together ? holding.headroom : 0);
+    const int most = closest + (together ? holding.headroom + kSpare : holding.most);
+    const bool stays = held_step >= least && (stepping == Stepping::larger || held_step <= most);
+    next.too_large = next.too_large || (stays && held_step > closest + holding.patience);
+    return stays ? held_step : closest + holding.headroom;
+}
+
+/// What is seen along an axis.
+struct Span {
+    double low, high;
+};
+
+/// Around `seen`, of which it is no longer than `room` of a step, on parts of `grid` of it; the held one where that
+/// still holds it.
+Side hold(const Span& seen, double room, double grid, const HeldView& held, double held_low, int held_step, int step) {
+    Side side{0.0, step_size(step)};
+    const auto [low, high] = seen;
+    const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
+    const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
+    if (held.used && step == held_step && holds) {
+        side.low = held_low;
+    } else {
+        const double part = grid * side.size;
+        side.low = std::round((0.5 * (low + high) - 0.5 * side.size) / part) * part;
+    }
+    return side;
+}
+
+}  // namespace
+
+bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
+    Extents seen = extents_along(input.basis, input.points_ws);
+    const glm::dvec3 extent = seen.high - seen.low;
+    const double largest = std::max({extent.x, extent.y, extent.z});
+    if (!(largest > 0.0) || !std::isfinite(largest)) return false;
+    const glm::dvec3 widened = glm::max(glm::dvec3(0.0), glm::dvec3(largest * kLeastExtent) - extent) * 0.5;
+    seen.low -= widened;
+    seen.high += widened;
+
+    const HeldView& held = input.light.held.views[input.index];
+    HeldView& next = input.light.next.views[input.index];
+    const double texel = 1.0 / input.light.demand.resolution_px;
+    const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
+    glm::dvec3 low, size;
+    next.too_large = false;
+    for (int axis = 0; axis < 2; ++axis) {
+        const Span span{seen.low[axis], seen.high[axis]};
+        const int held_step = held.extent_step[axis];
+        int& step = next.extent_step[axis];
+        step = held_step_for((span.high - span.low) / room, held, held_step, kAcross, input.stepping, next);
+        const Side side = hold(span, room, texel, held, held.low[axis], held_step, step);
+        low[axis] = next.low[axis] = side.low;
+        size[axis] = side.size;
+    }
+    constexpr double kDepthRoom = 1.0 - 4.0 * kDepthSlack;
+    const Span span{seen.low.z, seen.high.z};
+    next.far_step =
+        held_step_for((span.high - span.low) / kDepthRoom, held, held.far_step, kAlong, input.stepping, next);
+    const Side depth = hold(span, kDepthRoom, kDepthSlack, held, held.near_m, held.far_step, next.far_step);
+    low.z = next.near_m = depth.low;
+    size.z = depth.size;
+    next.used = true;
+
+    box.axes = input.basis;
+    place(input, input.basis * (low + 0.5 * size), glm::dvec2(size), size.z, box);
+    return true;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,82 @@
+#include "systems/shadow/fitting/directional/split_transition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "systems/extract/volumes.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Half of what may pass in a frame is left to the camera's movement. When that alone exceeds what may pass, borders go
+/// on slowly, lest a camera that keeps turning keeps them from where they should be.
+constexpr double kGlide = kMostFade / 2.0, kHastyGlide = kMostFade / 4.0;
+
+/// By how much the view distance of a resting point that was seen at `distance_m` can have changed since the last
+/// frame: it is linear across the picture, so that a corner has the most.
+double carried_m(const HeldSplits& held, const ConsumerItem& now, double distance_m) {
+    const bool flat = now.projection == CameraProjection::orthographic;
+    const double half_y = flat ? now.half_height_m : distance_m * std::tan(0.5 * now.fov_y_rad);
+    double most = 0.0;
+    for (const double x : {-half_y, half_y})
+        for (const double y : {-half_y, half_y}) {
+            const glm::dvec3 corner_ws =
+                held.position_ws_m + held.rotation_ws * glm::dvec3(x * aspect(now), y, -distance_m);
+            const double distance_now_m = -glm::dot(corner_ws - now.position_ws_m, now.rotation_ws[2]);
+            most = std::max(most, std::abs(distance_now_m - distance_m));
+        }
+    return most;
+}
+
+/// Share of the way that remains which the ends may go in this frame.
+double next_share(const GlidingEnds& ends, std::uint32_t count, double blend, const ConsumerItem& consumer,
+                  const HeldSplits& held) {
+    double share = 1.0;
+    for (std::uint32_t i = 1; i < count; ++i) {
+        const double start_m = fade_start(ends.at_m, i, blend), to_start_m = fade_start(ends.to_m, i, blend);
+        const double band_m = std::min(ends.at_m[i] - start_m, ends.to_m[i] - to_start_m);
+        const double way_m = std::max(std::abs(ends.to_m[i] - ends.at_m[i]), std::abs(to_start_m - start_m));
+        if (!(band_m > 0.0) || !(way_m > 0.0)) continue;
+        const double carried =
+            std::max(carried_m(held, consumer, start_m), carried_m(held, consumer, ends.at_m[i])) / band_m;
+        if (!(carried < 1.0)) return 1.0;  // no point stays long enough to be seen passing
+        const double room = carried < kMostFade ? std::min(kMostFade - carried, kGlide) : kHastyGlide;
+        share = std::min(share, room * band_m / way_m);
+    }
+    return share;
+}
+
+bool rises(const CascadeEnds& ends_m, std::uint32_t count) {
+    for (std::uint32_t i = 0; i <= count; ++i)
+        if (!std::isfinite(ends_m[i]) || (i > 0 && ends_m[i] < ends_m[i - 1])) return false;
+    return true;
+}
+
+}  // namespace
+
+double fade_start(const CascadeEnds& ends_m, std::uint32_t i, double blend) {
+    return ends_m[i] - blend * (ends_m[i] - ends_m[i - 1]);
+}
+
+GlidingEnds glide(const CascadeEnds& wanted_m, std::uint32_t count, double blend, const ConsumerItem& consumer,
+                  const HeldSplits& held, HeldSplits& next) {
+    GlidingEnds ends{wanted_m, wanted_m, wanted_m};
+    if (held.count == count && blend > 0.0 && rises(held.at_m, count)) {
+        const bool goes_on = held.to_m == wanted_m && rises(held.from_m, count);
+        ends = {held.at_m, goes_on ? held.from_m : held.at_m, wanted_m};
+        const double share = next_share(ends, count, blend, consumer, held);
+        for (std::uint32_t i = 0; i <= count; ++i)
+            ends.at_m[i] = share < 1.0 ? ends.at_m[i] + share * (wanted_m[i] - ends.at_m[i]) : wanted_m[i];
+        if (ends.at_m == wanted_m) ends.from_m = wanted_m;
+    }
+    next.count = count;
+    next.at_m = ends.at_m;
+    next.from_m = ends.from_m;
+    next.to_m = ends.to_m;
+    next.position_ws_m = consumer.position_ws_m;
+    next.rotation_ws = consumer.rotation_ws;
+    return ends;
+}
+
+}  // namespace gnomon::shadow

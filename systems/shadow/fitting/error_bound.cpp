@@ -1,0 +1,143 @@
+#include "systems/shadow/fitting/error_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "systems/extract/volumes.h"
+#include "systems/shadow/frame/depth_format.h"
+#include "systems/shadow/projection/lispsm_math.h"
+#include "systems/shadow/request/accuracy_target.h"
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Points on the border of a view count as inside.
+constexpr double kSlack = 1.0 / (1 << 20);
+
+bool is_perspective(const ConsumerItem& consumer) { return consumer.projection == CameraProjection::perspective; }
+
+double depth_from(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
+    return glm::dot(consumer.position_ws_m - p_ws, consumer.rotation_ws[2]);
+}
+
+double depth_from_light(const ShadowView& view, const glm::dvec3& p_ws) {
+    return glm::dot(apex_ws_m(view) - p_ws, view.axis_back);
+}
+
+bool orthographic(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
+
+/// How a small displacement at p shows in the picture, in pixels.
+glm::dvec2 on_screen(const ConsumerItem& consumer, const glm::dvec3& p_ws, const glm::dvec3& displacement_m) {
+    const double footprint = pixel_footprint(consumer);
+    const glm::dvec3 d = displacement_m * consumer.rotation_ws;
+    if (!is_perspective(consumer)) return glm::dvec2(d) / footprint;
+    const glm::dvec3 p = (p_ws - consumer.position_ws_m) * consumer.rotation_ws;
+    const double z_m = -p.z;
+    return (glm::dvec2(d) + glm::dvec2(p) * (d.z / z_m)) / (z_m * footprint);
+}
+
+/// The most pixels a metre covers at this depth, anywhere in the picture and in any direction.
+double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
+    const double footprint = pixel_footprint(consumer);
+    if (!is_perspective(consumer)) return 1.0 / footprint;
+    const double tan_y = std::tan(0.5 * consumer.fov_y_rad), tan_x = tan_y * aspect(consumer);
+    return std::sqrt(1.0 + tan_x * tan_x + tan_y * tan_y) / (depth_m * footprint);
+}
+
+glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
+    const glm::dvec3 p = p_ws - apex_ws_m(view);
+    return {glm::dot(p, view.axis_u), glm::dot(p, view.axis_v)};
+}
+
+/// Diagonal of a texel across the light at a point that the view holds: in a warped map the bound that counts
+/// everywhere between such points.
+double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
+    const glm::dvec2 texel(view.texel_u, view.texel_v);
+    if (!orthographic(view)) return glm::length(texel) * depth_from_light(view, p_ws);
+    const double steepness = glm::length(view.warp);
+    if (!(steepness > 0.0)) return glm::length(texel);
+    const glm::dvec2 aside(-view.warp.y / steepness, view.warp.x / steepness);
+    const double farthest_aside =
+        std::abs(glm::dot(aside, view.centre_ls_m)) + glm::dot(glm::abs(aside), view.half_extent_m);
+    return longest_cell(view.warp, texel, farthest_aside, warp_w(view.warp, across(view, p_ws)));
+}
+
+bool within(const ShadowView& view, const glm::dvec3& p_ws) {
+    if (orthographic(view)) return true;
+    const glm::dvec3 p = p_ws - apex_ws_m(view);
+    const double z_m = depth_from_light(view, p_ws);
+    const glm::dvec2 at(glm::dot(p, view.axis_u), glm::dot(p, view.axis_v));
+    const glm::dvec2 slack = kSlack * (view.tan_high - view.tan_low);
+    return z_m > 0.0 && glm::all(glm::greaterThanEqual(at, (view.tan_low - slack) * z_m)) &&
+           glm::all(glm::lessThanEqual(at, (view.tan_high + slack) * z_m));
+}
+
+}  // namespace
+
+TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
+    const auto side = [&](const glm::dvec2& texel) {
+        const glm::dvec2 step = orthographic(view) ? unwarped_step(view.warp, across(view, p_ws), texel)
+                                                   : texel * depth_from_light(view, p_ws);
+        return view.axis_u * step.x + view.axis_v * step.y;
+    };
+    return {side({view.texel_u, 0.0}), side({0.0, view.texel_v})};
+}
+
+double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
+    constexpr double kSteps = 2.0;
+    const double depth = kSteps * depth_format_row(format).step;
+    if (orthographic(view)) return depth * (view.far_m - view.near_m);
+    // alpha + beta / z: z becomes z / (1 + part), by as much of the whole way as the ray does.
+    const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth_beta);
+    return glm::length(p_ws - apex_ws_m(view)) * part / (1.0 + part);
+}
+
+double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
+                       const glm::dvec3& normal) {
+    const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
+    const glm::dvec3 ray = orthographic(view) ? -view.axis_back : (p_ws - apex_ws_m(view)) / z_m;
+    const double facing = glm::dot(ray, normal);
+    if (!(z_m > 0.0) || facing == 0.0 || (is_perspective(consumer) && !(depth_from(consumer, p_ws) > 0.0)))
+        return kInfinity;
+    const auto extent = [&](const glm::dvec3& across_m) {
+        return glm::length(on_screen(consumer, p_ws, across_m - ray * (glm::dot(across_m, normal) / facing)));
+    };
+    const TexelSides sides = texel_sides(view, p_ws);
+    return std::max(extent(sides.u_m + sides.v_m), extent(sides.u_m - sides.v_m));
+}
+
+double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
+    return edge_error_px(view.texel_extent_px * steeper_than_stated(cosine), reach_texel);
+}
+
+ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
+                        double reach_texel) {
+    ViewError error;
+    // Texel over pixel is a ratio of two linear functions of the point: largest at a corner.
+    for (const glm::dvec3& p_ws : points_ws) {
+        const double depth_m = depth_from(consumer, p_ws);
+        if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
+        const double served_m = std::max({depth_m, consumer.near_m, view.seen_from_m});
+        const double texel_m = texel_at(view, p_ws);
+        const double metre_px = kSteepestReceiver * pixels_per_metre(consumer, served_m);
+        error.texel_m = std::max(error.texel_m, texel_m);
+        error.extent_px = std::max(error.extent_px, texel_m * metre_px);
+        error.metre_px = std::max(error.metre_px, metre_px);
+    }
+    if (error.texel_m > 0.0) error.edge_px = edge_error_px(error.extent_px, reach_texel);
+    return error;
+}
+
+void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
+                 ShadowView& view) {
+    const ViewError error = predict_error(view, consumer, points_ws, reach_texel);
+    view.texel_m = std::max(view.texel_m, error.texel_m);
+    view.texel_extent_px = std::max(view.texel_extent_px, error.extent_px);
+    view.predicted_error_px = std::max(view.predicted_error_px, error.edge_px);
+    view.metre_px = std::max(view.metre_px, error.metre_px);
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,70 @@
+#include "systems/shadow/fitting/local/fit_frustum.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "systems/shadow/fitting/directional/caster_depth_range.h"
+#include "systems/shadow/fitting/local/fit_hysteresis.h"
+#include "systems/shadow/fitting/local/frustum_content.h"
+#include "systems/shadow/projection/depth_range_override.h"
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// What the view's border is made from.
+float reach_texel(const FitInput& input, const TangentRectangle& crop, const PerspectiveRange& range) {
+    const FilterDemand& filter = input.demand.filtering;
+    if (!needs_distances(filter)) return input.reach_texel;
+    const glm::dvec2 sides = crop.high - crop.low;
+    // The source stands across the ray: away from the axis its picture is longer, as 1 / cos (light_size.glsl).
+    const glm::dvec2 corner = glm::max(glm::abs(crop.low), glm::abs(crop.high));
+    const double longer = std::sqrt(1.0 + glm::dot(corner, corner));
+    const double widest =
+        longer * static_cast<double>(filter.source_radius_m) * (1.0 / range.near_m - 1.0 / range.far_m);
+    return penumbra_border_texel(input, std::min(sides.x, sides.y), widest);
+}
+
+/// How far before the light its view's anchor lies. About an aimed lamp floats tell nothing apart that is small where
+/// its light falls. Sheets keep the light's own place: what they are not certain of rays decide.
+double anchored_m(const FitInput& input) {
+    if (!input.demand.aim.used || input.demand.asks_rays) return 0.0;
+    return glm::distance(input.light.position_ws_m, input.demand.aim.middle_ws_m);
+}
+
+/// An aimed view's depth is told apart by a share of its range instead of the distance: it is as short as the ball.
+PerspectiveRange depth_range(const FitInput& input, const LocalContent& content, const HeldView& held, HeldView& next) {
+    const double anchor_m = anchored_m(input), nearest_m = content.nearest_m, farthest_m = content.farthest_m;
+    const bool near_is_free = is_near_free(input.demand);
+    if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
+    return held_range_around(anchor_m, input.demand.aim.radius_m, nearest_m, farthest_m, near_is_free, held, next);
+}
+
+}  // namespace
+
+bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam& beam, std::vector<ShadowView>& views) {
+    const TangentRectangle whole{opening.low, opening.high};
+    LocalContent content = visible_content(input, beam, whole);
+    if (!content.receivers) return true;
+    const HeldView& held = input.held.views[opening.held_as];
+    HeldView next = held;
+    const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
+    const bool has_size = needs_distances(input.demand.filtering);
+    const auto reach = static_cast<double>(input.reach_texel);
+    include_casters(input, beam, has_size ? with_border(crop, input.demand.resolution_px, reach) : crop, content);
+    if (!content.casters) return true;
+    const PerspectiveRange range = overridden(input.demand, depth_range(input, content, held, next));
+    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
+    next.used = true;
+    input.next.views[opening.held_as] = next;
+    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, crop, range, input.demand.resolution_px,
+                                       static_cast<double>(reach_texel(input, crop, range)), anchored_m(input));
+    view.layer = opening.layer;
+    view.held = true;
+    views.push_back(view);
+    return true;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,80 @@
+#include "systems/shadow/fitting/local/fit_hysteresis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::shadow {
+namespace {
+
+struct Side {
+    double low, high;
+    double size() const { return high - low; }
+};
+
+constexpr double kPlaces = 16.0;           // of a cropped side, per its own length
+constexpr double kLeastCrop = 1.0 / 64.0;  // of the full side
+
+/// The smallest step, on its own grid, that holds `needed`; `full` if it is no smaller.
+Side closest(const Side& needed, const Side& full) {
+    const double least = std::max(needed.size(), full.size() * kLeastCrop);
+    const double size = step_size(step_at_or_above(least * (kPlaces / (kPlaces - 1.0))));
+    if (!(size < full.size())) return full;
+    const double place = size / kPlaces;
+    const double low = std::clamp(std::floor(needed.low / place) * place, full.low, full.high - size);
+    return {low, low + size};
+}
+
+Side hold(const Side& needed, const Side& full, bool used, const Side& held) {
+    const Side choice = closest(needed, full);
+    const bool holds = held.low <= needed.low && held.high >= needed.high;
+    return used && holds && held.size() <= choice.size() * step_size(kHoldSteps) ? held : choice;
+}
+
+}  // namespace
+
+bool is_near_free(const ShadowDemand& demand) {
+    return demand.depth_format == DepthFormat::d32f && filter_row(demand.filter).storage != FilterStorage::moments &&
+           !needs_distances(demand.filtering) && !(demand.filtering.spread_m > 0.0f);
+}
+
+PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
+                            HeldView& next) {
+    const PerspectiveRange tight = perspective_range(nearest_m, farthest_m);
+    if (!(tight.near_m < tight.far_m) || !std::isfinite(tight.far_m)) return tight;
+    next.far_step = hold_above(tight.far_m, held.used, held.far_step, kHoldSteps);
+    next.near_step =
+        hold_below(tight.near_m, held.used, held.near_step, near_is_free ? kHoldFreeNearSteps : kHoldSteps);
+    if (near_is_free && held.used && next.near_step < held.near_step) next.near_step -= kFreeNearHeadroom;
+    return {step_size(next.near_step), step_size(next.far_step)};
+}
+
+PerspectiveRange held_range_around(double anchor_m, double least_m, double nearest_m, double farthest_m,
+                                   bool near_is_free, const HeldView& held, HeldView& next) {
+    constexpr double kSlack = 1.0 + 1.0 / (1 << 10);  // as in perspective_range()
+    const double before_m = kSlack * std::max(anchor_m - nearest_m, least_m);
+    const double behind_m = kSlack * std::max(farthest_m - anchor_m, least_m);
+    if (!(before_m < anchor_m) || !std::isfinite(behind_m))
+        return held_range(nearest_m, farthest_m, near_is_free, held, next);
+    next.near_step = hold_above(before_m, held.used, held.near_step, kHoldSteps);
+    next.far_step = hold_above(behind_m, held.used, held.far_step, kHoldSteps);
+    const double near_m = anchor_m - step_size(next.near_step);
+    if (!(near_m > kLeastNear * anchor_m)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
+    return {near_m, anchor_m + step_size(next.far_step)};
+}
+
+TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,
+                                HeldView& next) {
+    TangentRectangle chosen;
+    for (int axis = 0; axis < 2; ++axis) {
+        const Side side = hold({needed.low[axis], needed.high[axis]}, {full.low[axis], full.high[axis]}, held.used,
+                               {held.low[axis], held.high[axis]});
+        chosen.low[axis] = next.low[axis] = side.low;
+        chosen.high[axis] = next.high[axis] = side.high;
+    }
+    return chosen;
+}
+
+}  // namespace gnomon::shadow

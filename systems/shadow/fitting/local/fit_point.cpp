@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "systems/shadow/fitting/local/fit_frustum.h"
+#include "systems/shadow/fitting/local/fit_hysteresis.h"
+#include "systems/shadow/fitting/local/frustum_content.h"
+#include "systems/shadow/projection/depth_range_override.h"
+#include "systems/shadow/projection/light_frusta.h"
+#include "systems/shadow/request/light_kinds.h"
+
+/// Point light: views of those faces of a cube map in which a receiver is seen and a caster stands. Near and far are
+/// common, since a filter's tap may cross a seam, and held in steps (fit_hysteresis.h). A far one has one view of what
+/// is seen instead (far_lamp_aim.h), and is looked up as a spot is.
+namespace gnomon::shadow {
+
+namespace {
+
+constexpr double kOneTap_texel = 0.5;  // half-width of a filter that reads the nearest texel and no other
+
+ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening& opening,
+                     const PerspectiveRange& range) {
+    const std::uint32_t face = opening.layer;
+    ShadowView view =
+        perspective_view(beam.origin_ws_m, opening.axes, TangentRectangle{}, range, input.demand.resolution_px);
+    view.projection = ViewProjection::cube_face;
+    view.layer = face;
+    view.held = true;
+    return view;
+}
+
+}  // namespace
+
+bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
+    const LightOpenings openings = light_openings(input.light, input.demand);
+    input.next.aim = input.demand.aim;
+    if (input.demand.aim.used) return fit_opening(input, openings.items[0], input.beams[0], views);
+    std::array<LocalContent, 6> faces;
+    double nearest_m = HUGE_VAL, farthest_m = 0.0;
+    bool any = false;
+    for (std::uint32_t i = 0; i < openings.count; ++i) {
+        const TangentRectangle whole{openings.items[i].low, openings.items[i].high};
+        faces[i] = visible_content(input, input.beams[i], whole);
+        if (!faces[i].receivers) continue;
+        include_casters(input, input.beams[i], whole, faces[i]);
+        any = any || faces[i].casters;
+        nearest_m = std::min(nearest_m, faces[i].nearest_m);
+        farthest_m = std::max(farthest_m, faces[i].farthest_m);
+    }
+    if (!any) return true;
+    HeldView next = input.held.views[0];
+    const PerspectiveRange range = overridden(
+        input.demand, held_range(nearest_m, farthest_m, is_near_free(input.demand), input.held.views[0], next));
+    if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
+    next.used = true;
+    input.next.views[0] = next;
+    // A filter that blends texels reads across seams on its own: what is seen but has no caster must then hold nothing.
+    const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
+    for (std::uint32_t face = 0; face < openings.count; ++face)
+        if (faces[face].receivers && (faces[face].casters || blends))
+            views.push_back(face_view(input, input.beams[face], openings.items[face], range));
+    return true;
+}
+
+}  // namespace gnomon::shadow

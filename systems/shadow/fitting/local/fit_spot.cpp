@@ -1,0 +1,19 @@
+#include "systems/shadow/fitting/local/fit_frustum.h"
+#include "systems/shadow/projection/light_frusta.h"
+#include "systems/shadow/projection/spot_cube_transition.h"
+#include "systems/shadow/request/light_kinds.h"
+
+/// Spot light: one perspective view of its cone, the faces of a cube for a wide one (spot_cube_transition.h), or for a
+/// far one a view of what is seen (far_lamp_aim.h).
+namespace gnomon::shadow {
+
+bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {
+    input.next.cone = next_cone_fade(input.light.outer_cone_rad, input.held.cone);
+    input.next.aim = input.demand.aim;
+    const LightOpenings openings = light_openings(input.light, input.demand);
+    for (std::uint32_t i = 0; i < openings.count; ++i)
+        if (!fit_opening(input, openings.items[i], input.beams[i], views)) return false;
+    return true;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,70 @@
+#include "systems/shadow/fitting/local/frustum_content.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/geometric.hpp>
+
+#include "engine/math/frustum.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// The four sides, the light's own plane, and an end.
+std::array<math::Plane, 6> planes_of(const Beam& beam, const TangentRectangle& opening, double end_m) {
+    const auto plane = [&](const glm::dvec3& normal, double inset_m) {
+        return math::Plane{normal, -glm::dot(normal, beam.origin_ws_m) - inset_m};
+    };
+    const glm::dvec3 &u = beam.axes[0], &v = beam.axes[1], &back = beam.axes[2];
+    return {plane(u + opening.low.x * back, 0.0),
+            plane(-u - opening.high.x * back, 0.0),
+            plane(v + opening.low.y * back, 0.0),
+            plane(-v - opening.high.y * back, 0.0),
+            plane(-back, 0.0),
+            plane(back, -end_m)};
+}
+
+/// Along the axis, of a box's nearest corner.
+double nearest_m(const Beam& beam, const math::Aabb& box_ws) {
+    const glm::dvec3& back = beam.axes[2];
+    return glm::dot(beam.origin_ws_m - math::centre(box_ws), back) -
+           glm::dot(math::half_extent(box_ws), glm::abs(back));
+}
+
+}  // namespace
+
+LocalContent visible_content(const FitInput& input, const Beam& beam, const TangentRectangle& opening) {
+    LocalContent content;
+    for (const glm::dvec3& p_ws : input.points_of(beam)) {
+        const glm::dvec3 p = (p_ws - beam.origin_ws_m) * beam.axes;
+        const double z_m = std::max(-p.z, 0.0);
+        content.receivers = true;
+        content.nearest_m = std::min(content.nearest_m, z_m);
+        content.farthest_m = std::max(content.farthest_m, z_m);
+        // Rounding may leave a point a little outside; at the apex itself it may lie in any direction.
+        const glm::dvec2 tangent = glm::dvec2(p) / z_m;
+        const bool directed = z_m > 0.0;
+        content.footprint.low =
+            glm::min(content.footprint.low, directed ? glm::clamp(tangent, opening.low, opening.high) : opening.low);
+        content.footprint.high =
+            glm::max(content.footprint.high, directed ? glm::clamp(tangent, opening.low, opening.high) : opening.high);
+    }
+    return content;
+}
+
+void include_casters(const FitInput& input, const Beam& beam, const TangentRectangle& opening, LocalContent& content) {
+    const auto planes = planes_of(beam, opening, content.farthest_m);
+    std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
+    for (const std::uint32_t c : input.casters) {
+        const math::Aabb& box_ws = input.scene.instances[c].bounds_ws;
+        if (content.casters && nearest_m(beam, box_ws) >= content.nearest_m) continue;
+        points_ws.clear();
+        if (math::clip_box(planes, box_ws, points_ws) == 0) continue;
+        content.casters = true;
+        for (const glm::dvec3& p_ws : points_ws)
+            content.nearest_m =
+                std::min(content.nearest_m, std::max(glm::dot(beam.origin_ws_m - p_ws, beam.axes[2]), 0.0));
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,345 @@
+#include "systems/shadow/maps/map_cache.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/occluder_pyramid.h"
+
+namespace gnomon::shadow {
+namespace {
+
+bool is_same_store(const MomentMap& a, const MomentDescs& b) {
+    return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
+}
+
+bool has_triangles(FilterStorage storage) {
+    return storage == FilterStorage::depth_and_triangle || has_sheets(storage);
+}
+
+}  // namespace
+
+gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
+    gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
+    const bool shared = has_sheets(map.storage);
+    if (map.triangles) target.colours.push_back({map.triangles, shared ? 0 : layer});
+    return target;
+}
+
+MapStore::~MapStore() {
+    for (LightHistory& history : lights_) release(history);
+}
+
+const LightHistory* MapStore::find(ecs::Entity light) const {
+    const auto place = places_.find(light.index);
+    if (place == places_.end() || place->second >= lights_.size()) return nullptr;
+    const LightHistory& history = lights_[place->second];
+    return history.entity == light ? &history : nullptr;
+}
+
+std::uint64_t MapStore::bytes(const LightHistory& history) {
+    if (!history.texture) return 0;
+    const std::uint64_t still = history.still.texture ? still_bytes(history) : 0;
+    return map_bytes(history.desc, history.storage, history.moments.desc, history.moments.scratch_desc) + still;
+}
+
+std::uint64_t MapStore::bytes() const {
+    std::uint64_t sum = 0;
+    for (const LightHistory& history : lights_) sum += bytes(history);
+    return sum;
+}
+
+void MapStore::waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const {
+    bytes_of.assign(scene.lights.size(), std::nullopt);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightHistory* map = find(scene.lights[i].entity);
+        if (map && map->failure != Reason::none && frame_ < map->retry_frame) bytes_of[i] = bytes(*map);
+    }
+}
+
+LightHistory& MapStore::entry(ecs::Entity light) {
+    if (const LightHistory* history = find(light)) return lights_[static_cast<std::size_t>(history - lights_.data())];
+    lights_.emplace_back();
+    lights_.back().entity = light;
+    note_places(lights_.size() - 1);
+    return lights_.back();
+}
+
+/// Of all from `first` on.
+void MapStore::note_places(std::size_t first) {
+    if (first == 0) places_.clear();
+    for (std::size_t i = first; i < lights_.size(); ++i)
+        places_.insert_or_assign(lights_[i].entity.index, static_cast<std::uint32_t>(i));
+}
+
+void MapStore::release(LightHistory& history) {
+    for (const gl::TargetHandle target : history.targets) device_.destroy(target);
+    device_.destroy(history.whole);
+    device_.destroy(history.texture);
+    device_.destroy(history.triangles);
+    release_sheets(history.sheets);
+    for (const gl::TargetHandle target : history.moments.targets) device_.destroy(target);
+    device_.destroy(history.moments.scratch_target);
+    device_.destroy(history.moments.texture);
+    release_still(history.still);
+    history.still = {};
+    device_.destroy(history.moments.scratch);
+    history.moments = {};
+    history.whole = {};
+    history.targets.clear();
+    history.content.clear();
+    history.placements.clear();
+    history.shown.clear();
+    history.waits = false;
+    history.texture = history.triangles = {};
+}
+
+bool MapStore::make_targets(LightHistory& map) const {
+    for (std::uint32_t layer = 0; layer < gl::layer_count(map.desc); ++layer) {
+        const auto target = device_.create_target(target_of(map, static_cast<std::int32_t>(layer)));
+        if (!target) return false;
+        map.targets.push_back(target.handle);
+    }
+    return true;
+}
+
+Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) const {
+    MomentDescs descs = moments_of(map.desc, demand);
+    MomentMap& moments = map.moments = {};
+    moments.desc = std::move(descs.texture);
+    moments.scratch_desc = std::move(descs.scratch);
+    if (moments.desc.width == 0) return Reason::none;
+    moments.desc.label = map.desc.label + ", moments";
+    moments.scratch_desc.label = map.desc.label + ", scratch";
+    moments.texture = device_.create_texture(moments.desc, {}).handle;
+    if (moments.texture && moments.scratch_desc.width > 0)
+        moments.scratch = device_.create_texture(moments.scratch_desc, {}).handle;
+    if (!moments.texture || (moments.scratch_desc.width > 0 && !moments.scratch)) return Reason::map_allocation_failed;
+    for (std::uint32_t layer = 0; layer < gl::layer_count(moments.desc); ++layer) {
+        const gl::Attachment attachment{moments.texture, static_cast<std::int32_t>(layer)};
+        const auto target = device_.create_target({moments.desc.label, {attachment}, {}});
+        if (!target) return Reason::target_incomplete;
+        moments.targets.push_back(target.handle);
+    }
+    moments.content.assign(moments.targets.size(), 0);
+    if (!moments.scratch) return Reason::none;
+    moments.scratch_target = device_.create_target({moments.scratch_desc.label, {{moments.scratch}}, {}}).handle;
+    return moments.scratch_target ? Reason::none : Reason::target_incomplete;
+}
+
+Reason MapStore::make_sheets(LightHistory& map) const {
+    SheetDescs descs = sheets_of(map.desc);
+    descs.second.label = map.desc.label + ", second";
+    descs.bounds.label = map.desc.label + ", bounds";
+    SheetMap& sheets = map.sheets;
+    sheets.second = device_.create_texture(descs.second, {}).handle;
+    if (sheets.second) sheets.bounds = device_.create_texture(descs.bounds, {}).handle;
+    if (!sheets.bounds) return Reason::map_allocation_failed;
+    if (map.storage == FilterStorage::soft_sheets) {
+        const std::uint64_t bytes = ends_bytes(map.desc.width, gl::layer_count(map.desc));
+        sheets.ends = device_.create_buffer({map.desc.label + ", ends", bytes, gl::BufferUse::updated}, {}).handle;
+        if (!sheets.ends) return Reason::map_allocation_failed;
+    }
+    for (std::int32_t layer = 0; layer < static_cast<std::int32_t>(gl::layer_count(map.desc)); ++layer) {
+        const auto second = device_.create_target({descs.second.label, {}, {sheets.second, layer}});
+        if (second) sheets.second_targets.push_back(second.handle);
+        const auto bounds = device_.create_target({descs.bounds.label, {{sheets.bounds, layer}}, {}});
+        if (bounds) sheets.bounds_targets.push_back(bounds.handle);
+        if (!second || !bounds) return Reason::target_incomplete;
+    }
+    return Reason::none;
+}
+
+void MapStore::release_sheets(SheetMap& sheets) const {
+    for (const auto* targets : {&sheets.second_targets, &sheets.bounds_targets})
+        for (const gl::TargetHandle target : *targets) device_.destroy(target);
+    device_.destroy(sheets.second);
+    device_.destroy(sheets.bounds);
+    device_.destroy(sheets.ends);
+    sheets = {};
+}
+
+Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history) {
+    LightHistory made;
+    made.desc = desc;
+    made.storage = filter_row(demand.filter).storage;
+    made.texture = device_.create_texture(desc, {}).handle;
+    const bool triangles = has_triangles(made.storage), sheets = has_sheets(made.storage);
+    gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
+    shown.label = desc.label + ", triangles";
+    if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
+    Reason reason = Reason::none;
+    if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
+    if (reason == Reason::none && !make_targets(made)) reason = Reason::target_incomplete;
+    if (reason == Reason::none) reason = make_moments(demand, made);
+    if (reason == Reason::none && sheets) reason = make_sheets(made);
+    if (reason != Reason::none) {
+        release(made);
+        return reason;
+    }
+    // The new map stands; only now does the old one go.
+    release(history);
+    history.desc = desc;
+    history.texture = made.texture;
+    history.storage = made.storage;
+    history.triangles = made.triangles;
+    history.sheets = std::move(made.sheets);
+    history.moments = std::move(made.moments);
+    history.targets = std::move(made.targets);
+    history.content.assign(history.targets.size(), 0);
+    history.placements.assign(history.targets.size(), 0);
+    return Reason::none;
+}
+
+bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
+    gl::TextureDesc desc = map_desc(light, demand);
+    const FilterStorage storage = filter_row(demand.filter).storage;
+    const gl::TextureDesc& held = history.desc;
+    if (history.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
+                             history.storage == storage && is_same_store(history.moments, moments_of(held, demand)))) {
+        // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
+        release(history);
+        history.wanted_px = 0;
+        history.failure = Reason::none;
+    }
+    const bool fits = history.texture && history.wanted_px == desc.width;
+    if (fits && (history.failure == Reason::none || frame_ < history.retry_frame)) return true;
+    if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == desc.width)
+        return static_cast<bool>(history.texture);
+    const std::uint32_t edge_px = desc.width;
+    desc.label = "shadow map " + light.name;
+    history.wanted_px = edge_px;
+    history.failure = Reason::none;
+    for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
+        desc.width = desc.height = std::max(edge_px >> halving, 1u);
+        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // as good
+        const MomentDescs moments = moments_of(desc, demand);
+        const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
+        Reason reason = has_room ? try_create(desc, demand, history) : Reason::map_allocation_failed;
+        if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
+            spare_->release();
+            device_.finish();  // only then is what was freed given back
+            reason = try_create(desc, demand, history);
+        }
+        refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
+        if (reason == Reason::none) {
+            if (halving > 0) history.failure = Reason::map_shrunk;
+            break;
+        }
+        history.failure = reason;
+        if (reason == Reason::target_incomplete) break;  // smaller would fail alike
+    }
+    if (history.failure != Reason::none) history.retry_frame = frame_ + kRetryFrames;
+    if (history.failure != Reason::none && history.texture) history.failure = Reason::map_shrunk;
+    return static_cast<bool>(history.texture);
+}
+
+bool MapStore::stay() {
+    for (const LightHistory& history : lights_) {
+        const bool wanted = history.last_wanted_frame + 1 == frame_;
+        if (wanted && history.failure != Reason::none && frame_ >= history.retry_frame) return false;
+        if (!wanted && history.texture && frame_ - history.last_wanted_frame > kHoldFrames) return false;
+        if (is_still_idle(history) || (wanted && history.waits)) return false;
+    }
+    for (LightHistory& history : lights_)
+        if (history.last_wanted_frame + 1 == frame_) history.last_wanted_frame = frame_;
+    return true;
+}
+
+/// Has others give up what they hold if it stands in the way of so many bytes more, which would fit without. Whether
+/// there was any.
+bool MapStore::yield_spare(std::uint64_t bytes_more) const {
+    if (!spare_ || spare_->bytes() == 0 || spare_->bytes() <= room() - std::min(room(), bytes_more)) return false;
+    spare_->release();
+    return true;
+}
+
+/// Frees what the picture does without until there is room for so many bytes more: what others keep to save time, maps
+/// that nobody looks at, the longest unused first, copies of still casters, and at last the map that is to be replaced.
+bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
+    if (limit_ == kNoLimit) return true;
+    yield_spare(bytes_more);
+    for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
+        LightHistory* unseen = nullptr;
+        LightHistory* apart = nullptr;
+        for (LightHistory& history : lights_) {
+            const bool is_seen = history.last_wanted_frame == frame_;
+            if (history.texture && !is_seen && (!unseen || history.last_wanted_frame < unseen->last_wanted_frame))
+                unseen = &history;
+            if (history.still.texture) apart = &history;
+        }
+        if (unseen)
+            release(*unseen);
+        else if (apart)
+            release_still(apart->still);
+        else if (replaced && replaced->texture)
+            release(*replaced);
+        else
+            return false;
+    }
+    return true;
+}
+
+/// Of a light that has no map in this frame: whether it keeps what it holds, in case the camera turns back.
+void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
+    const LightHistory* held = find(light);
+    if (!held) return;
+    LightHistory& history = entry(light);
+    history.kept_frame = frame_;
+    if (skip == Reason::over_budget || frame_ - history.last_wanted_frame > kHoldFrames) release(history);
+}
+
+void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
+    const auto light_of = [&](std::size_t d) -> const LightItem& { return scene.lights[frame.demands[d].light]; };
+    const auto wants_map = [&](std::size_t d) { return has_map(frame.demands[d]); };
+    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+        if (frame.demands[d].skip != Reason::none) continue;
+        if (frame.sets[d].skip != Reason::none) {
+            keep_or_release(light_of(d).entity, frame.sets[d].skip);
+            continue;
+        }
+        if (!wants_map(d)) continue;
+        LightHistory& history = entry(light_of(d).entity);
+        history.kept_frame = history.last_wanted_frame = frame_;
+        history.waits = false;
+    }
+    const auto is_gone = [&](LightHistory& history) {
+        if (history.kept_frame == frame_) return false;
+        release(history);
+        return true;
+    };
+    if (std::erase_if(lights_, is_gone) > 0) note_places(0);
+    // Within a limit maps that become smaller go first, so that the others find the room.
+    const bool limited = limit_ != kNoLimit;
+    if (limited) make_room(0, nullptr);
+    for (int round = 0; round < (limited ? 2 : 1); ++round)
+        for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+            if (frame.demands[d].skip != Reason::none || frame.sets[d].skip != Reason::none || !wants_map(d)) continue;
+            const LightTime time(frame, frame.demands[d].light);
+            LightHistory& history = entry(light_of(d).entity);
+            const bool first = !limited || map_bytes(light_of(d), frame.demands[d]) < bytes(history);
+            if (first != (round == 0)) continue;
+            if (ensure_map(light_of(d), frame.demands[d], history)) continue;
+            drop_light(frame, static_cast<std::uint32_t>(d), history.failure);
+        }
+    if (!std::exchange(refused_, false)) return;
+    available_ = bytes();
+    short_until_frame_ = frame_ + kRetryFrames;
+}
+
+void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
+    frame.slots.assign(frame.views.size(), {});
+    provide_maps(scene, frame);
+    assign_views(scene, frame);
+    hold_views(scene, frame);
+}
+
+void MapStore::plan_draws(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+    note_held(scene, frame);
+    assign_moments(scene, frame);
+    keep_still_apart(scene, gpu, frame);
+    choose_routes(scene, frame);
+}
+
+}  // namespace gnomon::shadow

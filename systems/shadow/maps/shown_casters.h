@@ -1,0 +1,29 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/math/aabb.h"
+
+namespace gnomon::shadow {
+
+/// A caster as it was when a map was drawn.
+struct ShownCaster {
+    std::uint32_t gpu_slot = 0, mesh = 0;
+    std::uint64_t version = 0;
+    glm::dmat3 basis{1.0};
+    glm::dvec3 translation_ws_m{0.0};
+    math::Aabb bounds_ws;
+    std::uint64_t bends_since = 0;  // PoseItem::since of its mesh's pose; 0: it does not bend
+    double bent_m = 0.0;            // PoseItem::bent_m
+};
+
+/// What a layer shows.
+struct ShownCasters {
+    std::uint64_t still = 0;  // ShadowSlot::still_content; 0: nothing is known
+    std::vector<ShownCaster> moving;
+    std::uint32_t waited_frames = 0;  // ShadowSlot::waited_frames, of the next frame
+};
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,103 @@
+#pragma once
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/gl/device.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/growing_buffer.h"
+#include "systems/retry.h"
+#include "systems/shadow/frame/types.h"
+
+namespace gnomon::shadow {
+
+/// What depth passes need on the device. Programs are made when first called for.
+class DepthRecorder {
+public:
+    explicit DepthRecorder(gl::Device& device);
+    ~DepthRecorder();
+    DepthRecorder(const DepthRecorder&) = delete;
+    DepthRecorder& operator=(const DepthRecorder&) = delete;
+
+    /// Makes programs and buffers for the views that are not reused; a view that cannot be drawn loses its slot,
+    /// its light's sets[i].skip says why. Call before record().
+    void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+
+    /// Stage 7, first half: one pass per view that is not reused, in order, or one for all such views of a light whose
+    /// slots name a whole map; counts go to the report, times to frame.cpu_us.
+    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
+                FrameReport& report);
+
+private:
+    struct DrawItem {
+        std::uint32_t instance;
+        std::uint32_t place;  // layer, and above its three bits the first triangle of the draw
+    };
+    /// Which of the depth programs a pass uses; each has an opaque and a masked one.
+    struct Way {
+        CubeRoute route = CubeRoute::six_passes;
+        bool triangles = false;  // writes which triangle each texel shows
+        bool sheets = false;     // of no masked caster, and of both faces
+        bool peel = false;       // of the triangles behind those
+        bool coloured = false;   // the scene's vertices have colours, whose alpha counts in masks
+    };
+    /// Casters that stand still, or those that move: never in one draw.
+    struct Group {
+        IndexRange casters;            // into caster_scratch_ and layer_scratch_
+        std::uint32_t first_item = 0;  // an item per caster; with triangles, one per caster and draw of its mesh
+    };
+    /// Views [first, end) of one light that one pass draws (those of them that are drawn), and what they draw.
+    struct Pass {
+        std::size_t first = 0, end = 0;
+        bool layered = false;
+        std::uint32_t views = 0, uniform_offset = 0;
+        Group still, moving;
+    };
+    static std::size_t which(const Way& way, bool masked);
+    static Way way_of(const GpuScene& gpu, const ShadowSlot& slot);
+    bool program(const Way& way, bool masked);
+    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way,
+                 std::span<const std::uint32_t> casters);
+    std::size_t item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
+                           std::size_t view) const;
+    void gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame);
+    void append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group);
+    void gather_uniforms(const ShadowFrame& frame, Pass& pass);
+    Group gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters);
+    Group gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass, bool moving);
+    void append_uniforms(const ShadowView& view, std::size_t at);
+    void begin(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+               gl::CommandList& list) const;
+    void begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
+                    gl::CommandList& list) const;
+    void begin_pass_into(gl::TargetHandle target, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+                         bool clear, gl::CommandList& list) const;
+    void draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+              const Way& way, const Group& group, gl::CommandList& list, LightReport& report);
+    void peel(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
+              gl::CommandList& list, LightReport& report);
+    gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
+                                   const InstanceItem& item) const;
+    void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t first_item,
+                  std::uint32_t count, std::uint32_t items_per_draw, gl::CommandList& list, LightReport& report);
+
+    gl::Device& device_;
+    /// Three ways to choose the layer, opaque and masked, depth alone or triangles, too; what peels; and masked ones
+    /// with colours, by the same way.
+    static constexpr std::size_t kPlainPrograms = 13, kPrograms = 25;
+    gl::ProgramHandle programs_[kPrograms]{};
+    Retry retries_[kPrograms];
+    std::uint64_t frame_ = 0;
+    GrowingBuffer items_, views_;
+    std::vector<Pass> passes_;
+    std::vector<std::uint32_t> caster_scratch_;  // indices into the scene's instances, one per item
+    std::vector<DrawItem> item_scratch_;
+    std::vector<std::uint32_t> layer_scratch_;                           // one per caster_scratch_
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pair_scratch_;  // instance, layer
+    std::vector<std::byte> view_scratch_;
+    gl::PipelineState pipeline_;  // of the pass being recorded
+    Way way_;                     // of that pass
+};
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cstring>
+
+#include "engine/math/projection.h"
+#include "systems/extract/instance_order.h"
+#include "systems/shadow/passes/depth_pass.h"
+#include "systems/shadow/passes/mesh_draw_ranges.h"
+#include "systems/shadow/update/drawn_views.h"
+
+/// The half of the depth passes that says what each of them draws.
+namespace gnomon::shadow {
+namespace {
+
+/// By mesh; those that wind the other way last, so that few draws hold all that cull alike; then by index.
+bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) {
+    const InstanceItem &first = scene.instances[a], &second = scene.instances[b];
+    if (first.mesh != second.mesh) return first.mesh < second.mesh;
+    return first.mirrored != second.mirrored ? second.mirrored : a < b;
+}
+
+}  // namespace
+
+void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
+    const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
+    const DepthViewRecord record{view.clip_from_anchor, glm::vec4(anchor.high, 0.0f),
+                                 glm::vec4(anchor.low, static_cast<float>(view.layer))};
+    std::memcpy(view_scratch_.data() + at, &record, sizeof record);
+}
+
+/// The casters of one view's group.
+DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
+    const std::size_t first = caster_scratch_.size();
+    caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
+    const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].mirrored; };
+    if (std::any_of(casters.begin(), casters.end(), mirrored))
+        std::sort(caster_scratch_.begin() + static_cast<std::ptrdiff_t>(first), caster_scratch_.end(),
+                  [&](std::uint32_t a, std::uint32_t b) { return drawn_before(scene, a, b); });
+    layer_scratch_.resize(caster_scratch_.size(), 0);
+    return {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(casters.size())}, 0};
+}
+
+/// Of one group the casters of all views, by mesh: one draw per mesh draws it into every face.
+DepthRecorder::Group DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame,
+                                                  const Pass& pass, bool moving) {
+    pair_scratch_.clear();
+    for (std::size_t v = pass.first; v < pass.end; ++v) {
+        if (!is_drawn(frame, v)) continue;
+        const ShadowView& view = frame.views[v];
+        for (const std::uint32_t i : moving ? moving_casters(frame, view) : still_casters(frame, view))
+            pair_scratch_.emplace_back(i, view.layer);
+    }
+    std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
+        return a.first != b.first ? drawn_before(scene, a.first, b.first) : a.second < b.second;
+    });
+    const IndexRange range{static_cast<std::uint32_t>(caster_scratch_.size()),
+                           static_cast<std::uint32_t>(pair_scratch_.size())};
+    for (const auto& [item, layer] : pair_scratch_) {
+        caster_scratch_.push_back(item);
+        layer_scratch_.push_back(layer);
+    }
+    return {range, 0};
+}
+
+/// The items of a group whose casters are known, in the order in which draw() takes them.
+void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group) {
+    group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
+    const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
+    const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
+        item_scratch_.push_back({scene.instances[casters[i]].gpu_slot,
+                                 layer_scratch_[group.casters.first + i] | first_triangle << kLayerBits});
+    };
+    if (!triangles) {
+        for (std::uint32_t i = 0; i < casters.size(); ++i) append(i, 0);
+        return;
+    }
+    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
+        for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
+            for (std::uint32_t i = first; i < first + count; ++i) append(i, run.first_index / 3);
+        });
+    });
+}
+
+/// The matrices of a pass's views: of a layered one by face.
+void DepthRecorder::gather_uniforms(const ShadowFrame& frame, Pass& pass) {
+    const std::size_t at = view_scratch_.size();
+    pass.uniform_offset = static_cast<std::uint32_t>(at);
+    const std::size_t records = pass.layered ? kFaces : 1;
+    view_scratch_.resize(
+        at + aligned(static_cast<std::uint32_t>(records * sizeof(DepthViewRecord)), device_.info().uniform_alignment));
+    pass.views = 0;
+    for (std::size_t v = pass.first; v < pass.end; ++v) {
+        if (!is_drawn(frame, v)) continue;
+        const ShadowView& view = frame.views[v];
+        append_uniforms(view, at + (pass.layered ? view.layer * sizeof(DepthViewRecord) : 0));
+        ++pass.views;
+    }
+}
+
+/// What this frame draws, pass by pass.
+void DepthRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame) {
+    passes_.clear();
+    layer_scratch_.clear();
+    caster_scratch_.clear();
+    item_scratch_.clear();
+    view_scratch_.clear();
+    for (std::size_t v = 0; v < frame.views.size(); ++v) {
+        if (!is_drawn(frame, v)) continue;
+        const ShadowSlot& slot = frame.slots[v];
+        Pass pass{v, v + 1, static_cast<bool>(slot.whole), 1, 0, {}, {}};
+        while (pass.layered && pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand)
+            ++pass.end;
+        gather_uniforms(frame, pass);
+        if (pass.layered) {
+            pass.still = gather_layers(scene, frame, pass, false);
+            pass.moving = gather_layers(scene, frame, pass, true);
+        } else {
+            if (slot.still_use != StillUse::copy) pass.still = gather_view(scene, still_casters(frame, frame.views[v]));
+            pass.moving = gather_view(scene, moving_casters(frame, frame.views[v]));
+        }
+        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.still);
+        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.moving);
+        passes_.push_back(pass);
+        v = pass.end - 1;
+    }
+}
+
+}  // namespace gnomon::shadow

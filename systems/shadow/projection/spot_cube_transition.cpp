@@ -1,0 +1,29 @@
+#include "systems/shadow/projection/spot_cube_transition.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "systems/shadow/projection/cube_faces.h"
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kSwitch_rad = 60.0 * kDegree;      // to either side of the axis
+constexpr double kHysteresis_rad = 1.25 * kDegree;  // as much to either side: 5 degrees of the full angle
+
+}  // namespace
+
+ConeFade next_cone_fade(double outer_cone_rad, const ConeFade& held) {
+    ConeFade next = held;
+    next.used = true;
+    const double away_rad = outer_cone_rad - kSwitch_rad;
+    if (!held.used || away_rad > kHysteresis_rad || away_rad < -kHysteresis_rad) next.prefers_faces = away_rad > 0.0;
+    const int goal = next.prefers_faces ? 8 : 0;
+    const bool at_once = !held.used || outer_cone_rad > kWidestMap_rad;
+    const int step = std::clamp(goal - held.faces_eighths, -1, 1);
+    next.faces_eighths = at_once ? goal : std::clamp(held.faces_eighths + step, 0, 8);
+    return next;
+}
+
+}  // namespace gnomon::shadow

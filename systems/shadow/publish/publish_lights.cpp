@@ -1,0 +1,298 @@
+#include "systems/shadow/publish/publish_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "engine/math/projection.h"
+#include "systems/extract/volumes.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/frame/depth_format.h"
+#include "systems/shadow/projection/cube_faces.h"
+#include "systems/shadow/projection/screen_bounds.h"
+#include "systems/shadow/publish/lookup_accuracy.h"
+#include "systems/shadow/publish/noise_cell.h"
+#include "systems/shadow/publish/visibility_hash.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::shadow {
+namespace {
+
+// The rounding model of docs/architecture.md, "Bias". u = 2^-24.
+constexpr double kUnitRoundoff = 5.9604644775390625e-8;
+/// Orthographic depth in [0,1]: half a quantum of D32F (u/2) and the projection's own rounding (4u).
+constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;
+/// Perspective depth rounds in proportion to itself (bias/automatic.glsl adds that), and by 2u of its constant part
+/// alpha.
+constexpr double kAlphaRounding = 2.0 * kUnitRoundoff;
+
+/// About an anchor before the light: of a row's products with a place, and of its constant, each with its entry,
+/// product and sums, in the map and in the lookup.
+constexpr double kProductRounding = 10.0 * kUnitRoundoff, kConstantRounding = 8.0 * kUnitRoundoff;
+
+/// How far a depth may be off beside a share of itself (bias/automatic.glsl). `reach_m`: how far receivers lie from the
+/// anchor, if that is not the light.
+double projection_rounding(const ShadowView& view, double reach_m) {
+    if (view.projection == ViewProjection::orthographic) return kOrthographicRounding;
+    if (view.apex_m == 0.0) return kAlphaRounding * std::abs(view.depth_alpha);
+    const double terms_m = kProductRounding * reach_m + kConstantRounding * std::abs(view.far_m - view.apex_m);
+    return terms_m * std::abs(view.depth_alpha) / (view.apex_m - reach_m);
+}
+
+/// Of a view whose points are lit: light_block.glsl.
+constexpr float kNoLayer = -1.0f;
+
+/// The next float above, of what is above 0.
+float at_least(double number) {
+    const auto rounded = static_cast<float>(number);
+    return static_cast<double>(rounded) < number ? std::nextafter(rounded, INFINITY) : rounded;
+}
+
+glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
+
+ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot,
+                       const ConsumerItem& consumer) {
+    // A map that had to be shrunk has larger texels than the fit planned.
+    const double stretch = static_cast<double>(demand.resolution_px) / static_cast<double>(slot.size_px);
+    const bool orthographic = view.projection == ViewProjection::orthographic;
+    ViewRecord record;
+    record.map_from_anchor = view.map_from_anchor;
+    record.axis_u = with_w(view.axis_u, view.texel_u * stretch);
+    record.axis_v = with_w(view.axis_v, view.texel_v * stretch);
+    record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
+    // OpenGL 4.5, 2.3.5: a fixed-point value is one of the two nearest, so that it may be off by a whole step.
+    const double depth_rounding =
+        depth_format_row(demand.depth_format).step + projection_rounding(view, demand.aim.radius_m);
+    record.numeric = {static_cast<float>(depth_rounding), at_least(slot.stale.moved_m),
+                      static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
+                      view.lit ? kNoLayer : static_cast<float>(view.layer)};
+    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.fades_to_m);
+    return record;
+}
+
+std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind) {
+    if (demand.perspective_sun || demand.aim.used) return kPerspectiveFile;
+    return demand.warp > 0.0f ? kWarpedSunFile : kind.file;
+}
+
+/// The program and the textures of a light with a map.
+void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const ShadowSlot& slot,
+                const MapSamplers& samplers, LightingLight& out) {
+    const FilterRow &filter = filter_row(demand.filter), &one_tap = filter_row(kPlainFilter);
+    out.plain.row = {kind.define, kind_file(demand, kind), one_tap.file, one_tap.reach_texel};
+    out.plain.map = slot.texture;
+    out.plain.sampler = samplers.of(one_tap.reading);
+    out.row = out.plain.row;
+    out.map = out.plain.map;
+    out.sampler = out.plain.sampler;
+    out.second = slot.second;
+    out.bounds = slot.bounds;
+    out.ends = slot.ends;
+    // By itself the map of one that asks rays is good for no more; nor is one whose moments could not be made.
+    if (published_filter(demand, slot, false) != demand.filter) return;
+    const bool moments = filter.storage == FilterStorage::moments;
+    out.row.filter_file = filter.file;
+    out.row.reach_texel = demand.filtering.reach_texel;
+    out.row.depths = filter.reading == MapReading::depths;
+    out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
+    out.row.moments = moments;
+    out.row.footprint = demand.moments.levels > 1 || demand.moments.anisotropy > 1;
+    out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
+    out.triangles = slot.triangles;
+    out.map = moments ? slot.moments : slot.texture;
+    out.sampler = moments ? samplers.of(demand.moments) : samplers.of(filter.reading);
+}
+
+/// A sun's cascades are chosen by distance along the view that they are fitted to, the consumer's unless that is
+/// frozen.
+glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer) {
+    const glm::dvec3 ahead = -fitted.rotation_ws[2];
+    return with_w(ahead, glm::dot(ahead, consumer.position_ws_m - fitted.position_ws_m));
+}
+
+/// What every light has, map or not.
+/// `lamp_ws_m`: from where shadows of a local light are looked for.
+LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, const ConsumerItem& fitted,
+                         const ConsumerItem& consumer) {
+    LightRecord record;
+    const bool sun = light.kind == LightKind::directional;
+    const glm::dvec3 from_camera_m = light.position_ws_m - consumer.position_ws_m;
+    record.position = sun ? view_distance(fitted, consumer) : with_w(from_camera_m, light.range_m);
+    record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
+    const glm::dvec3 exact = sun ? light.rotation_ws[2] : lamp_ws_m - consumer.position_ws_m;
+    record.low = glm::vec4(glm::vec3(exact - glm::dvec3(glm::vec3(sun ? exact : from_camera_m))), 0.0f);
+    record.radiance = glm::vec4(light.colour * light.intensity, 0.0f);
+    const double cos_outer = std::cos(light.outer_cone_rad), cos_inner = std::cos(light.inner_cone_rad);
+    // KHR_lights_punctual's own guard against inner == outer.
+    constexpr double kLeastConeWidth = 0.001;
+    record.cone = {static_cast<float>(cos_outer),
+                   static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)), 0.0f, 0.0f};
+    if (light.kind == LightKind::point) {
+        const glm::dquat& turn = cube_turn();
+        record.cone = with_w({turn.x, turn.y, turn.z}, turn.w);
+    }
+    return record;
+}
+
+/// What filters read.
+void filter_record(const LightShadow& shadow, const FilterDemand& filter, const ConsumerItem& consumer,
+                   LightRecord& record) {
+    record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), shadow.early_bail ? 1 : 0,
+                        shadow.filter_seed == FilterSeed::world ? 1 : 0};
+    record.spread = {filter.spread_texel, filter.spread_m, filter.doubles_m > 0.0f ? 1.0f / filter.doubles_m : 0.0f,
+                     filter.most_spread_texel};
+    const SeedCell cell = seed_cell(consumer.position_ws_m, static_cast<double>(filter.cell_m));
+    record.seed_cell = glm::ivec4(cell.cell, 0);
+    record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
+}
+
+/// What of the source shaders read: metres, or a sun's tangent.
+float source_size(LightKind kind, const FilterDemand& filter) {
+    return kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
+}
+
+/// A sun that is seen from an eye gets a disk there, as wide as the sky's from the middle of the view's depth.
+float source_size(LightKind kind, const FilterDemand& filter, const ShadowView& view) {
+    if (kind != LightKind::directional || view.projection == ViewProjection::orthographic)
+        return source_size(kind, filter);
+    return filter.sun_radius_tan * static_cast<float>(0.5 * (view.near_m + view.far_m));
+}
+
+/// Whether the maps hold all casters as far away as they are, and around a lamp how far away those are that they do
+/// not.
+glm::vec4 source_record(const ShadowDemand& demand) {
+    const bool fitted = demand.near_m == 0.0 && demand.far_m == 0.0;
+    return {fitted ? 1.0f : 0.0f, static_cast<float>(demand.clear_m), 0.0f, 0.0f};
+}
+
+void bias_record(const LightShadow& shadow, LightingLight& out) {
+    const LightShadow usual;
+    const auto valid = [&](float LightShadow::*field) {
+        return std::isfinite(shadow.*field) && shadow.*field >= 0.0f ? shadow.*field : usual.*field;
+    };
+    out.row.manual_bias = shadow.bias != BiasMode::automatic && shadow.bias < BiasMode::count;
+    if (!out.row.manual_bias) return;
+    out.record.options.y = static_cast<std::int32_t>(shadow.bias);
+    out.record.bias.x = valid(&LightShadow::bias_m);
+    out.record.bias.z = valid(&LightShadow::bias_texel);
+}
+
+}  // namespace
+
+CameraRecord camera_record(const ConsumerItem& c) {
+    const bool orthographic = c.projection == CameraProjection::orthographic;
+    const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
+    const double half_x = half_y * aspect(c);
+    const glm::dmat4 projection = orthographic
+                                      ? math::reversed_orthographic(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m)
+                                      : math::reversed_perspective(-half_x, half_x, -half_y, half_y, c.near_m, c.far_m);
+    const math::TwoFloat3 anchor = math::split(c.position_ws_m);
+    CameraRecord record;
+    record.clip_from_anchor = glm::mat4(projection * glm::dmat4(glm::transpose(c.rotation_ws)));
+    record.anchor_high = glm::vec4(anchor.high, 0.0f);
+    record.anchor_low = glm::vec4(anchor.low, 0.0f);
+    record.right = with_w(c.rotation_ws[0], half_x);
+    record.up = with_w(c.rotation_ws[1], half_y);
+    record.back = with_w(c.rotation_ws[2], orthographic ? 1.0 : 0.0);
+    const double range_m = c.far_m - c.near_m;
+    const glm::dvec2 unproject =
+        orthographic ? glm::dvec2(c.far_m, range_m)
+                     : (std::isinf(c.far_m) ? glm::dvec2(0.0, c.near_m)
+                                            : glm::dvec2(c.near_m / range_m, c.near_m * c.far_m / range_m));
+    record.unproject = glm::vec4(glm::vec2(unproject), glm::vec2(c.viewport_px));
+    return record;
+}
+
+namespace {
+
+/// Lights whose shadows are asked for by rays: with their maps, where they have any, for pixels of which those are not
+/// certain. A picture of another camera than those that maps are fitted to may show what is not in them.
+void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
+                  const ShadowFrame& frame, const ConsumerItem& consumer, LightingInputs& inputs) {
+    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
+        const ShadowDemand& demand = frame.demands[d];
+        if (!demand.asks_rays || demand.skip != Reason::none || frame.sets[d].skip != Reason::none || !rays.nodes)
+            continue;
+        LightingLight& out = inputs.lights[demand.light];
+        const LightKindRow& kind = light_kind_row(scene.lights[demand.light].kind);
+        out.row = {.kind_define = kind.define,
+                   .kind_file = kind_file(demand, kind),
+                   .filter_file = filter_row(demand.filter).file,
+                   .rays = true,
+                   .ray_masks = static_cast<bool>(rays.masks)};
+        out.rays = rays;
+        out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
+        if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
+        // Also where it has no map.
+        const LightItem& light = scene.lights[demand.light];
+        filter_record(light.shadow, demand.filtering, consumer, out.record);
+        out.record.radiance.w = source_size(light.kind, demand.filtering);
+        out.sampler = samplers.of(MapReading::depths);
+    }
+}
+
+}  // namespace
+
+void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
+                    bool masked, ShadowFrame& frame) {
+    const std::vector<ConsumerItem>& pictures = scene.pictures.empty() ? scene.consumers : scene.pictures;
+    frame.inputs.resize(pictures.size());
+    for (std::uint32_t c = 0; c < pictures.size(); ++c) {
+        const ConsumerItem& consumer = pictures[c];
+        const ConsumerItem& fitted = c < scene.consumers.size() ? scene.consumers[c] : consumer;
+        LightingInputs& inputs = frame.inputs[c];
+        inputs.consumer = c;
+        inputs.camera = camera_record(consumer);
+        inputs.lights.resize(scene.lights.size());
+        for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+            const LightTime time(frame, i);
+            const LightItem& light = scene.lights[i];
+            const LightKindRow& kind = light_kind_row(light.kind);
+            LightingLight& out = inputs.lights[i];
+            out = {};
+            out.light = i;
+            out.row.kind_define = kind.define;
+            // The rectangle is the cheaper question: of many lights most are not on the screen.
+            out.screen = screen_rectangle(light, consumer);
+            if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
+            out.farthest_depth = farthest_depth(light, consumer);
+            out.record = light_record(light, lamp_ws_m(frame, scene, i), fitted, consumer);
+        }
+        for (std::size_t v = 0; v < frame.views.size(); ++v) {
+            const ShadowSlot& slot = frame.slots[v];
+            if (!slot.texture) continue;
+            const ShadowView& view = frame.views[v];
+            // Other cameras than those that it is fitted to may see anything.
+            if (scene.pictures.empty() && (view.consumer_mask & consumer_bit(c)) == 0) continue;
+            const ShadowDemand& demand = frame.demands[view.demand];
+            const LightTime time(frame, demand.light);
+            const LightItem& light = scene.lights[demand.light];
+            LightingLight& out = inputs.lights[demand.light];
+            set_lookup(demand, light_kind_row(light.kind), slot, samplers, out);
+            out.plain.accuracy.filter = kPlainFilter;
+            add_view(light, demand, view, slot, out.plain.accuracy);
+            out.row.ray_masks = out.row.triangles && masked;
+            if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
+                out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
+            out.record.options.w |= 1 << view.layer;
+            if (light.kind == LightKind::spot || demand.aim.used)
+                out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
+            bias_record(light.shadow, out);
+            filter_record(light.shadow, demand.filtering, consumer, out.record);
+            out.record.moments = demand.moments.settings;
+            out.record.moment_sampling = {demand.moments.bleeding, demand.moments.footprint_texel,
+                                          static_cast<float>(demand.moments.anisotropy), 0.0f};
+            out.record.radiance.w = source_size(light.kind, demand.filtering, view);
+            if (slot.ends) out.record.moments = source_record(demand);
+            out.record.bias.y = demand.cascade_blend;
+            out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
+        }
+        publish_rays(scene, samplers, rays, frame, consumer, inputs);
+        sign_lookups(scene, frame, inputs);
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,69 @@
+#include "systems/shadow/publish/visibility_hash.h"
+
+#include "engine/core/signature.h"
+
+namespace gnomon::shadow {
+namespace {
+
+template <class T>
+void add_object(const T& object, Signature& s) {
+    s.add(std::as_bytes(std::span(&object, 1)));
+}
+
+void add_row(const ProgramRow& row, Signature& s) {
+    for (const std::string_view text : {row.kind_define, row.kind_file, row.filter_file})
+        s.add(std::as_bytes(std::span(text)));
+    s.add(row.reach_texel);
+    std::uint64_t bits = 0;
+    for (const bool bit : {row.fades, row.depths, row.manual_bias, row.triangles, row.moments, row.rays, row.ray_masks,
+                           row.footprint, row.sheets})
+        bits = bits * 2 + (bit ? 1 : 0);
+    s.add(bits);
+}
+
+/// What is read, and where.
+void add_light(const LightingLight& light, Signature& s) {
+    LightRecord record = light.record;
+    record.radiance = glm::vec4(0.0f, 0.0f, 0.0f, record.radiance.w);  // rgb: what arrives, not whether
+    add_object(record, s);
+    add_row(light.row, s);
+    for (const std::uint32_t id :
+         {light.map.id, light.triangles.id, light.second.id, light.bounds.id, light.sampler.id})
+        s.add(std::uint64_t{id});
+    for (const gl::BufferHandle buffer :
+         {light.rays.nodes, light.rays.triangles, light.rays.top, light.rays.instances, light.rays.masks})
+        s.add(std::uint64_t{buffer.id});
+    add_object(light.screen, s);
+    s.add(light.farthest_depth);
+}
+
+/// What the layers of its map hold. False: not what stands there now, or it rests too little to be drawn, and what is
+/// kept meanwhile would go with the frame that draws it.
+bool add_views(const ShadowFrame& frame, std::size_t first, std::size_t end, Signature& s) {
+    for (std::size_t v = first; v < end; ++v) {
+        const ShadowSlot& slot = frame.slots[v];
+        if (slot.hold != Hold::none || frame.demands[frame.views[v].demand].left_to_rays) return false;
+        s.add(slot.content);
+        s.add(slot.moment_content);
+    }
+    return true;
+}
+
+}  // namespace
+
+void sign_lookups(const SceneSnapshot& scene, const ShadowFrame& frame, LightingInputs& inputs) {
+    std::size_t first = 0, end = 0;
+    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i, first = end) {
+        while (end < frame.views.size() && frame.demands[frame.views[end].demand].light == i) ++end;
+        LightingLight& light = inputs.lights[i];
+        const LightShadow& shadow = scene.lights[i].shadow;
+        if (light.row.filter_file.empty() || !shadow.economy || !shadow.keep_visibility || scene.version == 0) continue;
+        Signature s;
+        add_light(light, s);
+        // Rays meet whatever casts anywhere.
+        if (light.row.rays) s.add(scene.version);
+        if (add_views(frame, first, end, s)) light.lookup_signature = s.value();
+    }
+}
+
+}  // namespace gnomon::shadow

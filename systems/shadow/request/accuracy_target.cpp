@@ -1,0 +1,73 @@
+#include "systems/shadow/request/accuracy_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way. A
+/// number of cascades stays until it takes twice the texels of another.
+constexpr std::uint32_t kPatience = 2;
+/// How much less another number's product of maps and error has to be: sqrt(2).
+constexpr double kCountPatience = 1.4142135623730951;
+
+/// What of a predicted error is the texels' share.
+double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0.0, 0.0); }
+
+}  // namespace
+
+double edge_error_px(double extent_px, double reach_texel) {
+    constexpr double kSampling_texel = 0.5, kPixelCentres_px = 1.0;
+    return (kSampling_texel + reach_texel) * extent_px + kPixelCentres_px;
+}
+
+double steeper_than_stated(double cosine) { return std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0))); }
+
+double wished_error_px(const LightShadow& shadow) {
+    return shadow.max_error_px > 0.0f ? static_cast<double>(shadow.max_error_px) : 1.0;
+}
+
+bool follows_contract(const LightItem& light, const ShadowDemand& demand) {
+    const bool stable = light.kind == LightKind::directional && light.shadow.fit == ShadowFit::stable;
+    return light.shadow.resolution_px == 0 && !stable && !needs_distances(demand.filtering) &&
+           !asks_rays(filter_row(demand.filter));  // which err by nothing
+}
+
+std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
+                               std::uint32_t most_px) {
+    const double needed_px = std::ceil(size_px * of_texels_px(predicted_px) / wished_px);
+    if (!(needed_px < most_px)) return most_px;
+    const auto least_px = static_cast<std::uint32_t>(std::max(needed_px, 1.0));
+    const std::uint32_t wish_px = std::min((least_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
+    const bool stays = held && wish_px <= size_px && size_px <= most_px && size_px < kPatience * wish_px;
+    return stays ? size_px : wish_px;
+}
+
+bool keeps_contract(double predicted_px, double wished_px) { return of_texels_px(predicted_px) <= wished_px; }
+
+std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px) {
+    const std::uint64_t most = trials.back().texels;
+    for (const CascadeTrial& trial : trials) {
+        if (!keeps_contract(trial.predicted_px, wished_px)) continue;
+        if (trial.texels <= most || (trial.count == held && trial.texels < kPatience * most)) return trial.count;
+    }
+    const auto product = [&](const CascadeTrial& trial) {
+        const double product_px = trial.count * std::sqrt(trial.count) * of_texels_px(trial.predicted_px);
+        if (!(product_px >= 0.0)) return std::numeric_limits<double>::infinity();
+        return trial.count == held ? product_px / kCountPatience : product_px;
+    };
+    return std::min_element(trials.begin(), trials.end(),
+                            [&](const CascadeTrial& a, const CascadeTrial& b) { return product(a) < product(b); })
+        ->count;
+}
+
+double allowed_error_px(double wished_px, double cosine) {
+    return wished_px * steeper_than_stated(cosine) + edge_error_px(0.0, 0.0);
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,59 @@
+#include "systems/shadow/request/filter_choice.h"
+
+#include "systems/shadow/request/accuracy_target.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Bit for bit: the light's own setting, which was stored as it is.
+bool is_of_word(const HeldFilter& held, double wished_px) {
+    return held.wished_px <= wished_px && held.wished_px >= wished_px;
+}
+
+bool is_seen_as_before(const HeldFilter& held, double seen_px) {
+    return held.seen_px <= seen_px && held.seen_px >= seen_px;
+}
+
+}  // namespace
+
+bool leaves_filter(const LightItem& light) {
+    const LightShadow& shadow = light.shadow;
+    if (shadow.filter != ShadowFilter::automatic || !(shadow.max_error_px > 0.0f)) return false;
+    const bool sun = light.kind == LightKind::directional;
+    const bool given = shadow.resolution_px > 0 || shadow.near_m != 0.0f || shadow.far_m != 0.0f;
+    const bool apart = sun && (shadow.fit == ShadowFit::stable || shadow.projection == LightProjection::perspective);
+    return !given && !apart && shadow.bias == BiasMode::automatic;
+}
+
+ShadowFilter filter_to_fit(const LightItem& light, const HeldFilter* held) {
+    if (light.shadow.filter != ShadowFilter::automatic) return light.shadow.filter;
+    const bool keeping = held && held->filter == kKeepingFilter && leaves_filter(light);
+    return keeping ? kKeepingFilter : kUsualFilter;
+}
+
+ShadowFilter chosen_filter(const HeldFilter& held, double usual_px, double wished_px) {
+    const bool comes_back = held.filter == kKeepingFilter && is_of_word(held, wished_px);
+    const double most_px = comes_back ? wished_px / kFilterPatience : wished_px;
+    return keeps_contract(usual_px, most_px) ? kUsualFilter : kKeepingFilter;
+}
+
+bool is_trial_due(const HeldFilter& held, double wished_px) {
+    return !is_of_word(held, wished_px) || held.frames == 1 || held.passed > 0;
+}
+
+bool comes_back(const HeldFilter& held, double wished_px) {
+    return !is_of_word(held, wished_px) || held.passed + 1 >= kFilterPasses;
+}
+
+HeldFilter held_keeping(const HeldFilter& held, double usual_px, bool passed, double seen_px, double wished_px) {
+    HeldFilter next{kKeepingFilter, wished_px, usual_px, seen_px, 0, 0};
+    if (passed)
+        next.passed = held.passed + 1;
+    else if (held.filter == kKeepingFilter && held.frames > 1)
+        next.frames = held.frames - 1;
+    else if (held.filter != kKeepingFilter || held.passed > 0 || !is_seen_as_before(held, seen_px))
+        next.frames = kFilterFrames;
+    return next;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+
+#include "components/light_shadow.h"
+#include "systems/shadow/frame/filter_demand.h"
+
+namespace gnomon::shadow {
+
+struct FilterRow;
+
+inline constexpr std::uint32_t kMostFilterSize = 31, kMostFilterTaps = 32, kMostPenumbraRays = 256;
+/// Wider filters cost a map more border, and a plane more bias, than they are worth.
+inline constexpr float kMostSpread_texel = 16.0f;
+/// Half-width of the widest penumbra of FilterWidth::source: wider ones cost its search more taps; take fewer texels.
+inline constexpr float kMostPenumbra_texel = 128.0f;
+
+/// Of a map's edge: a wider footprint would leave too little between its borders.
+inline constexpr std::uint32_t kEdgesPerSpread = 8;
+
+FilterDemand filter_demand(const LightShadow& shadow, std::uint32_t resolution_px);
+FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
+
+/// Whether a map has to hold how far casters truly are, instead of flattening those before its depth range.
+bool needs_distances(const FilterDemand& filter);
+
+/// FilterDemand::border_texel where no penumbra is wider than that.
+float border_texel(const FilterDemand& filter, float penumbra_texel);
+
+/// Bound on E where no texel is finer than `texel_m` metres.
+double reach_texel_at(const FilterDemand& filter, double texel_m);
+/// The same of what can move a shadow's edge.
+double edge_texel_at(const FilterDemand& filter, double texel_m);
+
+}  // namespace gnomon::shadow

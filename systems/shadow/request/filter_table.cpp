@@ -1,0 +1,141 @@
+#include "systems/shadow/request/filter_table.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/prefilter_settings.h"
+
+namespace gnomon::shadow {
+namespace {
+
+std::uint32_t one(const LightShadow&, bool) { return 1; }
+/// What a ray reads on an average way through a large scene, by 16 bytes (docs/exact.md, "Quality"): there is no most.
+std::uint32_t of_ray(const LightShadow&, bool) {
+    constexpr std::uint32_t kBoxes = 55, kTriangles = 32, kPerBox = 2, kPerTriangle = 3;
+    return kBoxes * kPerBox + kTriangles * kPerTriangle;
+}
+std::uint32_t of_rays(const LightShadow& shadow, bool cube) { return of_ray(shadow, cube) * shadow.penumbra_rays; }
+std::uint32_t of_grid(const LightShadow& shadow, bool) { return shadow.filter_size * shadow.filter_size; }
+/// A fetch takes 2x2 texels; a grid of n that slides over them touches n + 1.
+std::uint32_t of_pairs(const LightShadow& shadow, bool) {
+    const std::uint32_t pairs = (shadow.filter_size + 1) / 2;
+    return pairs * pairs;
+}
+std::uint32_t of_disk(const LightShadow& shadow, bool) { return shadow.filter_taps; }
+// On a flat map what differs only toward the light is one tap.
+std::uint32_t of_cube_grid(const LightShadow&, bool cube) { return cube ? 64 : 16; }
+std::uint32_t of_directions(const LightShadow&, bool cube) { return cube ? 20 : 8; }
+
+/// Where the first, a fetch of four, does not settle it: sixteen, and two neighbours of each that is above the plane.
+std::uint32_t of_votes(const LightShadow&, bool) { return 1 + 16 * 3; }
+
+/// The same, and which triangles the four show.
+std::uint32_t of_triangles(const LightShadow& shadow, bool cube) { return of_votes(shadow, cube) + 4; }
+
+// e^11.09 is the largest half float, e^88.7 the largest float; EVSM stores squares, and a sum of weights needs room.
+// Half floats below 2^-14 lose bits: e^-9.7.
+constexpr MomentRow kExponential{{gl::Format::r16f, 9.7f, 9.7f, 0.0f}, {gl::Format::r32f, 84.0f, 80.0f, 0.0f}};
+// A variance is the difference of squares that are rounded to 2^-17 (16 bits) or 2^-24 of 1: two of them, and a third
+// for what blending adds.
+constexpr MomentRow kVariance{{gl::Format::rg16, 0.0f, 0.0f, 3.0e-5f}, {gl::Format::rg32f, 0.0f, 0.0f, 2.5e-7f}};
+// The same, relative: half floats have 11 bits.
+constexpr MomentRow kWarped{{gl::Format::rg16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rg32f, 42.0f, 40.0f, 2.5e-7f}};
+constexpr MomentRow kWarpedTwice{
+    {gl::Format::rgba16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rgba32f, 42.0f, 40.0f, 2.5e-7f}, 5.0f};
+constexpr MomentRow kFourMoments{{gl::Format::rgba16, 0.0f, 0.0f, 6.0e-5f}, {gl::Format::rgba32f, 0.0f, 0.0f, 3.0e-7f}};
+/// The search of pcss.glsl, then two disks or votes.
+std::uint32_t of_search(const LightShadow& shadow, bool cube) {
+    constexpr std::uint32_t kTapsPerOctave = 4, kOctaves = 8;  // from half a texel to kMostPenumbra_texel
+    static_assert(kMostPenumbra_texel == 0.5f * (1u << kOctaves));
+    return kTapsPerOctave * kOctaves + std::max(2 * shadow.filter_taps, of_votes(shadow, cube));
+}
+
+/// A lookup in each level of mipmaps, up to a texel as wide as the widest penumbra, and four between two of them.
+std::uint32_t of_levels(const LightShadow&, bool) { return widest_penumbra_levels(kMostPenumbra_texel) + 4; }
+
+// E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
+// a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts
+// the votes of texels up to 2 away and looks at their neighbours, but only where the four around the receiver do not
+// agree: the edge is then less than a texel away, as under one nearest tap.
+/// One fetch of texels that were blurred by filter_size; the sampler blends those up to one away.
+constexpr FilterRow prefiltered(ShadowFilter id, std::string_view name, std::string_view file,
+                                const MomentRow& moments) {
+    FilterRow row{id, name, file, one, 1.0f, FilterWidth::size, MapReading::moments, FilterStorage::moments};
+    row.moments = &moments;
+    return row;
+}
+
+/// The same, blurred by the default filter_size and by what a source with a size makes of it.
+constexpr FilterRow prefiltered_by_source(ShadowFilter id, std::string_view name, std::string_view file,
+                                          const MomentRow& moments) {
+    FilterRow row = prefiltered(id, name, file, moments);
+    row.taps = of_levels;
+    row.reach_texel = 2.0f;
+    row.width = FilterWidth::source;
+    row.texels_per_pixel = 0.75f;
+    return row;
+}
+
+constexpr FilterRow kRows[] = {
+    {ShadowFilter::hard, "hard", "shadow/filters/pcf/hard.glsl", one, 0.5f, FilterWidth::fixed,
+     MapReading::compare_nearest},
+    {ShadowFilter::hardware_2x2, "hardware_2x2", "shadow/filters/pcf/hardware_2x2.glsl", one, 1.0f, FilterWidth::fixed,
+     MapReading::compare_linear},
+    {ShadowFilter::pcf_grid, "pcf_grid", "shadow/filters/pcf/pcf_grid.glsl", of_grid, 0.5f, FilterWidth::size,
+     MapReading::compare_nearest},
+    {ShadowFilter::pcf_bilinear, "pcf_bilinear", "shadow/filters/pcf/pcf_bilinear.glsl", of_pairs, 1.0f,
+     FilterWidth::size, MapReading::compare_linear},
+    {ShadowFilter::poisson, "poisson", "shadow/filters/disk/poisson.glsl", of_disk, 0.5f, FilterWidth::spread,
+     MapReading::compare_nearest},
+    {ShadowFilter::poisson_rotated, "poisson_rotated", "shadow/filters/disk/poisson_rotated.glsl", of_disk, 0.5f,
+     FilterWidth::spread, MapReading::compare_nearest},
+    {ShadowFilter::poisson_stratified, "poisson_stratified", "shadow/filters/disk/poisson_stratified.glsl", of_disk,
+     0.5f, FilterWidth::spread, MapReading::compare_nearest},
+    {ShadowFilter::cube_grid, "cube_grid", "shadow/filters/disk/cube_grid.glsl", of_cube_grid, 0.5f,
+     FilterWidth::spread, MapReading::compare_nearest},
+    {ShadowFilter::cube_directions, "cube_directions", "shadow/filters/disk/cube_directions.glsl", of_directions, 0.5f,
+     FilterWidth::spread, MapReading::compare_nearest},
+    {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/pcf/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
+     MapReading::depths, FilterStorage::depth, 2.5f},
+    {ShadowFilter::triangles, "triangles", "shadow/filters/triangles/triangles.glsl", of_triangles, 3.0f,
+     FilterWidth::fixed, MapReading::depths, FilterStorage::depth_and_triangle, 2.5f, 1.0f},
+    prefiltered(ShadowFilter::exponential, "exponential", "shadow/filters/prefiltered/exponential.glsl", kExponential),
+    prefiltered(ShadowFilter::vsm, "vsm", "shadow/filters/prefiltered/vsm.glsl", kVariance),
+    prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/prefiltered/evsm2.glsl", kWarped),
+    prefiltered(ShadowFilter::evsm4, "evsm4", "shadow/filters/prefiltered/evsm4.glsl", kWarpedTwice),
+    prefiltered(ShadowFilter::moments, "moments", "shadow/filters/prefiltered/moments.glsl", kFourMoments),
+    {ShadowFilter::pcss, "pcss", "shadow/filters/pcss/pcss.glsl", of_search, 3.0f, FilterWidth::source,
+     MapReading::depths, FilterStorage::depth, 2.5f, 0.75f},
+    prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/prefiltered/pcss_moments.glsl",
+                          kFourMoments),
+    {ShadowFilter::exact, "exact", "shadow/filters/exact/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
+     MapReading::depths, FilterStorage::sheets, 0.0f, 0.75f},
+    {ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact/exact_soft.glsl", of_rays, 0.5f, FilterWidth::source,
+     MapReading::depths, FilterStorage::soft_sheets, 0.0f, 0.75f},
+};
+static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
+
+constexpr bool rows_are_in_order() {
+    for (std::size_t i = 0; i < std::size(kRows); ++i)
+        if (static_cast<std::size_t>(kRows[i].id) != i) return false;
+    return true;
+}
+static_assert(rows_are_in_order());
+
+}  // namespace
+
+std::span<const FilterRow> filter_table() { return kRows; }
+
+const FilterRow& filter_row(ShadowFilter filter) {
+    const auto index = static_cast<std::size_t>(filter == ShadowFilter::automatic ? kUsualFilter : filter);
+    return kRows[index < std::size(kRows) ? index : 0];
+}
+
+const FilterRow* find_filter(std::string_view name) {
+    for (const FilterRow& row : kRows)
+        if (row.name == name) return &row;
+    return nullptr;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,35 @@
+#include "systems/shadow/request/light_kinds.h"
+
+#include <iterator>
+
+namespace gnomon::shadow {
+namespace {
+
+/// Cascades of a sun: each about doubles the depth that one texel size can serve; docs/accuracy.md has the figures.
+constexpr std::uint32_t kCascades = 4;
+
+constexpr LightKindRow kRows[] = {
+    {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/lookup/kinds/directional.glsl",
+     gl::TextureKind::array, kCascades, fit_directional},
+    {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot},
+    {LightKind::point, "point", "LIGHT_POINT", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point},
+};
+
+constexpr bool rows_are_in_order() {
+    for (std::size_t i = 0; i < std::size(kRows); ++i)
+        if (static_cast<std::size_t>(kRows[i].kind) != i) return false;
+    return true;
+}
+static_assert(rows_are_in_order());
+
+}  // namespace
+
+std::span<const LightKindRow> light_kind_table() { return kRows; }
+
+const LightKindRow& light_kind_row(LightKind kind) { return kRows[static_cast<std::size_t>(kind)]; }
+
+gl::TextureKind map_texture(const LightItem& light, const ShadowDemand& demand) {
+    return demand.aim.used ? gl::TextureKind::array : light_kind_row(light.kind).texture;
+}
+
+}  // namespace gnomon::shadow

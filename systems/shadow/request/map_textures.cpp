@@ -1,0 +1,78 @@
+#include "systems/shadow/request/map_textures.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "systems/shadow/frame/depth_format.h"
+#include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/request/occluder_pyramid.h"
+
+namespace gnomon::shadow {
+
+gl::TextureDesc without_label(const gl::TextureDesc& desc) {
+    return {{}, desc.kind, desc.format, desc.width, desc.height, desc.layers, desc.mips};
+}
+
+gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand) {
+    const gl::TextureKind kind = map_texture(light, demand);
+    return {.kind = kind,
+            .format = depth_format_row(demand.depth_format).texture,
+            .width = map_edge_px(demand),
+            .height = map_edge_px(demand),
+            .layers = kind == gl::TextureKind::cube ? 1u : demand.view_count};
+}
+
+gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
+    gl::TextureDesc desc = without_label(map);
+    desc.format = kTriangleFormat;
+    return desc;
+}
+
+std::uint32_t scratch_rows(const ShadowDemand& demand, bool cube) { return cube ? demand.filtering.size / 2 : 0; }
+
+MomentDescs moments_of(const gl::TextureDesc& map, const ShadowDemand& demand) {
+    MomentDescs moments;
+    if (filter_row(demand.filter).storage != FilterStorage::moments) return moments;
+    moments.texture = without_label(map);
+    moments.texture.format = demand.moments.format;
+    moments.texture.mips = std::min(demand.moments.levels, static_cast<std::uint32_t>(std::bit_width(map.width)));
+    if (demand.filtering.size <= 1) return moments;
+    moments.scratch = {.format = demand.moments.format, .width = map.width};
+    moments.scratch.height = map.height + 2 * scratch_rows(demand, map.kind == gl::TextureKind::cube);
+    return moments;
+}
+
+SheetDescs sheets_of(const gl::TextureDesc& map) {
+    const auto beside = [&](gl::Format format, std::uint32_t layers) {
+        gl::TextureDesc desc = without_label(map);
+        desc.kind = gl::TextureKind::array;
+        desc.format = format;
+        desc.layers = layers;
+        return desc;
+    };
+    const std::uint32_t views = gl::layer_count(map);
+    return {beside(kTriangleFormat, 1), beside(map.format, views), beside(gl::Format::rg32f, views)};
+}
+
+std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
+                        const gl::TextureDesc& scratch) {
+    std::uint64_t bytes = gl::byte_size(map);
+    if (storage == FilterStorage::depth_and_triangle) bytes += gl::byte_size(triangles_of(map));
+    if (has_sheets(storage)) {
+        const SheetDescs sheets = sheets_of(map);
+        bytes += gl::byte_size(sheets.triangles) + gl::byte_size(sheets.second) + gl::byte_size(sheets.bounds);
+        if (storage == FilterStorage::soft_sheets) bytes += ends_bytes(map.width, gl::layer_count(map));
+    }
+    if (moments.width > 0) bytes += gl::byte_size(moments);
+    if (scratch.width > 0) bytes += gl::byte_size(scratch);
+    return bytes;
+}
+
+std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand) {
+    if (!has_map(demand)) return 0;
+    const gl::TextureDesc map = map_desc(light, demand);
+    const MomentDescs moments = moments_of(map, demand);
+    return map_bytes(map, filter_row(demand.filter).storage, moments.texture, moments.scratch);
+}
+
+}  // namespace gnomon::shadow

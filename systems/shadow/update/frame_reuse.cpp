@@ -1,0 +1,27 @@
+#include "systems/shadow/update/frame_reuse.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Takes `now` over; whether it was the same.
+template <class T>
+bool keep(T& last, const T& now) {
+    if (last == now) return true;
+    last = now;
+    return false;
+}
+
+}  // namespace
+
+bool StillFrame::unchanged(const SceneSnapshot& scene, bool shadows, const ShadowBudget& budget) {
+    bool same = keep(version_, scene.version) && scene.version != 0;
+    same &= keep(shadows_, shadows);
+    same &= keep(budget_, budget);
+    same &= keep(consumers_, scene.consumers);
+    same &= keep(pictures_, scene.pictures);
+    same &= keep(sampled_depths_, scene.sampled_depths);
+    same &= keep(exposure_, scene.exposure);
+    return same;
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,112 @@
+#include "systems/shadow/update/stale_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Pose {
+    std::uint64_t since = 0;
+    double bent_m = 0.0;
+};
+Pose read(const PoseItem* pose) { return pose ? Pose{pose->since, pose->bent_m} : Pose{}; }
+
+/// Of vectors: how far across the light. Both are convex in what moved, so that a box's corners say it for the box.
+double across_m(const ShadowView& view, const glm::dvec3& v) {
+    return std::hypot(glm::dot(v, view.axis_u), glm::dot(v, view.axis_v));
+}
+
+/// The largest tangent that the view's map holds.
+double widest_tangent(const ShadowView& view) {
+    const glm::dvec2 side = glm::max(glm::abs(view.tan_low), glm::abs(view.tan_high));
+    return glm::length(side);
+}
+
+/// In front of a light, along its view's axis.
+double least_distance_m(const ShadowView& view, const math::Aabb& box) {
+    double least_m = kInfinity;
+    for (const glm::dvec3& corner : math::corners(box))
+        least_m = std::min(least_m, glm::dot(apex_ws_m(view) - corner, view.axis_back));
+    return least_m;
+}
+
+/// Of the points of a box, each moved by up to `bent_m` besides what `moved` does to it.
+struct BoxShift {
+    double any_m = 0.0, across_m = 0.0, along_m = 0.0;
+};
+BoxShift box_shift(const ShadowView& view, const ShownCaster& then, const InstanceItem& now, double bent_m) {
+    const glm::dmat3 turn = now.basis * glm::inverse(then.basis);
+    BoxShift most;
+    for (const glm::dvec3& corner : math::corners(then.bounds_ws)) {
+        const glm::dvec3 moved = turn * (corner - then.translation_ws_m) + (now.translation_ws_m - corner);
+        const double any_m = glm::length(moved);
+        if (!(any_m < kInfinity)) return {kInfinity, kInfinity, kInfinity};
+        most.any_m = std::max(most.any_m, any_m);
+        most.across_m = std::max(most.across_m, across_m(view, moved));
+        most.along_m = std::max(most.along_m, std::abs(glm::dot(moved, view.axis_back)));
+    }
+    return {most.any_m + bent_m, most.across_m + bent_m, most.along_m + bent_m};
+}
+
+/// What no linear map takes to be longer by more than this factor.
+double longest(const glm::dmat3& basis) {
+    return std::sqrt(glm::dot(basis[0], basis[0]) + glm::dot(basis[1], basis[1]) + glm::dot(basis[2], basis[2]));
+}
+
+}  // namespace
+
+void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters, std::uint64_t still_content,
+              ShownCasters& shown) {
+    shown.still = still_content;
+    shown.moving.clear();
+    for (const std::uint32_t i : casters) {
+        const InstanceItem& item = scene.instances[i];
+        const Pose pose = read(pose_of(scene, item.mesh));
+        shown.moving.push_back({item.gpu_slot, item.mesh, item.version, item.basis, item.translation_ws_m,
+                                item.bounds_ws, pose.since, pose.bent_m});
+    }
+}
+
+CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const InstanceItem& now,
+                         const PoseItem* pose) {
+    if (then.version == now.version) return {};
+    const Pose bends = read(pose);
+    if (bends.since != then.bends_since) return {kInfinity, kInfinity};
+    const double bent_m = (bends.bent_m - then.bent_m) * longest(now.basis);
+    const BoxShift shift = box_shift(view, then, now, bent_m);
+    if (view.projection == ViewProjection::orthographic) return {shift.any_m, shift.across_m};
+    // x1/z1 - x0/z0 = ((x1 - x0) - (x0/z0)(z1 - z0)) / z1, and the same with 0 and 1 swapped: the one whose tangent the
+    // map holds counts, since where it holds neither, neither is seen.
+    const double distance_m = std::min(least_distance_m(view, then.bounds_ws), least_distance_m(view, now.bounds_ws));
+    if (!(distance_m > 0.0)) return {kInfinity, kInfinity};
+    return {shift.any_m, (shift.across_m + widest_tangent(view) * shift.along_m) / distance_m};
+}
+
+Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const ShownCasters& shown,
+                    std::uint64_t still_content, std::span<const std::uint32_t> casters) {
+    const auto moving = casters.subspan(std::min<std::size_t>(view.still_casters, casters.size()));
+    if (shown.still != still_content || shown.moving.size() != moving.size() || !(view.metre_px > 0.0))
+        return kUnknownStaleness;
+    CasterShift most;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        const InstanceItem& now = scene.instances[moving[i]];
+        const ShownCaster& then = shown.moving[i];
+        if (now.gpu_slot != then.gpu_slot || now.mesh != then.mesh) return kUnknownStaleness;
+        const CasterShift shift = caster_shift(view, then, now, pose_of(scene, now.mesh));
+        if (!(shift.any_m < kInfinity && shift.across < kInfinity)) return kUnknownStaleness;
+        most = {std::max(most.any_m, shift.any_m), std::max(most.across, shift.across)};
+    }
+    const bool orthographic = view.projection == ViewProjection::orthographic;
+    // Of a perspective view a tangent is as much longer than a texel as it is in the texel's own coordinates.
+    const double across_px =
+        orthographic ? view.metre_px : view.texel_extent_px / glm::length(glm::dvec2(view.texel_u, view.texel_v));
+    return {most.any_m, most.across * across_px + most.any_m * view.metre_px};
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,38 @@
+#include "bench/accuracy/default_limits.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gnomon::bench {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Promise, IsKeptUpToItsBounds) {
+    EXPECT_EQ(promise_words({kMostWrongByDefault, kMostLeakByDefault, 0.0, {}, {}}), "");
+    EXPECT_EQ(promise_words({}), "");
+    EXPECT_TRUE(keeps_promise({kMostWrongByDefault, kMostLeakByDefault, 0.0, 1.0, 1.0}));
+    EXPECT_FALSE(keeps_promise({kMostWrongByDefault * 1.01, 0.0, 0.0, {}, {}}));
+    EXPECT_FALSE(keeps_promise({0.0, kMostLeakByDefault * 1.01, 0.0, {}, {}}));
+    EXPECT_FALSE(keeps_promise({0.0, 0.0, 1.0e-9, {}, {}}));
+}
+
+TEST(Promise, NamesEachErrorAboveItsBoundAndWhatTexelsExplainOfIt) {
+    const PromisedErrors errors{0.001, 0.0004, 0.0002, 0.0001, 0.0003};
+    EXPECT_EQ(promise_words(errors),
+              "0.1 % wrong (0.05 %), 60 % of that within half a texel of the map or 2 px of a true edge; "
+              "0.04 % leak (0.01 %), 25 % of that within half a texel of the map of a true edge; "
+              "0.02 % acne (none), 50 % of that within half a texel of the map of a true edge");
+    EXPECT_THAT(promise_words({0.001, 0.0, 0.0, 0.0, 0.0}), HasSubstr("(0.05 %), all of that within"));
+    EXPECT_THAT(promise_words({0.001, 0.0, 0.0, 0.0, {}}), Not(HasSubstr("within"))) << "half of it was not asked";
+}
+
+TEST(Promise, ExplainsNoMoreThanThereIs) {
+    // Wrong pixels that are no leak, within 2 px of an edge, are not far, so far is at most what there is; rounding of
+    // shares that were read from a file is not to print less than nothing.
+    EXPECT_THAT(promise_words({0.001, 0.0, 0.0, 0.0006, 0.0004000001}), HasSubstr("none of that within"));
+}
+
+}  // namespace
+}  // namespace gnomon::bench

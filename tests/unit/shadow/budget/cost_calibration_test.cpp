@@ -1,0 +1,49 @@
+#include "systems/shadow/budget/cost_calibration.h"
+
+#include <gtest/gtest.h>
+
+#include "systems/frame_timers.h"
+#include "systems/shadow/budget/cost_model.h"
+
+namespace gnomon::shadow {
+namespace {
+
+constexpr double kPixels = 1000.0 * 1000.0;
+
+/// What a clock learns of lighting where a light that asks by rays takes twice what the model says of `drawn`, and its
+/// report says `said`.
+double learned_factor(ShadowFilter drawn, ShadowFilter said) {
+    SceneSnapshot scene;
+    scene.lights.resize(1);
+    ShadowFrame frame;
+    frame.demands = {{.filter = ShadowFilter::exact}};
+    LightingLight light;
+    light.row.filter_file = "any";
+    light.screen = {0, 0, 1000, 1000};
+    frame.inputs.resize(1);
+    frame.inputs.front().lights = {light};
+    FrameReport report;
+    report.lights.resize(1);
+    report.lights[0].filter.filter = said;
+    const double fetches =
+        drawn == ShadowFilter::automatic ? 0.0 : mean_fetches(scene.lights[0], frame.demands[0], drawn);
+    const double model_us = kPixels * (kShadedPixel_ns + fetches * kFetch_ns) / 1000.0;
+    CostClock clock;
+    for (std::uint64_t i = 0; i < 32; ++i) {
+        clock.submitted(i, scene, frame, report);
+        const gl::Timing timing{lighting_timer(0), i, 2.0 * model_us};
+        clock.learn({&timing, 1});
+    }
+    return clock.factors().lighting;
+}
+
+/// A fault that lasts would have it take the device for a faster one, and a budget grant what does not hold once it is
+/// over.
+TEST(CostClock, CountsTheFilterThatWasDrawn) {
+    for (const ShadowFilter drawn : {ShadowFilter::exact, ShadowFilter::hard, ShadowFilter::automatic})
+        EXPECT_NEAR(learned_factor(drawn, drawn), 2.0, 0.05);
+    EXPECT_LT(learned_factor(ShadowFilter::hard, ShadowFilter::exact), 1.0) << "the figure that it has to know";
+}
+
+}  // namespace
+}  // namespace gnomon::shadow

@@ -1,0 +1,47 @@
+#pragma once
+#include "systems/extract/volumes.h"
+#include "systems/shadow/fitting/directional/min_area_rectangle.h"
+#include "systems/shadow/frame/types.h"
+#include "systems/shadow/projection/perspective_view.h"
+
+namespace gnomon::shadow {
+
+/// 1 - smallest rectangle around the points of a cascade's own slice, up to where the next one serves alone, / what the
+/// map has before its border.
+inline double waste(const SceneSnapshot& scene, const ShadowFrame& frame, const ShadowView& view) {
+    ConsumerItem slice = scene.consumers[0];
+    slice.near_m = view.seen_from_m;
+    const bool last = &view == &frame.views.back() || (&view + 1)->demand != view.demand;
+    if (!last) slice.far_m = std::max(view.seen_to_m, (&view + 1)->seen_from_m);
+    const math::Frustum frustum = consumer_frustum(slice);
+    std::vector<glm::dvec3> points_ws;
+    const IndexRange receivers = frame.sets[view.demand].receivers;
+    for (std::uint32_t r = receivers.first; r < receivers.first + receivers.count; ++r)
+        math::clip_box(frustum, scene.instances[frame.receiver_items[r]].bounds_ws, points_ws);
+    std::vector<glm::dvec2> points, hull;
+    for (const glm::dvec3& p : points_ws) {
+        const glm::dvec3 q = p - view.anchor_ws_m;
+        points.emplace_back(glm::dot(q, view.axis_u), glm::dot(q, view.axis_v));
+    }
+    const Rectangle best = smallest_rectangle(points, hull);
+    const glm::dvec2 size = best.max - best.min;
+    const ShadowDemand& demand = frame.demands[view.demand];
+    const double size_px = demand.resolution_px;
+    const double border =
+        1.0 - 2.0 * border_px(size_px, static_cast<double>(demand.filtering.widest_texel)) / size_px;
+    const glm::dvec2 map = 2.0 * view.half_extent_m * border;
+    return 1.0 - size.x * size.y / (map.x * map.y);
+}
+
+inline double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Metres between two depths that a map of `quantum` (of standard, not reversed, depth) can tell apart at z.
+inline double depth_step_m(double quantum, double near_m, double far_m, double z_m) {
+    return quantum * z_m * z_m * (far_m - near_m) / (far_m * near_m);
+}
+
+}  // namespace gnomon::shadow

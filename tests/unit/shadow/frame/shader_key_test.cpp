@@ -1,0 +1,130 @@
+#include "systems/shadow/frame/shader_key.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+
+#include "shaders/embedded.h"
+#include "systems/shadow/request/filter_table.h"
+#include "tests/source_paths.h"
+
+/// What a row's shaders are compiled with is said in one place, and the guide and its example leave nothing of it out.
+namespace gnomon::shadow {
+namespace {
+
+using ::testing::Contains;
+using ::testing::IsEmpty;
+using Names = std::set<std::string>;
+
+constexpr const char* kGuide = "docs/embedding.md";
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    EXPECT_TRUE(file) << path;
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+Names found(const std::string& text, const char* pattern) {
+    const std::regex expression(pattern);
+    Names names;
+    for (std::sregex_iterator m(text.begin(), text.end(), expression), end; m != end; ++m) names.insert((*m)[1]);
+    return names;
+}
+
+/// Names alone.
+Names names_of(const std::vector<std::string>& defines) {
+    Names names;
+    for (const std::string& define : defines) names.insert(define.substr(0, define.find(' ')));
+    return names;
+}
+
+ProgramRow shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", "shadow/filters/pcf/hard.glsl"}; }
+
+/// Of a row, everything that may be so.
+ProgramRow full_row() {
+    ProgramRow row = shadowed_row();
+    auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
+           masks, footprint] = row;  // all members: another one does not compile
+    for (bool* flag : {&fades, &depths, &manual_bias, &triangles, &sheets, &moments, &rays, &masks, &footprint})
+        *flag = true;
+    return row;
+}
+
+/// Rows' names that lines of C++ spell in quotes.
+Names spelt_in(const std::string& code) { return found(code, "\"(SHADOW\\w*|RAY_MASKS)\\b"); }
+
+TEST(ProgramRow, EachOfItsFlagsIsADefineOfItsOwn) {
+    const Names least = names_of(program_defines(shadowed_row()));
+    for (bool ProgramRow::*flag : {&ProgramRow::fades, &ProgramRow::depths, &ProgramRow::manual_bias,
+                                   &ProgramRow::triangles, &ProgramRow::sheets, &ProgramRow::moments, &ProgramRow::rays,
+                                   &ProgramRow::ray_masks, &ProgramRow::footprint}) {
+        ProgramRow row = shadowed_row();
+        row.*flag = true;
+        EXPECT_EQ(program_defines(row).size(), least.size() + 1);
+    }
+    EXPECT_EQ(program_defines(full_row()).size(), least.size() + 9);
+    EXPECT_THAT(names_of(program_defines(ProgramRow{"LIGHT_POINT", {}, {}})), ::testing::ElementsAre("LIGHT_POINT"));
+}
+
+/// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,
+/// and what tests of the bias take away.
+TEST(ProgramRow, NoShaderAsksForAnythingThatNobodyDefines) {
+    std::string all;
+    for (const gl::ShaderFile& file : shader_files()) all += std::string(file.text) + "\n";
+    std::string conditions;
+    const std::regex condition("#\\s*(?:ifdef|ifndef|if|elif)\\b([^\\n]*)");
+    for (std::sregex_iterator m(all.begin(), all.end(), condition), end; m != end; ++m)
+        conditions += std::string((*m)[1]) + "\n";
+    const Names asked = found(conditions, "\\b(SHADOW\\w*|RAY_MASKS)\\b");
+    const Names own = found(all, "#\\s*define\\s+(SHADOW\\w*)");
+    const Names passes{"SHADOW_FOUND", "SHADOW_SHOWN", "SHADOW_BIAS_SHARE"},
+        rows = names_of(program_defines(full_row()));
+    ASSERT_GT(asked.size(), rows.size() / 2);
+    for (const std::string& name : asked)
+        EXPECT_TRUE(rows.contains(name) || own.contains(name) || passes.contains(name)) << name;
+    for (const std::string& name : rows)
+        if (name.starts_with("SHADOW_") && name != "SHADOW_REACH_TEXEL") {
+            EXPECT_THAT(asked, Contains(name));
+        }
+}
+
+TEST(ProgramRow, TheGuideNamesEveryDefine) {
+    const std::string guide = text_of(test::source_folder() / kGuide);
+    const Names table = found(guide, "\\n\\| `[^|]*`?(SHADOW\\w*|RAY_MASKS)` \\|");
+    Names wanted = names_of(program_defines(full_row()));
+    wanted.erase("LIGHT_SPOT");
+    EXPECT_EQ(table, wanted);
+}
+
+/// Nobody spells them once more: who does leaves the next one out.
+TEST(ProgramRow, NoOtherCodeSpellsThem) {
+    const std::filesystem::path root = test::source_folder();
+    EXPECT_FALSE(spelt_in(text_of(root / "systems/shadow/frame/shader_key.cpp")).empty()) << "what is looked for is found";
+    const Names passes{"SHADOW_FOUND", "SHADOW_SHOWN"};
+    std::size_t files = 0;
+    for (const char* part : {"systems", "sample_game", "tests/install_consumer", "docs"})
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root / part)) {
+            const std::string kind = entry.path().extension().string();
+            if ((kind != ".cpp" && kind != ".h" && kind != ".md") || entry.path().filename() == "shader_key.cpp")
+                continue;
+            ++files;
+            Names spelt = spelt_in(text_of(entry.path()));
+            for (const std::string& name : passes) spelt.erase(name);
+            EXPECT_THAT(spelt, IsEmpty()) << entry.path();
+        }
+    EXPECT_GT(files, 100u);
+}
+
+TEST(ProgramRow, NamesItsFilesAndTheCameraWhereTheyReadIt) {
+    EXPECT_EQ(row_glsl(ProgramRow{"LIGHT_POINT", "shadow/lookup/kinds/point.glsl", {}}), "");
+    EXPECT_EQ(row_glsl(shadowed_row()), "#include \"shadow/lookup/kinds/spot.glsl\"\n#include \"shadow/filters/pcf/hard.glsl\"\n");
+    EXPECT_EQ(row_glsl(full_row()).find("#include \"common/camera_block.glsl\"\n"), 0u);
+}
+
+}  // namespace
+}  // namespace gnomon::shadow
