@@ -18,7 +18,8 @@ using ::testing::Not;
 using DeviceResources = DeviceTest;
 
 TEST_F(DeviceResources, InfoNamesTheRendererAndItsLimits) {
-    EXPECT_THAT(device().info().name, HasSubstr("OpenGL 4.5"));
+    // Who asks for a 4.5 core context may be given any later one.
+    EXPECT_THAT(device().info().name, ::testing::AnyOf(HasSubstr("OpenGL 4.5"), HasSubstr("OpenGL 4.6")));
     EXPECT_GE(device().info().max_texture_px, 4096u);
     EXPECT_GE(device().info().max_layers, 256u);
     EXPECT_GT(device().info().uniform_alignment, 0u);
