@@ -73,10 +73,5 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving,
     bias.along_normal_m = steep ? across_m / (1.0 - min(spread * leaving, kMostGrowth)) : 0.0;
     bias.depth = view.numeric.x + kRelativeRounding * depth +
                  (steep ? 0.0 : beta * across_m / (z_m * plane_m));
-#ifdef SHADOW_DEPTHS
-    // Where its errors may take a plane half of the way to the light, its slope is not known: it is lit. The cosine there is below
-    // 1/300 in maps of 16 texels, 1/3000 in maps of 2048.
-    if (2.0 * error_m > -dot(n_map, position_map)) bias = Bias(0.0, 1.0);
-#endif
     return taken(bias);
 }
