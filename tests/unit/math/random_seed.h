@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// The seed of every run that names none, so that each gives the same result. A date; 300 others have passed as well.
+/// The seed of every run that names none, so that each gives the same result. A date.
 constexpr std::uint64_t kKnownSeed = 20261122;
 
 /// GNOMON_TEST_SEED: a number, or `random` for one that is drawn; kKnownSeed if it is not set.
