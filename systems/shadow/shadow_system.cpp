@@ -168,7 +168,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     frame_.shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
     fit_views(scene, history_, frame_);
     count_quiet_frames(scene, history_, frame_);
-    maps_.waiting_bytes(scene, waiting_bytes_);
+    if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
     budget_.decide(scene, gpu, history_, waiting_bytes_, frame_);
     provide_triangles(gpu);
     provide_rays(scene, gpu, lacked && !rays_lack_, list);
