@@ -7,7 +7,8 @@ namespace {
 void note_submission(const FrameParts& parts, std::uint64_t submission, bool learn_costs, const FrameReport& report) {
     shadow::ShadowSystem& shadows = parts.shadows;
     shadows.draw_times().submitted(submission, parts.scene, report);
-    if (learn_costs) shadows.cost_clock().submitted(submission, parts.scene, shadows.frame(), report);
+    const shadow::ShadowFrame& frame = shadows.frame();
+    if (learn_costs) shadows.cost_clock().submitted(submission, parts.scene, frame.decisions, frame.inputs, report);
 }
 
 }  // namespace

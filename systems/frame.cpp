@@ -7,7 +7,6 @@
 #include "systems/debug/debug_painter.h"
 #include "systems/extract/names.h"
 #include "systems/lighting/lighting_system.h"
-#include "systems/shadow/fitting/directional/sdsm_splits.h"
 #include "systems/shadow/shadow_system.h"
 
 namespace gnomon {
@@ -50,7 +49,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
                 report_.dropped.push_back({item.entity, name_of(world, item.entity), DropReason::instances_full});
     snapshot_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
-    const bool sample_depths = !held && shadow::wants_sampled_depths(snapshot_, shadows);
+    const bool sample_depths = !held && shadows_->wants_sampled_depths(snapshot_);
     if (!sample_depths && !held) snapshot_.sampled_depths = {};  // of no use later
     const bool measure_exposure =
         settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();

@@ -6,11 +6,9 @@
 
 #include "bench/glsl_on_cpu/cpu_lookup.h"
 #include "systems/shadow/budget/cost_model.h"
-#include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/fitting/error_bound.h"
-#include "systems/shadow/fitting/fit_light.h"
 #include "systems/shadow/request/accuracy_target.h"
-#include "systems/shadow/request/decide_requests.h"
+#include "tests/oracle/fit_stages.h"
 
 namespace gnomon::bench {
 namespace {
@@ -27,7 +25,7 @@ bool orthographic(const ShadowView& view) { return view.projection == shadow::Vi
 
 /// Where the point lies in the map of a cascade: u, v, depth, each 0 to 1 if inside.
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.anchor_ws_m, 1.0);
+    const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.pose.anchor_ws_m, 1.0);
     return q.w > 0.0 ? glm::dvec3(q) / q.w : glm::dvec3(-1.0);
 }
 
@@ -40,19 +38,19 @@ bool holds(const glm::dvec3& at, double margin) {
 /// its border, unless it serves by distance.
 double faded(const ShadowView& view, const glm::dvec3& at, double distance_m, double margin, double blend) {
     if (!(blend > 0.0)) return 0.0;
-    const double share = faded_by_distance(view.fades_from_m, view.fades_to_m, distance_m);
-    if (view.seen_to_m > 0.0) return share;
+    const double share = faded_by_distance(view.cascade.fades_from_m, view.cascade.fades_to_m, distance_m);
+    if (view.cascade.seen_to_m > 0.0) return share;
     const glm::dvec3 inside = glm::min(at, 1.0 - at);
     return std::min(share, faded_near_border(std::min({inside.x - margin, inside.y - margin, inside.z}), blend));
 }
 
 double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
-    return glm::dot(apex_ws_m(view) - p_ws, view.axis_back);
+    return glm::dot(apex_ws_m(view) - p_ws, view.pose.axis_back);
 }
 
 /// Unit.
 glm::dvec3 to_light(const ShadowView& view, const glm::dvec3& p_ws) {
-    return orthographic(view) ? view.axis_back : glm::normalize(apex_ws_m(view) - p_ws);
+    return orthographic(view) ? view.pose.axis_back : glm::normalize(apex_ws_m(view) - p_ws);
 }
 
 /// Nothing to be off but the picture's own pixels.
@@ -63,21 +61,21 @@ oracle::TexelThere lit() {
 }
 
 /// How many texels aside the offset along the normal takes a lookup: shaders/shadow/lookup/bias/automatic.glsl.
-double moved_texel(const ShadowView& view, const shadow::ShadowDemand& demand, const shadow::TexelSides& sides,
+double moved_texel(const ShadowView& view, const shadow::ShadowRequest& demand, const shadow::TexelSides& sides,
                    const glm::dvec3& p_ws, const glm::dvec3& normal, double filter_texel) {
     const double along_m =
         filter_texel * (std::abs(glm::dot(normal, sides.u_m)) + std::abs(glm::dot(normal, sides.v_m)));
     const glm::dvec3 moved = glm::abs(in_map(view, p_ws + normal * along_m) - in_map(view, p_ws));
-    return std::max(moved.x, moved.y) * demand.resolution_px;
+    return std::max(moved.x, moved.y) * demand.map.resolution_px;
 }
 
 /// The texel around the point, under a filter of that half-width, without an error.
-oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowDemand& demand, const glm::dvec3& p_ws,
+oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowRequest& demand, const glm::dvec3& p_ws,
                                const glm::dvec3& normal, double filter_texel) {
     const shadow::TexelSides sides = shadow::texel_sides(view, p_ws);
     oracle::TexelThere texel{
         .u_m = sides.u_m, .v_m = sides.v_m, .filter_texel = filter_texel, .reach_texel = filter_texel};
-    texel.depth_m = shadow::told_apart_m(view, demand.depth_format, p_ws);
+    texel.depth_m = shadow::told_apart_m(view, demand.map.depth_format, p_ws);
     const double cosine = glm::dot(to_light(view, p_ws), normal);
     if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
         texel.reach_texel += moved_texel(view, demand, sides, p_ws, normal, filter_texel);
@@ -89,22 +87,25 @@ oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowDeman
 
 EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held)
     : scene_(scene) {
-    shadow::decide_demand(scene, device, true, held, frame_.demands);
-    for (shadow::ShadowDemand& demand : frame_.demands) {
-        const LightItem& light = scene.lights[demand.light];
-        const shadow::HeldLight* last = find(held, light.entity, demand.light);
-        if (last && !(last->grant == shadow::Grant{})) demand = shadow::granted(light, demand, last->grant);
+    shadow::FitStages stages;
+    stages.decide(scene, device, held);
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const LightItem& light = scene.lights[i];
+        const shadow::HeldLight* last = find(held, light.entity, i);
+        shadow::ShadowRequest& request = stages.frame.requests[i];
+        if (last && !(last->grant == shadow::Grant{})) request = shadow::granted(light, request, last->grant);
     }
-    shadow::select_sets(scene, frame_);
-    shadow::fit_views(scene, held, frame_);
+    stages.select(scene);
+    stages.fit(scene, held);
+    fitted_ = std::move(stages.frame.fitted);
 }
 
 double EdgeBounds::reach_texel(const ShadowView& view) const {
-    return static_cast<double>(frame_.demands[view.demand].filtering.widest_texel);
+    return static_cast<double>(fitted_.lights[view.light].request.map.filtering.widest_texel);
 }
 
 double EdgeBounds::edge_texel(const ShadowView& view) const {
-    const shadow::FilterDemand& filter = frame_.demands[view.demand].filtering;
+    const shadow::FilterSettings& filter = fitted_.lights[view.light].request.map.filtering;
     return static_cast<double>(filter.widest_texel - filter.still_texel);
 }
 
@@ -115,16 +116,15 @@ const ShadowView* EdgeBounds::view_of(std::uint32_t light, const glm::dvec3& poi
     const double distance_m = -glm::dot(point_ws_m - consumer.position_ws_m, consumer.rotation_ws[2]);
     const ShadowView* best = nullptr;
     const ShadowView* nearer = nullptr;
-    for (const ShadowView& view : frame_.views) {
-        const shadow::ShadowDemand& demand = frame_.demands[view.demand];
-        if (demand.light != light) continue;
+    const shadow::MapSettings& map = fitted_.lights[light].request.map;
+    for (const ShadowView& view : fitted_.views_of(light)) {
         if (orthographic(view)) {
-            const bool passed = view.seen_to_m > 0.0 && distance_m > view.seen_to_m;
-            const double margin = (reach_texel(view) + kMovedTexel) / demand.resolution_px;
+            const bool passed = view.cascade.seen_to_m > 0.0 && distance_m > view.cascade.seen_to_m;
+            const double margin = (reach_texel(view) + kMovedTexel) / map.resolution_px;
             const glm::dvec3 at = in_map(view, point_ws_m);
             if (passed || !holds(at, margin)) continue;
             const bool decides =
-                nearer || faded(view, at, distance_m, margin, static_cast<double>(demand.cascade_blend)) < kHalf;
+                nearer || faded(view, at, distance_m, margin, static_cast<double>(map.cascade_blend)) < kHalf;
             if (decides) return &view;
             nearer = &view;
             continue;
@@ -141,7 +141,8 @@ oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_r
     const glm::dvec3 p_ws = consumer.position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);
     if (!view) return lit();
-    oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, reach_texel(*view));
+    oracle::TexelThere texel =
+        texel_there(*view, fitted_.lights[view->light].request, p_ws, normal, reach_texel(*view));
     texel.u_m *= telling;
     texel.v_m *= telling;
     texel.error_px =
@@ -159,7 +160,7 @@ oracle::TexelThere EdgeBounds::within(std::uint32_t light, const glm::dvec3& poi
     const glm::dvec3 p_ws = scene_.consumers.front().position_ws_m + point_rel_m;
     const ShadowView* view = view_of(light, p_ws);
     if (!view) return lit();
-    oracle::TexelThere texel = texel_there(*view, frame_.demands[view->demand], p_ws, normal, edge_texel(*view));
+    oracle::TexelThere texel = texel_there(*view, fitted_.lights[view->light].request, p_ws, normal, edge_texel(*view));
     texel.u_m *= wished;
     texel.v_m *= wished;
     texel.error_px = shadow::allowed_error_px(wished * error_px, glm::dot(to_light(*view, p_ws), normal));

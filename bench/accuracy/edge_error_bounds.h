@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "engine/gl/device.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 #include "tests/oracle/edge_exceptions.h"
 
 namespace gnomon::bench {
@@ -30,7 +30,7 @@ public:
                               double error_px, double wished = 1.0) const;
 
     /// Edge of the light's maps, for which all of this is said; 0: it has none.
-    std::uint32_t map_px(std::uint32_t light) const { return frame_.demands[light].resolution_px; }
+    std::uint32_t map_px(std::uint32_t light) const { return fitted_.lights[light].request.map.resolution_px; }
 
     /// What the view that serves the point states for receivers of its slope; 0 where none does.
     double stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const;
@@ -41,7 +41,7 @@ private:
     double edge_texel(const shadow::ShadowView& view) const;
 
     const SceneSnapshot& scene_;
-    shadow::ShadowFrame frame_;
+    shadow::FittedViews fitted_;
 };
 
 }  // namespace gnomon::bench

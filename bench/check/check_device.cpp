@@ -3,7 +3,7 @@
 #include <cinttypes>
 
 #include "bench/text/printf_string.h"
-#include "systems/shadow/maps/cube_layering.h"
+#include "systems/shadow/update/cube_layering.h"
 
 namespace gnomon::bench {
 namespace {

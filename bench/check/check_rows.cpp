@@ -8,8 +8,8 @@
 #include "bench/compare/evaluate_configuration.h"
 #include "bench/compare/paired_times.h"
 #include "sample_game/support/settings/light_settings.h"
-#include "systems/shadow/maps/cube_layering.h"
 #include "systems/shadow/request/light_kinds.h"
+#include "systems/shadow/update/cube_layering.h"
 
 namespace gnomon::bench {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "engine/math/frustum.h"
 #include "systems/extract/scene_tree.h"
-#include "systems/shadow/request/decide_requests.h"
-#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::bench {
 
@@ -46,28 +44,21 @@ SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m) {
     return scene;
 }
 
-void decide(const SceneSnapshot& scene, shadow::ShadowFrame& frame) {
-    gl::DeviceInfo device;
-    device.max_texture_px = device.max_cube_px = 16384;  // a large one's, so that no map is cut
-    shadow::decide_demand(scene, device, true, {}, frame.demands);
-}
-
-shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::ShadowFrame& frame, const shadow::HeldLight& held,
+shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages, const shadow::HeldLight& held,
                            shadow::HeldLight& next) {
-    const shadow::PotentialSets& sets = frame.sets[0];
-    const auto part = [](const auto& items, shadow::IndexRange range) {
-        return std::span(items).subspan(range.first, range.count);
-    };
+    const shadow::ReceiverCasterSets& sets = stages.frame.sets;
+    const shadow::LightSetsView light{sets, sets.lights[0]};
+    const shadow::ShadowRequest& request = stages.frame.requests[0];
     return {.light = scene.lights[0],
-            .demand = frame.demands[0],
+            .request = request,
             .scene = scene,
-            .receivers = part(frame.receiver_items, sets.receivers),
-            .casters = part(frame.caster_items, sets.casters),
-            .receiver_points_ws = part(frame.receiver_points_ws, sets.receiver_points),
-            .beams = part(frame.beams, sets.beams),
-            .frame_points_ws = frame.receiver_points_ws,
-            .reach_texel = frame.demands[0].filtering.widest_texel,
-            .scratch = frame.fit_scratch,
+            .receivers = light.receivers(),
+            .casters = light.casters(),
+            .receiver_points_ws = light.receiver_points_ws(),
+            .beams = light.beams(),
+            .frame_points_ws = sets.receiver_points_ws,
+            .reach_texel = request.map.filtering.widest_texel,
+            .scratch = stages.storage.fits,
             .held = held,
             .next = next};
 }

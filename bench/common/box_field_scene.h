@@ -3,6 +3,7 @@
 
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/request/light_kinds.h"
+#include "tests/oracle/fit_stages.h"
 
 /// A scene of any number of boxes for what is measured without a picture.
 namespace gnomon::bench {
@@ -13,11 +14,8 @@ inline constexpr std::uint32_t kPlainMeshes = 50;
 /// `kind` and a camera above them. `sight_m`: how far the camera sees; as far as the plain goes if 0.
 SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m);
 
-/// The first stage, with a device that takes the largest maps.
-void decide(const SceneSnapshot& scene, shadow::ShadowFrame& frame);
-
-/// What a fit of the only light gets after the sets are found. Refers to all four.
-shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::ShadowFrame& frame, const shadow::HeldLight& held,
+/// Returns what a fit of the only light gets after the sets are found. Refers to all four.
+shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages, const shadow::HeldLight& held,
                            shadow::HeldLight& next);
 
 }  // namespace gnomon::bench

@@ -107,7 +107,7 @@ std::string table_line(const FilterVariant& variant, const LightAccuracy& light,
     char text[256];
     std::snprintf(text, sizeof text, "| %s | %s | %u | %.1f | %.3f | %.3f | %.1f | %.3f | %.3f |\n",
                   variant.name.c_str(), light.report.name.c_str(), variant.row->taps(variant.shadow, cube),
-                  static_cast<double>(shadow::filter_demand(variant.shadow, edge_px).widest_texel),
+                  static_cast<double>(shadow::filter_settings(variant.shadow, edge_px).widest_texel),
                   kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light),
                   kPercent * taps.saved(), kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
     return text;

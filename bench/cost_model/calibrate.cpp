@@ -101,9 +101,9 @@ public:
             const SceneSnapshot& scene = stage_.frame().snapshot();
             const gl::Rect area = shadow::screen_rectangle(scene.lights[0], scene.consumers[0]);
             const double pixels = static_cast<double>(area.width) * area.height;
-            shadow::ShadowDemand demand;
-            demand.filter = filter;
-            rows.push_back({{pixels, pixels * shadow::mean_fetches(scene.lights[0], demand, demand.filter)}, ns});
+            shadow::ShadowRequest demand;
+            demand.map.filter = filter;
+            rows.push_back({{pixels, pixels * shadow::mean_fetches(scene.lights[0], demand, demand.map.filter)}, ns});
         }
         return solved<glm::dmat2>(rows, residual);
     }

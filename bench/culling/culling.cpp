@@ -20,17 +20,18 @@ namespace {
 
 LightKind kind_of(const benchmark::State& state) { return static_cast<LightKind>(state.range(1)); }
 
-void note(benchmark::State& state, const shadow::ShadowFrame& frame) {
-    state.counters["seen"] = static_cast<double>(frame.sets[0].receivers.count);
-    state.counters["casters"] = static_cast<double>(frame.sets[0].casters.count);
+void note(benchmark::State& state, const shadow::FitStages& stages) {
+    const shadow::LightSets& sets = stages.frame.sets.lights[0];
+    state.counters["seen"] = static_cast<double>(sets.receivers.count);
+    state.counters["casters"] = static_cast<double>(sets.casters.count);
 }
 
 void run_sets(benchmark::State& state, double sight_m) {
     const SceneSnapshot scene = plain(state.range(0), kind_of(state), sight_m);
-    shadow::ShadowFrame frame;
-    decide(scene, frame);
-    for (auto _ : state) shadow::select_sets(scene, frame);
-    note(state, frame);
+    shadow::FitStages stages;
+    stages.decide(scene);
+    for (auto _ : state) stages.select(scene);
+    note(state, stages);
     state.SetComplexityN(state.range(0));
     state.SetLabel(std::string(shadow::light_kind_row(kind_of(state)).name));
 }
@@ -43,17 +44,20 @@ void sets_sight_60_m(benchmark::State& state) { run_sets(state, kSight_m); }
 /// The lists of each view, which need a fit first; the fit is not timed.
 void view_casters(benchmark::State& state) {
     const SceneSnapshot scene = plain(state.range(0), kind_of(state), 0.0);
-    shadow::ShadowFrame frame;
-    decide(scene, frame);
-    shadow::select_sets(scene, frame);
-    shadow::fit_views(scene, {}, frame);
+    shadow::FitStages stages;
+    stages.decide(scene);
+    stages.select(scene);
+    stages.fit(scene);
+    shadow::FittedViews& fitted = stages.frame.fitted;
+    const shadow::CasterInputs inputs{fitted.sets_of(stages.frame.sets, 0), fitted.lights[0].request.map.filtering, {}};
     for (auto _ : state) {
-        frame.view_caster_items.clear();
-        for (shadow::ShadowView& view : frame.views) shadow::select_view_casters(scene, view, frame);
+        fitted.casters.clear();
+        for (shadow::ShadowView& view : fitted.views)
+            shadow::select_view_casters(scene, inputs, view, stages.storage.sets, fitted.casters);
     }
-    note(state, frame);
-    state.counters["views"] = static_cast<double>(frame.views.size());
-    state.counters["listed"] = static_cast<double>(frame.view_caster_items.size());
+    note(state, stages);
+    state.counters["views"] = static_cast<double>(fitted.views.size());
+    state.counters["listed"] = static_cast<double>(fitted.casters.size());
     state.SetComplexityN(state.range(0));
     state.SetLabel(std::string(shadow::light_kind_row(kind_of(state)).name));
 }
@@ -61,20 +65,20 @@ void view_casters(benchmark::State& state) {
 /// One fit alone, to the receivers that are seen.
 void fit(benchmark::State& state) {
     const SceneSnapshot scene = plain(state.range(0), kind_of(state), 0.0);
-    shadow::ShadowFrame frame;
-    decide(scene, frame);
-    shadow::select_sets(scene, frame);
+    shadow::FitStages stages;
+    stages.decide(scene);
+    stages.select(scene);
     shadow::HeldLight held, next;
-    const shadow::FitInput input = fit_input(scene, frame, held, next);
+    const shadow::FitInput input = fit_input(scene, stages, held, next);
     std::vector<shadow::ShadowView> views;
     for (auto _ : state) {
         views.clear();
         next = held;
         benchmark::DoNotOptimize(shadow::light_kind_row(kind_of(state)).fit(input, views));
     }
-    note(state, frame);
+    note(state, stages);
     state.counters["views"] = static_cast<double>(views.size());
-    state.SetComplexityN(static_cast<std::int64_t>(frame.sets[0].receivers.count));
+    state.SetComplexityN(static_cast<std::int64_t>(stages.frame.sets.lights[0].receivers.count));
     state.SetLabel(std::string(shadow::light_kind_row(kind_of(state)).name));
 }
 

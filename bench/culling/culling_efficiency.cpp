@@ -6,10 +6,10 @@
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/extract/extract.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
-#include "systems/shadow/fitting/fit_light.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/transform/transform_system.h"
 #include "tests/oracle/caster_need.h"
+#include "tests/oracle/fit_stages.h"
 
 namespace gnomon::bench {
 namespace {
@@ -21,18 +21,19 @@ double per_cent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-std::string row(const SceneSnapshot& scene, const shadow::ShadowFrame& frame, std::uint32_t demand) {
-    const LightItem& light = scene.lights[frame.demands[demand].light];
-    const shadow::PotentialSets& sets = frame.sets[demand];
+std::string row(const SceneSnapshot& scene, const shadow::ShadowFrame& frame, std::uint32_t index) {
+    const LightItem& light = scene.lights[index];
+    const shadow::LightSets& sets = frame.fitted.lights[index].sets;
     char line[200];
-    if (sets.skip != Reason::none) {
-        std::snprintf(line, sizeof line, "%-24s %s\n", light.name.c_str(), reason_code(sets.skip));
+    if (frame.statuses[index].is_skipped()) {
+        std::snprintf(line, sizeof line, "%-24s %s\n", light.name.c_str(),
+                      reason_code(frame.statuses[index].skipped()));
         return line;
     }
-    std::size_t views = 0, casters = 0;
-    for (const shadow::ShadowView& view : frame.views) views += view.demand == demand ? 1 : 0;
+    const std::size_t views = frame.fitted.lights[index].views.count;
+    std::size_t casters = 0;
     for (const InstanceItem& item : scene.instances) casters += item.casts ? 1 : 0;
-    const oracle::CasterNeed need = oracle::caster_need(scene, frame, demand, kSamples);
+    const oracle::CasterNeed need = oracle::caster_need(scene, frame, index, kSamples);
     const auto listed = static_cast<std::size_t>(need.listed), needed = static_cast<std::size_t>(need.needed);
     std::snprintf(line, sizeof line, "%-24s %9u %9u %6zu %9zu %13.1f %% %13.1f %%\n", light.name.c_str(),
                   sets.receivers.count, sets.casters.count, views, listed, per_cent(listed, views * casters),
@@ -66,15 +67,10 @@ Result<std::string> set_shares(const StageOptions& options) {
     SceneSnapshot snapshot;
     extractor.update(world, library, transforms.update(world), options.size_px, snapshot);
 
-    shadow::ShadowFrame frame;
-    gl::DeviceInfo device;
-    device.max_texture_px = device.max_cube_px = 16384;  // a large one's, so that no map is cut
-    shadow::decide_demand(snapshot, device, true, {}, frame.demands);
-    shadow::select_sets(snapshot, frame);
-    shadow::fit_views(snapshot, {}, frame);
+    const shadow::ShadowFrame frame = shadow::fitted(snapshot);
     std::string table = std::to_string(snapshot.instances.size()) + " instances\n";
     table += "light                    receivers   casters  views    listed  of all possible    of these in vain\n";
-    for (std::uint32_t d = 0; d < frame.demands.size(); ++d) table += row(snapshot, frame, d);
+    for (std::uint32_t d = 0; d < frame.requests.size(); ++d) table += row(snapshot, frame, d);
     return table;
 }
 

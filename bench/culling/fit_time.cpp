@@ -48,25 +48,26 @@ SceneSnapshot scene_of(const Kind& kind, std::size_t receivers, std::size_t cast
         scene.lights[0].position_ws_m = {0.0, side_m, 0.0};
         scene.lights[0].rotation_ws = math::basis_from_back({0.0, 1.0, 0.0});
     }
-    shadow::ShadowFrame all;
-    decide(scene, all);
-    shadow::select_sets(scene, all);
+    shadow::FitStages all;
+    all.decide(scene);
+    all.select(scene);
+    const shadow::ReceiverCasterSets& sets = all.frame.sets;
     for (InstanceItem& item : scene.instances) item.casts = item.receives = false;
-    for (std::size_t i = 0; i < std::min(receivers, all.receiver_items.size()); ++i)
-        scene.instances[all.receiver_items[i]].receives = true;
-    for (std::size_t i = 0; i < std::min(casters, all.caster_items.size()); ++i)
-        scene.instances[all.caster_items[i]].casts = true;
+    for (std::size_t i = 0; i < std::min(receivers, sets.receiver_items.size()); ++i)
+        scene.instances[sets.receiver_items[i]].receives = true;
+    for (std::size_t i = 0; i < std::min(casters, sets.caster_items.size()); ++i)
+        scene.instances[sets.caster_items[i]].casts = true;
     build_tree(scene);
     return scene;
 }
 
 Spread measure(const Kind& kind, std::size_t receivers, std::size_t casters) {
     const SceneSnapshot scene = scene_of(kind, receivers, casters);
-    shadow::ShadowFrame frame;
-    decide(scene, frame);
-    shadow::select_sets(scene, frame);
+    shadow::FitStages stages;
+    stages.decide(scene);
+    stages.select(scene);
     shadow::HeldLight held, next;
-    const shadow::FitInput input = fit_input(scene, frame, held, next);
+    const shadow::FitInput input = fit_input(scene, stages, held, next);
     std::vector<shadow::ShadowView> views;
     const ConsumerItem& camera = scene.consumers[0];
     const glm::dmat3 basis = math::basis_from_back(scene.lights[0].rotation_ws[2]);

@@ -65,8 +65,8 @@ private:
     void change(Motion motion, std::uint32_t frame) {
         scene_.changed_instances.clear();
         if (motion == Motion::walk) scene_.consumers[0].position_ws_m.z -= kStep_m;
-        if (motion != Motion::mover || shadows_->frame().receiver_items.empty()) return;
-        const std::uint32_t mover = shadows_->frame().receiver_items.front();
+        if (motion != Motion::mover || shadows_->frame().sets.receiver_items.empty()) return;
+        const std::uint32_t mover = shadows_->frame().sets.receiver_items.front();
         InstanceItem& item = scene_.instances[mover];
         ++scene_.version;
         item.version = scene_.version;

@@ -45,15 +45,15 @@ std::vector<glm::dvec3> corners_of(const ConsumerItem& c) {
 
 /// Of a map's warped plane.
 glm::dvec2 at_share(const shadow::ShadowView& v, const glm::dvec2& share) {
-    return v.centre_ls_m + v.half_extent_m * (2.0 * share - 1.0);
+    return v.plane.centre_ls_m + v.plane.half_extent_m * (2.0 * share - 1.0);
 }
 
 /// Shortest and longest diagonal of a texel at a corner of the map, metres across the light.
 glm::dvec2 diagonals_m(const shadow::ShadowView& v) {
     glm::dvec2 range(INFINITY, 0.0);
     for (const glm::dvec2 share : {glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
-        const glm::dvec2 p = shadow::unwarped(v.warp, at_share(v, share));
-        const double length = glm::length(shadow::unwarped_step(v.warp, p, {v.texel_u, v.texel_v}));
+        const glm::dvec2 p = shadow::unwarped(v.plane.warp, at_share(v, share));
+        const double length = glm::length(shadow::unwarped_step(v.plane.warp, p, {v.plane.texel_u, v.plane.texel_v}));
         range = {std::min(range.x, length), std::max(range.y, length)};
     }
     return range;
@@ -63,8 +63,8 @@ glm::dvec2 diagonals_m(const shadow::ShadowView& v) {
 
 std::vector<std::uint32_t> views_of(const shadow::ShadowFrame& frame, std::uint32_t light) {
     std::vector<std::uint32_t> views;
-    for (std::uint32_t v = 0; v < frame.views.size(); ++v)
-        if (frame.demands[frame.views[v].demand].light == light) views.push_back(v);
+    for (std::uint32_t v = 0; v < frame.fitted.views.size(); ++v)
+        if (frame.fitted.views[v].light == light) views.push_back(v);
     return views;
 }
 
@@ -77,9 +77,9 @@ SunDrawing::SunDrawing(const ShadowFrames& frames, std::uint32_t light)
 
 std::string SunDrawing::cascades(const std::string& fit) const {
     Svg svg(kWidth, kHeight, "Cascades of a sun, fit " + fit);
-    Points all, first = outline(frame_.views[views_.front()]).corners();
+    Points all, first = outline(frame_.fitted.views[views_.front()]).corners();
     for (const std::uint32_t v : views_)
-        for (const glm::dvec2& p : outline(frame_.views[v]).corners()) all.push_back(p);
+        for (const glm::dvec2& p : outline(frame_.fitted.views[v]).corners()) all.push_back(p);
     svg.text({kMargin, 20.0}, "fit " + fit + ": what the camera sees, and the maps, looking along the light",
              "font-size='15'");
     const bool spheres = fit == "stable";
@@ -93,13 +93,13 @@ std::string SunDrawing::cascades(const std::string& fit) const {
 
 std::string SunDrawing::warp() const {
     const std::size_t last = views_.size() - 1;
-    const shadow::ShadowView& view = frame_.views[views_[last]];
-    const glm::dvec2 size_px(frame_.slots[views_[last]].size_px);
+    const shadow::ShadowView& view = frame_.fitted.views[views_[last]];
+    const glm::dvec2 size_px(frame_.maps[views_[last]].size_px);
     const Projection across = [this](const glm::dvec3& p) { return flat(p); };
     const Projection in_map = [&view](const glm::dvec3& p) {
-        const glm::dvec3 from_anchor = p - view.anchor_ws_m;
-        const glm::dvec2 q(glm::dot(from_anchor, view.axis_u), glm::dot(from_anchor, view.axis_v));
-        return shadow::warped(view.warp, q);
+        const glm::dvec3 from_anchor = p - view.pose.anchor_ws_m;
+        const glm::dvec2 q(glm::dot(from_anchor, view.pose.axis_u), glm::dot(from_anchor, view.pose.axis_v));
+        return shadow::warped(view.plane.warp, q);
     };
     const MapOutline map{[&view](const glm::dvec2& share) { return at_share(view, share); }};
     Svg svg(kWidth, kHeight, "A warped map of a sun");
@@ -138,8 +138,8 @@ glm::dvec2 SunDrawing::flat(const glm::dvec3& p_ws) const {
 
 MapOutline SunDrawing::outline(const shadow::ShadowView& v) const {
     return {[this, &v](const glm::dvec2& share) {
-        const glm::dvec2 p = shadow::unwarped(v.warp, at_share(v, share));
-        return flat(v.anchor_ws_m + v.axis_u * p.x + v.axis_v * p.y);
+        const glm::dvec2 p = shadow::unwarped(v.plane.warp, at_share(v, share));
+        return flat(v.pose.anchor_ws_m + v.pose.axis_u * p.x + v.pose.axis_v * p.y);
     }};
 }
 
@@ -147,11 +147,11 @@ MapOutline SunDrawing::outline(const shadow::ShadowView& v) const {
 ConsumerItem SunDrawing::slice(std::size_t i) const {
     ConsumerItem c = camera_;
     double farthest_m = 0.0;
-    for (const glm::dvec3& p : frame_.receiver_points_ws)
+    for (const glm::dvec3& p : frame_.sets.receiver_points_ws)
         farthest_m = std::max(farthest_m, -glm::dot(p - c.position_ws_m, c.rotation_ws[2]));
-    c.near_m = std::max(frame_.views[views_[i]].seen_from_m, camera_.near_m);
-    const double given_m = frame_.views[views_[i]].seen_to_m;
-    const double next_m = i + 1 < views_.size() ? frame_.views[views_[i + 1]].seen_from_m : farthest_m;
+    c.near_m = std::max(frame_.fitted.views[views_[i]].cascade.seen_from_m, camera_.near_m);
+    const double given_m = frame_.fitted.views[views_[i]].cascade.seen_to_m;
+    const double next_m = i + 1 < views_.size() ? frame_.fitted.views[views_[i + 1]].cascade.seen_from_m : farthest_m;
     c.far_m = given_m > 0.0 ? given_m : next_m;
     c.far_m = std::max(c.far_m, c.near_m * (1.0 + 1e-9));
     return c;
@@ -160,7 +160,7 @@ ConsumerItem SunDrawing::slice(std::size_t i) const {
 std::vector<glm::dvec3> SunDrawing::receivers_in(const ConsumerItem& part) const {
     std::vector<glm::dvec3> points;
     const math::Frustum frustum = consumer_frustum(part);
-    for (const std::uint32_t i : frame_.receiver_items)
+    for (const std::uint32_t i : frame_.sets.receiver_items)
         (void)math::clip_box(frustum, scene_.instances[i].bounds_ws, points);
     return points;
 }
@@ -180,7 +180,7 @@ void SunDrawing::draw_camera(Panel& panel) const {
 
 /// Its end in the view, and the receivers there.
 void SunDrawing::draw_slice(Panel& panel, std::size_t cascade, const Projection& projection) const {
-    const std::string colour = colour_of(frame_.views[views_[cascade]]);
+    const std::string colour = colour_of(frame_.fitted.views[views_[cascade]]);
     const ConsumerItem part = slice(cascade);
     panel.hull(projected(receivers_in(part), projection), "stroke='none' fill-opacity='0.25' fill='" + colour + "'");
     panel.hull(projected(corners_of(part), projection), "fill='none' stroke-dasharray='5 3' stroke='" + colour + "'");
@@ -193,7 +193,7 @@ std::string SunDrawing::draw_cascades(Svg& svg, const glm::dvec2& corner, const 
     draw_boxes(panel);
     std::string words;
     for (std::size_t i = near ? 1 : views_.size(); i-- > 0;) {
-        const shadow::ShadowView& view = frame_.views[views_[i]];
+        const shadow::ShadowView& view = frame_.fitted.views[views_[i]];
         draw_slice(panel, i, [this](const glm::dvec3& p) { return flat(p); });
         if (spheres) {
             const ConsumerItem part = slice(i);
@@ -203,9 +203,10 @@ std::string SunDrawing::draw_cascades(Svg& svg, const glm::dvec2& corner, const 
         }
         panel.polygon(outline(view).corners(), strong(view));
         if (!near) continue;
-        const glm::dvec2 size_px(frame_.slots[views_[i]].size_px);
+        const glm::dvec2 size_px(frame_.maps[views_[i]].size_px);
         words = grid_words(draw_grid(panel, outline(view), size_px, colour_of(view))) + "a texel is " +
-                short_number(kCentimetres * view.texel_u) + " x " + short_number(kCentimetres * view.texel_v) + " cm";
+                short_number(kCentimetres * view.plane.texel_u) + " x " +
+                short_number(kCentimetres * view.plane.texel_v) + " cm";
     }
     draw_camera(panel);
     return words;

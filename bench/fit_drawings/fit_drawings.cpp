@@ -25,7 +25,7 @@ std::optional<glm::dvec2> tangents(const glm::dvec3& apex, const glm::dmat3& axe
 }
 
 void draw_footprints(Panel& panel, const SceneSnapshot& scene, const shadow::ShadowFrame& frame,
-                     const shadow::PotentialSets& sets, const glm::dvec3& apex, const glm::dmat3& axes) {
+                     const shadow::LightSets& sets, const glm::dvec3& apex, const glm::dmat3& axes) {
     for (const InstanceItem& item : scene.instances) {
         Points box;
         for (const glm::dvec3& p : math::corners(item.bounds_ws))
@@ -35,7 +35,7 @@ void draw_footprints(Panel& panel, const SceneSnapshot& scene, const shadow::Sha
     std::vector<glm::dvec3> seen;
     const math::Frustum view = consumer_frustum(scene.consumers.front());
     for (std::uint32_t i = 0; i < sets.receivers.count; ++i) {
-        const math::Aabb& box = scene.instances[frame.receiver_items[sets.receivers.first + i]].bounds_ws;
+        const math::Aabb& box = scene.instances[frame.sets.receiver_items[sets.receivers.first + i]].bounds_ws;
         seen.clear();
         (void)math::clip_box(view, box, seen);
         Points points;
@@ -54,18 +54,18 @@ std::string draw_spot(const ShadowFrames& frames, std::uint32_t light) {
     const shadow::ShadowFrame& frame = frames.frame();
     const LightItem& item = scene.lights[light];
     const std::uint32_t index = views_of(frame, light).front();
-    const shadow::ShadowView& view = frame.views[index];
-    const glm::dmat3 axes(view.axis_u, view.axis_v, view.axis_back);
+    const shadow::ShadowView& view = frame.fitted.views[index];
+    const glm::dmat3 axes(view.pose.axis_u, view.pose.axis_v, view.pose.axis_back);
     Svg svg(kSide + 2.0 * kMargin, kSide + kHead + 2.0 * kMargin, "The view of a spot");
     svg.text({kMargin, 20.0}, "spot: its cone, what is seen within it, and the map", "font-size='15'");
     const double rim = std::tan(std::min(item.outer_cone_rad, shadow::kWidestMap_rad));
     {
         Panel panel(svg, {kMargin, kHead}, {glm::dvec2(-rim), glm::dvec2(rim)}, "tangents, as the light sees them");
-        draw_footprints(panel, scene, frame, frame.sets[view.demand], shadow::apex_ws_m(view), axes);
+        draw_footprints(panel, scene, frame, frame.fitted.lights[view.light].sets, shadow::apex_ws_m(view), axes);
         panel.circle({0.0, 0.0}, rim, "fill='none' stroke='#b8860b' stroke-dasharray='5 3' stroke-width='1.5'");
-        const glm::dvec2 size = view.tan_high - view.tan_low;
-        const MapOutline map{[&](const glm::dvec2& share) { return view.tan_low + size * share; }};
-        const int step = draw_grid(panel, map, glm::dvec2(frame.slots[index].size_px), kColours[0]);
+        const glm::dvec2 size = view.plane.tan_high - view.plane.tan_low;
+        const MapOutline map{[&](const glm::dvec2& share) { return view.plane.tan_low + size * share; }};
+        const int step = draw_grid(panel, map, glm::dvec2(frame.maps[index].size_px), kColours[0]);
         panel.polygon(map.corners(), "fill='none' stroke-width='2' stroke='" + std::string(kColours[0]) + "'");
         svg.text({kMargin, kHead + kSide + 20.0},
                  "dashed: the cone; blue: receivers within the view; red: the map, a line every " +
@@ -87,14 +87,14 @@ std::string draw_point(const ShadowFrames& frames, std::uint32_t light) {
     const auto views = views_of(frame, light);
     for (std::uint32_t face = 0; face < 6; ++face) {
         const glm::dvec2 low = glm::dvec2(kMargin, kHead) + kPlaces[face] * kFace;
-        const auto view =
-            std::find_if(views.begin(), views.end(), [&](std::uint32_t v) { return frame.views[v].layer == face; });
+        const auto view = std::find_if(views.begin(), views.end(),
+                                       [&](std::uint32_t v) { return frame.fitted.views[v].layer == face; });
         const bool drawn = view != views.end();
         svg.rectangle(low, low + kFace,
                       drawn ? "fill='#c0392b' fill-opacity='0.18' stroke='#c0392b' stroke-width='2'"
                             : "fill='none' stroke='#999' stroke-dasharray='4 3'");
         svg.text(low + glm::dvec2(8.0, 18.0), kNames[face], "font-weight='bold'");
-        const std::uint32_t casters = drawn ? frame.views[*view].casters.count : 0;
+        const std::uint32_t casters = drawn ? frame.fitted.views[*view].casters.count : 0;
         svg.text(low + glm::dvec2(8.0, 36.0), drawn ? std::to_string(casters) + " casters" : "no view", "fill='#444'");
     }
     svg.text({kMargin, 3.0 * kFace + kHead + 20.0}, "light '" + scene.lights[light].name + "'");

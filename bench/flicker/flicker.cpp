@@ -96,11 +96,11 @@ public:
 private:
     shadow::ShadowView* known_view(const shadow::ShadowView& view) {
         for (shadow::ShadowView& known : known_views_)
-            if (known.demand == view.demand && known.layer == view.layer) return &known;
+            if (known.light == view.light && known.layer == view.layer) return &known;
         return nullptr;
     }
     void remember_views() {
-        for (const shadow::ShadowView& view : frames_.frame().views)
+        for (const shadow::ShadowView& view : frames_.frame().fitted.views)
             if (shadow::ShadowView* known = known_view(view))
                 *known = view;
             else
@@ -109,16 +109,17 @@ private:
     /// Views against the same ones as they last were.
     void compare_views() {
         const shadow::ShadowFrame& frame = frames_.frame();
+        const shadow::DrawnViews drawn = shadow::drawn_views(frame);
         for (WatchedLight& state : states_) state.moved_layers = state.stepped_layers = 0;
-        for (std::size_t v = 0; v < frame.views.size(); ++v) {
-            const shadow::ShadowView& now = frame.views[v];
-            const std::uint32_t light = frame.demands[now.demand].light;
+        for (std::size_t v = 0; v < frame.fitted.views.size(); ++v) {
+            const shadow::ShadowView& now = frame.fitted.views[v];
+            const std::uint32_t light = now.light;
             PathFlicker& row = rows_[light];
             ++row.views;
-            row.views_drawn += frame.slots[v].texture && !frame.slots[v].reuse;
+            row.views_drawn += drawn.is_drawn(v);
             const shadow::ShadowView* before = known_view(now);
-            const bool same =
-                before && before->anchor_ws_m == now.anchor_ws_m && before->clip_from_anchor == now.clip_from_anchor;
+            const bool same = before && before->pose.anchor_ws_m == now.pose.anchor_ws_m &&
+                              before->clip_from_anchor == now.clip_from_anchor;
             row.views_moved += !same;
             const bool is_cube = now.projection == shadow::ViewProjection::cube_face;
             const std::uint32_t layers = is_cube ? kAllLayers : 1u << now.layer;
@@ -134,8 +135,9 @@ private:
     static bool same_size(const shadow::ShadowView& a, const shadow::ShadowView& b) {
         constexpr double kRounding = 1e-9;
         const auto near = [](double x, double y) { return std::abs(x - y) <= kRounding * std::abs(x); };
-        return near(a.texel_u, b.texel_u) && near(a.texel_v, b.texel_v) && a.axis_u == b.axis_u &&
-               a.axis_v == b.axis_v && near(a.far_m - a.near_m, b.far_m - b.near_m);
+        return near(a.plane.texel_u, b.plane.texel_u) && near(a.plane.texel_v, b.plane.texel_v) &&
+               a.pose.axis_u == b.pose.axis_u && a.pose.axis_v == b.pose.axis_v &&
+               near(a.depth.far_m - a.depth.near_m, b.depth.far_m - b.depth.near_m);
     }
 
     std::optional<Error> look(bool first) {

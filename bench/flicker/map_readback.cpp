@@ -56,29 +56,30 @@ std::optional<Error> ShadowFrames::run() {
     return read_maps();
 }
 
-bool ShadowFrames::read_layer(const shadow::ShadowView& view, const shadow::ShadowSlot& slot, ReadMap& map) {
-    const std::size_t layer_texels = std::size_t{slot.size_px} * slot.size_px;
+bool ShadowFrames::read_layer(const shadow::ShadowView& view, const shadow::MapAssignment& assigned, bool reuse,
+                              ReadMap& map) {
+    const std::size_t layer_texels = std::size_t{assigned.size_px} * assigned.size_px;
     const std::size_t start = view.layer * layer_texels, end = start + layer_texels;
-    if (map.texture != slot.texture || map.copy.size_px != slot.size_px)
-        map = {slot.texture, {view.projection == shadow::ViewProjection::cube_face, slot.size_px, {}, {}}};
+    if (map.texture != assigned.texture || map.copy.size_px != assigned.size_px)
+        map = {assigned.texture, {view.projection == shadow::ViewProjection::cube_face, assigned.size_px, {}, {}}};
     const auto read = [&](gl::TextureHandle texture, auto& texels) {
         const bool missing = texels.size() < end;
-        if (slot.reuse && !missing) return true;
+        if (reuse && !missing) return true;
         if (missing) texels.resize(end);
         const auto layer = std::span(texels).subspan(start, layer_texels);
         return stage_.device().read_texture(texture, view.layer, std::as_writable_bytes(layer));
     };
-    return read(slot.texture, map.copy.texels) && (!slot.triangles || read(slot.triangles, map.copy.triangles));
+    return read(assigned.texture, map.copy.texels) &&
+           (!assigned.triangles || read(assigned.triangles, map.copy.triangles));
 }
 
 std::optional<Error> ShadowFrames::read_maps() {
     maps_.resize(snapshot_.lights.size());
-    const shadow::ShadowFrame& frame = shadows_.frame();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        const shadow::ShadowSlot& slot = frame.slots[v];
-        if (!slot.texture) continue;
-        const shadow::ShadowView& view = frame.views[v];
-        if (!read_layer(view, slot, maps_[frame.demands[view.demand].light]))
+    const shadow::DrawnViews drawn = shadow::drawn_views(shadows_.frame());
+    for (std::size_t v = 0; v < drawn.count(); ++v) {
+        if (!drawn.has_map(v)) continue;
+        const shadow::ShadowView& view = drawn.view(v);
+        if (!read_layer(view, drawn.maps[v], drawn.updates[v].reuse, maps_[view.light]))
             return Error{"a depth map cannot be read", stage_.scene_name(), "", "bench.map"};
     }
     for (ReadMap& map : maps_) {  // faces that are no view were never read

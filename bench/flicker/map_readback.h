@@ -42,7 +42,7 @@ private:
         MapCopy copy;
     };
     std::optional<Error> read_maps();
-    bool read_layer(const shadow::ShadowView& view, const shadow::ShadowSlot& slot, ReadMap& map);
+    bool read_layer(const shadow::ShadowView& view, const shadow::MapAssignment& assigned, bool reuse, ReadMap& map);
 
     Stage& stage_;
     GpuScene gpu_scene_;

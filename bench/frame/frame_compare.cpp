@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "systems/shadow/budget/ray_budget.h"
+#include "systems/shadow/request/ray_limit.h"
 
 namespace gnomon::bench {
 namespace {

@@ -12,10 +12,11 @@ namespace {
 
 /// The views of a light in the order in which they were published.
 std::vector<const shadow::ShadowView*> published_views(const shadow::ShadowFrame& frame, std::uint32_t light) {
+    const shadow::DrawnViews drawn = shadow::drawn_views(frame);
     std::vector<const shadow::ShadowView*> views;
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (frame.slots[v].texture && frame.demands[frame.views[v].demand].light == light)
-            views.push_back(&frame.views[v]);
+    const shadow::IndexRange range = drawn.fitted.lights[light].views;
+    for (std::size_t v = range.first; v < range.end(); ++v)
+        if (drawn.has_map(v)) views.push_back(&drawn.view(v));
     return views;
 }
 
@@ -44,7 +45,7 @@ public:
         if constexpr (ReadsTriangles<Row>) set_casters(scene.instances, casters, camera_ws_m_, row_);
         const auto views = published_views(frame, light);
         set_light(frame.inputs.front().lights[light], views, camera_ws_m_, row_);
-        const ShadowFilter filter = frame.demands[views.empty() ? 0 : views.front()->demand].filter;
+        const ShadowFilter filter = frame.decisions[light].request.map.filter;
         row_.shadow_map.linear = shadow::filter_row(filter).reading == shadow::MapReading::compare_linear;
     }
 

@@ -8,7 +8,7 @@
 
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::bench {

@@ -4,7 +4,7 @@
 
 #include "bench/glsl_on_cpu/samplers.h"
 #include "systems/extract/gpu_scene.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 
 /// What a light was published with, for a row of shader_structs.inc.
 namespace gnomon::bench::glsl {
@@ -25,11 +25,11 @@ void set_view(const shadow::ViewRecord& from, const shadow::ShadowView& view, co
     to.axis_back = to_vec4(from.axis_back);
     to.numeric = to_vec4(from.numeric);
     to.anchor_from_camera =
-        vec4(to_vec3(camera_ws_m - view.anchor_ws_m), static_cast<double>(from.anchor_from_camera.w));
+        vec4(to_vec3(camera_ws_m - view.pose.anchor_ws_m), static_cast<double>(from.anchor_from_camera.w));
     scale.perspective = view.projection != shadow::ViewProjection::orthographic;
-    scale.texel_tan = std::max(view.texel_u, view.texel_v);
-    scale.alpha = view.depth_alpha;
-    scale.texels_per_depth = (view.far_m - view.near_m) / std::max(view.texel_u, view.texel_v);
+    scale.texel_tan = std::max(view.plane.texel_u, view.plane.texel_v);
+    scale.alpha = view.depth.alpha;
+    scale.texels_per_depth = (view.depth.far_m - view.depth.near_m) / std::max(view.plane.texel_u, view.plane.texel_v);
 }
 
 /// `views`: the light's, in the order in which they were published; a cube's samplers take the first one's scale.

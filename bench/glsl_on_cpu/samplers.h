@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "bench/glsl_on_cpu/glsl_types.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/request/light_kinds.h"
 

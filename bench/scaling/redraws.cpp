@@ -133,18 +133,17 @@ private:
     }
 
     void count() {
-        const shadow::ShadowFrame& frame = shadows_->frame();
-        for (std::size_t v = 0; v < frame.views.size(); ++v) {
-            const shadow::ShadowView& view = frame.views[v];
-            const std::uint32_t light = frame.demands[view.demand].light;
-            const shadow::ShadowSlot& slot = frame.slots[v];
-            if (!slot.texture || view.lit) continue;
+        const shadow::DrawnViews frame = shadow::drawn_views(shadows_->frame());
+        for (std::size_t v = 0; v < frame.count(); ++v) {
+            const shadow::ShadowView& view = frame.view(v);
+            const std::uint32_t light = view.light;
+            if (!frame.has_map(v) || view.lit) continue;
             Counts& counts = counts_[snapshot_.lights[light].name];
             counts.kind = snapshot_.lights[light].kind;
             std::uint64_t& still = still_content_[{light, view.layer}];
-            counts.drawn += !slot.reuse;
-            counts.anew += !slot.reuse && slot.still_content != still;
-            still = slot.still_content;
+            counts.drawn += frame.is_drawn(v);
+            counts.anew += frame.is_drawn(v) && frame.maps[v].content.still != still;
+            still = frame.maps[v].content.still;
         }
         for (std::size_t i = 0; i < snapshot_.lights.size(); ++i) {
             const shadow::HeldLight* before = find(held_, snapshot_.lights[i].entity, i);

@@ -11,7 +11,7 @@
 
 #include "engine/gl/commands.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 
 /// Pictures of what the frame knows, drawn over its own: one row of a table, one C++ file and one shader per view.
 namespace gnomon::debug {

@@ -19,10 +19,10 @@ std::optional<Drawing> draw_depth(const ViewInput& input) {
     std::vector<shadow::ShadowView> views;
     Drawing drawing;
     for (const std::size_t v : requested_views(input, *light)) {
-        const shadow::ShadowView& view = input.frame.views[v];
+        const shadow::ShadowView& view = input.frame.fitted.views[v];
         const std::size_t unit = view.projection == shadow::ViewProjection::cube_face ? kCubeUnit : kFlatUnit;
         views.push_back(view);
-        drawing.maps[unit] = input.frame.slots[v].texture;
+        drawing.maps[unit] = input.frame.maps[v].texture;
     }
     gl::Rect below_title = input.area;
     if (below_title.height > 2 * kLine_px) below_title.height -= kLine_px;

@@ -43,8 +43,8 @@ DepthTile tile_of(const shadow::ShadowView& view) {
     DepthTile tile;
     tile.place.w = static_cast<float>(view.layer);
     const bool flat = view.projection == shadow::ViewProjection::orthographic;
-    tile.depth =
-        glm::vec4(glm::dvec4(view.near_m, view.far_m, flat ? 0.0 : view.depth_alpha, flat ? 0.0 : view.depth_beta));
+    tile.depth = glm::vec4(
+        glm::dvec4(view.depth.near_m, view.depth.far_m, flat ? 0.0 : view.depth.alpha, flat ? 0.0 : view.depth.beta));
     if (view.projection == shadow::ViewProjection::cube_face) {
         const Unfolded& face = kCross[view.layer % kCross.size()];
         tile.right = glm::vec4(face.right, 0.0f);

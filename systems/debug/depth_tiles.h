@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "engine/gl/commands.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
+#include "systems/shadow/frame/view_limits.h"
 
 /// Where each depth map of a light lies in the debug view "depth", and how its depths become metres.
 namespace gnomon::debug {

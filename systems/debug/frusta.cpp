@@ -17,7 +17,7 @@ void add_light(const ViewInput& input, std::uint32_t light, LineDrawing& lines, 
     const std::string& name = input.scene.lights[light].name;
     legend.add(name + (views.empty() ? " has " + no_map(input.frame, light) : ": what its maps hold"));
     for (const std::size_t v : views) {
-        const shadow::ShadowView& view = input.frame.views[v];
+        const shadow::ShadowView& view = input.frame.fitted.views[v];
         const Corners corners = corners_of(view);
         lines.add(corners, map_colour(view.layer));
         legend.add(range_text(view), map_colour(view.layer));
@@ -30,7 +30,7 @@ void add_light(const ViewInput& input, std::uint32_t light, LineDrawing& lines, 
 /// The frozen camera's view, as far as its farthest receiver.
 void add_camera(const ViewInput& input, const ConsumerItem& camera, LineDrawing& lines, Legend& legend) {
     double far_m = camera.near_m;
-    for (const glm::dvec3& point : input.frame.receiver_points_ws)
+    for (const glm::dvec3& point : input.frame.sets.receiver_points_ws)
         far_m = std::max(far_m, glm::dot(camera.position_ws_m - point, camera.rotation_ws[2]));
     const bool flat = camera.projection == CameraProjection::orthographic;
     const double half_y = flat ? camera.half_height_m : std::tan(0.5 * camera.fov_y_rad);

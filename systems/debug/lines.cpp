@@ -20,7 +20,7 @@ Corners corners_of(const shadow::ShadowView& view) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const glm::dvec4 clip((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : 0.0, 1.0);
         const glm::dvec4 corner = anchor_from_clip * clip;
-        corners[i] = view.anchor_ws_m + glm::dvec3(corner) / corner.w;
+        corners[i] = view.pose.anchor_ws_m + glm::dvec3(corner) / corner.w;
     }
     return corners;
 }

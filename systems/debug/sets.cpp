@@ -9,10 +9,6 @@ namespace {
 
 constexpr glm::vec3 kReceiver{0.34f, 0.71f, 0.91f}, kCaster{0.84f, 0.37f, 0.0f}, kBoth{0.94f, 0.89f, 0.26f};  // sRGB
 
-std::span<const std::uint32_t> items(const std::vector<std::uint32_t>& all, const shadow::IndexRange& range) {
-    return std::span(all).subspan(range.first, range.count);
-}
-
 std::vector<std::uint32_t> sorted(std::span<const std::uint32_t> items) {
     std::vector<std::uint32_t> all(items.begin(), items.end());
     std::sort(all.begin(), all.end());
@@ -29,13 +25,13 @@ std::optional<Drawing> draw_sets(const ViewInput& input) {
     const auto light = requested_light(input);
     if (!light) return std::nullopt;
     const shadow::ShadowFrame& frame = input.frame;
-    const shadow::PotentialSets& sets = frame.sets[*light];
-    const std::vector<std::uint32_t> receivers = sorted(items(frame.receiver_items, sets.receivers));
-    std::vector<std::uint32_t> casters = sorted(items(frame.caster_items, sets.casters));
+    const shadow::LightSetsView sets = frame.fitted.sets_of(frame.sets, *light);
+    const std::vector<std::uint32_t> receivers = sorted(sets.receivers());
+    std::vector<std::uint32_t> casters = sorted(sets.casters());
     const std::vector<std::size_t> views = requested_views(input, *light);
     if (input.request.layer)
         casters = views.empty() ? std::vector<std::uint32_t>{}
-                                : sorted(items(frame.view_caster_items, frame.views[views.front()].casters));
+                                : sorted(frame.fitted.casters_of(frame.fitted.views[views.front()]));
 
     LineDrawing lines(camera_of(input));
     std::size_t both = 0;
@@ -50,7 +46,7 @@ std::optional<Drawing> draw_sets(const ViewInput& input) {
         add_box(item, receives ? kBoth : kCaster);
     }
     Legend legend(input.area);
-    const bool none = sets.skip != Reason::none;
+    const bool none = frame.statuses[*light].is_skipped();
     legend.add(input.scene.lights[*light].name + (none ? " has " + no_map(frame, *light) : ": potential sets"));
     legend.add(std::to_string(receivers.size() - both) + " receive only", kReceiver);
     legend.add(std::to_string(casters.size() - both) + " cast only", kCaster);

@@ -15,8 +15,9 @@ using Lengths = std::array<double, kStops>;  // metres, rising
 
 std::string map_text(const shadow::ShadowView& view) {
     std::string text = map_name(view);
-    if (view.seen_to_m > 0.0) text += ", from " + length_text(view.seen_from_m) + " to " + length_text(view.seen_to_m);
-    return text + ", texels up to " + length_text(view.texel_m);
+    if (view.cascade.seen_to_m > 0.0)
+        text += ", from " + length_text(view.cascade.seen_from_m) + " to " + length_text(view.cascade.seen_to_m);
+    return text + ", texels up to " + length_text(view.error.texel_m);
 }
 
 /// A light's lookups in `scale`'s colours, with a title; `each`: what else to say, if the light has a map.
@@ -40,7 +41,7 @@ std::optional<Drawing> by_map(const ViewInput& input, const char* title) {
     for (std::uint32_t i = 0; i < shadow::kMaxViews; ++i) scale.colours[i] = scale_colour(map_colour(i), 0.0f);
     return drawing(input, title, scale, [&](const std::vector<std::size_t>& views, Legend& legend) {
         for (const std::size_t v : views) {
-            const shadow::ShadowView& view = input.frame.views[v];
+            const shadow::ShadowView& view = input.frame.fitted.views[v];
             legend.add(map_text(view), map_colour(view.layer));
         }
     });

@@ -54,25 +54,27 @@ std::optional<std::uint32_t> requested_light(const ViewInput& input) {
 }
 
 std::string no_map(const shadow::ShadowFrame& frame, std::uint32_t light) {
-    const Reason reason = light < frame.sets.size() ? frame.sets[light].skip : Reason::none;
+    const Reason reason = light < frame.statuses.size() ? frame.statuses[light].skipped() : Reason::none;
     return std::string("no map: ") + (reason == Reason::none ? "not this one" : reason_code(reason));
 }
 
 std::string range_text(const shadow::ShadowView& view) {
     const bool flat = view.projection == shadow::ViewProjection::orthographic;
-    const double near_m = flat ? 0.0 : view.near_m, far_m = flat ? view.far_m - view.near_m : view.far_m;
+    const double near_m = flat ? 0.0 : view.depth.near_m,
+                 far_m = flat ? view.depth.far_m - view.depth.near_m : view.depth.far_m;
     std::array<char, 64> range{};
     std::snprintf(range.data(), range.size(), ": %.3g ... %.3g m", near_m, far_m);
     return map_name(view) + range.data();
 }
 
 std::vector<std::size_t> requested_views(const ViewInput& input, std::uint32_t light) {
-    const shadow::ShadowFrame& frame = input.frame;
+    const shadow::DrawnViews drawn = shadow::drawn_views(input.frame);
     std::vector<std::size_t> found;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        const bool asked_for = !input.request.layer || *input.request.layer == frame.views[v].layer;
-        if (asked_for && frame.demands[frame.views[v].demand].light == light && frame.slots[v].texture)
-            found.push_back(v);
+    if (light >= drawn.fitted.lights.size()) return found;
+    const shadow::IndexRange views = drawn.fitted.lights[light].views;
+    for (std::size_t v = views.first; v < views.end(); ++v) {
+        const bool wanted = !input.request.layer || *input.request.layer == drawn.view(v).layer;
+        if (wanted && drawn.has_map(v)) found.push_back(v);
     }
     return found;
 }

@@ -6,7 +6,7 @@
 
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lighting {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "engine/gl/device.h"
 #include "systems/retry.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lighting {
 

@@ -19,7 +19,7 @@
 #include "systems/lighting/picture_range.h"
 #include "systems/lighting/ray_list.h"
 #include "systems/report.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lighting {
 

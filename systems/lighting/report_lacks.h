@@ -1,6 +1,6 @@
 #pragma once
 #include "systems/report.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lighting {
 

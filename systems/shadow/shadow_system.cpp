@@ -4,12 +4,15 @@
 #include <chrono>
 #include <utility>
 
-#include "systems/shadow/budget/ray_budget.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/exact/near_light_clearance.h"
-#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/fitting/directional/sdsm_splits.h"
+#include "systems/shadow/fitting/fit_views.h"
+#include "systems/shadow/fitting/quiet_frames.h"
 #include "systems/shadow/report/light_report.h"
 #include "systems/shadow/request/decide_requests.h"
+#include "systems/shadow/update/commit_maps.h"
+#include "systems/shadow/update/plan_updates.h"
 
 namespace gnomon::shadow {
 
@@ -30,7 +33,7 @@ ShadowSystem::~ShadowSystem() {
     for (const MapSamplers::OfMoments& moments : samplers_.moments) device_.destroy(moments.sampler);
 }
 
-bool ShadowSystem::samplers_ready() {
+bool ShadowSystem::samplers_ready(std::span<const ShadowRequest> requests) {
     // A description holds text: none is made in a steady frame.
     const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare) {
         if (sampler) return true;
@@ -39,71 +42,71 @@ bool ShadowSystem::samplers_ready() {
     };
     bool ready = ensure(samplers_.nearest, "shadow compare nearest", false, true);
     ready = ensure(samplers_.linear, "shadow compare linear", true, true) && ready;
-    for (const ShadowDemand& demand : frame_.demands) {
-        if (demand.skip != Reason::none) continue;
-        const MapReading reading = filter_row(demand.filter).reading;
+    for (const ShadowRequest& request : requests) {
+        if (request.skip != Reason::none) continue;
+        const MapReading reading = filter_row(request.map.filter).reading;
         if (reading == MapReading::depths) ready = ensure(samplers_.depths, "shadow depths", false, false) && ready;
-        if (reading == MapReading::moments) ready = moment_sampler_ready(demand.moments) && ready;
+        if (reading == MapReading::moments) ready = moment_sampler_ready(request.map.moments) && ready;
     }
     return ready;
 }
 
-bool ShadowSystem::moment_sampler_ready(const MomentDemand& demand) {
-    if (samplers_.of(demand)) return true;
-    const std::uint32_t anisotropy = MapSamplers::anisotropy(demand);
+bool ShadowSystem::moment_sampler_ready(const PrefilterSettings& settings) {
+    if (samplers_.of(settings)) return true;
+    const std::uint32_t anisotropy = MapSamplers::anisotropy(settings);
     const gl::SamplerDesc desc{.label = "shadow moments",
                                .linear = true,
-                               .mipmaps = demand.levels > 1,
+                               .mipmaps = settings.levels > 1,
                                .anisotropy = static_cast<float>(anisotropy)};
     const gl::SamplerHandle sampler = device_.create_sampler(desc).handle;
     if (sampler) samplers_.moments.push_back({desc.mipmaps, anisotropy, sampler});
     return static_cast<bool>(sampler);
 }
 
+namespace {
+
 /// Lights that read triangles are lit while the device has no room for them.
-void ShadowSystem::provide_triangles(GpuScene& gpu) {
-    for (std::size_t d = 0; d < frame_.demands.size(); ++d)
-        if (frame_.sets[d].skip == Reason::none &&
-            filter_row(frame_.demands[d].filter).storage == FilterStorage::depth_and_triangle &&
+void provide_triangles(GpuScene& gpu, const FittedViews& fitted, std::span<LightStatus> statuses) {
+    for (std::size_t i = 0; i < statuses.size(); ++i)
+        if (!statuses[i].is_skipped() &&
+            filter_row(fitted.lights[i].request.map.filter).storage == FilterStorage::depth_and_triangle &&
             !gpu.provide_caster_triangles())
-            frame_.sets[d].skip = Reason::buffer_failed;
+            statuses[i].skip(Reason::buffer_failed);
 }
+
+}  // namespace
 
 /// Rays ask of an instance whom it shadows: without records of those there is nothing to walk.
 bool ShadowSystem::update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     return gpu.instances() && rays_.update(scene, gpu, list);
 }
 
-/// Whether the device had no room for what rays walk, and has none now: it is asked again from time to time.
-bool ShadowSystem::lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
-    const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
-                                 [](const ShadowDemand& d) { return d.skip == Reason::none && d.asks_rays; });
-    return rays_lack_ && any && !update_rays(scene, gpu, list);
-}
-
-/// Lights that ask by rays are looked up once, or lit, in the frame that has no room for what those walk;
-/// give_rays_up() has it from the next on. What they ask is kept as long as there is one, seen or not. `updated`: in
-/// this frame.
+/// Lights that use rays are looked up once, or lit, in the frame that has no room for what those walk; their requests
+/// have it from the next on. What they use is kept as long as there is one, seen or not. `updated`: in this frame.
 void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list) {
-    bool any = false, asked = false;
-    const auto asks = [&](std::size_t d) { return frame_.demands[d].asks_rays; };
-    const auto asks_now = [&](std::size_t d) { return asks(d) && frame_.sets[d].skip == Reason::none; };
-    for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
-        if (frame_.demands[d].skip != Reason::none) continue;
-        any = any || asks(d);
-        asked = asked || asks_now(d);
+    bool any = rays_lack_, used = false;
+    for (std::size_t i = 0; i < frame_.decisions.size(); ++i) {
+        const ShadowRequest& request = frame_.decisions[i].request;
+        if (request.skip != Reason::none || !request.rays.used) continue;
+        any = true;
+        used = used || !frame_.statuses[i].is_skipped();
     }
-    any = any || rays_lack_;
-    if (!any) rays_.release();
-    if (!any) sheets_.release();
-    if (!any) ends_.release();
-    if (!asked || updated || update_rays(scene, gpu, list)) return;
+    if (!any) {
+        rays_.release();
+        sheets_.release();
+        ends_.release();
+    }
+    if (!used || updated || update_rays(scene, gpu, list)) return;
     rays_lack_ = true;
-    for (std::size_t d = 0; d < frame_.demands.size(); ++d) {
-        if (!asks_now(d)) continue;
+    for (std::size_t i = 0; i < frame_.decisions.size(); ++i) {
+        const RayUse& rays = frame_.decisions[i].request.rays;
+        LightStatus& status = frame_.statuses[i];
+        if (!rays.used || status.is_skipped()) continue;
         // A map that there is is looked up once: PlainLookup.
-        ShadowDemand& demand = frame_.demands[d];
-        (demand.traced ? frame_.sets[d].skip : demand.note) = Reason::buffer_failed;
+        if (rays.only)
+            status.skip(Reason::buffer_failed);
+        else
+            status.degrade(Reason::buffer_failed);
     }
 }
 
@@ -122,95 +125,103 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     const bool shared_out = !budget_.is_moved_by(limits, cost_clock_.factors());
     stands_ = std::exchange(may_stand_, false) && unchanged && shared_out && maps_.stay();
     if (stands_) {
-        stand_still();
+        keep_all(frame_.maps, frame_.updates);
     } else {
         budget_.begin(limits, cost_clock_.factors());
-        run_stages(scene, gpu, shadows, list, report);
+        run_stages(scene, gpu, shadows, {list, report, frame_.cpu_us});
     }
     report.still = stands_;
     report.rays = rays_.report();
     report.rays.sheet_bytes = sheets_.bytes();
     report.rays.sheet_host_bytes = sheets_.host_bytes();
     if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
-    explain_lights(scene, frame_, maps_, draw_times_, dim_lights_, static_cast<bool>(rays_.buffers().nodes), report);
+    const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
+    explain_lights(scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, dim_lights_, has_rays, frame_.cpu_us},
+                   report);
     budget_.report(report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;
 }
 
-/// What the stages found in the last frame is what they would find now; all that it drew is there.
-void ShadowSystem::stand_still() {
-    for (ShadowSlot& slot : frame_.slots) {
-        slot.reuse = static_cast<bool>(slot.texture);
-        slot.convert = false;
-        slot.whole = {};
-        slot.route = CubeRoute::six_passes;
-        slot.still_use = StillUse::none;
-    }
+void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out) {
+    ShadowFrame& f = frame_;
+    f.statuses.assign(scene.lights.size(), {});
+    const LightAccounts accounts{f.statuses, f.cpu_us};
+
+    const bool lacked = rays_lack_;
+    rays_lack_ = rays_lack_ && wants_rays(scene, history_, shadows) && !update_rays(scene, gpu, out.list);
+    decide_requests(scene, {device_.info(), history_, shadows, {most_rays_, rays_lack_}}, fallbacks_, f.requests);
+    for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
+    if (budget_.is_active()) limit_by_grants(scene, history_, f.requests, f.limited);
+    const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;
+    const bool any =
+        std::any_of(requests.begin(), requests.end(), [](const ShadowRequest& r) { return r.skip == Reason::none; });
+    if (any && !samplers_ready(requests))
+        for (LightStatus& status : f.statuses) status.skip(Reason::sampler_failed);
+
+    lamp_places_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
+    select_sets(scene, {requests, f.lamps_ws_m}, storage_.sets, f.sets, accounts);
+    dim_lights_.leave_out(scene, gpu, f.sets, f.statuses);
+
+    const bool shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
+    fit_views(scene, {requests, f.sets, f.lamps_ws_m, history_, f.moving, shared_out}, storage_, f.fitted,
+              f.next_history, accounts);
+    count_quiet_frames(scene, f.fitted, history_, shared_out, f.next_history);
+
+    if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
+    budget_.decide(scene, gpu, {f.requests, f.sets, f.fitted, history_, waiting_bytes_}, f.next_history, f.decisions,
+                   accounts);
+    provide_triangles(gpu, f.fitted, f.statuses);
+    provide_rays(scene, gpu, lacked && !rays_lack_, out.list);
+
+    maps_.set_limit(budget_.limits().bytes);
+    maps_.assign(scene, f.fitted, f.decisions, f.maps, accounts);
+    plan_updates(scene, gpu, {f.fitted, f.decisions, f.maps, budget_.draw_allowance()}, maps_, due_, f.updates);
+    const DrawnViews views = drawn_views(f);
+    budget_.note_changes(scene, views, f.next_history);
+
+    const PassInputs passes{scene, gpu, views};
+    recorder_.prepare(passes, accounts);
+    sheets_.prepare(passes, accounts);
+    ends_.prepare(passes, accounts);
+    measure_clearances(passes, f.clearances_m, f.cpu_us);
+    moments_.prepare(passes, accounts);
+    const bool masked = static_cast<bool>(gpu.caster_masks());
+    publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked}, f.inputs,
+                   f.cpu_us);
+    recorder_.record(passes, out);
+    sheets_.record(passes, out);
+    ends_.record(passes, out);
+    moments_.record(passes, out);
 }
 
-void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                              FrameReport& report) {
-    decide_demand(scene, device_.info(), shadows, history_, frame_.demands);
-    const bool lacked = rays_lack_;
-    rays_lack_ = lacks_rays(scene, gpu, list);
-    if (rays_lack_) give_rays_up(scene, device_.info(), history_, frame_.demands);
-    limit_rays(scene, device_.info(), history_, most_rays_, frame_.demands, ray_askers_);
-    budget_.apply(scene, history_, frame_.demands);
-    const bool any = std::any_of(frame_.demands.begin(), frame_.demands.end(),
-                                 [](const ShadowDemand& d) { return d.skip == Reason::none; });
-    if (any && !samplers_ready())
-        for (ShadowDemand& demand : frame_.demands)
-            if (demand.skip == Reason::none) demand.skip = Reason::sampler_failed;
-    lamp_places_.update(scene, gpu, frame_);
-    select_sets(scene, frame_);
-    dim_lights_.leave_out(scene, gpu, frame_);
-    frame_.shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
-    fit_views(scene, history_, frame_);
-    count_quiet_frames(scene, history_, frame_);
-    if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
-    budget_.decide(scene, gpu, history_, waiting_bytes_, frame_);
-    provide_triangles(gpu);
-    provide_rays(scene, gpu, lacked && !rays_lack_, list);
-    maps_.set_limit(budget_.limits().bytes);
-    maps_.let_take_turns(budget_.limits().ns != BudgetLimits::kNone);
-    maps_.assign_slots(scene, frame_);
-    maps_.leave_to_rays(scene, gpu, frame_);
-    budget_.spread_draws(gpu, scene, frame_);
-    budget_.note_changes(scene, frame_);
-    maps_.plan_draws(scene, gpu, frame_);
-    recorder_.prepare(scene, gpu, frame_);
-    sheets_.prepare(scene, gpu, frame_);
-    ends_.prepare(frame_);
-    measure_clearances(scene, gpu, frame_);
-    moments_.prepare(frame_);
-    publish_lights(scene, samplers_, rays_.buffers(), static_cast<bool>(gpu.caster_masks()), frame_);
-    recorder_.record(scene, gpu, frame_, list, report);
-    sheets_.record(scene, gpu, frame_, list, report);
-    ends_.record(scene, frame_, list);
-    moments_.record(scene, frame_, list);
+bool ShadowSystem::wants_sampled_depths(const SceneSnapshot& scene) const {
+    return shadow::wants_sampled_depths(scene, frame_.fitted, frame_.statuses);
 }
 
 /// Whether another run of the stages would do no more than this one, if nothing changes meanwhile: fits hold on to what
 /// they hold already, no light asks for all to be drawn, and nothing that failed is to be tried again but by maps_,
 /// which says so itself.
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
-    const auto settled = [&](const PotentialSets& sets, const ShadowDemand& demand) {
-        const auto is_tried_again = [](Reason reason) {
-            return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||
-                   reason == Reason::sampler_failed || reason == Reason::filter_program_failed;
-        };
-        return !is_tried_again(sets.skip) && !is_tried_again(demand.note) && !demand.left_to_rays &&
-               (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
+    const auto is_tried_again = [](Reason reason) {
+        return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||
+               reason == Reason::sampler_failed || reason == Reason::filter_program_failed;
     };
-    return history_ == frame_.next_history &&
-           std::equal(frame_.sets.begin(), frame_.sets.end(), frame_.demands.begin(), frame_.demands.end(), settled);
+    if (!(history_ == frame_.next_history)) return false;
+    for (std::size_t i = 0; i < frame_.statuses.size(); ++i) {
+        const LightStatus& status = frame_.statuses[i];
+        if (is_tried_again(status.skipped()) || is_tried_again(status.degraded())) return false;
+        if (frame_.requests[i].skip == Reason::none && !scene.lights[i].shadow.economy) return false;
+    }
+    return std::none_of(frame_.updates.begin(), frame_.updates.end(),
+                        [](const UpdatePlan& plan) { return plan.left_to_rays; });
 }
 
-void ShadowSystem::commit(const SceneSnapshot& scene, bool drawn) {
-    maps_.commit(scene, frame_, drawn);
-    if (!drawn) rays_.forget_uploads();
-    may_stand_ = drawn && (stands_ || is_settled(scene));
+void ShadowSystem::commit(const SceneSnapshot& scene, bool executed) {
+    const bool takes_turns = budget_.limits().ns != BudgetLimits::kNone;
+    commit_maps(scene, drawn_views(frame_), {executed, takes_turns}, maps_);
+    if (!executed) rays_.forget_uploads();
+    may_stand_ = executed && (stands_ || is_settled(scene));
     std::swap(history_, frame_.next_history);
 }
 

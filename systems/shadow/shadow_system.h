@@ -9,19 +9,22 @@
 #include "systems/report.h"
 #include "systems/shadow/budget/apply_budget.h"
 #include "systems/shadow/budget/cost_calibration.h"
-#include "systems/shadow/budget/ray_budget.h"
 #include "systems/shadow/culling/contribution_culling.h"
 #include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/static_dynamic_casters.h"
 #include "systems/shadow/exact/bounds_pass.h"
 #include "systems/shadow/exact/occluder_pyramid_pass.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/frame/pass_inputs.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/passes/depth_pass.h"
 #include "systems/shadow/passes/prefilter_pass.h"
 #include "systems/shadow/publish/publish_lights.h"
 #include "systems/shadow/report/draw_times.h"
+#include "systems/shadow/request/ray_limit.h"
 #include "systems/shadow/update/frame_reuse.h"
+#include "systems/shadow/update/update_scheduler.h"
 #include "systems/visibility/ray_scene.h"
 
 namespace gnomon::shadow {
@@ -41,14 +44,17 @@ public:
     const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
                               FrameReport& report, const ShadowBudget& budget = {});
 
-    /// To be called after the list was submitted: `drawn` says whether it was executed without failure.
-    void commit(const SceneSnapshot& scene, bool drawn);
+    /// To be called after the list was submitted: `executed` says whether it was, without failure.
+    void commit(const SceneSnapshot& scene, bool executed);
 
     const ShadowFrame& frame() const { return frame_; }
     /// Where measurements of drawing go, and what reports take them from.
     DrawTimes& draw_times() { return draw_times_; }
     /// The same for a budget's model; shown nothing, it stands as it is.
     CostClock& cost_clock() { return cost_clock_; }
+
+    /// Whether any light places its splits by the picture's depths (CascadeSplits::sampled), after update().
+    bool wants_sampled_depths(const SceneSnapshot& scene) const;
 
     const visibility::RayScene& rays() const { return rays_; }
     const MapStore& maps() const { return maps_; }
@@ -58,15 +64,11 @@ public:
     const History& held_fits() const { return history_; }
 
 private:
-    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                    FrameReport& report);
-    void stand_still();
+    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out);
     bool is_settled(const SceneSnapshot& scene) const;
-    bool samplers_ready();
-    bool moment_sampler_ready(const MomentDemand& demand);
-    void provide_triangles(GpuScene& gpu);
+    bool samplers_ready(std::span<const ShadowRequest> requests);
+    bool moment_sampler_ready(const PrefilterSettings& settings);
     bool update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
-    bool lacks_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
     void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list);
 
     gl::Device& device_;
@@ -82,10 +84,12 @@ private:
     BudgetStage budget_;
     std::vector<std::optional<std::uint64_t>> waiting_bytes_;  // one per light
     std::uint64_t most_rays_ = 0;
-    std::vector<RayAsker> ray_askers_;
+    RayFallbacks fallbacks_;
     bool rays_lack_ = false;
     CostClock cost_clock_;
     LampPlaces lamp_places_;
+    FitStorage storage_;
+    std::vector<DueView> due_;
     ShadowFrame frame_;
     History history_;
     CasterMotion motion_;

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "systems/extract/gpu_scene.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/pass_inputs.h"
 
 namespace gnomon {
 namespace {

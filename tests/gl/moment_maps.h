@@ -22,36 +22,43 @@ protected:
         SceneSnapshot scene;
         scene.lights.emplace_back();
         shadow::ShadowFrame frame;
-        shadow::ShadowDemand demand;
-        demand.filter = row.id;
-        demand.filtering = shadow::filter_demand(row, shadow, size_px);
-        demand.moments = shadow::moment_demand(row, shadow, size_px);
-        frame.demands = {demand};
-        frame.sets.resize(1);
-        frame.cpu_us.resize(1);
-        const gl::TextureDesc map{.label = "moments", .kind = kind_row.texture, .format = demand.moments.format, .width = size_px, .height = size_px, .mips = demand.moments.levels};
+        frame.decisions.resize(1);
+        frame.statuses.resize(1);
+        shadow::MapSettings& settings = frame.decisions[0].request.map;
+        settings.filter = row.id;
+        settings.filtering = shadow::filter_settings(row, shadow, size_px);
+        settings.moments = shadow::prefilter_settings(row, shadow, size_px);
+        const gl::TextureDesc map{.label = "moments", .kind = kind_row.texture, .format = settings.moments.format, .width = size_px, .height = size_px, .mips = settings.moments.levels};
         const auto moments = keep(device().create_texture(map, {}));
-        const std::uint32_t rows = size_px + 2 * shadow::scratch_rows(demand, kind == LightKind::point);
-        const auto scratch = keep(device().create_texture({.label = "scratch", .format = demand.moments.format, .width = size_px, .height = rows}, {}));
+        const std::uint32_t rows = size_px + 2 * shadow::scratch_rows(settings, kind == LightKind::point);
+        const auto scratch = keep(device().create_texture({.label = "scratch", .format = settings.moments.format, .width = size_px, .height = rows}, {}));
         const auto scratch_target = keep(device().create_target({"scratch", {{scratch}}, {}}));
-        for (std::uint32_t layer = 0; layer < gl::layer_count(map); ++layer) {
-            frame.views.push_back(view_of(kind, layer, range));
-            shadow::ShadowSlot slot;
-            slot.texture = depths;
-            slot.moments = moments;
-            slot.moment_target = keep(device().create_target({"moments", {{moments, static_cast<std::int32_t>(layer)}}, {}}));
-            if (demand.filtering.size > 1) {
-                slot.scratch = scratch;
-                slot.scratch_target = scratch_target;
+        const std::uint32_t layers = gl::layer_count(map);
+        for (std::uint32_t layer = 0; layer < layers; ++layer) {
+            frame.fitted.views.push_back(view_of(kind, layer, range));
+            shadow::MapAssignment assigned;
+            assigned.texture = depths;
+            assigned.prefiltered.moments = moments;
+            assigned.prefiltered.target = keep(device().create_target({"moments", {{moments, static_cast<std::int32_t>(layer)}}, {}}));
+            if (settings.filtering.size > 1) {
+                assigned.prefiltered.scratch = scratch;
+                assigned.prefiltered.scratch_target = scratch_target;
             }
-            slot.size_px = size_px;
-            slot.convert = true;
-            frame.slots.push_back(slot);
+            assigned.size_px = size_px;
+            frame.maps.push_back(assigned);
+            frame.updates.emplace_back().convert = true;
         }
+        frame.fitted.lights.resize(1);
+        frame.fitted.lights[0].views.count = layers;
+        auto gpu = GpuScene::create(device(), {});
+        EXPECT_TRUE(gpu);
+        const shadow::DrawnViews drawn = shadow::drawn_views(frame);
+        const shadow::PassInputs in{scene, gpu.value(), drawn};
         shadow::MomentRecorder recorder(device());
-        recorder.prepare(frame);
+        recorder.prepare(in, {frame.statuses, {}});
         gl::CommandList list;
-        recorder.record(scene, frame, list);
+        FrameReport report;
+        recorder.record(in, {list, report, {}});
         run(list);
         return moments;
     }
@@ -63,10 +70,10 @@ private:
         view.projection = kind == LightKind::directional ? shadow::ViewProjection::orthographic
                           : kind == LightKind::spot      ? shadow::ViewProjection::perspective
                                                          : shadow::ViewProjection::cube_face;
-        view.near_m = range.near_m;
-        view.far_m = range.far_m;
-        view.depth_alpha = -range.near_m / (range.far_m - range.near_m);
-        view.depth_beta = range.near_m * range.far_m / (range.far_m - range.near_m);
+        view.depth.near_m = range.near_m;
+        view.depth.far_m = range.far_m;
+        view.depth.alpha = -range.near_m / (range.far_m - range.near_m);
+        view.depth.beta = range.near_m * range.far_m / (range.far_m - range.near_m);
         return view;
     }
 };

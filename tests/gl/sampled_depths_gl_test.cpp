@@ -4,7 +4,7 @@
 #include <random>
 
 #include "systems/lighting/depth_sampler.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "tests/gl/box_fixture.h"
 
 // The counts of pixels by view distance against the processor's own.

@@ -137,7 +137,7 @@ TEST_F(ScaleAndPlaceGl, SnappedFitsShowTheSameAHundredMillionMetresAwayByWholeTe
         const auto whole = [&](double texel_m, double distance_m) {
             return std::round(distance_m / (kPlace_texel * texel_m)) * kPlace_texel * texel_m;
         };
-        other.offset_m = view.axis_u * whole(view.texel_u, 8e7) - view.axis_v * whole(view.texel_v, 6e7);
+        other.offset_m = view.pose.axis_u * whole(view.plane.texel_u, 8e7) - view.pose.axis_v * whole(view.plane.texel_v, 6e7);
         ASSERT_NEAR(glm::length(other.offset_m), 1e8, 1e4);
         one_cascade(other, fit);
         const auto here = fields(world);

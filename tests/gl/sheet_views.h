@@ -96,7 +96,7 @@ inline View view_of(LightKind kind, const QueryScene& scene, Random& random, dou
 /// Whether any of the maps holds it.
 inline bool is_shown(const std::vector<shadow::ShadowView>& views, const glm::dvec3& at_ws_m) {
     return std::any_of(views.begin(), views.end(), [&](const shadow::ShadowView& view) {
-        const glm::dvec4 p = glm::dmat4(view.clip_from_anchor) * glm::dvec4(at_ws_m - view.anchor_ws_m, 1.0);
+        const glm::dvec4 p = glm::dmat4(view.clip_from_anchor) * glm::dvec4(at_ws_m - view.pose.anchor_ws_m, 1.0);
         return p.w > 0.0 && std::max(std::abs(p.x), std::abs(p.y)) <= p.w && p.z >= 0.0 && p.z <= p.w;
     });
 }

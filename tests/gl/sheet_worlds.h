@@ -6,7 +6,7 @@
 #include <random>
 
 #include "sample_game/support/built_in_scenes/primitives.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "tests/unit/rays/triangle_soup.h"
 #include "tests/unit/visibility/query_scene.h"
 
@@ -125,7 +125,7 @@ inline bool corner_place(const shadow::ShadowView& view, std::uint32_t size_px, 
     glm::dvec4 clip[3];
     glm::dvec2 low(1.0), high(-1.0);
     for (int c = 0; c < 3; ++c) {
-        clip[c] = glm::dmat4(view.clip_from_anchor) * glm::dvec4(corners_ws_m[c] - view.anchor_ws_m, 1.0);
+        clip[c] = glm::dmat4(view.clip_from_anchor) * glm::dvec4(corners_ws_m[c] - view.pose.anchor_ws_m, 1.0);
         if (!(clip[c].w > 0.0)) return false;
         low = glm::min(low, glm::dvec2(clip[c]) / clip[c].w);
         high = glm::max(high, glm::dvec2(clip[c]) / clip[c].w);

@@ -47,19 +47,22 @@ protected:
         Drawn drawn;
         shadow::ShadowFrame& frame = drawn.frame;
         const LightItem& light = scene.lights.at(0);
-        shadow::ShadowDemand demand;
-        demand.filter = ask == Ask::middle ? ShadowFilter::triangles : ShadowFilter::exact_soft;
-        demand.filtering = shadow::filter_demand(shadow::filter_row(demand.filter), light.shadow, size_px);
-        demand.resolution_px = demand.most_px = size_px;
-        demand.view_count = static_cast<std::uint32_t>(views.size());
-        frame.demands = {demand};
-        frame.sets.resize(1);
-        frame.cpu_us.resize(1);
+        frame.decisions.resize(1);
+        shadow::ShadowRequest& request = frame.decisions[0].request;
+        shadow::MapSettings& map = request.map;
+        map.filter = ask == Ask::middle ? ShadowFilter::triangles : ShadowFilter::exact_soft;
+        map.filtering = shadow::filter_settings(shadow::filter_row(map.filter), light.shadow, size_px);
+        map.resolution_px = request.limits.max_px = size_px;
+        map.view_count = static_cast<std::uint32_t>(views.size());
+        frame.statuses.resize(1);
         for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
-            if (scene.instances[i].casts) frame.view_caster_items.push_back(i);
-        frame.views = std::move(views);
+            if (scene.instances[i].casts) frame.fitted.casters.push_back(i);
+        frame.fitted.views = std::move(views);
+        frame.fitted.lights.resize(1);
+        frame.fitted.lights[0].views.count = map.view_count;
+        frame.updates.resize(frame.fitted.views.size());
         const bool cube = light.kind == LightKind::point;
-        const auto layers = static_cast<std::uint32_t>(frame.views.size());
+        const auto layers = static_cast<std::uint32_t>(frame.fitted.views.size());
         const auto texture = [&](const char* label, gl::Format format, bool as_cube, std::uint32_t count) {
             return device()
                 .create_texture({.label = label,
@@ -80,47 +83,54 @@ protected:
             drawn.maps.ends =
                 device().create_buffer({.label = "ends", .size = shadow::ends_bytes(size_px, layers)}, {}).handle;
         for (std::uint32_t v = 0; v < layers; ++v) {
-            shadow::ShadowView& view = frame.views[v];
-            view.casters = {0, static_cast<std::uint32_t>(frame.view_caster_items.size())};
+            shadow::ShadowView& view = frame.fitted.views[v];
+            view.casters = {0, static_cast<std::uint32_t>(frame.fitted.casters.size())};
             view.still_casters = view.casters.count;
             const auto layer = static_cast<std::int32_t>(view.layer);
-            shadow::ShadowSlot slot;
-            slot.texture = drawn.maps.depths;
-            slot.triangles = drawn.maps.triangles;
-            slot.second = drawn.maps.second;
-            slot.bounds = drawn.maps.bounds;
-            slot.ends = drawn.maps.ends;
-            slot.target =
+            shadow::MapAssignment assigned;
+            assigned.texture = drawn.maps.depths;
+            assigned.triangles = drawn.maps.triangles;
+            assigned.target =
                 device().create_target({"first", {{drawn.maps.triangles, 0}}, {drawn.maps.depths, layer}}).handle;
-            slot.second_target = device().create_target({"second", {}, {drawn.maps.second, layer}}).handle;
-            slot.bounds_target = device().create_target({"bounds", {{drawn.maps.bounds, layer}}, {}}).handle;
-            slot.size_px = size_px;
-            frame.slots.push_back(slot);
+            assigned.sheets = {drawn.maps.second,
+                               device().create_target({"second", {}, {drawn.maps.second, layer}}).handle,
+                               drawn.maps.bounds,
+                               device().create_target({"bounds", {{drawn.maps.bounds, layer}}, {}}).handle,
+                               drawn.maps.ends};
+            assigned.size_px = size_px;
+            frame.maps.push_back(assigned);
         }
         shadow::DepthRecorder depths(device());
         shadow::SheetRecorder sheets(device(), {.with_margins = margins, .with_points = points});
         shadow::EndsRecorder ends(device(), margins);
         FrameReport report;
         report.lights.resize(1);
-        depths.prepare(scene, gpu, frame);
-        sheets.prepare(scene, gpu, frame);
-        ends.prepare(frame);
-        shadow::measure_clearances(scene, gpu, frame);
-        EXPECT_EQ(frame.sets[0].skip, Reason::none);
-        shadow::publish_lights(scene, {}, {}, false, frame);
-        depths.record(scene, gpu, frame, list, report);
-        sheets.record(scene, gpu, frame, list, report);
+        const shadow::DrawnViews drawn_views = shadow::drawn_views(frame);
+        const shadow::PassInputs in{scene, gpu, drawn_views};
+        const shadow::PassOutputs out{list, report, {}};
+        const shadow::LightAccounts accounts{frame.statuses, {}};
+        depths.prepare(in, accounts);
+        sheets.prepare(in, accounts);
+        ends.prepare(in, accounts);
+        shadow::measure_clearances(in, frame.clearances_m, {});
+        EXPECT_FALSE(frame.statuses[0].is_skipped());
+        EXPECT_FALSE(frame.statuses[0].has_lost_maps());
+        const shadow::MapSamplers samplers;
+        const visibility::RayBuffers no_rays;
+        shadow::publish_lights(scene, {drawn_views, {}, frame.clearances_m, samplers, no_rays}, frame.inputs, {});
+        depths.record(in, out);
+        sheets.record(in, out);
         drawn.points = static_cast<std::size_t>(
             std::count_if(list.commands.begin(), list.commands.end(),
                           [](const gl::Command& c) { return std::holds_alternative<gl::DrawPoints>(c); }));
-        ends.record(scene, frame, list);
+        ends.record(in, out);
         run(list);
         return drawn;
     }
 
     void discard(const Drawn& drawn) {
-        for (const shadow::ShadowSlot& slot : drawn.frame.slots)
-            for (const gl::TargetHandle target : {slot.target, slot.second_target, slot.bounds_target})
+        for (const shadow::MapAssignment& map : drawn.frame.maps)
+            for (const gl::TargetHandle target : {map.target, map.sheets.second_target, map.sheets.bounds_target})
                 device().destroy(target);
         const Maps& maps = drawn.maps;
         for (const gl::TextureHandle map : {maps.depths, maps.triangles, maps.second, maps.bounds})

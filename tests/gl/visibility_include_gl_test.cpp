@@ -10,7 +10,7 @@
 
 #include "engine/math/projection.h"
 #include "shaders/embedded.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/filter_table.h"
@@ -92,7 +92,7 @@ protected:
     /// Whether values between lit and dark occur.
     bool blends() const { return row_.id != ShadowFilter::hard && (!reads_depths() || is_soft()); }
     bool is_soft() const { return row_.width == shadow::FilterWidth::source; }
-    shadow::FilterDemand filtering() const { return shadow::filter_demand(row_, shadow_, kMap_px); }
+    shadow::FilterSettings filtering() const { return shadow::filter_settings(row_, shadow_, kMap_px); }
     /// E in the tangent or metres of the map.
     double reach() const { return static_cast<double>(filtering().widest_texel) * 2.0 * kHalf / kMap_px; }
 
@@ -145,11 +145,11 @@ protected:
         const auto probe_bytes = std::as_bytes(std::span(probes));
         const auto buffer = keep(device().create_buffer({.label = "probes", .size = probe_bytes.size(), .use = gl::BufferUse::fixed}, probe_bytes));
         shadow::LightRecord light = record(kind);
-        const shadow::FilterDemand filter = filtering();
+        const shadow::FilterSettings filter = filtering();
         light.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), early_bail ? 1 : 0, 1};
         light.spread = {filter.spread_texel, 0.0f, 0.0f, filter.most_spread_texel};
         light.seed_place.w = 1.0f / filter.cell_m;
-        const shadow::MomentDemand moments = shadow::moment_demand(row_, shadow_, kMap_px);
+        const shadow::PrefilterSettings moments = shadow::prefilter_settings(row_, shadow_, kMap_px);
         light.moments = moments.settings;
         light.moment_sampling.x = moments.bleeding;
         light.radiance.w = kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;

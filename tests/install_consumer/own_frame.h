@@ -2,7 +2,6 @@
 #include <utility>
 
 #include "systems/after_submission.h"
-#include "systems/shadow/fitting/directional/sdsm_splits.h"
 
 using namespace gnomon;
 
@@ -23,7 +22,7 @@ public:
         gpu_scene_.update(scene, commands_);
         scene.exposure = lighting::exposure_scale(kExposure_ev);  // so that lights too dim to be seen cast nothing
         const shadow::ShadowFrame& frame = shadows_.update(scene, gpu_scene_, true, commands_, report);
-        const bool sample_depths = shadow::wants_sampled_depths(scene, frame);
+        const bool sample_depths = shadows_.wants_sampled_depths(scene);
         if (!sample_depths) scene.sampled_depths = {};
         const bool lit = lighting_.record(
             frame.inputs.front(), scene, gpu_scene_,

@@ -7,7 +7,7 @@
 #include "engine/core/result.h"
 #include "ground_and_box.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 
 /// What the stranger's two renderers share.
 

@@ -20,10 +20,9 @@ double halton(int i, int base) {
 std::vector<Vector> visible_points(const SceneSnapshot& scene, const shadow::ShadowFrame& frame, std::uint32_t demand,
                                    int samples) {
     std::vector<Vector> points;
-    const shadow::IndexRange receivers = frame.sets[demand].receivers;
-    const LightItem& light = scene.lights[frame.demands[demand].light];
-    for (std::uint32_t r = receivers.first; r < receivers.first + receivers.count; ++r) {
-        const math::Aabb& box = scene.instances[frame.receiver_items[r]].bounds_ws;
+    const LightItem& light = scene.lights[demand];
+    for (const std::uint32_t r : frame.fitted.sets_of(frame.sets, demand).receivers()) {
+        const math::Aabb& box = scene.instances[r].bounds_ws;
         for (int i = 1; i <= samples; ++i) {
             const glm::dvec3 share(halton(i, 2), halton(i, 3), halton(i, 5));
             const Vector p = exact(box.min + (box.max - box.min) * share);
@@ -43,17 +42,17 @@ std::vector<Vector> visible_points(const SceneSnapshot& scene, const shadow::Sha
 CasterNeed caster_need(const SceneSnapshot& scene, const shadow::ShadowFrame& frame, std::uint32_t demand, int samples) {
     CasterNeed need;
     const std::vector<Vector> points = visible_points(scene, frame, demand, samples);
-    const LightItem& light = scene.lights[frame.demands[demand].light];
-    const Real size_px = frame.demands[demand].resolution_px;
+    const LightItem& light = scene.lights[demand];
+    const Real size_px = frame.fitted.lights[demand].request.map.resolution_px;
     std::vector<Vector> held;
-    for (const shadow::ShadowView& view : frame.views) {
-        if (view.demand != demand) continue;
+    for (const shadow::ShadowView& view : frame.fitted.views) {
+        if (view.light != demand) continue;
         held.clear();
         for (const Vector& p : points)
             if (holds(view, p, size_px, 0)) held.push_back(p);
         need.listed += static_cast<int>(view.casters.count);
         for (std::uint32_t c = view.casters.first; c < view.casters.first + view.casters.count; ++c) {
-            const math::Aabb& box = scene.instances[frame.view_caster_items[c]].bounds_ws;
+            const math::Aabb& box = scene.instances[frame.fitted.casters[c]].bounds_ws;
             for (const Vector& p : held) {
                 if (!darkens(light, box, p, 0)) continue;
                 ++need.needed;

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 
 namespace gnomon::oracle {
 

@@ -57,7 +57,7 @@ bool darkens(const LightItem& light, const math::Aabb& box, const Vector& p, Rea
 }
 
 InMap in_map(const shadow::ShadowView& view, const Vector& p) {
-    const Vector from_anchor = p - exact(view.anchor_ws_m);
+    const Vector from_anchor = p - exact(view.pose.anchor_ws_m);
     std::array<Real, 4> sum{}, size{};
     for (std::size_t row = 0; row < 4; ++row) {
         const auto entry = [&](int column) {
@@ -89,7 +89,7 @@ bool holds(const shadow::ShadowView& view, const Vector& p, Real size_px, Real r
            (clamped ? q.at.z >= -q.rounding.z : within(q.at.z, -q.rounding.z));
 }
 
-Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand,
+Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowRequest& demand,
                         const ConsumerItem& consumer, const Vector& p, Real reach_texel) {
     using shadow::ViewProjection;
     Deciding deciding;
@@ -97,19 +97,19 @@ Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow:
     const Real distance = -dot(p - exact(consumer.position_ws_m), exact(consumer.rotation_ws[2]));
     for (const shadow::ShadowView& view : views) {
         const bool spot = view.projection == ViewProjection::perspective;
-        if (spot && (!shadow::has_faces(demand.faces_eighths) || view.layer == shadow::kSingleView)) {
+        if (spot && (!shadow::has_faces(demand.projection.faces_eighths) || view.layer == shadow::kSingleView)) {
             deciding.wants_single = true;
             deciding.single = &view;
             continue;
         }
         deciding.wants_view = true;
         if (view.projection == ViewProjection::orthographic) {
-            const bool nearer_one = view.seen_to_m > 0.0 && distance > static_cast<Real>(view.seen_to_m);
+            const bool nearer_one = view.cascade.seen_to_m > 0.0 && distance > static_cast<Real>(view.cascade.seen_to_m);
             if (nearer_one && &view != &views.back()) continue;
-            if (!deciding.view && holds(view, p, demand.resolution_px, reach_texel)) deciding.view = &view;
+            if (!deciding.view && holds(view, p, demand.map.resolution_px, reach_texel)) deciding.view = &view;
             continue;
         }
-        const Vector at = in_axes(p - exact(apex_ws_m(view)), {view.axis_u, view.axis_v, view.axis_back});
+        const Vector at = in_axes(p - exact(apex_ws_m(view)), {view.pose.axis_u, view.pose.axis_v, view.pose.axis_back});
         if (-at.z > deepest && std::abs(at.x) <= -at.z && std::abs(at.y) <= -at.z) {
             deepest = -at.z;
             deciding.view = &view;

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 
 /// What sets and fits must be true of, decided in long double and in another way than they decide it: point by point.
 /// Points are world space. Bounds stand for meshes, as they do for sets and fits.
@@ -49,7 +49,7 @@ struct Deciding {
     const shadow::ShadowView* single = nullptr;
     bool wants_view = false, wants_single = false;  // the light has such views
 };
-Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowDemand& demand,
+Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow::ShadowRequest& demand,
                         const ConsumerItem& consumer, const Vector& p, Real reach_texel);
 
 /// Whether the point lies in the view's map and depth range, `reach_texel` from its border, rounding in its favour.

@@ -12,7 +12,7 @@
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/fitting/directional/split_transition.h"
-#include "systems/shadow/fitting/fit_light.h"
+#include "tests/oracle/fit_stages.h"
 #include "systems/shadow/request/decide_requests.h"
 
 /// A sun's fits along the whole paths of the flicker bench, built-in scene, without a GPU: when views step, and how
@@ -86,16 +86,12 @@ private:
         extractor.update(world_, library_, transforms.update(world_), {1280, 720}, snapshot_);
     }
     void fit(const shadow::History& history) {
-        gl::DeviceInfo device;
-        device.max_texture_px = device.max_cube_px = 16384;
-        shadow::decide_demand(snapshot_, device, true, history, frame_.demands);
-        shadow::select_sets(snapshot_, frame_);
-        shadow::fit_views(snapshot_, history, frame_);
+        frame_ = shadow::fitted(snapshot_, history);
     }
     std::vector<const ShadowView*> cascades() const {
         std::vector<const ShadowView*> views;
-        for (const ShadowView& view : frame_.views)
-            if (snapshot_.lights[frame_.demands[view.demand].light].kind == LightKind::directional)
+        for (const ShadowView& view : frame_.fitted.views)
+            if (snapshot_.lights[view.light].kind == LightKind::directional)
                 views.push_back(&view);
         return views;
     }
@@ -113,13 +109,13 @@ private:
     }
     static bool same_size(const ShadowView& a, const ShadowView& b) {
         const auto near = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(x); };
-        return near(a.texel_u, b.texel_u) && near(a.texel_v, b.texel_v) && a.axis_u == b.axis_u &&
-               near(a.far_m - a.near_m, b.far_m - b.near_m);
+        return near(a.plane.texel_u, b.plane.texel_u) && near(a.plane.texel_v, b.plane.texel_v) && a.pose.axis_u == b.pose.axis_u &&
+               near(a.depth.far_m - a.depth.near_m, b.depth.far_m - b.depth.near_m);
     }
     static bool by_whole_texels(const ShadowView& a, const ShadowView& b) {
-        const glm::dvec3 shift = b.anchor_ws_m - a.anchor_ws_m;
-        const double u = (glm::dot(shift, a.axis_u) + b.centre_ls_m.x - a.centre_ls_m.x) / a.texel_u;
-        const double v = (glm::dot(shift, a.axis_v) + b.centre_ls_m.y - a.centre_ls_m.y) / a.texel_v;
+        const glm::dvec3 shift = b.pose.anchor_ws_m - a.pose.anchor_ws_m;
+        const double u = (glm::dot(shift, a.pose.axis_u) + b.plane.centre_ls_m.x - a.plane.centre_ls_m.x) / a.plane.texel_u;
+        const double v = (glm::dot(shift, a.pose.axis_v) + b.plane.centre_ls_m.y - a.plane.centre_ls_m.y) / a.plane.texel_v;
         return std::abs(u - std::round(u)) < 1e-6 && std::abs(v - std::round(v)) < 1e-6;
     }
     void compare_views(std::vector<ShadowView>& known, Walk& walk) const {
@@ -132,7 +128,7 @@ private:
                 continue;
             }
             const bool same =
-                before->clip_from_anchor == view->clip_from_anchor && before->anchor_ws_m == view->anchor_ws_m;
+                before->clip_from_anchor == view->clip_from_anchor && before->pose.anchor_ws_m == view->pose.anchor_ws_m;
             moved |= !same;
             if (!same_size(*before, *view))
                 stepped = true;
@@ -144,7 +140,7 @@ private:
         walk.moved_frames += moved;
     }
     static bool holds(const ShadowView& view, const glm::dvec3& p_ws) {
-        const glm::dvec3 q = glm::dvec3(view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f));
+        const glm::dvec3 q = glm::dvec3(view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f));
         return q.x >= 0.0 && q.y >= 0.0 && q.z >= 0.0 && q.x <= 1.0 && q.y <= 1.0 && q.z <= 1.0;
     }
     /// As shaders/shadow/lookup/kinds/directional.glsl chooses where maps are held.
@@ -152,8 +148,8 @@ private:
                             Walk& walk) {
         Shares shares{};
         std::size_t i = 0;
-        while (i + 1 < views.size() && distance_m > views[i]->seen_to_m) ++i;
-        const double from_m = views[i]->fades_from_m, to_m = views[i]->seen_to_m;
+        while (i + 1 < views.size() && distance_m > views[i]->cascade.seen_to_m) ++i;
+        const double from_m = views[i]->cascade.fades_from_m, to_m = views[i]->cascade.seen_to_m;
         double share = to_m > from_m ? std::clamp((distance_m - from_m) / (to_m - from_m), 0.0, 1.0) : 0.0;
         if (i + 1 == views.size() || (share > 0.0 && !holds(*views[i + 1], p_ws))) share = 0.0;
         walk.in_bands += share > 0.0;

@@ -13,7 +13,7 @@ namespace {
 class FitNumerics : public ::testing::TestWithParam<LightKind> {};
 
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f);
+    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
     return glm::dvec3(q) / static_cast<double>(q.w);
 }
 
@@ -29,8 +29,8 @@ glm::dvec3 folded(const glm::dvec3& q) {
 double tolerance(const ShadowView& view) {
     constexpr double kAnchor = 8.0, kRoundings = 10.0, kPerspective = 5e-5;
     if (view.projection != ViewProjection::orthographic) return kPerspective;
-    const glm::dvec2 sides = 2.0 * view.half_extent_m;
-    const double depth = view.far_m - view.near_m;
+    const glm::dvec2 sides = 2.0 * view.plane.half_extent_m;
+    const double depth = view.depth.far_m - view.depth.near_m;
     return kRoundings * kAnchor * 0x1p-24 * std::max({sides.x, sides.y, depth}) / std::min({sides.x, sides.y, depth});
 }
 
@@ -39,18 +39,18 @@ void expect_same(const SceneSnapshot& scene, double scale, const glm::dvec3& off
     SceneSnapshot other = scene;
     place(other, scale, offset);
     const ShadowFrame a = fitted(scene), b = fitted(other);
-    EXPECT_EQ(a.receiver_items, b.receiver_items);
-    EXPECT_EQ(a.caster_items, b.caster_items);
-    EXPECT_EQ(a.view_caster_items, b.view_caster_items);
-    ASSERT_EQ(a.views.size(), b.views.size());
-    for (std::size_t v = 0; v < a.views.size(); ++v) {
+    EXPECT_EQ(a.sets.receiver_items, b.sets.receiver_items);
+    EXPECT_EQ(a.sets.caster_items, b.sets.caster_items);
+    EXPECT_EQ(a.fitted.casters, b.fitted.casters);
+    ASSERT_EQ(a.fitted.views.size(), b.fitted.views.size());
+    for (std::size_t v = 0; v < a.fitted.views.size(); ++v) {
         double worst = 0.0;
-        for (const glm::dvec3& p : a.receiver_points_ws) {
-            const glm::dvec3 at = in_map(a.views[v], p), there = folded(in_map(b.views[v], p * scale + offset));
+        for (const glm::dvec3& p : a.sets.receiver_points_ws) {
+            const glm::dvec3 at = in_map(a.fitted.views[v], p), there = folded(in_map(b.fitted.views[v], p * scale + offset));
             if (std::abs(at.x - 0.5) > 0.5 || std::abs(at.y - 0.5) > 0.5 || at.z < 0.0 || at.z > 1.0) continue;
             for (int i = 0; i < 3; ++i) worst = std::max(worst, std::abs(folded(at)[i] - there[i]));
         }
-        EXPECT_LE(worst, tolerance(a.views[v])) << "view " << v;
+        EXPECT_LE(worst, tolerance(a.fitted.views[v])) << "view " << v;
     }
 }
 
@@ -98,17 +98,17 @@ TEST(FarFromTheOrigin, AWallEdgeOnToTheSunKeepsItsCasters) {
         for (const std::uint32_t cascades : {1u, 4u, 7u}) {
             SCOPED_TRACE(std::to_string(away_m) + " m away, cascades " + std::to_string(cascades));
             const ShadowFrame frame = fitted(wall_edge_on(away_m * glm::dvec3(1.0, -1.0, 0.25), cascades));
-            ASSERT_EQ(frame.views.size(), cascades);
-            for (const ShadowView& view : frame.views) {
+            ASSERT_EQ(frame.fitted.views.size(), cascades);
+            for (const ShadowView& view : frame.fitted.views) {
                 ASSERT_EQ(view.casters.count, 1u);
-                EXPECT_EQ(frame.view_caster_items[view.casters.first], 1u);
+                EXPECT_EQ(frame.fitted.casters[view.casters.first], 1u);
             }
         }
 }
 
 bool finite(const ShadowView& view) {
-    bool all = std::isfinite(view.near_m) && std::isfinite(view.far_m) && std::isfinite(view.texel_u + view.texel_v) &&
-               std::isfinite(view.predicted_error_px);
+    bool all = std::isfinite(view.depth.near_m) && std::isfinite(view.depth.far_m) && std::isfinite(view.plane.texel_u + view.plane.texel_v) &&
+               std::isfinite(view.error.edge_px);
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) all = all && std::isfinite(view.clip_from_anchor[c][r]) && std::isfinite(view.map_from_anchor[c][r]);
     return all;
@@ -140,9 +140,9 @@ TEST_P(FitNumerics, DegenerateInputGivesFiniteViewsOrAReason) {
             SceneSnapshot odd = scene;
             edit(odd);
             const ShadowFrame frame = fitted(odd);
-            EXPECT_EQ(frame.views.empty(), frame.sets.at(0).skip != Reason::none) << name;
-            for (const ShadowView& view : frame.views) EXPECT_TRUE(finite(view)) << name;
-            views += static_cast<int>(frame.views.size());
+            EXPECT_EQ(frame.fitted.views.empty(), frame.statuses.at(0).skipped() != Reason::none) << name;
+            for (const ShadowView& view : frame.fitted.views) EXPECT_TRUE(finite(view)) << name;
+            views += static_cast<int>(frame.fitted.views.size());
         }
     }
     EXPECT_GT(views, 10);
@@ -152,8 +152,8 @@ TEST_P(FitNumerics, TheSameInputGivesTheSameBits) {
     RandomScene random(print_seed());
     const SceneSnapshot scene = random.scene(GetParam());
     const ShadowFrame a = fitted(scene), b = fitted(scene);
-    ASSERT_EQ(a.views.size(), b.views.size());
-    for (std::size_t v = 0; v < a.views.size(); ++v) EXPECT_EQ(a.views[v].clip_from_anchor, b.views[v].clip_from_anchor);
+    ASSERT_EQ(a.fitted.views.size(), b.fitted.views.size());
+    for (std::size_t v = 0; v < a.fitted.views.size(); ++v) EXPECT_EQ(a.fitted.views[v].clip_from_anchor, b.fitted.views[v].clip_from_anchor);
 }
 
 INSTANTIATE_TEST_SUITE_P(EachKind, FitNumerics, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),

@@ -40,7 +40,7 @@ void casters_behind_cameras() {
         for (const auto* view : stages.views())
             for (std::uint32_t i = 0; i < view->casters.count; ++i)
                 casts |=
-                    stages.snapshot().instances[stages.frame().view_caster_items[view->casters.first + i]].entity ==
+                    stages.snapshot().instances[stages.frame().fitted.casters[view->casters.first + i]].entity ==
                     box;
         EXPECT_TRUE(casts);
     }
@@ -65,7 +65,7 @@ void empty_sets() {
         Stages stages(w);
         stages.run();
         EXPECT_EQ(stages.passes(), 0u);
-        EXPECT_TRUE(stages.frame().views.empty());
+        EXPECT_TRUE(stages.frame().fitted.views.empty());
         for (const LightReport& light : stages.report().lights) {
             EXPECT_EQ(light.state, LightState::skipped);
             EXPECT_EQ(light.reason, reason) << reason_code(light.reason);
@@ -99,8 +99,8 @@ void splits_grow() {
         EXPECT_GT(expect_sound(w, "a split from next to nothing"), 50u) << near_m;
         double last = -1.0;
         for (const auto* view : stages.views()) {
-            EXPECT_GT(view->seen_from_m, last) << near_m;
-            last = view->seen_from_m;
+            EXPECT_GT(view->cascade.seen_from_m, last) << near_m;
+            last = view->cascade.seen_from_m;
         }
     }
 }
@@ -137,9 +137,9 @@ void linear_splits() {
     stages.run();
     const auto views = stages.views();
     ASSERT_GE(views.size(), 3u);
-    const double step = views[1]->seen_from_m - views[0]->seen_from_m;
+    const double step = views[1]->cascade.seen_from_m - views[0]->cascade.seen_from_m;
     for (std::size_t i = 2; i < views.size(); ++i)
-        EXPECT_NEAR(views[i]->seen_from_m - views[i - 1]->seen_from_m, step, 0.02 * step)
+        EXPECT_NEAR(views[i]->cascade.seen_from_m - views[i - 1]->cascade.seen_from_m, step, 0.02 * step)
             << "nearer is not larger here";
 }
 
@@ -200,9 +200,9 @@ void rolls_once() {
 
 /// Where the map's corner lies on the grid of its own texels: whole numbers, if it is snapped.
 glm::dvec2 corner_texels(const shadow::ShadowView& view) {
-    const glm::dvec3 anchor = view.anchor_ws_m;
-    const glm::dvec2 at(glm::dot(anchor, view.axis_u), glm::dot(anchor, view.axis_v));
-    return (at + view.centre_ls_m - view.half_extent_m) / glm::dvec2(view.texel_u, view.texel_v);
+    const glm::dvec3 anchor = view.pose.anchor_ws_m;
+    const glm::dvec2 at(glm::dot(anchor, view.pose.axis_u), glm::dot(anchor, view.pose.axis_v));
+    return (at + view.plane.centre_ls_m - view.plane.half_extent_m) / glm::dvec2(view.plane.texel_u, view.plane.texel_v);
 }
 void expect_snapped(World& w, ecs::Entity camera, const Transform& start, bool turning, double step) {
     Stages stages(w);
@@ -219,8 +219,8 @@ void expect_snapped(World& w, ecs::Entity camera, const Transform& start, bool t
         stages.run();
         for (const auto* view : stages.views()) {
             if (view->layer != 0) continue;
-            if (i == 0) first = corner_texels(*view), texel = view->texel_u;
-            EXPECT_EQ(view->texel_u, texel) << "the extent changes with the camera's place";
+            if (i == 0) first = corner_texels(*view), texel = view->plane.texel_u;
+            EXPECT_EQ(view->plane.texel_u, texel) << "the extent changes with the camera's place";
             const glm::dvec2 moved = corner_texels(*view) - first;
             EXPECT_NEAR(moved.x, std::round(moved.x), 1e-6) << "frame " << i;
             EXPECT_NEAR(moved.y, std::round(moved.y), 1e-6) << "frame " << i;

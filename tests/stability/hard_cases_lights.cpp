@@ -36,7 +36,7 @@ void sun_overhead_checks() {
             const auto views = stages.views();
             if (sign > 0.0 && views.empty()) continue;  // it shines from below: nobody between it and the ground
             ASSERT_FALSE(views.empty());
-            const double texel_m2 = views.front()->texel_u * views.front()->texel_v;
+            const double texel_m2 = views.front()->plane.texel_u * views.front()->plane.texel_v;
             if (first_texel == 0.0) first_texel = texel_m2;
             EXPECT_NEAR(texel_m2 / first_texel, 1.0, 1e-4);
         }
@@ -58,7 +58,7 @@ void duelling_checks() {
         stages.run();
         EXPECT_GT(expect_sound(w, "a sun along the view"), 100u);
         // Lloyd's m, bounded: orthographic cascades cannot be worse than their slice is deep.
-        for (const auto* view : stages.views()) EXPECT_LT(view->predicted_error_px, 10.0);
+        for (const auto* view : stages.views()) EXPECT_LT(view->error.edge_px, 10.0);
     }
 }
 
@@ -102,11 +102,11 @@ void near_and_far_checks() {
     stages.run();
     for (std::uint32_t light = 0; light < 2; ++light)
         for (const auto* view : stages.views(light))
-            for (double z = view->near_m * 1.01; z < view->far_m; z *= 1.7) {
+            for (double z = view->depth.near_m * 1.01; z < view->depth.far_m; z *= 1.7) {
                 // One step of a reversed D32F, as distance: its ulp over the slope beta / z^2 of depth.
-                const auto depth = static_cast<float>(view->depth_alpha + view->depth_beta / z);
+                const auto depth = static_cast<float>(view->depth.alpha + view->depth.beta / z);
                 const auto ulp = static_cast<double>(std::nextafter(depth, 2.0f) - depth);
-                EXPECT_LE(ulp * z * z / view->depth_beta, 2.0 * kUnitRoundoff * z * 1.001) << "at " << z << " m";
+                EXPECT_LE(ulp * z * z / view->depth.beta, 2.0 * kUnitRoundoff * z * 1.001) << "at " << z << " m";
             }
 }
 
@@ -215,7 +215,7 @@ void slow_sun() {
         stages.run();
         ASSERT_FALSE(stages.views().empty());
         // What was drawn is the sun of this frame, not of an earlier one.
-        EXPECT_GT(glm::dot(stages.views().front()->axis_back, stages.snapshot().lights.front().rotation_ws[2]),
+        EXPECT_GT(glm::dot(stages.views().front()->pose.axis_back, stages.snapshot().lights.front().rotation_ws[2]),
                   1.0 - 1e-15);
     }
 }
@@ -239,7 +239,7 @@ void clamped_maps() {
     stages.run();
     for (std::uint32_t light = 0; light < 2; ++light) {
         EXPECT_EQ(stages.report().lights[light].reason, Reason::resolution_clamped);
-        EXPECT_LE(stages.frame().demands[light].resolution_px, stages.device().info().max_texture_px);
+        EXPECT_LE(stages.frame().fitted.lights[light].request.map.resolution_px, stages.device().info().max_texture_px);
         EXPECT_FALSE(stages.views(light).empty());
     }
 }

@@ -35,10 +35,10 @@ Fitted fitted(Build build) {
     Stages stages(w);
     stages.run();
     Fitted f;
-    for (const shadow::ShadowView& view : stages.frame().views) {
+    for (const shadow::ShadowView& view : stages.frame().fitted.views) {
         f.matrices.push_back(view.clip_from_anchor);
-        f.anchors_m.push_back(view.anchor_ws_m);
-        f.texels.push_back(view.texel_u);
+        f.anchors_m.push_back(view.pose.anchor_ws_m);
+        f.texels.push_back(view.plane.texel_u);
         f.casters.push_back(view.casters.count);
     }
     EXPECT_FALSE(f.matrices.empty());
@@ -320,10 +320,10 @@ void after_deletion() {
     (void)fresh_world.mesh(game::make_box({-2.5, 0.0, 1.0}, {-1.5, 2.0, 2.0}));
     Stages fresh(fresh_world);
     fresh.run();
-    ASSERT_EQ(stages.frame().views.size(), fresh.frame().views.size());
-    for (std::size_t v = 0; v < fresh.frame().views.size(); ++v) {
-        EXPECT_EQ(stages.frame().views[v].casters.count, fresh.frame().views[v].casters.count);
-        EXPECT_FALSE(stages.frame().slots[v].reuse && stages.frame().views[v].casters.count > 2) << "a stale map";
+    ASSERT_EQ(stages.frame().fitted.views.size(), fresh.frame().fitted.views.size());
+    for (std::size_t v = 0; v < fresh.frame().fitted.views.size(); ++v) {
+        EXPECT_EQ(stages.frame().fitted.views[v].casters.count, fresh.frame().fitted.views[v].casters.count);
+        EXPECT_FALSE(stages.frame().updates[v].reuse && stages.frame().fitted.views[v].casters.count > 2) << "a stale map";
     }
     stages.run();
     EXPECT_EQ(stages.passes(), 0u) << "a still scene redraws nothing";

@@ -187,7 +187,7 @@ std::vector<std::uint32_t> occluders(const SceneSnapshot& scene, const std::vect
 
 /// In the map, with the filter's margin on a sun's, and within the depth range as the kind reads it.
 bool holds(const shadow::ShadowView& view, const Vec& p, Number margin) {
-    const Vec a = p - Vec(view.anchor_ws_m);
+    const Vec a = p - Vec(view.pose.anchor_ws_m);
     Number q[4];
     for (int row = 0; row < 4; ++row)
         q[row] = Number(view.map_from_anchor[0][row]) * a.x + Number(view.map_from_anchor[1][row]) * a.y +
@@ -202,9 +202,9 @@ bool holds(const shadow::ShadowView& view, const Vec& p, Number margin) {
 }
 
 bool is_finite(const shadow::ShadowView& view) {
-    bool all = view.near_m < view.far_m && std::isfinite(view.near_m) && std::isfinite(view.far_m) &&
-               view.texel_u > 0.0 && view.texel_v > 0.0 && std::isfinite(view.texel_u) && std::isfinite(view.texel_v) &&
-               std::isfinite(view.predicted_error_px) && std::isfinite(glm::dot(view.anchor_ws_m, view.anchor_ws_m));
+    bool all = view.depth.near_m < view.depth.far_m && std::isfinite(view.depth.near_m) && std::isfinite(view.depth.far_m) &&
+               view.plane.texel_u > 0.0 && view.plane.texel_v > 0.0 && std::isfinite(view.plane.texel_u) && std::isfinite(view.plane.texel_v) &&
+               std::isfinite(view.error.edge_px) && std::isfinite(glm::dot(view.pose.anchor_ws_m, view.pose.anchor_ws_m));
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r)
             all = all && std::isfinite(view.clip_from_anchor[c][r]) && std::isfinite(view.map_from_anchor[c][r]);
@@ -231,7 +231,7 @@ public:
     }
 
     Verdict run() {
-        for (const shadow::ShadowView& view : stages_.frame().views)
+        for (const shadow::ShadowView& view : stages_.frame().fitted.views)
             if (!is_finite(view)) note(verdict_.not_finite, "a view is not finite");
         for (std::uint32_t l = 0; l < scene_.lights.size(); ++l) judge_light(l);
         return verdict_;
@@ -284,8 +284,8 @@ private:
     void judge_point(std::uint32_t l, const std::vector<const shadow::ShadowView*>& views, const Vec& at,
                      const std::vector<std::uint32_t>& dark) {
         const LightItem& light = scene_.lights[l];
-        const shadow::ShadowDemand& demand = stages_.frame().demands[views.front()->demand];
-        const Number margin = Number(demand.filtering.widest_texel) / Number(demand.resolution_px);
+        const shadow::ShadowRequest& demand = stages_.frame().fitted.lights[views.front()->light].request;
+        const Number margin = Number(demand.map.filtering.widest_texel) / Number(demand.map.resolution_px);
         const auto held =
             std::find_if(views.begin(), views.end(), [&](const auto* v) { return holds(*v, at, margin); });
         if (held == views.end()) {
@@ -295,7 +295,7 @@ private:
             return;
         }
         const shadow::IndexRange& range = (*held)->casters;
-        const auto begin = stages_.frame().view_caster_items.begin() + range.first;
+        const auto begin = stages_.frame().fitted.casters.begin() + range.first;
         for (const std::uint32_t instance : dark)
             if (std::find(begin, begin + range.count, instance) == begin + range.count)
                 note(verdict_.missed, light.name + ": caster " + std::to_string(instance) + " darkens " + words(at));

@@ -33,13 +33,13 @@ std::pair<std::size_t, std::size_t> held_and_before_near(std::vector<std::string
     stages.run();
     std::size_t held = 0, before = 0;
     constexpr int kSteps = 200;
-    for (const shadow::ShadowView& view : stages.frame().views)
+    for (const shadow::ShadowView& view : stages.frame().fitted.views)
         for (int i = 0; i <= kSteps; ++i)
             for (int j = 0; j + i <= kSteps; ++j) {
                 const double a = i / double{kSteps}, b = j / double{kSteps};
                 const glm::dvec3 p =
                     (1.0 - a - b) * glm::dvec3(kLong[0]) + a * glm::dvec3(kLong[1]) + b * glm::dvec3(kLong[2]);
-                const glm::dvec3 q(glm::dmat4(view.map_from_anchor) * glm::dvec4(p - view.anchor_ws_m, 1.0));
+                const glm::dvec3 q(glm::dmat4(view.map_from_anchor) * glm::dvec4(p - view.pose.anchor_ws_m, 1.0));
                 if (q.x < 0.0 || q.y < 0.0 || q.x > 1.0 || q.y > 1.0) continue;
                 ++held;
                 before += q.z > 1.0;

@@ -53,7 +53,7 @@ TEST_P(HardCases, TheSameWorldGivesTheSameBits) {
         row.build(world);
         Stages stages(world);
         stages.run();
-        for (const shadow::ShadowView& view : stages.frame().views) all.push_back(view.clip_from_anchor);
+        for (const shadow::ShadowView& view : stages.frame().fitted.views) all.push_back(view.clip_from_anchor);
     }
     EXPECT_EQ(matrices[0], matrices[1]);
 }
@@ -82,7 +82,7 @@ TEST(HardCaseOracle, SeesACasterThatIsNotInItsViewsList) {
     Stages stages(world);
     stages.run();
     EXPECT_EQ(judge(stages).missed, 0u);
-    for (shadow::ShadowView& view : const_cast<shadow::ShadowFrame&>(stages.frame()).views) view.casters.count = 0;
+    for (shadow::ShadowView& view : const_cast<shadow::ShadowFrame&>(stages.frame()).fitted.views) view.casters.count = 0;
     const Verdict verdict = judge(stages);
     EXPECT_GT(verdict.missed, 10u);
     EXPECT_NE(verdict.first, "");
@@ -96,7 +96,7 @@ TEST(HardCaseOracle, SeesReceiversOutsideAndMatricesThatAreNone) {
     world.camera();
     Stages stages(world);
     stages.run();
-    auto& views = const_cast<shadow::ShadowFrame&>(stages.frame()).views;
+    auto& views = const_cast<shadow::ShadowFrame&>(stages.frame()).fitted.views;
     const auto sound = views;
     for (shadow::ShadowView& view : views) view.map_from_anchor[3][0] += 0.3f;
     EXPECT_GT(judge(stages).outside, 10u);

@@ -150,8 +150,7 @@ void Stages::run() {
 
 std::vector<const shadow::ShadowView*> Stages::views(std::uint32_t light) const {
     std::vector<const shadow::ShadowView*> found;
-    for (const shadow::ShadowView& view : frame().views)
-        if (frame().demands[view.demand].light == light) found.push_back(&view);
+    for (const shadow::ShadowView& view : frame().fitted.views_of(light)) found.push_back(&view);
     return found;
 }
 

@@ -166,13 +166,13 @@ public:
         LightItem& light = scene_.lights[0];
         light.position_ws_m = views[0].anchor_ws_m;
         light.rotation_ws = {views[0].axis_u, views[0].axis_v, views[0].axis_back};
-        shadow::ShadowDemand demand;
+        shadow::ShadowRequest demand;
         demand.filter = light.shadow.filter;
         demand.depth_format = light.shadow.depth_format;
         demand.resolution_px = size_px;
-        demand.filtering = shadow::filter_demand(light.shadow, size_px);
+        demand.filtering = shadow::filter_settings(light.shadow, size_px);
         frame_.demands = {demand};
-        frame_.views = views;
+        frame_.fitted.views = views;
         frame_.slots.assign(views.size(), {.texture = {1}, .size_px = size_px});
         shadow::publish_lights(scene_, {}, {}, false, frame_);
         return frame_.inputs[0].lights[0];

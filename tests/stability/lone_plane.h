@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "components/light_shadow.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/perspective_view.h"
 
 /// One plane alone in the maps of one light, as a rasteriser would draw it, looked up by the shaders' own text

@@ -27,13 +27,13 @@ std::vector<ShadowView> spot() {
 /// the plane as it may be, and the plane is drawn as much too near as it may be.
 LonePlane seen_from_afar(const ShadowView& view) {
     LonePlane plane;
-    plane.normal = glm::normalize(view.axis_back - view.axis_u - 0.5 * view.axis_v);
+    plane.normal = glm::normalize(view.pose.axis_back - view.pose.axis_u - 0.5 * view.pose.axis_v);
     plane.worst = true;
     plane.aside_texel = glm::dvec2(plane_bounds().snap_texel);
     plane.error_m = plane_bounds().rebuilt_relative * kCamera_m;
     constexpr double kBesideCorner_texel = 1e-6;
     const glm::dvec2 tangent = (glm::dvec2(40.0, 36.0) + kBesideCorner_texel) / (0.5 * kSize_px) - 1.0;
-    const glm::dvec3 way = view.axis_u * tangent.x + view.axis_v * tangent.y - view.axis_back;
+    const glm::dvec3 way = view.pose.axis_u * tangent.x + view.pose.axis_v * tangent.y - view.pose.axis_back;
     plane.receiver_m = way * (-(kLight_m + plane.error_m) / glm::dot(way, plane.normal));
     plane.at_m = plane.receiver_m + plane.normal * plane.error_m;
     plane.receiver_normal = plane.normal;
@@ -78,14 +78,14 @@ TEST(LonePlane, IsLiftedByAWholeStepOfTheFormatWhereItFallsAwayFromTheLight) {
         of_triangles.set_maps(views, kSize_px, glm::dvec3(0.0));
         lookup.set_maps(views, kSize_px, glm::dvec3(0.0));
         LonePlane plane;
-        plane.normal = plane.receiver_normal = glm::normalize(view.axis_back + kTangent * glm::normalize(view.axis_u + view.axis_v));
+        plane.normal = plane.receiver_normal = glm::normalize(view.pose.axis_back + kTangent * glm::normalize(view.pose.axis_u + view.pose.axis_v));
         plane.worst = true;
         plane.aside_texel = glm::dvec2(plane_bounds().snap_texel);
         const double tangent = (kPlace_texel + kBesideCorner_texel) / (0.5 * kSize_px) - 1.0;
         int dark = 0, dark_with_less = 0;
         for (int i = 0; i < kDistances; ++i) {
             const double z_m = 0.3 + 0.5 * i / kDistances;
-            plane.receiver_m = plane.at_m = z_m * (tangent * (view.axis_u + view.axis_v) - view.axis_back);
+            plane.receiver_m = plane.at_m = z_m * (tangent * (view.pose.axis_u + view.pose.axis_v) - view.pose.axis_back);
             dark += !lookup.look_up(plane, 1.0).lit + !of_triangles.look_up(plane, 1.0).lit;
             dark_with_less += !lookup.look_up(plane, kLess).lit;
         }

@@ -8,7 +8,7 @@
 
 #include "engine/math/frustum.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
-#include "systems/shadow/fitting/fit_light.h"
+#include "tests/oracle/fit_stages.h"
 #include "systems/shadow/projection/sun_viewpoint.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/light_kinds.h"
@@ -50,19 +50,15 @@ struct Tally {
 class RandomFitsTest : public ::testing::TestWithParam<LightKind> {
 protected:
     const ShadowFrame& fit(const SceneSnapshot& scene, ShadowFrame& frame, const History& held = {}) {
-        gl::DeviceInfo device;
-        device.max_texture_px = device.max_cube_px = 16384;
-        decide_demand(scene, device, true, held, frame.demands);
-        select_sets(scene, frame);
-        fit_views(scene, held, frame);
+        frame = fitted(scene, held);
         return frame;
     }
 
     static bool finite(const ShadowView& view) {
-        bool all = std::isfinite(view.near_m + view.far_m + view.texel_u + view.texel_v + view.depth_alpha + view.depth_beta +
-                                 view.predicted_error_px + view.seen_from_m) && view.near_m < view.far_m;
+        bool all = std::isfinite(view.depth.near_m + view.depth.far_m + view.plane.texel_u + view.plane.texel_v + view.depth.alpha + view.depth.beta +
+                                 view.error.edge_px + view.cascade.seen_from_m) && view.depth.near_m < view.depth.far_m;
         for (int i = 0; i < 3; ++i)
-            all = all && std::isfinite(view.anchor_ws_m[i] + view.axis_u[i] + view.axis_v[i] + view.axis_back[i]);
+            all = all && std::isfinite(view.pose.anchor_ws_m[i] + view.pose.axis_u[i] + view.pose.axis_v[i] + view.pose.axis_back[i]);
         for (int c = 0; c < 4; ++c)
             for (int r = 0; r < 4; ++r)
                 all = all && std::isfinite(view.clip_from_anchor[c][r]) && std::isfinite(view.map_from_anchor[c][r]);
@@ -70,10 +66,10 @@ protected:
     }
 
     void judge_numbers(const ShadowFrame& frame) {
-        tally.views += frame.views.size();
-        tally.skipped += frame.views.empty() ? 1 : 0;
-        for (const ShadowView& view : frame.views) tally.not_finite += finite(view) ? 0 : 1;
-        if (frame.views.empty() == (frame.sets[0].skip == Reason::none)) ++tally.unflagged;
+        tally.views += frame.fitted.views.size();
+        tally.skipped += frame.fitted.views.empty() ? 1 : 0;
+        for (const ShadowView& view : frame.fitted.views) tally.not_finite += finite(view) ? 0 : 1;
+        if (frame.fitted.views.empty() == (frame.statuses[0].skipped() == Reason::none)) ++tally.unflagged;
     }
 
     /// What `count` drawn fits must have shown.
@@ -111,32 +107,32 @@ protected:
     /// Where the light's rays come from: a sun's eye if it has one.
     static LightItem source_of(const LightItem& light, const ShadowFrame& frame) {
         LightItem source = light;
-        if (!frame.demands[0].perspective_sun) return source;
-        const IndexRange& seen = frame.sets[0].receiver_points;
-        if (frame.views.empty() && seen.count == 0) return source;
+        if (!frame.fitted.lights[0].request.projection.perspective_sun) return source;
+        const IndexRange& seen = frame.fitted.lights[0].sets.receiver_points;
+        if (frame.fitted.views.empty() && seen.count == 0) return source;
         source.kind = LightKind::point;
         // Without a view, since nothing casts into it, the eye is still where the view would have had it.
         source.position_ws_m =
-            frame.views.empty()
+            frame.fitted.views.empty()
                 ? sun_eye(math::basis_from_back(light.rotation_ws[2]),
-                          std::span(frame.receiver_points_ws).subspan(seen.first, seen.count), light.shadow)
+                          std::span(frame.sets.receiver_points_ws).subspan(seen.first, seen.count), light.shadow)
                       .position_ws_m
-                : frame.views[0].anchor_ws_m;
+                : frame.fitted.views[0].pose.anchor_ws_m;
         source.range_m = 0.0;
         return source;
     }
 
     /// What a given depth range or a given eye leaves out is lit: then only what a view holds counts.
-    static bool leaves_out(const ShadowDemand& demand, const LightShadow& shadow) {
-        return demand.near_m > 0.0 || demand.far_m > 0.0 || (demand.perspective_sun && shadow.eye_distance_m > 0.0f);
+    static bool leaves_out(const ShadowRequest& demand, const LightShadow& shadow) {
+        return demand.projection.near_m > 0.0 || demand.projection.far_m > 0.0 || (demand.projection.perspective_sun && shadow.eye_distance_m > 0.0f);
     }
 
     void judge_point(const SceneSnapshot& scene, const ShadowFrame& frame, const Vector& p) {
-        const ShadowDemand& demand = frame.demands[0];
+        const ShadowRequest& demand = frame.fitted.lights[0].request;
         const LightItem light = source_of(scene.lights[0], frame);
-        const Real size_px = demand.resolution_px;
-        const Real reach = static_cast<Real>(demand.filtering.widest_texel);
-        const oracle::Deciding by = oracle::deciding_views(frame.views, demand, scene.consumers[0], p, reach);
+        const Real size_px = demand.map.resolution_px;
+        const Real reach = static_cast<Real>(demand.map.filtering.widest_texel);
+        const oracle::Deciding by = oracle::deciding_views(frame.fitted.views, demand, scene.consumers[0], p, reach);
         const bool in_view = by.view && oracle::holds(*by.view, p, size_px, 0);
         const bool in_single = by.single && oracle::holds(*by.single, p, size_px, 0);
         const bool partial = leaves_out(demand, scene.lights[0].shadow);
@@ -150,21 +146,21 @@ protected:
             if (by.wants_view && (in_view || !partial)) tally.missed += by.view && lists(frame, *by.view, c) ? 0 : 1;
             if (by.wants_single && (in_single || !partial)) tally.missed += lists(frame, *by.single, c) ? 0 : 1;
             // A cascade may fade into any later one that holds the point.
-            for (const ShadowView& view : frame.views)
+            for (const ShadowView& view : frame.fitted.views)
                 if (view.projection == ViewProjection::orthographic && oracle::holds(view, p, size_px, reach))
                     tally.missed += lists(frame, view, c) ? 0 : 1;
-            if (frame.views.empty()) ++tally.missed;
+            if (frame.fitted.views.empty()) ++tally.missed;
         }
         tally.dark_points += dark ? 1 : 0;
         if (partial) return;
         // A face that casts nothing on anything may be left out; a sun's maps hold whatever is seen.
-        const bool must_hold = dark || (scene.lights[0].kind == LightKind::directional && !frame.views.empty());
+        const bool must_hold = dark || (scene.lights[0].kind == LightKind::directional && !frame.fitted.views.empty());
         if (must_hold && by.wants_view && !in_view) ++tally.outside;
         if (by.wants_single && !in_single) ++tally.outside;
     }
 
     static bool lists(const ShadowFrame& frame, const ShadowView& view, std::uint32_t caster) {
-        const auto casters = std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+        const auto casters = std::span(frame.fitted.casters).subspan(view.casters.first, view.casters.count);
         return std::find(casters.begin(), casters.end(), caster) != casters.end();
     }
 
@@ -186,12 +182,12 @@ protected:
         const ShadowFrame& there = fit(scene, elsewhere);
         ++tally.scaled;
         const float by = std::exp2(static_cast<float>(power));
-        bool same = there.views.size() == frame.views.size() && there.caster_items == frame.caster_items &&
-                    there.receiver_items == frame.receiver_items && there.view_caster_items == frame.view_caster_items;
-        for (std::size_t v = 0; same && v < frame.views.size(); ++v) {
-            const ShadowView &a = frame.views[v], &b = there.views[v];
+        bool same = there.fitted.views.size() == frame.fitted.views.size() && there.sets.caster_items == frame.sets.caster_items &&
+                    there.sets.receiver_items == frame.sets.receiver_items && there.fitted.casters == frame.fitted.casters;
+        for (std::size_t v = 0; same && v < frame.fitted.views.size(); ++v) {
+            const ShadowView &a = frame.fitted.views[v], &b = there.fitted.views[v];
             const bool flat = a.projection == ViewProjection::orthographic;
-            same = b.anchor_ws_m == a.anchor_ws_m * std::exp2(power) && b.near_m == a.near_m * std::exp2(power);
+            same = b.pose.anchor_ws_m == a.pose.anchor_ws_m * std::exp2(power) && b.depth.near_m == a.depth.near_m * std::exp2(power);
             for (int c = 0; c < 4; ++c)
                 for (int r = 0; r < 4; ++r) {
                     // Orthographic: columns that meet metres shrink. Perspective: the depth's constant grows.
@@ -208,10 +204,10 @@ protected:
         const ShadowFrame& there = fit(scene, elsewhere);
         judge_points(scene, there);
         ++tally.moved;
-        bool same = there.views.size() == frame.views.size();
-        for (std::size_t v = 0; same && v < frame.views.size(); ++v) {
-            const ShadowView &a = frame.views[v], &b = there.views[v];
-            const double area = b.texel_u * b.texel_v / (a.texel_u * a.texel_v);
+        bool same = there.fitted.views.size() == frame.fitted.views.size();
+        for (std::size_t v = 0; same && v < frame.fitted.views.size(); ++v) {
+            const ShadowView &a = frame.fitted.views[v], &b = there.fitted.views[v];
+            const double area = b.plane.texel_u * b.plane.texel_v / (a.plane.texel_u * a.plane.texel_v);
             same = area > 0.999 && area < 1.001;
         }
         tally.move_differs += same ? 0 : 1;
@@ -268,7 +264,7 @@ TEST_P(WarpedFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
         warp(scene);
         ++tally.fits;
         judge_numbers(fit(scene, here));
-        for (const ShadowView& view : here.views) warped += view.warp != glm::dvec2(0.0) ? 1 : 0;
+        for (const ShadowView& view : here.fitted.views) warped += view.plane.warp != glm::dvec2(0.0) ? 1 : 0;
         judge_points(scene, here);
         if (i % kMoveEvery == 0) judge_scale(scene, here, static_cast<int>(random.number(-13.0, 27.0)));
         if (i % kMoveEvery == 1) judge_move(scene, here, glm::round(random.vector(random.size(1.0, 0x1p25))));
@@ -310,7 +306,7 @@ TEST_P(RandomFitsTest, AMissingCasterAndAShiftedMapAreNoticed) {
     for (int i = 0; i < 2000; ++i) {
         const SceneSnapshot scene = random.scene(GetParam());
         fit(scene, here);
-        for (ShadowView& view : here.views) {
+        for (ShadowView& view : here.fitted.views) {
             view.casters.count /= 2;
             for (int c = 0; c < 4; ++c) view.map_from_anchor[c][0] += view.map_from_anchor[c][3];
         }

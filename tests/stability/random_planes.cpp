@@ -70,15 +70,15 @@ public:
             column = random_.chance(0.5) ? random_.whole(0, 3) : side - 1 - random_.whole(0, 3);
         const glm::dvec2 at((column + part()) / side, (random_.whole(keep_off, side - 1 - keep_off) + part()) / side);
         if (view.projection == shadow::ViewProjection::orthographic) {
-            const glm::dvec2 q = view.centre_ls_m + view.half_extent_m * (2.0 * at - 1.0);
-            const double w = 1.0 / (1.0 - glm::dot(view.warp, q));
-            const double z_m = w * (view.near_m + random_.between(0.05, 0.95) * (view.far_m - view.near_m));
+            const glm::dvec2 q = view.plane.centre_ls_m + view.plane.half_extent_m * (2.0 * at - 1.0);
+            const double w = 1.0 / (1.0 - glm::dot(view.plane.warp, q));
+            const double z_m = w * (view.depth.near_m + random_.between(0.05, 0.95) * (view.depth.far_m - view.depth.near_m));
             const glm::dvec2 p = q * w;
-            return {view.axis_u * p.x + view.axis_v * p.y - view.axis_back * z_m, view.axis_back};
+            return {view.pose.axis_u * p.x + view.pose.axis_v * p.y - view.pose.axis_back * z_m, view.pose.axis_back};
         }
-        const glm::dvec2 tangent = view.tan_low + (view.tan_high - view.tan_low) * at;
-        const double z_m = view.near_m * std::pow(view.far_m / view.near_m, random_.between(0.02, 0.98));
-        const glm::dvec3 p = (view.axis_u * tangent.x + view.axis_v * tangent.y - view.axis_back) * z_m;
+        const glm::dvec2 tangent = view.plane.tan_low + (view.plane.tan_high - view.plane.tan_low) * at;
+        const double z_m = view.depth.near_m * std::pow(view.depth.far_m / view.depth.near_m, random_.between(0.02, 0.98));
+        const glm::dvec3 p = (view.pose.axis_u * tangent.x + view.pose.axis_v * tangent.y - view.pose.axis_back) * z_m;
         return {p, -glm::normalize(p)};
     }
 
@@ -119,7 +119,7 @@ private:
         // Of its warped plane the map shows what lies on this side of the horizon.
         const double farthest_m = glm::length(box.half_extent_m) + glm::length(box.centre_m);
         const double turn = random_.between(0.0, 6.28);
-        view.warp = glm::dvec2(std::cos(turn), std::sin(turn)) * (random_.between(0.0, 0.97) / farthest_m);
+        view.plane.warp = glm::dvec2(std::cos(turn), std::sin(turn)) * (random_.between(0.0, 0.97) / farthest_m);
         shadow::set_warped_matrices(view);
     }
 
@@ -162,7 +162,7 @@ LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& plac
     plane.aside_texel = glm::dvec2(share(), share()) * bounds.snap_texel;
 
     const ShadowView& view = maps.views[0];
-    plane.error_m = bounds.rebuilt_relative * glm::length(place.position_m + view.anchor_ws_m - maps.camera_ws_m);
+    plane.error_m = bounds.rebuilt_relative * glm::length(place.position_m + view.pose.anchor_ws_m - maps.camera_ws_m);
     // As the shaders count it: a sun's along the axes, a lamp's from the light.
     const glm::dvec3 far_m = glm::abs(place.position_m);
     const bool orthographic = view.projection == shadow::ViewProjection::orthographic;
@@ -174,7 +174,7 @@ LonePlane random_plane(Random& random, const Maps& maps, const Maps::Place& plac
     plane.at_m = place.position_m + normal * (orthographic ? off_m : std::min(off_m, 0.5 * light_m));
     const glm::dvec3 off = random.direction() * bounds.normal_error_rad;
     plane.receiver_normal = glm::normalize(normal + off - normal * glm::dot(normal, off));
-    const double texel = std::max(view.texel_u, view.texel_v);
+    const double texel = std::max(view.plane.texel_u, view.plane.texel_v);
     if (plane.salt % 2 == 0)
         show_quad(plane, place.position_m, place.to_light,
                   orthographic ? texel : texel * glm::length(place.position_m));

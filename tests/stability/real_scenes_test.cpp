@@ -85,26 +85,26 @@ struct Found {
 };
 
 void judge(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v, Found& found) {
-    const ShadowView& view = frame.views[v];
-    const std::uint32_t light = frame.demands[view.demand].light;
+    const ShadowView& view = frame.fitted.views[v];
+    const std::uint32_t light = view.light;
     if (light == kLamp || light == kSpot) {
-        found.depth_gain.push_back(depth_step_m(1.0, 0.01, scene.lights[light].range_m, view.far_m) /
-                                   depth_step_m(1.0, view.near_m, view.far_m, view.far_m));
+        found.depth_gain.push_back(depth_step_m(1.0, 0.01, scene.lights[light].range_m, view.depth.far_m) /
+                                   depth_step_m(1.0, view.depth.near_m, view.depth.far_m, view.depth.far_m));
         return;
     }
     if (kFits[light] == ShadowFit::tight) found.tight.push_back(waste(scene, frame, view));
     if (kFits[light] == ShadowFit::quantised) found.quantised.push_back(waste(scene, frame, view));
     if (kFits[light] != ShadowFit::stable) return;
     // Before a slice without receivers, a view serves farther than its own slice.
-    const bool next = v + 1 < frame.views.size() && frame.views[v + 1].demand == view.demand;
-    if (next && frame.views[v + 1].layer != view.layer + 1) return;
+    const bool next = v + 1 < frame.fitted.views.size() && frame.fitted.views[v + 1].light == view.light;
+    if (next && frame.fitted.views[v + 1].layer != view.layer + 1) return;
     constexpr double kPlace = 31.0 / 32.0;  // the rest is room to stay while the camera walks
     const double size_px = 512.0,
-                 reach = static_cast<double>(frame.demands[view.demand].filtering.widest_texel);
+                 reach = static_cast<double>(frame.fitted.lights[view.light].request.map.filtering.widest_texel);
     const double border = 1.0 - 2.0 * border_px(size_px, reach) / size_px;
-    const SliceSphere sphere = slice_sphere(scene.consumers[0], view.seen_from_m, view.seen_to_m);
+    const SliceSphere sphere = slice_sphere(scene.consumers[0], view.cascade.seen_from_m, view.cascade.seen_to_m);
     found.stable_off =
-        std::max(found.stable_off, std::abs(view.half_extent_m.x * border * kPlace / sphere.radius_m - 1.0));
+        std::max(found.stable_off, std::abs(view.plane.half_extent_m.x * border * kPlace / sphere.radius_m - 1.0));
     ++found.spheres;
 }
 
@@ -119,8 +119,8 @@ TEST(RealScenes, FitsWasteLittleOfTheirMapsAndOfTheirDepth) {
         const std::optional<SceneSnapshot> scene = snapshot_of(name);
         if (!scene || !known.insert(looks_of(*scene)).second) continue;
         const ShadowFrame frame = fitted(*scene);
-        found.scenes += frame.views.empty() ? 0 : 1;
-        for (std::size_t v = 0; v < frame.views.size(); ++v) judge(*scene, frame, v, found);
+        found.scenes += frame.fitted.views.empty() ? 0 : 1;
+        for (std::size_t v = 0; v < frame.fitted.views.size(); ++v) judge(*scene, frame, v, found);
     }
     ASSERT_GT(found.scenes, 20u);
     std::printf(

@@ -46,26 +46,30 @@ protected:
         }
         return differing;
     }
+    static bool is_left_to_rays(const shadow::ShadowFrame& frame, std::uint32_t light) {
+        const shadow::IndexRange views = frame.fitted.lights[light].views;
+        return views.count > 0 && frame.updates[views.first].left_to_rays;
+    }
     /// Prints the first difference.
     bool same() const {
         const shadow::ShadowFrame &a = both->frame(Way::kThrifty), &b = both->frame(Way::kLavish);
-        if (a.views.size() != b.views.size() || a.inputs.size() != b.inputs.size()) return false;
+        if (a.fitted.views.size() != b.fitted.views.size() || a.inputs.size() != b.inputs.size()) return false;
         for (std::size_t c = 0; c < a.inputs.size(); ++c)
             for (std::size_t i = 0; i < a.inputs[c].lights.size(); ++i) {
-                if (a.demands[i].left_to_rays) continue;  // which see what its map would; EconomyIdentityGl has both
+                if (is_left_to_rays(a, static_cast<std::uint32_t>(i))) continue;  // which see what its map would; EconomyIdentityGl has both
                 const shadow::LightingLight &x = a.inputs[c].lights[i], &y = b.inputs[c].lights[i];
                 if (!(x.row == y.row) || std::memcmp(&x.record, &y.record, sizeof x.record) != 0) return false;
             }
-        for (std::size_t v = 0; v < a.slots.size(); ++v) {
-            if (a.demands[a.views[v].demand].left_to_rays) continue;
+        for (std::size_t v = 0; v < a.maps.size(); ++v) {
+            if (a.updates[v].left_to_rays) continue;
             // Neither drawn nor looked up: it may hold what it did before rays did without it.
-            if (a.views[v].lit && b.views[v].lit && a.demands[a.views[v].demand].asks_rays) continue;
-            if (contents[Way::kThrifty].of(a.slots[v].target, device) ==
-                contents[Way::kLavish].of(b.slots[v].target, device))
+            if (a.fitted.views[v].lit && b.fitted.views[v].lit && a.fitted.lights[a.fitted.views[v].light].request.rays.used) continue;
+            if (contents[Way::kThrifty].of(a.maps[v].target, device) ==
+                contents[Way::kLavish].of(b.maps[v].target, device))
                 continue;
-            const LightItem& light = both->scene().lights[a.demands[a.views[v].demand].light];
+            const LightItem& light = both->scene().lights[a.fitted.views[v].light];
             if (!mislead)
-                std::cout << "frame " << frame << ": layer " << a.views[v].layer << " of a light of kind "
+                std::cout << "frame " << frame << ": layer " << a.fitted.views[v].layer << " of a light of kind "
                           << static_cast<int>(light.kind) << " and filter " << static_cast<int>(light.shadow.filter)
                           << "\n";
             return false;

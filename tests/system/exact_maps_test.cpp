@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "systems/shadow/budget/ray_budget.h"
+#include "systems/shadow/request/ray_limit.h"
 #include "systems/shadow/request/map_textures.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"

@@ -84,12 +84,12 @@ TEST_F(LightsPerCamera, EachLooksUpTheViewsThatItsOwnReceiversLieIn) {
     step();
     ASSERT_EQ(inputs.size(), 2u);
     int drawn = 0;
-    for (const shadow::ShadowView& view : both->frame(BothWays::kThrifty).views) drawn |= 1 << view.layer;
+    for (const shadow::ShadowView& view : both->frame(BothWays::kThrifty).fitted.views) drawn |= 1 << view.layer;
     EXPECT_EQ(faces(0, 0) | faces(1, 0), drawn) << "what is drawn, somebody looks up";
     EXPECT_NE(faces(0, 0), 0);
     EXPECT_NE(faces(1, 0), 0);
     EXPECT_NE(faces(0, 0), faces(1, 0));
-    EXPECT_LT(inputs[0].lights[0].record.options.x, static_cast<int>(both->frame(BothWays::kThrifty).views.size()));
+    EXPECT_LT(inputs[0].lights[0].record.options.x, static_cast<int>(both->frame(BothWays::kThrifty).fitted.views.size()));
 }
 
 }  // namespace

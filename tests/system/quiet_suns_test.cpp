@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "systems/shadow/budget/ray_budget.h"
+#include "systems/shadow/request/ray_limit.h"
 #include "tests/system/frame_fixture.h"
 
 // Suns of filter=exact whose casters stay while the camera walks: a map that is drawn once and asked for ever may be larger.

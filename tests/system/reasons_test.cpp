@@ -6,7 +6,7 @@
 #include <string>
 
 #include "components/shadow_caster.h"
-#include "systems/shadow/fitting/fit_light.h"
+#include "tests/oracle/fit_stages.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "tests/source_paths.h"
 #include "tests/system/frame_fixture.h"
@@ -194,16 +194,17 @@ TEST(Reasons, PointsInInfinityHaveNoFit) {
     scene.consumers.emplace_back();
     scene.lights.push_back({.kind = LightKind::directional, .intensity = 1.0f, .has_shadow = true});
     scene.lights[0].shadow.cascades = 1;
-    shadow::ShadowFrame frame;
-    shadow::decide_demand(scene, gl::RecordingDevice::default_info(), true, {}, frame.demands);
-    frame.receiver_points_ws = {glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
-    frame.beams.emplace_back();
-    frame.sets.emplace_back();
-    frame.sets[0].receiver_points = {0, 2};
-    frame.sets[0].beams = {0, 1};
-    shadow::fit_views(scene, {}, frame);
-    EXPECT_EQ(frame.sets[0].skip, Reason::fit_degenerate);
-    EXPECT_TRUE(frame.views.empty());
+    shadow::FitStages stages;
+    stages.decide(scene, gl::RecordingDevice::default_info());
+    shadow::ShadowFrame& frame = stages.frame;
+    frame.sets.receiver_points_ws = {glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
+    frame.sets.beams.emplace_back();
+    frame.sets.lights.emplace_back();
+    frame.sets.lights[0].receiver_points = {0, 2};
+    frame.sets.lights[0].beams = {0, 1};
+    stages.fit(scene);
+    EXPECT_EQ(frame.statuses[0].skipped(), Reason::fit_degenerate);
+    EXPECT_TRUE(frame.fitted.views.empty());
 }
 
 }  // namespace

@@ -251,7 +251,7 @@ std::string list_filters() {
             continue;
         }
         text += "  " + name + taps_text(row, shadow) + ", E " +
-                number_text(shadow::filter_demand(shadow, kUsualMap_px).widest_texel) + " texels, " +
+                number_text(shadow::filter_settings(shadow, kUsualMap_px).widest_texel) + " texels, " +
                 sampler_text(row.reading) + "\n";
     }
     return text;

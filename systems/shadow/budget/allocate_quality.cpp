@@ -22,8 +22,8 @@ struct NextGrants {
 NextGrants next_grants(const LightLoad& load, const Grant& now) {
     NextGrants next;
     if (now.none) return next;
-    const ShadowDemand& wanted = load.wanted;
-    const std::uint32_t edge_px = std::min(wanted.resolution_px, now.most_px);
+    const ShadowRequest& wanted = load.wanted;
+    const std::uint32_t edge_px = std::min(wanted.map.resolution_px, now.most_px);
     const auto add_less = [&](const Grant& less) {
         if (!(less == now) && is_less(*load.light, wanted, less)) next.add(less);
     };
@@ -31,12 +31,12 @@ NextGrants next_grants(const LightLoad& load, const Grant& now) {
     less.most_px = std::max(edge_px / 2, kLeastGranted_px);
     if (less.most_px < edge_px) add_less(less);
     less = now;
-    less.most_views = std::min(now.most_views, wanted.view_count) - 1;
-    const ShadowDemand fewer = granted(*load.light, wanted, less);
-    if (less.most_views > 0 && fewer.view_count == less.most_views) add_less(less);
+    less.most_views = std::min(now.most_views, wanted.map.view_count) - 1;
+    const ShadowRequest fewer = granted(*load.light, wanted, less);
+    if (less.most_views > 0 && fewer.map.view_count == less.most_views) add_less(less);
     less = now;
     less.plain = true;
-    if (wanted.filter != kPlainFilter) add_less(less);
+    if (wanted.map.filter != kPlainFilter) add_less(less);
     less = now;
     less.refresh_frames = std::max(now.refresh_frames, 1u) * 2;
     if (less.refresh_frames <= kMostRefresh_frames && load.activity > 0.0) add_less(less);

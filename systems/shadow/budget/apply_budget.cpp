@@ -69,40 +69,29 @@ double typical_lux(const LightItem& light, std::span<const Beam> beams) {
     return emitted / (way_m * way_m);
 }
 
-/// What drawing all of its views would draw.
-void count_draws(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const ShadowView& view,
-                 LightLoad& load) {
-    std::uint32_t last_mesh = ~0u;
-    for (const std::uint32_t i : std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count)) {
-        const std::uint32_t mesh = scene.instances[i].mesh;
-        load.triangles += gpu.mesh(mesh).triangles;
-        load.draws += mesh != last_mesh ? 1 : 0;
-        last_mesh = mesh;
-    }
-}
-
 /// The edge that the light would have if nothing were granted, told by maps that may be smaller.
-std::uint32_t needed_px(const LightItem& light, const ShadowDemand& wanted, const ShadowDemand& fitted,
+std::uint32_t needed_px(const LightItem& light, const ShadowRequest& wanted, const ShadowRequest& fitted,
                         double extent_px) {
-    const bool as_wanted = fitted.filter == wanted.filter && fitted.view_count == wanted.view_count &&
-                           (fitted.resolution_px < fitted.most_px || fitted.most_px == wanted.most_px);
-    if (as_wanted) return fitted.resolution_px;
-    if (!follows_contract(light, wanted)) return wanted.most_px;
-    const double edge_texel = static_cast<double>(wanted.filtering.widest_texel - wanted.filtering.still_texel);
-    return contract_size_px(fitted.resolution_px, false, edge_error_px(extent_px, edge_texel),
-                            wished_error_px(light.shadow), wanted.most_px);
+    const bool as_wanted =
+        fitted.map.filter == wanted.map.filter && fitted.map.view_count == wanted.map.view_count &&
+        (fitted.map.resolution_px < fitted.limits.max_px || fitted.limits.max_px == wanted.limits.max_px);
+    if (as_wanted) return fitted.map.resolution_px;
+    if (!follows_contract(light, wanted)) return wanted.limits.max_px;
+    const double edge_texel = static_cast<double>(wanted.map.filtering.widest_texel - wanted.map.filtering.still_texel);
+    return contract_size_px(fitted.map.resolution_px, false, edge_error_px(extent_px, edge_texel),
+                            wished_error_px(light.shadow), wanted.limits.max_px);
 }
 
 BudgetReport outcome(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
-    const ShadowDemand given = granted(*load.light, load.wanted, grant);
+    const ShadowRequest given = granted(*load.light, load.wanted, grant);
     const Cost full = cost_of(load, {}, factors), cost = cost_of(load, grant, factors);
     BudgetReport out;
-    out.wanted_px = load.wanted.resolution_px;
-    out.px = grant.none ? 0 : given.resolution_px;
-    out.wanted_views = load.wanted.view_count;
-    out.views = grant.none ? 0 : given.view_count;
-    out.refresh_frames = given.refresh_frames;
-    out.plain = given.filter != load.wanted.filter;
+    out.wanted_px = load.wanted.map.resolution_px;
+    out.px = grant.none ? 0 : given.map.resolution_px;
+    out.wanted_views = load.wanted.map.view_count;
+    out.views = grant.none ? 0 : given.map.view_count;
+    out.refresh_frames = refresh_frames(*load.light, grant);
+    out.plain = given.map.filter != load.wanted.map.filter;
     out.wanted_bytes = full.bytes;
     out.bytes = cost.bytes;
     out.wanted_us = static_cast<double>(full.ns) * 1.0e-3;
@@ -111,49 +100,65 @@ BudgetReport outcome(const LightLoad& load, const Grant& grant, const CostFactor
     return out;
 }
 
+/// Leaves of a fitted request what the grant does, as far as can be now: the rest in the next frame.
+void cut(const LightLoad& load, const Grant& grant, BudgetDecision& decision) {
+    const LightItem& light = *load.light;
+    ShadowRequest& request = decision.request;
+    const ShadowRequest given = granted(light, load.wanted, grant);
+    decision.over_budget = is_less(light, load.wanted, grant);
+    decision.refresh_frames = refresh_frames(light, grant);
+    decision.weight = load.weight;
+    if (given.map.filter != request.map.filter && given.map.filter == kPlainFilter) {
+        request.map.filter = kPlainFilter;
+        set_resolution(light, request.map.resolution_px, request);
+    }
+    const std::uint64_t most_bytes = map_bytes(light, given);
+    request.map.reduced_px = std::min(request.map.resolution_px, given.map.resolution_px);
+    while (request.map.reduced_px > 1 && map_bytes(light, request) > most_bytes) request.map.reduced_px /= 2;
+}
+
 }  // namespace
 
-void BudgetStage::apply(const SceneSnapshot& scene, const History& held, std::vector<ShadowDemand>& demands) {
-    if (!is_active()) return;
-    wanted_ = demands;
+void limit_by_grants(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
+                     std::vector<ShadowRequest>& limited) {
+    limited.assign(requests.begin(), requests.end());
     std::size_t guess = 0;
-    for (ShadowDemand& demand : demands) {
-        if (demand.skip != Reason::none) continue;
-        const LightItem& light = scene.lights[demand.light];
-        const HeldLight* last = find(held, light.entity, guess++);
-        if (last && !last->grant.none) demand = granted(light, demand, last->grant);
+    for (std::size_t i = 0; i < limited.size(); ++i) {
+        if (limited[i].skip != Reason::none) continue;
+        const HeldLight* last = find(held, scene.lights[i].entity, guess++);
+        if (last && !last->grant.none) limited[i] = granted(scene.lights[i], limited[i], last->grant);
     }
 }
 
-LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                               std::uint32_t d, std::size_t first_view, std::size_t end_view,
-                               const HeldLight& next) const {
-    const ShadowDemand& fitted = frame.demands[d];
+LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
+                               std::uint32_t light, const HeldLight& next) const {
+    const ShadowRequest& fitted = inputs.fitted.lights[light].request;
     LightLoad load;
-    load.light = &scene.lights[fitted.light];
-    load.wanted = wanted_[d];
+    load.light = &scene.lights[light];
+    load.wanted = inputs.requests[light];
     // The fit may have found another count of cascades to be enough.
-    if (next.grant.most_views >= load.wanted.view_count && fitted.view_count != load.wanted.view_count) {
-        load.wanted.view_count = fitted.view_count;
-        set_most(*load.light, load.wanted.most_px, 0, load.wanted);
+    if (next.grant.most_views >= load.wanted.map.view_count && fitted.map.view_count != load.wanted.map.view_count) {
+        load.wanted.map.view_count = fitted.map.view_count;
+        set_most(*load.light, load.wanted.limits.max_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
     load.activity = load.light->shadow.economy ? static_cast<double>(next.activity) : 1.0;
     double extent_px = 0.0;
-    for (std::size_t v = first_view; v < end_view; ++v) {
-        const ShadowView& view = frame.views[v];
+    for (const ShadowView& view : inputs.fitted.views_of(light)) {
         if (view.casters.count == 0) continue;
         ++load.views;
-        extent_px = std::max(extent_px, view.texel_extent_px);
-        if (load.activity > 0.0) count_draws(scene, gpu, frame, view, load);
+        extent_px = std::max(extent_px, view.error.extent_px);
+        if (!(load.activity > 0.0)) continue;
+        const DrawCounts counts = count_draws(scene, gpu, inputs.fitted.casters_of(view));
+        load.triangles += counts.triangles;
+        load.draws += counts.draws;
     }
-    const auto fewer = static_cast<double>(load.wanted.view_count) - static_cast<double>(fitted.view_count);
+    const auto fewer = static_cast<double>(load.wanted.map.view_count) - static_cast<double>(fitted.map.view_count);
     extent_px *= std::exp2(-fewer);  // each cascade about doubles what one texel can serve
     const std::uint32_t needed = needed_px(*load.light, load.wanted, fitted, extent_px);
-    load.extent_px = extent_px * fitted.resolution_px / needed;
-    if (needed != load.wanted.resolution_px) set_resolution(*load.light, needed, load.wanted);
-    const IndexRange& corners = frame.sets[d].receiver_points;
-    const auto points = std::span(frame.receiver_points_ws).subspan(corners.first, corners.count);
+    load.extent_px = extent_px * fitted.map.resolution_px / needed;
+    if (needed != load.wanted.map.resolution_px) set_resolution(*load.light, needed, load.wanted);
+    const auto points = inputs.fitted.sets_of(inputs.sets, light).receiver_points_ws();
     for (const ConsumerItem& consumer : scene.consumers) {
         load.pixels += area_px(screen_rectangle(*load.light, consumer));
         load.weight = std::max(load.weight, seen_share(points, consumer));
@@ -162,11 +167,9 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
 }
 
 /// What is bright matters more, as the eye has it: lightness goes with the cube root of luminance (CIE 1976).
-void BudgetStage::weigh(const SceneSnapshot& scene, const ShadowFrame& frame) {
+void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) {
     const auto lux = [&](std::size_t i) {
-        const PotentialSets& sets = frame.sets[demands_[i]];
-        return typical_lux(scene.lights[frame.demands[demands_[i]].light],
-                           std::span(frame.beams).subspan(sets.beams.first, sets.beams.count));
+        return typical_lux(scene.lights[lights_[i]], inputs.fitted.sets_of(inputs.sets, lights_[i]).beams());
     };
     double brightest = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i)
@@ -178,55 +181,37 @@ void BudgetStage::weigh(const SceneSnapshot& scene, const ShadowFrame& frame) {
 }
 
 /// Returns the bytes of lights that are not asked, since the device has no room for what they want.
-std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& gpu, WaitingBytes waiting_bytes,
-                                   ShadowFrame& frame) {
+std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
+                                   const History& next, std::span<const LightStatus> statuses) {
     loads_.clear();
     grants_.clear();
-    demands_.clear();
+    lights_.clear();
     held_.clear();
-    std::size_t held = 0, first = 0, end = 0;
+    std::size_t held = 0;
     std::uint64_t fixed_bytes = 0;
-    for (std::uint32_t d = 0; d < frame.demands.size(); ++d, first = end) {
-        while (end < frame.views.size() && frame.views[end].demand == d) ++end;
-        if (frame.demands[d].skip != Reason::none) continue;
-        const HeldLight& next = frame.next_history.lights[held++];
-        if (frame.sets[d].skip != Reason::none || first == end) continue;
-        if (waiting_bytes[frame.demands[d].light]) {
-            fixed_bytes += *waiting_bytes[frame.demands[d].light];
+    for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
+        const FitChoice& choice = inputs.fitted.lights[i];
+        if (choice.request.skip != Reason::none) continue;
+        const HeldLight& entry = next.lights[held++];
+        if (statuses[i].is_skipped() || choice.views.count == 0) continue;
+        if (inputs.waiting_bytes[i]) {
+            fixed_bytes += *inputs.waiting_bytes[i];
             continue;
         }
-        loads_.push_back(load_of(scene, gpu, frame, d, first, end, next));
-        grants_.push_back(next.grant);
-        demands_.push_back(d);
+        loads_.push_back(load_of(scene, gpu, inputs, i, entry));
+        grants_.push_back(entry.grant);
+        lights_.push_back(i);
         held_.push_back(held - 1);
     }
-    weigh(scene, frame);
+    weigh(scene, inputs);
     return fixed_bytes;
 }
 
-/// What a grant leaves of a demand that was fitted for another one, as far as can be now: the rest in the next frame.
-void BudgetStage::grant(const LightLoad& load, const Grant& grant, ShadowDemand& demand, PotentialSets& sets) const {
-    if (grant.none) {
-        sets.skip = Reason::over_budget;
-        return;
-    }
-    const ShadowDemand given = granted(*load.light, load.wanted, grant);
-    demand.over_budget = is_less(*load.light, load.wanted, grant);
-    demand.refresh_frames = given.refresh_frames;
-    demand.weight = load.weight;
-    if (given.filter != demand.filter && given.filter == kPlainFilter) {
-        demand.filter = kPlainFilter;
-        set_resolution(*load.light, demand.resolution_px, demand);
-    }
-    const std::uint64_t most_bytes = map_bytes(*load.light, given);
-    demand.map_px = std::min(demand.resolution_px, given.resolution_px);
-    while (demand.map_px > 1 && map_bytes(*load.light, demand) > most_bytes) demand.map_px /= 2;
-}
-
-void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const History& held,
-                         WaitingBytes waiting_bytes, ShadowFrame& frame) {
-    History& next = frame.next_history;
-    next.calm_frames = is_active() ? held.calm_frames : 0;
+void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs, History& next,
+                         std::vector<BudgetDecision>& decisions, const LightAccounts& accounts) {
+    decisions.clear();
+    for (const FitChoice& choice : inputs.fitted.lights) decisions.push_back({choice.request});
+    next.calm_frames = is_active() ? inputs.held.calm_frames : 0;
     outcomes_.clear();
     if (!is_active()) {
         loads_.clear();
@@ -234,7 +219,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
         return;
     }
     BudgetLimits limits = limits_;
-    const std::uint64_t fixed_bytes = collect(scene, gpu, waiting_bytes, frame);
+    const std::uint64_t fixed_bytes = collect(scene, gpu, inputs, next, accounts.statuses);
     if (limits.bytes != BudgetLimits::kNone) limits.bytes -= std::min(limits.bytes, fixed_bytes);
     settle_grants(loads_, limits, factors_, next.calm_frames, grants_, scratch_);
     lookups_ns_ = 0.0;
@@ -243,50 +228,37 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
         lookups_ns_ += lookup_ns(loads_[i], grants_[i], factors_);
         light.new_frames = light.grant == grants_[i] ? light.new_frames - std::min(light.new_frames, 1u) : kNewFrames;
         light.grant = grants_[i];
-        grant(loads_[i], grants_[i], frame.demands[demands_[i]], frame.sets[demands_[i]]);
         outcomes_.push_back(outcome(loads_[i], grants_[i], factors_));
+        if (grants_[i].none) {
+            accounts.statuses[lights_[i]].skip(Reason::over_budget);
+            continue;
+        }
+        BudgetDecision& decision = decisions[lights_[i]];
+        const Reason note = decision.request.note;
+        cut(loads_[i], grants_[i], decision);
+        if (decision.request.note != note) accounts.statuses[lights_[i]].degrade(decision.request.note);
     }
     decided_factors_ = factors_;
 }
 
-void BudgetStage::spread_draws(const GpuScene& gpu, const SceneSnapshot& scene, ShadowFrame& frame) {
-    if (limits_.ns == BudgetLimits::kNone) return;
-    due_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        const ShadowView& view = frame.views[v];
-        const ShadowSlot& slot = frame.slots[v];
-        if (!slot.texture || slot.reuse) continue;
-        const ShadowDemand& demand = frame.demands[view.demand];
-        LightLoad load;
-        count_draws(scene, gpu, frame, view, load);
-        const double casters = storage_work(filter_row(demand.filter).storage).casters;
-        const double ns = drawing_ns(demand, slot.size_px, 1.0, static_cast<double>(load.triangles) * casters,
-                                     static_cast<double>(load.draws) * casters);
-        const bool may_wait = std::isfinite(slot.if_held.error_px) && slot.waited_frames < kMostWait_frames;
-        const double harm = may_wait ? demand.weight * edge_harm(slot.if_held.error_px) : DueView::kMustNotWait;
-        due_.push_back({v, ns * factors_.drawing, harm, slot.content});
-    }
-    const double room_ns = std::max(static_cast<double>(limits_.ns) - lookups_ns_, 0.0);
-    const std::size_t waiting = choose_waiting(room_ns, due_);
-    for (std::size_t i = 0; i < waiting; ++i) keep_layer(frame.slots[due_[i].view], Hold::by_turn);
+DrawAllowance BudgetStage::draw_allowance() const {
+    if (limits_.ns == BudgetLimits::kNone) return {};
+    return {true, std::max(static_cast<double>(limits_.ns) - lookups_ns_, 0.0), factors_.drawing};
 }
 
-void BudgetStage::note_changes(const SceneSnapshot& scene, ShadowFrame& frame) const {
-    std::size_t first = 0, end = 0;
+void BudgetStage::note_changes(const SceneSnapshot& scene, const DrawnViews& drawn, History& next) const {
     for (std::size_t i = 0; i < loads_.size(); ++i) {
-        const std::uint32_t d = demands_[i];
-        while (first < frame.views.size() && frame.views[first].demand < d) ++first;
+        const IndexRange range = drawn.fitted.lights[lights_[i]].views;
         float views = 0.0f, changed = 0.0f;
-        for (end = first; end < frame.views.size() && frame.views[end].demand == d; ++end) {
-            const ShadowView& view = frame.views[end];
+        for (std::size_t v = range.first; v < range.end(); ++v) {
+            const ShadowView& view = drawn.fitted.views[v];
             const bool has_moving = view.still_casters < view.casters.count;
-            const bool is_kept = static_cast<bool>(frame.slots[end].texture);
             views += 1.0f;
-            changed += (is_kept ? frame.slots[end].changed : has_moving) ? 1.0f : 0.0f;
+            changed += (drawn.has_map(v) ? drawn.updates[v].changed : has_moving) ? 1.0f : 0.0f;
         }
-        if (!scene.lights[frame.demands[d].light].shadow.economy || views == 0.0f) continue;
-        if (frame.next_history.lights[held_[i]].new_frames > 0) continue;
-        float& activity = frame.next_history.lights[held_[i]].activity;
+        if (!scene.lights[lights_[i]].shadow.economy || views == 0.0f) continue;
+        if (next.lights[held_[i]].new_frames > 0) continue;
+        float& activity = next.lights[held_[i]].activity;
         const float now = changed / views;
         activity += (now - activity) * kActivityGain;
         if (std::abs(now - activity) < kActivityRest) activity = now;
@@ -294,7 +266,7 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, ShadowFrame& frame) c
 }
 
 void BudgetStage::report(FrameReport& report) const {
-    for (std::size_t i = 0; i < outcomes_.size(); ++i) report.lights[demands_[i]].budget = outcomes_[i];
+    for (std::size_t i = 0; i < outcomes_.size(); ++i) report.lights[lights_[i]].budget = outcomes_[i];
 }
 
 bool BudgetStage::is_moved_by(const BudgetLimits& limits, const CostFactors& factors) const {

@@ -8,21 +8,18 @@
 namespace gnomon::shadow {
 namespace {
 
-double drawn_ns(const ShadowFrame& frame, const LightReport& light, std::size_t i) {
+double drawn_ns(const MapSettings& map, const LightReport& light) {
     if (light.views_drawn == 0) return 0.0;
-    const ShadowDemand& demand = frame.demands[i];
-    return drawing_ns(demand, map_edge_px(demand), light.views_drawn, static_cast<double>(light.triangles),
-                      light.draws);
+    return drawing_ns(map, map_edge_px(map), light.views_drawn, static_cast<double>(light.triangles), light.draws);
 }
 
 /// As it was drawn: by its own filter, by what that fell back to, or by what was kept of what its pixels saw.
-double lit_ns(const SceneSnapshot& scene, const ShadowFrame& frame, const LightingLight& light,
+double lit_ns(const LightItem& item, const ShadowRequest& request, const LightingLight& light,
               const LightReport& report) {
     const double pixels = static_cast<double>(light.screen.width) * light.screen.height;
     const bool looks_up = !light.row.filter_file.empty() && report.filter.filter != ShadowFilter::automatic &&
                           report.kept.reason == Reason::none;
-    const double fetches =
-        looks_up ? mean_fetches(scene.lights[light.light], frame.demands[light.light], report.filter.filter) : 0.0;
+    const double fetches = looks_up ? mean_fetches(item, request, report.filter.filter) : 0.0;
     return pixels * (kShadedPixel_ns + fetches * kFetch_ns);
 }
 
@@ -38,16 +35,18 @@ double learned(double factor, double measured_ns, double modelled_ns, std::uint3
                       CostClock::kLeastFactor, CostClock::kMostFactor);
 }
 
-void CostClock::submitted(std::uint64_t submission, const SceneSnapshot& scene, const ShadowFrame& frame,
+void CostClock::submitted(std::uint64_t submission, const SceneSnapshot& scene,
+                          std::span<const BudgetDecision> decisions, std::span<const LightingInputs> inputs,
                           const FrameReport& report) {
     Submission& now = submissions_[next_];
     next_ = (next_ + 1) % kFrames;
     now = {submission, true, {}, {}};
     for (std::size_t i = 0; i < report.lights.size(); ++i)
-        now.modelled.drawing_ns += drawn_ns(frame, report.lights[i], i);
-    if (frame.inputs.empty()) return;
-    for (const LightingLight& light : frame.inputs.front().lights)
-        now.modelled.lighting_ns += lit_ns(scene, frame, light, report.lights[light.light]);
+        now.modelled.drawing_ns += drawn_ns(decisions[i].request.map, report.lights[i]);
+    if (inputs.empty()) return;
+    for (const LightingLight& light : inputs.front().lights)
+        now.modelled.lighting_ns +=
+            lit_ns(scene.lights[light.light], decisions[light.light].request, light, report.lights[light.light]);
 }
 
 void CostClock::close(Submission& submission) {

@@ -6,7 +6,8 @@
 #include "engine/gl/device.h"
 #include "systems/report.h"
 #include "systems/shadow/budget/cost_model.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/budget_decision.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::shadow {
 
@@ -16,8 +17,8 @@ namespace gnomon::shadow {
 class CostClock {
 public:
     /// The frame that was just submitted.
-    void submitted(std::uint64_t submission, const SceneSnapshot& scene, const ShadowFrame& frame,
-                   const FrameReport& report);
+    void submitted(std::uint64_t submission, const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
+                   std::span<const LightingInputs> inputs, const FrameReport& report);
     /// Timers that came in since, of whichever of the last kFrames.
     void learn(std::span<const gl::Timing> timings);
 

@@ -22,8 +22,8 @@ constexpr double kTexelsPerCascade = 2.0;
 /// Share of the pixels that a filter looks at more closely whose first fetch settles all others.
 constexpr double kSeldom = 1.0 / 8.0;
 
-bool has_cascades(const LightItem& light, const ShadowDemand& demand) {
-    return light.kind == LightKind::directional && demand.view_count > 1 &&
+bool has_cascades(const LightItem& light, const ShadowRequest& request) {
+    return light.kind == LightKind::directional && request.map.view_count > 1 &&
            light.shadow.splits != CascadeSplits::manual;  // which names them all
 }
 
@@ -31,8 +31,8 @@ bool has_cascades(const LightItem& light, const ShadowDemand& demand) {
 double share_in_bounds(double share) { return share < 1.0 ? std::max(share, 0.0) : 1.0; }
 
 /// Half-width of what can be seen of a filter's footprint, in texels.
-double seen_texel(const ShadowDemand& demand) {
-    return static_cast<double>(demand.filtering.widest_texel - filter_row(demand.filter).still_texel);
+double seen_texel(const ShadowRequest& request) {
+    return static_cast<double>(request.map.filtering.widest_texel - filter_row(request.map.filter).still_texel);
 }
 
 /// Of the bound on how far off an edge is, what it is on the average, against a filter that counts texels alone: a
@@ -42,15 +42,16 @@ double usual_share(const FilterRow& row) {
     return row.reading == MapReading::depths ? 0.5 : 1.0;
 }
 
-double usual_error_px(const ShadowDemand& demand, double extent_px) {
-    return usual_share(filter_row(demand.filter)) * (0.5 + seen_texel(demand)) * extent_px;
+double usual_error_px(const ShadowRequest& request, double extent_px) {
+    return usual_share(filter_row(request.map.filter)) * (0.5 + seen_texel(request)) * extent_px;
 }
 
 /// How much farther off edges are than as wanted, on the average.
-double rise_px(const LightLoad& load, const ShadowDemand& given, const Grant& grant) {
-    const ShadowDemand& wanted = load.wanted;
-    const double coarser = static_cast<double>(wanted.resolution_px) / given.resolution_px *
-                           std::pow(kTexelsPerCascade, static_cast<double>(wanted.view_count - given.view_count));
+double rise_px(const LightLoad& load, const ShadowRequest& given, const Grant& grant) {
+    const ShadowRequest& wanted = load.wanted;
+    const double coarser =
+        static_cast<double>(wanted.map.resolution_px) / given.map.resolution_px *
+        std::pow(kTexelsPerCascade, static_cast<double>(wanted.map.view_count - given.map.view_count));
     const double extent_px = load.extent_px * coarser;
     double rise = std::max(usual_error_px(given, extent_px) - usual_error_px(wanted, load.extent_px), 0.0);
     // A narrower filter may err less; it looks other than was asked for.
@@ -60,32 +61,37 @@ double rise_px(const LightLoad& load, const ShadowDemand& given, const Grant& gr
 
 }  // namespace
 
-ShadowDemand granted(const LightItem& light, const ShadowDemand& wanted, const Grant& grant) {
-    ShadowDemand demand = wanted;
-    if (grant.none) return demand;
-    if (grant.plain) demand.filter = kPlainFilter;
-    demand.asks_rays = demand.asks_rays && !grant.plain;
+ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const Grant& grant) {
+    ShadowRequest request = wanted;
+    if (grant.none) return request;
+    if (grant.plain) request.map.filter = kPlainFilter;
+    request.rays.used = request.rays.used && !grant.plain;
     if (has_cascades(light, wanted)) {
-        demand.view_count = std::clamp(grant.most_views, 1u, wanted.view_count);
-        demand.most_views = std::min(wanted.most_views, std::max(grant.most_views, 1u));
-        if (demand.view_count == 1) demand.cascade_blend = 0.0f;
+        request.map.view_count = std::clamp(grant.most_views, 1u, wanted.map.view_count);
+        request.limits.max_views = std::min(wanted.limits.max_views, std::max(grant.most_views, 1u));
+        if (request.map.view_count == 1) request.map.cascade_blend = 0.0f;
     }
-    demand.most_px = std::min(wanted.most_px, grant.most_px);
-    const std::uint32_t edge_px = std::min(wanted.resolution_px, demand.most_px);
-    if (edge_px != wanted.resolution_px || demand.filter != wanted.filter) set_resolution(light, edge_px, demand);
-    demand.refresh_frames = light.shadow.economy ? grant.refresh_frames : 1;
-    return demand;
+    request.limits.max_px = std::min(wanted.limits.max_px, grant.most_px);
+    const std::uint32_t edge_px = std::min(wanted.map.resolution_px, request.limits.max_px);
+    if (edge_px != wanted.map.resolution_px || request.map.filter != wanted.map.filter)
+        set_resolution(light, edge_px, request);
+    return request;
 }
 
-bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& grant) {
-    return grant.none || (grant.plain && wanted.filter != kPlainFilter) || grant.most_px < wanted.resolution_px ||
-           (has_cascades(light, wanted) && grant.most_views < wanted.view_count) ||
+std::uint32_t refresh_frames(const LightItem& light, const Grant& grant) {
+    return light.shadow.economy ? grant.refresh_frames : 1;
+}
+
+bool is_less(const LightItem& light, const ShadowRequest& wanted, const Grant& grant) {
+    return grant.none || (grant.plain && wanted.map.filter != kPlainFilter) ||
+           grant.most_px < wanted.map.resolution_px ||
+           (has_cascades(light, wanted) && grant.most_views < wanted.map.view_count) ||
            (grant.refresh_frames > 1 && light.shadow.economy);
 }
 
-double mean_fetches(const LightItem& light, const ShadowDemand& demand, ShadowFilter filter) {
+double mean_fetches(const LightItem& light, const ShadowRequest& request, ShadowFilter filter) {
     const FilterRow& row = filter_row(filter);
-    const bool cube = map_texture(light, demand) == gl::TextureKind::cube;
+    const bool cube = map_texture(light, request) == gl::TextureKind::cube;
     const double most = row.taps(light.shadow, cube);
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
@@ -105,19 +111,31 @@ StorageWork storage_work(FilterStorage storage) {
     return {};
 }
 
-double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws) {
-    const FilterStorage storage = filter_row(demand.filter).storage;
+DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters) {
+    DrawCounts counts;
+    std::uint32_t last_mesh = ~0u;
+    for (const std::uint32_t i : casters) {
+        const std::uint32_t mesh = scene.instances[i].mesh;
+        counts.triangles += gpu.mesh(mesh).triangles;
+        counts.draws += mesh != last_mesh ? 1 : 0;
+        last_mesh = mesh;
+    }
+    return counts;
+}
+
+double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws) {
+    const FilterStorage storage = filter_row(map.filter).storage;
     const StorageWork work = storage_work(storage);
     const double texels = static_cast<double>(edge_px) * edge_px;
     double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / StorageWork{}.texel_bytes;
-    if (storage == FilterStorage::moments) view_ns += 2.0 * (kPass_ns + texels * demand.filtering.size * kFetch_ns);
+    if (storage == FilterStorage::moments) view_ns += 2.0 * (kPass_ns + texels * map.filtering.size * kFetch_ns);
     return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
 }
 
 double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
     if (grant.none) return 0.0;
-    const ShadowDemand given = granted(*load.light, load.wanted, grant);
-    return load.pixels * mean_fetches(*load.light, given, given.filter) * kFetch_ns * factors.lighting;
+    const ShadowRequest given = granted(*load.light, load.wanted, grant);
+    return load.pixels * mean_fetches(*load.light, given, given.map.filter) * kFetch_ns * factors.lighting;
 }
 
 double edge_harm(double rise_px) {
@@ -127,16 +145,16 @@ double edge_harm(double rise_px) {
 Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
     const double weight = share_in_bounds(load.weight);
     if (grant.none) return {0, 0, weight};
-    const ShadowDemand given = granted(*load.light, load.wanted, grant);
+    const ShadowRequest given = granted(*load.light, load.wanted, grant);
     Cost cost;
     cost.bytes = map_bytes(*load.light, given);
     const double share =
-        static_cast<double>(given.view_count) / static_cast<double>(std::max(load.wanted.view_count, 1u));
-    const double casters = share * storage_work(filter_row(given.filter).storage).casters;
+        static_cast<double>(given.map.view_count) / static_cast<double>(std::max(load.wanted.map.view_count, 1u));
+    const double casters = share * storage_work(filter_row(given.map.filter).storage).casters;
     const double drawing =
-        drawing_ns(given, given.resolution_px, load.views * share, static_cast<double>(load.triangles) * casters,
-                   static_cast<double>(load.draws) * casters);
-    const double ns = drawing * share_in_bounds(load.activity) / given.refresh_frames * factors.drawing +
+        drawing_ns(given.map, given.map.resolution_px, load.views * share,
+                   static_cast<double>(load.triangles) * casters, static_cast<double>(load.draws) * casters);
+    const double ns = drawing * share_in_bounds(load.activity) / refresh_frames(*load.light, grant) * factors.drawing +
                       lookup_ns(load, grant, factors);
     constexpr double kMost_ns = 1.0e15;  // eleven days, so that sums stay in range
     cost.ns = static_cast<std::uint64_t>(ns < kMost_ns ? std::max(ns, 0.0) : kMost_ns);

@@ -1,9 +1,10 @@
 #pragma once
 #include <cstdint>
 
+#include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/quality_limits.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/request/filter_table.h"
 
 /// What a light's shadow takes of a budget, and what is lost by giving it less: a model, the same for the same input.
@@ -47,7 +48,7 @@ struct CostFactors {
 /// One light that would have a map.
 struct LightLoad {
     const LightItem* light = nullptr;
-    ShadowDemand wanted;      // what it asks for; resolution_px is the edge that it needs
+    ShadowRequest wanted;     // what it asks for; resolution_px is the edge that it needs
     std::uint64_t key = 0;    // of the light itself, wherever it stands in a list: decides between equals
     double weight = 0.0;      // what its shadow means to the picture, 0 to 1
     double extent_px = 0.0;   // of a texel on screen (error_bound.h), with maps as wanted
@@ -63,11 +64,14 @@ struct Cost {
     double harm = 0.0;     // share of the picture that is wrong, by the model; 0: all is as asked for
 };
 
-/// The demand as the grant leaves it; that of Grant::none is unchanged.
-ShadowDemand granted(const LightItem& light, const ShadowDemand& wanted, const Grant& grant);
+/// The request as the grant leaves it; that of Grant::none is unchanged.
+ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const Grant& grant);
 
-/// Whether it gives that demand less than it asks for.
-bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& grant);
+/// Returns in one frame of how many a view of the light is drawn whose casters alone changed.
+std::uint32_t refresh_frames(const LightItem& light, const Grant& grant);
+
+/// Whether it gives that request less than it asks for.
+bool is_less(const LightItem& light, const ShadowRequest& wanted, const Grant& grant);
 
 Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors);
 
@@ -78,9 +82,16 @@ double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& f
 double edge_harm(double rise_px);
 
 /// Fetches of a lookup by the filter, on the average of its pixels.
-double mean_fetches(const LightItem& light, const ShadowDemand& demand, ShadowFilter filter);
+double mean_fetches(const LightItem& light, const ShadowRequest& request, ShadowFilter filter);
+
+/// What drawing a view once would draw.
+struct DrawCounts {
+    std::uint64_t triangles = 0, draws = 0;
+};
+/// `casters`: of one view, by mesh.
+DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
 
 /// Of drawing so many views with so much in them, as it is recorded: storage_work() says how often casters are.
-double drawing_ns(const ShadowDemand& demand, std::uint32_t edge_px, double views, double triangles, double draws);
+double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws);
 
 }  // namespace gnomon::shadow

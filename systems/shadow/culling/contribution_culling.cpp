@@ -59,44 +59,44 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
                                  [&](const math::Aabb& box_ws) { return math::distance(box_ws, light.position_ws_m); });
 }
 
-void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame) {
+void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+                           std::span<const LightStatus> statuses) {
     const bool known = std::isfinite(*scene.exposure);
-    const auto asked = [](const PotentialSets& sets) { return sets.skip == Reason::none; };
-    if (!known && std::count_if(frame.sets.begin(), frame.sets.end(), asked) < 2) return;  // faint beside what?
-    double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;            // steps at an exposure of 1
-    for (std::uint32_t d = 0; d < frame.demands.size(); ++d) {
-        const std::uint32_t light = frame.demands[d].light;
-        const LightItem& item = scene.lights[light];
-        const PotentialSets& sets = frame.sets[d];
-        if (sets.skip != Reason::none || !item.shadow.economy) continue;
-        const auto receivers = std::span(frame.receiver_items).subspan(sets.receivers.first, sets.receivers.count);
+    const auto asked = [](const LightStatus& status) { return !status.is_skipped(); };
+    if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // faint beside what?
+    double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;        // steps at an exposure of 1
+    for (std::uint32_t i = 0; i < statuses.size(); ++i) {
+        const LightItem& item = scene.lights[i];
+        if (statuses[i].is_skipped() || !item.shadow.economy) continue;
+        const auto receivers = slice(sets.receiver_items, sets.lights[i].receivers);
         const double at_one = most_display_steps(scene, gpu, item, receivers, 1.0);
         faintest = std::min(faintest, at_one);
         brightest = std::max(brightest, steps_throughout(scene, gpu, item, receivers));
         if (!known) continue;
         const double steps = at_one * *scene.exposure;
-        steps_[light] = steps;
+        steps_[i] = steps;
         const bool was_out = std::binary_search(out_.begin(), out_.end(), item.entity, comes_before);
-        if (steps <= kMostSteps) candidates_.push_back({steps, d, was_out});
+        if (steps <= kMostSteps) candidates_.push_back({steps, i, was_out});
     }
     wants_exposure_ = brightest > 0.0 && faintest * kFaint <= brightest;
 }
 
-void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+                          std::span<LightStatus> statuses) {
     steps_.assign(scene.lights.size(), std::nullopt);
     candidates_.clear();
     wants_exposure_ = false;
-    if (scene.exposure) ask_lights(scene, gpu, frame);
+    if (scene.exposure) ask_lights(scene, gpu, sets, statuses);
     // Of equals the first, whatever their order in memory.
     std::sort(candidates_.begin(), candidates_.end(),
-              [](const Dim& a, const Dim& b) { return a.steps != b.steps ? a.steps < b.steps : a.demand < b.demand; });
+              [](const Dim& a, const Dim& b) { return a.steps != b.steps ? a.steps < b.steps : a.light < b.light; });
     out_.clear();
     double sum = 0.0;
     for (const Dim& dim : candidates_) {
         sum += dim.steps;
         if (!(sum <= (dim.was_out ? kMostSteps : kNewlyMostSteps))) break;
-        frame.sets[dim.demand].skip = Reason::below_display_step;
-        out_.push_back(scene.lights[frame.demands[dim.demand].light].entity);
+        statuses[dim.light].skip(Reason::below_display_step);
+        out_.push_back(scene.lights[dim.light].entity);
     }
     std::sort(out_.begin(), out_.end(), comes_before);
 }

@@ -4,7 +4,8 @@
 
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/light_status.h"
+#include "systems/shadow/frame/receiver_caster_sets.h"
 
 namespace gnomon::shadow {
 
@@ -20,8 +21,9 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 /// LightShadow::economy=false exempts a light.
 class DimLights {
 public:
-    /// After select_sets(): sets frame.sets[i].skip to below_display_step. Allocates nothing once warm.
-    void leave_out(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    /// Skips lights with below_display_step, after select_sets(). Allocates nothing once warm.
+    void leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+                   std::span<LightStatus> statuses);
 
     /// Of light `index` in the last frame; empty: it was not asked for.
     std::optional<double> steps(std::uint32_t index) const { return steps_[index]; }
@@ -33,11 +35,12 @@ public:
     static constexpr double kNewlyMostSteps = 0.4;  // a light whose brightness trembles stays what it is
 
 private:
-    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame);
+    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+                    std::span<const LightStatus> statuses);
 
     struct Dim {
         double steps = 0.0;
-        std::uint32_t demand = 0;
+        std::uint32_t light = 0;
         bool was_out = false;
     };
     std::vector<std::optional<double>> steps_;

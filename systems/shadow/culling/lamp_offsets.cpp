@@ -149,16 +149,17 @@ glm::dvec3 LampPlaces::place_of(const SceneSnapshot& scene, const GpuScene& gpu,
     return held.place_ws_m;
 }
 
-void LampPlaces::update(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+void LampPlaces::update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
+                        std::vector<glm::dvec3>& lamps_ws_m, std::span<double> cpu_us) {
     held_.resize(scene.lights.size());
-    frame.lamps_ws_m.resize(scene.lights.size());
+    lamps_ws_m.resize(scene.lights.size());
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
-        frame.lamps_ws_m[i] = light.position_ws_m;
-        if (light.kind == LightKind::directional || frame.demands[i].skip != Reason::none) continue;
-        const LightTime time(frame, i);
-        const double share = frame.demands[i].asks_rays ? kClearOfPlanes : kClearOfClipping;
-        frame.lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);
+        lamps_ws_m[i] = light.position_ws_m;
+        if (light.kind == LightKind::directional || requests[i].skip != Reason::none) continue;
+        const LightTime time(cpu_us, i);
+        const double share = requests[i].rays.used ? kClearOfPlanes : kClearOfClipping;
+        lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);
     }
 }
 

@@ -6,7 +6,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/index_set.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 
 namespace gnomon::shadow {
 
@@ -25,8 +25,9 @@ inline constexpr double kClearOfClipping = 0x1p-16;
 /// side of each such triangle that the lamp is on in double; on its front, where the lamp lies in its plane.
 class LampPlaces {
 public:
-    /// Fills frame.lamps_ws_m, one for each light. `gpu` has meshes bent as they are drawn in this frame.
-    void update(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    /// Writes the place of each light to `lamps_ws_m`. `gpu` has meshes bent as they are drawn in this frame.
+    void update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
+                std::vector<glm::dvec3>& lamps_ws_m, std::span<double> cpu_us);
 
 private:
     /// Of a lamp that touches something; the next frame keeps it while nothing moved.
@@ -54,5 +55,11 @@ private:
     std::vector<Side> sides_;
     std::vector<glm::dvec3> scratch_;
 };
+
+/// Returns from where a local light's shadows are looked for. `lamps_ws_m`: of LampPlaces; empty: where the lights are.
+inline const glm::dvec3& lamp_ws_m(std::span<const glm::dvec3> lamps_ws_m, const SceneSnapshot& scene,
+                                   std::uint32_t light) {
+    return light < lamps_ws_m.size() ? lamps_ws_m[light] : scene.lights[light].position_ws_m;
+}
 
 }  // namespace gnomon::shadow

@@ -7,6 +7,7 @@
 #include "engine/math/frustum.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/nearest_receiver.h"
 #include "systems/shadow/culling/receiver_hull.h"
 #include "systems/shadow/culling/swept_volume.h"
@@ -28,27 +29,23 @@ IndexRange since(std::size_t first, std::size_t end) {
 /// One light's share of the stage.
 class Search {
 public:
-    Search(const SceneSnapshot& scene, const ShadowDemand& demand, ShadowFrame& frame)
-        : scene_(scene),
-          demand_(demand),
-          light_(scene.lights[demand.light]),
-          frame_(frame),
-          scratch_(frame.set_scratch),
-          reach_(light_) {}
+    Search(const SceneSnapshot& scene, const LightItem& light, const glm::dvec3& lamp_ws_m, SetScratch& scratch,
+           ReceiverCasterSets& out)
+        : scene_(scene), light_(light), lamp_ws_m_(lamp_ws_m), scratch_(scratch), out_(out), reach_(light_) {}
 
-    PotentialSets run() {
-        const std::size_t receivers = frame_.receiver_items.size(), points = frame_.receiver_points_ws.size(),
-                          beams = frame_.beams.size();
+    LightSets run(const ShadowRequest& request) {
+        const std::size_t receivers = out_.receiver_items.size(), points = out_.receiver_points_ws.size(),
+                          beams = out_.beams.size();
         find_candidates();
         scratch_.receivers.clear(scene_.instances.size());
         if (light_.kind == LightKind::directional) look_along_sun();
-        const LightOpenings openings = light_openings(light_, demand_);
+        const LightOpenings openings = light_openings(light_, request);
         for (const LightOpening& opening : openings.span()) look_through(opening);
-        scratch_.receivers.for_each([&](std::uint32_t i) { frame_.receiver_items.push_back(i); });
-        PotentialSets sets;
-        sets.receivers = since(receivers, frame_.receiver_items.size());
-        sets.receiver_points = since(points, frame_.receiver_points_ws.size());
-        sets.beams = since(beams, frame_.beams.size());
+        scratch_.receivers.for_each([&](std::uint32_t i) { out_.receiver_items.push_back(i); });
+        LightSets sets;
+        sets.receivers = since(receivers, out_.receiver_items.size());
+        sets.receiver_points = since(points, out_.receiver_points_ws.size());
+        sets.beams = since(beams, out_.beams.size());
         return sets;
     }
 
@@ -56,9 +53,9 @@ private:
     /// Receivers whose bounds touch what a consumer sees and what the light reaches, consumer by consumer, by index.
     void find_candidates() {
         scratch_.candidates.clear();
-        for (std::uint32_t c = 0; c < frame_.seen.size(); ++c) {
+        for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
             scratch_.marks.clear(scene_.instances.size());
-            const auto planes = math::planes_of(frame_.seen[c]);
+            const auto planes = math::planes_of(out_.camera_frusta[c]);
             const auto classify = [&](const math::Aabb& box) {
                 const Overlap seen = math::overlap(planes, box);
                 if (seen == Overlap::outside) return seen;
@@ -76,36 +73,35 @@ private:
     /// Appends the corners of the candidates within what their consumer sees and the given planes; of whom, and for
     /// whom, goes to the beam.
     IndexRange clip_candidates(std::span<const math::Plane> opening, Beam& beam) {
-        const std::size_t first = frame_.receiver_points_ws.size();
+        const std::size_t first = out_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
         for (const SetScratch::Candidate& candidate : scratch_.candidates) {
-            const auto seen = math::planes_of(frame_.seen[candidate.consumer]);
+            const auto seen = math::planes_of(out_.camera_frusta[candidate.consumer]);
             const auto middle = std::copy(seen.begin(), seen.end(), planes.begin());
             const auto end = std::copy(opening.begin(), opening.end(), middle);
             const math::Aabb box = reach_.clipped(scene_.instances[candidate.item].bounds_ws);
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
-            if (math::clip_box(used, box, frame_.receiver_points_ws) == 0) continue;
+            if (math::clip_box(used, box, out_.receiver_points_ws) == 0) continue;
             scratch_.receivers.add(candidate.item);
             beam.consumers |= consumer_bit(candidate.consumer);
             ++beam.receivers;
         }
-        return since(first, frame_.receiver_points_ws.size());
+        return since(first, out_.receiver_points_ws.size());
     }
 
     void look_along_sun() {
         Beam seen;
         const IndexRange range = clip_candidates({}, seen);
         if (range.count == 0) return;
-        Beam beam =
-            parallel_beam(math::basis_from_back(light_.rotation_ws[2]), points(range), frame_.outlines, scratch_);
+        Beam beam = parallel_beam(math::basis_from_back(light_.rotation_ws[2]), points(range), out_.outlines, scratch_);
         beam.receiver_points = range;
         beam.receivers = seen.receivers;
         beam.consumers = seen.consumers;
-        frame_.beams.push_back(beam);
+        out_.beams.push_back(beam);
     }
 
     void look_through(const LightOpening& opening) {
-        const glm::dvec3& lamp = lamp_ws_m(frame_, scene_, demand_.light);
+        const glm::dvec3& lamp = lamp_ws_m_;
         const auto sides = opening_planes(lamp, opening);
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
@@ -113,7 +109,7 @@ private:
         if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, lamp)};
         Beam seen, beam;
         const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4), seen);
-        if (range.count > 0) beam = opening_beam(lamp, opening, points(range), frame_.outlines, scratch_);
+        if (range.count > 0) beam = opening_beam(lamp, opening, points(range), out_.outlines, scratch_);
         beam.origin_ws_m = lamp;
         beam.axes = opening.axes;
         if (beam.outline.count > 0) {
@@ -121,23 +117,21 @@ private:
             beam.receivers = seen.receivers;
             beam.consumers = seen.consumers;
         }
-        frame_.beams.push_back(beam);  // without receivers, too: beams are in the order of the openings
+        out_.beams.push_back(beam);  // without receivers, too: beams are in the order of the openings
     }
 
-    std::span<const glm::dvec3> points(IndexRange range) const {
-        return std::span(frame_.receiver_points_ws).subspan(range.first, range.count);
-    }
+    std::span<const glm::dvec3> points(IndexRange range) const { return slice(out_.receiver_points_ws, range); }
 
     const SceneSnapshot& scene_;
-    const ShadowDemand& demand_;
     const LightItem& light_;
-    ShadowFrame& frame_;
+    const glm::dvec3& lamp_ws_m_;
     SetScratch& scratch_;
+    ReceiverCasterSets& out_;
     LightReach reach_;
 };
 
 /// How far beyond a lamp's beam, in tangents, casters hide part of a source with a size: as far as filters read texels.
-double lamp_reach(const FilterDemand& filter, double size_px, const LightOpening& opening) {
+double lamp_reach(const FilterSettings& filter, double size_px, const LightOpening& opening) {
     const glm::dvec2 sides = opening.high - opening.low;
     const double seen_px = size_px - 2.0 * border_px(size_px, static_cast<double>(filter.border_texel));
     return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
@@ -147,7 +141,7 @@ double lamp_reach(const FilterDemand& filter, double size_px, const LightOpening
 constexpr double kHeightRounding = 0x1p-48;
 
 /// Beyond a sun's, in metres: as far as the highest of them stands above the lowest receiver, times the tangent.
-double sun_reach_m(const SceneSnapshot& scene, const FilterDemand& filter, const Beam& beam) {
+double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, const Beam& beam) {
     const auto height_m = [&](const math::Aabb& box) {
         return glm::dot(math::centre(box) - beam.origin_ws_m, beam.axes[2]) +
                glm::dot(math::half_extent(box), glm::abs(beam.axes[2])) + beam.far_m;
@@ -164,34 +158,34 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterDemand& filter, const
 }
 
 /// Casters that touch any of the light's beams.
-void select_casters(const SceneSnapshot& scene, const ShadowDemand& demand, PotentialSets& sets, ShadowFrame& frame) {
-    const LightItem& light = scene.lights[demand.light];
-    Marks& marks = frame.set_scratch.marks;
-    std::vector<glm::dvec2>& polygon = frame.set_scratch.polygon;
-    marks.clear(scene.instances.size());
-    const bool has_size = needs_distances(demand.filtering);
-    const LightOpenings openings = has_size ? light_openings(light, demand) : LightOpenings{};
-    for (std::uint32_t b = 0; b < sets.beams.count; ++b) {
-        const Beam& beam = frame.beams[sets.beams.first + b];
+IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request,
+                          IndexRange beams, SetScratch& scratch, ReceiverCasterSets& out) {
+    scratch.marks.clear(scene.instances.size());
+    const FilterSettings& filter = request.map.filtering;
+    const bool has_size = needs_distances(filter);
+    const LightOpenings openings = has_size ? light_openings(light, request) : LightOpenings{};
+    for (std::uint32_t b = 0; b < beams.count; ++b) {
+        const Beam& beam = out.beams[beams.first + b];
         if (beam.outline.count == 0) continue;
-        const auto outline = std::span(frame.outlines).subspan(beam.outline.first, beam.outline.count);
-        polygon.assign(outline.begin(), outline.end());
+        const auto outline = slice(out.outlines, beam.outline);
+        scratch.polygon.assign(outline.begin(), outline.end());
         double reach = 0.0;
         if (has_size)
-            reach = beam.parallel ? sun_reach_m(scene, demand.filtering, beam)
-                                  : lamp_reach(demand.filtering, demand.resolution_px, openings.items[b]);
-        if (has_size) widen(polygon, glm::dvec2(reach), frame.set_scratch);
+            reach = beam.parallel ? sun_reach_m(scene, filter, beam)
+                                  : lamp_reach(filter, request.map.resolution_px, openings.items[b]);
+        if (has_size) widen(scratch.polygon, glm::dvec2(reach), scratch);
         const double reach_m = 2.0 * reach * (beam.parallel ? 1.0 : beam.far_m);
-        const SweptVolume volume = swept_volume(beam, polygon, seen_by_the_only_consumer(frame), reach_m);
+        const SweptVolume volume =
+            swept_volume(beam, scratch.polygon, seen_by_the_only_consumer(out.camera_frusta), reach_m);
         visit_instances(
             scene, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
-                if (casts_under(light, scene.instances[i])) marks.add(i);
+                if (casts_under(light, scene.instances[i])) scratch.marks.add(i);
             });
     }
-    sets.casters.first = static_cast<std::uint32_t>(frame.caster_items.size());
-    marks.for_each([&](std::uint32_t i) { frame.caster_items.push_back(i); });
-    sets.casters.count = static_cast<std::uint32_t>(frame.caster_items.size()) - sets.casters.first;
+    const std::size_t first = out.caster_items.size();
+    scratch.marks.for_each([&](std::uint32_t i) { out.caster_items.push_back(i); });
+    return since(first, out.caster_items.size());
 }
 
 /// A half-space without a point.
@@ -209,18 +203,10 @@ math::Frustum seen_receivers(const SceneSnapshot& scene, const ConsumerItem& con
     return nothing;
 }
 
-PotentialSets sets_of(const SceneSnapshot& scene, const ShadowDemand& demand, ShadowFrame& frame) {
-    PotentialSets sets = Search(scene, demand, frame).run();
-    select_casters(scene, demand, sets, frame);
-    if (sets.casters.count == 0) sets.skip = Reason::no_caster;
-    if (sets.receivers.count == 0) sets.skip = Reason::no_visible_receiver;
-    return sets;
-}
-
-ShadowLayers layers_of_all(const SceneSnapshot& scene, const ShadowFrame& frame) {
+ShadowLayers layers_of_all(const SceneSnapshot& scene, std::span<const ShadowRequest> requests) {
     ShadowLayers layers = 0;
-    for (const ShadowDemand& demand : frame.demands)
-        if (demand.skip == Reason::none) layers |= scene.lights[demand.light].shadow.layers;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        if (requests[i].skip == Reason::none) layers |= scene.lights[i].shadow.layers;
     return layers;
 }
 
@@ -243,37 +229,34 @@ bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, c
     return found;
 }
 
-std::span<const math::Plane> seen_by_the_only_consumer(const ShadowFrame& frame) {
-    if (frame.seen.size() != 1) return {};
-    return math::planes_of(frame.seen.front());
+std::span<const math::Plane> seen_by_the_only_consumer(std::span<const math::Frustum> camera_frusta) {
+    if (camera_frusta.size() != 1) return {};
+    return math::planes_of(camera_frusta.front());
 }
 
-void select_sets(const SceneSnapshot& scene, ShadowFrame& frame) {
-    frame.sets.clear();
-    frame.receiver_items.clear();
-    frame.caster_items.clear();
-    frame.receiver_points_ws.clear();
-    frame.beams.clear();
-    frame.outlines.clear();
-    frame.seen.clear();
-    const ShadowLayers layers = layers_of_all(scene, frame);
+LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, const ShadowRequest& request,
+                            const glm::dvec3& lamp_ws_m, SetScratch& scratch, ReceiverCasterSets& out) {
+    const LightItem& item = scene.lights[light];
+    LightSets sets = Search(scene, item, lamp_ws_m, scratch, out).run(request);
+    sets.casters = select_casters(scene, item, request, sets.beams, scratch, out);
+    return sets;
+}
+
+void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, SetScratch& scratch, ReceiverCasterSets& sets,
+                 const LightAccounts& accounts) {
+    sets.clear();
+    const ShadowLayers layers = layers_of_all(scene, inputs.requests);
     for (const ConsumerItem& consumer : scene.consumers)
-        frame.seen.push_back(seen_receivers(scene, consumer, layers, frame.set_scratch));
-    for (const ShadowDemand& demand : frame.demands) {
-        const LightTime time(frame, demand.light);
-        PotentialSets sets;
-        sets.skip = demand.skip;
-        if (demand.skip == Reason::none) sets = sets_of(scene, demand, frame);
-        frame.sets.push_back(sets);
+        sets.camera_frusta.push_back(seen_receivers(scene, consumer, layers, scratch));
+    for (std::uint32_t i = 0; i < inputs.requests.size(); ++i) {
+        const LightTime time(accounts.cpu_us, i);
+        LightSets& found = sets.lights.emplace_back();
+        LightStatus& status = accounts.statuses[i];
+        if (status.is_skipped()) continue;
+        found = select_light_sets(scene, i, inputs.requests[i], lamp_ws_m(inputs.lamps_ws_m, scene, i), scratch, sets);
+        if (found.receivers.count == 0) status.skip(Reason::no_visible_receiver);
+        if (found.casters.count == 0) status.skip(Reason::no_caster);
     }
-}
-
-void select_sets_again(const SceneSnapshot& scene, std::uint32_t d, ShadowFrame& frame) {
-    const ShadowDemand& demand = frame.demands[d];
-    if (scene.lights[demand.light].kind != LightKind::point) return;
-    const Reason skip = frame.sets[d].skip;
-    frame.sets[d] = sets_of(scene, demand, frame);
-    frame.sets[d].skip = skip;
 }
 
 }  // namespace gnomon::shadow

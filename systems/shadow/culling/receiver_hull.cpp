@@ -10,7 +10,7 @@
 namespace gnomon::shadow {
 namespace {
 
-double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+double largest_coordinate(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 /// A hull around scratch.points, wherever within `slack` they are: without the corners that rounding splits, or adds
 /// along a side. Those have edges of any direction, which would decide by chance what else the beam touches.
@@ -57,7 +57,7 @@ Beam parallel_beam(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws
         const glm::dvec3 p = (p_ws - beam.origin_ws_m) * axes;
         scratch.points.emplace_back(p.x, p.y);
         beam.far_m = std::max(beam.far_m, -p.z);
-        size = std::max(size, largest(p_ws));
+        size = std::max(size, largest_coordinate(p_ws));
     }
     beam.slack = math::kClippedRounding * size;
     beam.far_m += beam.slack;
@@ -71,8 +71,8 @@ Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std
     beam.origin_ws_m = light_ws_m;
     beam.axes = opening.axes;
     scratch.points.clear();
-    double size = largest(light_ws_m), slack = 0.0;
-    for (const glm::dvec3& p_ws : points_ws) size = std::max(size, largest(p_ws));
+    double size = largest_coordinate(light_ws_m), slack = 0.0;
+    for (const glm::dvec3& p_ws : points_ws) size = std::max(size, largest_coordinate(p_ws));
     for (const glm::dvec3& p_ws : points_ws) {
         const glm::dvec3 p = (p_ws - light_ws_m) * opening.axes;
         beam.far_m = std::max(beam.far_m, -p.z);

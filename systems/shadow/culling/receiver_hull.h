@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/receiver_caster_sets.h"
 #include "systems/shadow/projection/light_frusta.h"
 
 namespace gnomon::shadow {

@@ -44,7 +44,7 @@ private:
 };
 
 /// Whether `marks`, as CasterMotion::moving() has them, say that the item moves.
-inline bool moves(const std::vector<std::uint64_t>& marks, const InstanceItem& item) {
+inline bool moves(std::span<const std::uint64_t> marks, const InstanceItem& item) {
     const std::size_t word = item.gpu_slot / 64;
     return word < marks.size() && (marks[word] >> item.gpu_slot % 64 & 1) != 0;
 }

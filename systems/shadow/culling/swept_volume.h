@@ -5,7 +5,7 @@
 
 #include "engine/math/aabb.h"
 #include "engine/math/frustum.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/receiver_caster_sets.h"
 
 namespace gnomon::shadow {
 

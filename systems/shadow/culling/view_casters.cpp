@@ -21,7 +21,7 @@ namespace {
 /// In slacks of a beam: an outline that was widened by two of them has edges of up to 4 √2 at its corners.
 constexpr double kOutlineSlacks = 8.0;
 
-glm::dmat3 axes_of(const ShadowView& view) { return {view.axis_u, view.axis_v, view.axis_back}; }
+glm::dmat3 axes_of(const ShadowView& view) { return {view.pose.axis_u, view.pose.axis_v, view.pose.axis_back}; }
 
 void assign_rectangle(const glm::dvec2& low, const glm::dvec2& high, std::vector<glm::dvec2>& polygon) {
     polygon.assign({low, {high.x, low.y}, high, {low.x, high.y}});
@@ -32,24 +32,21 @@ LightOpening opening_of(const ShadowView& view) {
     const auto row = [&](int r) {
         return glm::dvec3(view.clip_from_anchor[0][r], view.clip_from_anchor[1][r], view.clip_from_anchor[2][r]);
     };
-    const double depth = -glm::dot(row(3), view.axis_back);  // w is the distance along the axis, times this
-    const glm::dvec2 scale(glm::dot(row(0), view.axis_u) / depth, glm::dot(row(1), view.axis_v) / depth);
-    const glm::dvec2 shift(-glm::dot(row(0), view.axis_back) / depth, -glm::dot(row(1), view.axis_back) / depth);
+    const double depth = -glm::dot(row(3), view.pose.axis_back);  // w is the distance along the axis, times this
+    const glm::dvec2 scale(glm::dot(row(0), view.pose.axis_u) / depth, glm::dot(row(1), view.pose.axis_v) / depth);
+    const glm::dvec2 shift(-glm::dot(row(0), view.pose.axis_back) / depth,
+                           -glm::dot(row(1), view.pose.axis_back) / depth);
     return {axes_of(view), (glm::dvec2(-1.0) - shift) / scale, (glm::dvec2(1.0) - shift) / scale, view.layer, 0};
 }
 
 class ViewSearch {
 public:
-    ViewSearch(const SceneSnapshot& scene, const ShadowView& view, ShadowFrame& frame)
-        : scene_(scene),
-          light_(scene.lights[frame.demands[view.demand].light]),
-          view_(view),
-          frame_(frame),
-          scratch_(frame.set_scratch) {
-        const ShadowDemand& demand = frame.demands[view.demand];
+    ViewSearch(const SceneSnapshot& scene, const LightSetsView& sets, const FilterSettings& filter,
+               const ShadowView& view, SetScratch& scratch)
+        : scene_(scene), light_(scene.lights[view.light]), view_(view), sets_(sets), scratch_(scratch) {
         // A tap reaches E texels from its point, which may lie anywhere in its texel.
-        const double reach = std::ceil(static_cast<double>(demand.filtering.widest_texel)) + 1.0;
-        reach_ = reach * glm::dvec2(view.texel_u, view.texel_v);
+        const double reach = std::ceil(static_cast<double>(filter.widest_texel)) + 1.0;
+        reach_ = reach * glm::dvec2(view.plane.texel_u, view.plane.texel_v);
     }
 
     void run() {
@@ -61,15 +58,11 @@ public:
     }
 
 private:
-    std::span<const Beam> beams() const {
-        const IndexRange range = frame_.sets[view_.demand].beams;
-        return std::span(frame_.beams).subspan(range.first, range.count);
-    }
-
     /// Marks the casters that the light passes on its way to scratch_.polygon, given in the coordinates of `beam`.
     void mark_casters(const Beam& beam, double reach_m) {
         if (scratch_.polygon.empty()) return;
-        const auto seen = view_.held ? std::span<const math::Plane>() : seen_by_the_only_consumer(frame_);
+        const auto seen =
+            view_.held ? std::span<const math::Plane>() : seen_by_the_only_consumer(sets_.arrays.camera_frusta);
         const SweptVolume volume = swept_volume(beam, scratch_.polygon, seen, reach_m);
         visit_instances(
             scene_, [&](const math::Aabb& box) { return overlap(volume, box); },
@@ -80,13 +73,13 @@ private:
 
     /// scratch_.polygon into the warped plane, without what has a smaller w than anything in the map. Its largest w.
     double warp_polygon() {
-        const double nearest =
-            glm::dot(view_.warp, view_.centre_ls_m) - glm::dot(glm::abs(view_.warp), view_.half_extent_m + reach_);
-        math::clip_polygon(view_.warp, 1.0 - 1.0 / (1.0 - nearest), scratch_.polygon, scratch_.clipped);
+        const double nearest = glm::dot(view_.plane.warp, view_.plane.centre_ls_m) -
+                               glm::dot(glm::abs(view_.plane.warp), view_.plane.half_extent_m + reach_);
+        math::clip_polygon(view_.plane.warp, 1.0 - 1.0 / (1.0 - nearest), scratch_.polygon, scratch_.clipped);
         double largest_w = 1.0;
         for (glm::dvec2& p : scratch_.polygon) {
-            largest_w = std::max(largest_w, warp_w(view_.warp, p));
-            p = warped(view_.warp, p);
+            largest_w = std::max(largest_w, warp_w(view_.plane.warp, p));
+            p = warped(view_.plane.warp, p);
         }
         return largest_w;
     }
@@ -94,35 +87,35 @@ private:
     /// Back, without what is farther than twice what there is to see: the map's corners may lie in infinity. The
     /// filter's reach in metres.
     double unwarp_polygon(double farthest_w) {
-        math::clip_polygon(-view_.warp, 1.0 - 0.5 / farthest_w, scratch_.polygon, scratch_.clipped);
+        math::clip_polygon(-view_.plane.warp, 1.0 - 0.5 / farthest_w, scratch_.polygon, scratch_.clipped);
         double reach_m = 0.0;
         for (glm::dvec2& q : scratch_.polygon) {
-            q = unwarped(view_.warp, q);
+            q = unwarped(view_.plane.warp, q);
             for (const glm::dvec2& step : {reach_, glm::dvec2(reach_.x, -reach_.y)})
-                reach_m = std::max(reach_m, glm::length(unwarped_step(view_.warp, q, step)));
+                reach_m = std::max(reach_m, glm::length(unwarped_step(view_.plane.warp, q, step)));
         }
         return reach_m;
     }
 
     /// A cascade: the receivers' outline within the map's rectangle.
     void look_along() {
-        Beam beam = beams().front();
-        const bool warps = view_.warp != glm::dvec2(0.0);
-        const glm::dvec2 origin_m = warps ? glm::dvec2(0.0) : view_.centre_ls_m,
-                         centre_m = view_.centre_ls_m - origin_m;
-        const glm::dvec3 origin_ws_m = view_.anchor_ws_m + view_.axis_u * origin_m.x + view_.axis_v * origin_m.y;
+        Beam beam = sets_.beams().front();
+        const bool warps = view_.plane.warp != glm::dvec2(0.0);
+        const glm::dvec2 origin_m = warps ? glm::dvec2(0.0) : view_.plane.centre_ls_m,
+                         centre_m = view_.plane.centre_ls_m - origin_m;
+        const glm::dvec3 origin_ws_m =
+            view_.pose.anchor_ws_m + view_.pose.axis_u * origin_m.x + view_.pose.axis_v * origin_m.y;
         double reach_m = reach_.x + reach_.y;
         const glm::dvec3 offset = beam.origin_ws_m - origin_ws_m;
-        const double far_m = view_.far_m + glm::dot(view_.axis_back, origin_ws_m - view_.anchor_ws_m);
+        const double far_m = view_.depth.far_m + glm::dot(view_.pose.axis_back, origin_ws_m - view_.pose.anchor_ws_m);
         if (view_.held) {
-            assign_rectangle(-view_.half_extent_m, view_.half_extent_m, scratch_.polygon);
+            assign_rectangle(-view_.plane.half_extent_m, view_.plane.half_extent_m, scratch_.polygon);
             beam.far_m = far_m;
         } else {
             scratch_.polygon.clear();
-            for (std::uint32_t i = beam.outline.first; i < beam.outline.first + beam.outline.count; ++i) {
-                const glm::dvec2& p = frame_.outlines[i];
+            for (const glm::dvec2& p : sets_.outline(beam)) {
                 const glm::dvec3 at = offset + beam.axes[0] * p.x + beam.axes[1] * p.y;
-                scratch_.polygon.emplace_back(glm::dot(at, view_.axis_u), glm::dot(at, view_.axis_v));
+                scratch_.polygon.emplace_back(glm::dot(at, view_.pose.axis_u), glm::dot(at, view_.pose.axis_v));
             }
             const double farthest_w = warps ? warp_polygon() : 1.0;
             // In turned axes the outline's own widening (two slacks) is a chamfer of any direction. What goes with it
@@ -130,13 +123,13 @@ private:
             const double dropped_m = kOutlineSlacks * beam.slack;
             math::drop_flat_corners(dropped_m, scratch_.polygon, scratch_.clipped);
             widen(scratch_.polygon, reach_ + dropped_m, scratch_);
-            const glm::dvec2 half = view_.half_extent_m + beam.slack;
+            const glm::dvec2 half = view_.plane.half_extent_m + beam.slack;
             math::clip_polygon({1, 0}, half.x - centre_m.x, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({-1, 0}, half.x + centre_m.x, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({0, 1}, half.y - centre_m.y, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({0, -1}, half.y + centre_m.y, scratch_.polygon, scratch_.clipped);
             if (warps) reach_m = unwarp_polygon(farthest_w);
-            beam.far_m = std::min(far_m, beam.far_m - glm::dot(offset, view_.axis_back));
+            beam.far_m = std::min(far_m, beam.far_m - glm::dot(offset, view_.pose.axis_back));
         }
         beam.origin_ws_m = origin_ws_m;
         beam.axes = axes_of(view_);
@@ -147,25 +140,26 @@ private:
     void look_through() {
         const LightOpening opening = opening_of(view_);
         Beam beam;
-        const auto same = std::find_if(beams().begin(), beams().end(), [&](const Beam& b) {
+        const auto beams = sets_.beams();
+        const auto same = std::find_if(beams.begin(), beams.end(), [&](const Beam& b) {
             return !b.parallel && b.origin_ws_m == apex_ws_m(view_) && b.axes == opening.axes;
         });
         if (view_.held) {
             beam.origin_ws_m = apex_ws_m(view_);
             beam.axes = opening.axes;
-            beam.far_m = view_.far_m;
+            beam.far_m = view_.depth.far_m;
             beam.reach_m = std::numeric_limits<double>::infinity();
             assign_rectangle(opening.low, opening.high, scratch_.polygon);
-        } else if (same != beams().end()) {
+        } else if (same != beams.end()) {
             beam = *same;
-            const auto outline = std::span(frame_.outlines).subspan(beam.outline.first, beam.outline.count);
+            const auto outline = sets_.outline(beam);
             scratch_.polygon.assign(outline.begin(), outline.end());
         } else {
             beam = beam_through(opening);
         }
         if (scratch_.polygon.empty()) return;
         widen(scratch_.polygon, reach_, scratch_);
-        beam.far_m = std::min(beam.far_m, view_.far_m);
+        beam.far_m = std::min(beam.far_m, view_.depth.far_m);
         const double reach_m = (reach_.x + reach_.y) * beam.far_m;
         beam.reach_m += reach_m;
         mark_casters(beam, reach_m);
@@ -174,29 +168,27 @@ private:
     /// Through an opening that no beam of the sets goes through: its own clip of the receivers.
     Beam beam_through(const LightOpening& opening) {
         const auto sides = opening_planes(apex_ws_m(view_), opening);
-        const IndexRange receivers = frame_.sets[view_.demand].receivers;
         scratch_.points_ws.clear();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
-        for (const math::Frustum& frustum : frame_.seen) {
+        for (const math::Frustum& frustum : sets_.arrays.camera_frusta) {
             const auto seen = math::planes_of(frustum);
             const auto end = std::copy(sides.begin(), sides.end(), std::copy(seen.begin(), seen.end(), planes.begin()));
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
-            for (std::uint32_t r = receivers.first; r < receivers.first + receivers.count; ++r)
-                math::clip_box(used, scene_.instances[frame_.receiver_items[r]].bounds_ws, scratch_.points_ws);
+            for (const std::uint32_t i : sets_.receivers())
+                math::clip_box(used, scene_.instances[i].bounds_ws, scratch_.points_ws);
         }
         scratch_.polygon.clear();
         if (scratch_.points_ws.empty()) return {};
-        const std::size_t first = frame_.outlines.size();
-        Beam beam = opening_beam(apex_ws_m(view_), opening, scratch_.points_ws, frame_.outlines, scratch_);
-        scratch_.polygon.assign(frame_.outlines.begin() + static_cast<std::ptrdiff_t>(first), frame_.outlines.end());
-        frame_.outlines.resize(first);
+        scratch_.outline.clear();
+        Beam beam = opening_beam(apex_ws_m(view_), opening, scratch_.points_ws, scratch_.outline, scratch_);
+        scratch_.polygon.assign(scratch_.outline.begin(), scratch_.outline.end());
         return beam;
     }
 
     const SceneSnapshot& scene_;
     const LightItem& light_;
     const ShadowView& view_;
-    ShadowFrame& frame_;
+    const LightSetsView& sets_;
     SetScratch& scratch_;
     glm::dvec2 reach_{0.0};  // of the filter: metres, or tangents
 };
@@ -226,7 +218,7 @@ void append_by_mesh(const SceneSnapshot& scene, SetScratch& scratch, std::vector
 }
 
 /// Those that move to the end, all else in order. How many come before them.
-std::uint32_t move_movers_back(const SceneSnapshot& scene, const std::vector<std::uint64_t>& moving,
+std::uint32_t move_movers_back(const SceneSnapshot& scene, std::span<const std::uint64_t> moving,
                                std::span<std::uint32_t> casters, std::vector<std::uint32_t>& movers) {
     if (moving.empty()) return static_cast<std::uint32_t>(casters.size());
     movers.clear();
@@ -243,13 +235,14 @@ std::uint32_t move_movers_back(const SceneSnapshot& scene, const std::vector<std
 
 }  // namespace
 
-void select_view_casters(const SceneSnapshot& scene, ShadowView& view, ShadowFrame& frame) {
-    ViewSearch(scene, view, frame).run();
-    view.casters.first = static_cast<std::uint32_t>(frame.view_caster_items.size());
-    append_by_mesh(scene, frame.set_scratch, frame.view_caster_items);
-    view.casters.count = static_cast<std::uint32_t>(frame.view_caster_items.size()) - view.casters.first;
-    view.still_casters = move_movers_back(
-        scene, frame.moving, std::span(frame.view_caster_items).subspan(view.casters.first), frame.set_scratch.items);
+void select_view_casters(const SceneSnapshot& scene, const CasterInputs& inputs, ShadowView& view, SetScratch& scratch,
+                         std::vector<std::uint32_t>& casters) {
+    ViewSearch(scene, inputs.sets, inputs.filter, view, scratch).run();
+    view.casters.first = static_cast<std::uint32_t>(casters.size());
+    append_by_mesh(scene, scratch, casters);
+    view.casters.count = static_cast<std::uint32_t>(casters.size()) - view.casters.first;
+    view.still_casters =
+        move_movers_back(scene, inputs.moving, std::span(casters).subspan(view.casters.first), scratch.items);
 }
 
 }  // namespace gnomon::shadow

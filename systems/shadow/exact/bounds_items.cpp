@@ -15,12 +15,10 @@ namespace gnomon::shadow {
 namespace {
 
 constexpr double kDoubleRoundoff = 1.1102230246251565e-16;
-/// Of a facet's normal, rounded to float, with the products and sums of its test; and the same of places in double.
-constexpr double kFacingUnits = 4.0, kPlaceUnits = 16.0;
+/// Error of places in double, units of rounding.
+constexpr double kPlaceUnits = 16.0;
 /// Shaders take a corner for one before the light if w is more than 16 of its own errors.
 constexpr double kBeforeLight = 32.0;
-
-bool is_parallel(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
 
 /// Turns normals of planes as `m` turns points, but for a factor; needs no inverse.
 glm::dmat3 cofactors(const glm::dmat3& m) {
@@ -32,15 +30,15 @@ class FacingTest {
 public:
     FacingTest(const InstanceItem& item, const ShadowView& view) : parallel_(is_parallel(view)) {
         const glm::dmat3 turned = cofactors(item.basis);
-        from_model_ = glm::transpose(glm::dmat3(view.axis_u, view.axis_v, view.axis_back)) * turned;
+        from_model_ = glm::transpose(glm::dmat3(view.pose.axis_u, view.pose.axis_v, view.pose.axis_back)) * turned;
         scale_ = glm::dot(item.basis[0], turned[0]);
         if (parallel_) {
-            toward_ms_ = glm::transpose(turned) * view.axis_back;
+            toward_ms_ = glm::transpose(turned) * view.pose.axis_back;
         } else {
-            toward_ms_ = glm::transpose(turned) * (view.anchor_ws_m - item.translation_ws_m);
+            toward_ms_ = glm::transpose(turned) * (view.pose.anchor_ws_m - item.translation_ws_m);
             rounding_ = kPlaceUnits * kDoubleRoundoff *
                         glm::length(absolute(glm::transpose(turned),
-                                             glm::abs(view.anchor_ws_m) + glm::abs(item.translation_ws_m)));
+                                             glm::abs(view.pose.anchor_ws_m) + glm::abs(item.translation_ws_m)));
         }
     }
 
@@ -73,7 +71,7 @@ void SheetGatherer::place(const std::vector<assets::Vertex>& vertices, const Cas
                           const InstanceItem& item, const ShadowView& view, std::uint32_t size_px) {
     const glm::dmat4 clip_from_anchor(view.clip_from_anchor);
     glm::dmat4 anchor_from_model(item.basis);
-    anchor_from_model[3] = glm::dvec4(item.translation_ws_m - view.anchor_ws_m, 1.0);
+    anchor_from_model[3] = glm::dvec4(item.translation_ws_m - view.pose.anchor_ws_m, 1.0);
     const glm::dmat4 clip_from_model = clip_from_anchor * anchor_from_model;
     const ClipRounding rounding(surface, item, view);
     const double beyond = 1.0 + kQuadReach_texel * 2.0 / size_px, w_slack = rounding.of_row(3);

@@ -7,7 +7,7 @@
 #include "systems/shadow/exact/caster_topology.h"
 #include "systems/shadow/exact/error_margins.h"
 #include "systems/shadow/exact/facet_depth_range.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 namespace gnomon::shadow {
 

@@ -8,7 +8,6 @@
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/cpu_timer.h"
-#include "systems/shadow/update/drawn_views.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -23,8 +22,8 @@ constexpr float kNoContour = -1.0f;
 
 bool is_small(std::size_t which) { return which >= SheetItems::kinds; }
 
-bool is_bounded(const ShadowFrame& frame, std::size_t view) {
-    return is_drawn(frame, view) && frame.slots[view].bounds_target;
+bool is_bounded(const DrawnViews& drawn, std::size_t view) {
+    return drawn.is_drawn(view) && drawn.maps[view].sheets.bounds_target;
 }
 
 }  // namespace
@@ -78,13 +77,12 @@ bool SheetRecorder::programs_ready(const View& view) {
     return ready;
 }
 
-SheetRecorder::View SheetRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                                          std::size_t v) {
-    const ShadowView& view = frame.views[v];
+SheetRecorder::View SheetRecorder::gather(const PassInputs& in, std::size_t v) {
+    const ShadowView& view = in.drawn.view(v);
     view_scratch_.clear();
-    for (const std::uint32_t i : std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count)) {
-        const InstanceItem& item = scene.instances[i];
-        gatherer_.append(gpu, surfaces_.of(gpu, item.mesh), item, view, frame.slots[v].size_px, view_scratch_);
+    for (const std::uint32_t i : in.drawn.fitted.casters_of(view)) {
+        const InstanceItem& item = in.scene.instances[i];
+        gatherer_.append(in.gpu, surfaces_.of(in.gpu, item.mesh), item, view, in.drawn.maps[v].size_px, view_scratch_);
     }
     View found;
     found.view = v;
@@ -98,43 +96,44 @@ SheetRecorder::View SheetRecorder::gather(const SceneSnapshot& scene, const GpuS
     return found;
 }
 
-void SheetRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+void SheetRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     views_.clear();
     item_scratch_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_bounded(frame, v)) continue;
-        const LightTime time(frame, frame.demands[frame.views[v].demand].light);
-        const View view = gather(scene, gpu, frame, v);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!is_bounded(in.drawn, v)) continue;
+        const std::uint32_t light = in.drawn.view(v).light;
+        const LightTime time(accounts.cpu_us, light);
+        const View view = gather(in, v);
         if (programs_ready(view))
             views_.push_back(view);
         else
-            drop_light(frame, frame.views[v].demand, Reason::depth_program_failed);
+            accounts.statuses[light].lose_maps(Reason::depth_program_failed, true);
     }
     if (views_.empty()) return;
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
     if (items_.reserve(std::max<std::size_t>(item_scratch_.size(), 1) * sizeof(SheetItem)) &&
         view_records_.reserve(views_.size() * stride))
         return;
-    for (const View& view : views_) drop_light(frame, frame.views[view.view].demand, Reason::buffer_failed);
+    for (const View& view : views_)
+        accounts.statuses[in.drawn.view(view.view).light].lose_maps(Reason::buffer_failed, true);
     views_.clear();
 }
 
-void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                                const View& drawn, std::uint32_t offset, gl::CommandList& list, LightReport& report) {
-    const ShadowView& view = frame.views[drawn.view];
-    const ShadowSlot& slot = frame.slots[drawn.view];
-    const ShadowDemand& demand = frame.demands[view.demand];
-    const auto size = static_cast<std::int32_t>(slot.size_px);
-    const SheetFloor floor = sheet_floor(view, slot.size_px);
+void SheetRecorder::record_view(const PassInputs& in, const View& drawn, std::uint32_t offset, gl::CommandList& list,
+                                LightReport& report) {
+    const ShadowView& view = in.drawn.view(drawn.view);
+    const MapAssignment& map = in.drawn.maps[drawn.view];
+    const auto size = static_cast<std::int32_t>(map.size_px);
+    const SheetFloor floor = sheet_floor(view, map.size_px);
     const float cleared = with_margins_ ? floor.cleared : static_cast<float>(floor.departure);
-    list.add(gl::BeginGroup{{"sheets", scene.lights[demand.light].name, std::to_string(view.layer)}});
-    list.add(gl::BeginTimer{shadow_timer(demand.light)});
-    list.add(
-        gl::BeginPass{slot.bounds_target, {0, 0, size, size}, false, 0.0f, true, {kNoContour, cleared, 0.0f, 0.0f}});
+    list.add(gl::BeginGroup{{"sheets", in.scene.lights[view.light].name, std::to_string(view.layer)}});
+    list.add(gl::BeginTimer{shadow_timer(view.light)});
+    list.add(gl::BeginPass{
+        map.sheets.bounds_target, {0, 0, size, size}, false, 0.0f, true, {kNoContour, cleared, 0.0f, 0.0f}});
     list.add(gl::BindUniforms{0, view_records_.handle(), offset, sizeof(DepthViewRecord)});
-    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
-    list.add(gl::BindTexels{kVertexUnit, gpu.vertices()});
+    list.add(gl::BindTexels{kInstanceUnit, in.gpu.instances()});
+    list.add(gl::BindTexels{kVertexUnit, in.gpu.vertices()});
     list.add(gl::BindTexels{kItemUnit, items_.handle()});
     for (std::size_t which = 0; which < kPrograms; ++which) {
         const std::uint32_t first = drawn.first[which], count = drawn.count[which];
@@ -150,31 +149,30 @@ void SheetRecorder::record_view(const SceneSnapshot& scene, const GpuScene& gpu,
         report.triangles += (is_small(which) ? 1 : 2) * std::uint64_t{count};
     }
     list.add(gl::EndPass{});
-    list.add(gl::EndTimer{shadow_timer(demand.light)});
+    list.add(gl::EndTimer{shadow_timer(view.light)});
     list.add(gl::EndGroup{});
 }
 
-void SheetRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
-                           FrameReport& report) {
+void SheetRecorder::record(const PassInputs& in, const PassOutputs& out) {
     // What another recorder dropped meanwhile is not drawn.
-    std::erase_if(views_, [&](const View& view) { return !is_bounded(frame, view.view); });
+    std::erase_if(views_, [&](const View& view) { return !is_bounded(in.drawn, view.view); });
     if (views_.empty()) return;
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
     record_scratch_.assign(views_.size() * stride, std::byte{});
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        const ShadowView& view = frame.views[views_[i].view];
-        const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
+        const ShadowView& view = in.drawn.view(views_[i].view);
+        const math::TwoFloat3 anchor = math::split(view.pose.anchor_ws_m);
         const DepthViewRecord record{view.clip_from_anchor,
-                                     glm::vec4(anchor.high, static_cast<float>(frame.slots[views_[i].view].size_px)),
+                                     glm::vec4(anchor.high, static_cast<float>(in.drawn.maps[views_[i].view].size_px)),
                                      glm::vec4(anchor.low, static_cast<float>(view.layer))};
         std::memcpy(record_scratch_.data() + i * stride, &record, sizeof record);
     }
-    if (!item_scratch_.empty()) list.update(items_.handle(), 0, std::span<const SheetItem>(item_scratch_));
-    list.update(view_records_.handle(), 0, std::span<const std::byte>(record_scratch_));
+    if (!item_scratch_.empty()) out.list.update(items_.handle(), 0, std::span<const SheetItem>(item_scratch_));
+    out.list.update(view_records_.handle(), 0, std::span<const std::byte>(record_scratch_));
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        const std::uint32_t light = frame.demands[frame.views[views_[i].view].demand].light;
-        const LightTime time(frame, light);
-        record_view(scene, gpu, frame, views_[i], static_cast<std::uint32_t>(i) * stride, list, report.lights[light]);
+        const std::uint32_t light = in.drawn.view(views_[i].view).light;
+        const LightTime time(out.cpu_us, light);
+        record_view(in, views_[i], static_cast<std::uint32_t>(i) * stride, out.list, out.report.lights[light]);
     }
 }
 

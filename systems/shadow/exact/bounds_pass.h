@@ -10,11 +10,12 @@
 #include "systems/retry.h"
 #include "systems/shadow/exact/bounds_items.h"
 #include "systems/shadow/exact/caster_topology.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/light_accounts.h"
+#include "systems/shadow/frame/pass_inputs.h"
 
 namespace gnomon::shadow {
 
-/// For views with ShadowSlot::bounds the last of their passes: per texel the nearest place where a sheet may end, and
+/// For views with BoundsMaps::bounds the last of their passes: per texel the nearest place where a sheet may end, and
 /// by how much a sheet may depart from its depth in the texel's middle (docs/exact.md). The first two, nearest and
 /// second depths, are the DepthRecorder's. Programs, surfaces and buffers are made when first called for.
 class SheetRecorder {
@@ -29,12 +30,10 @@ public:
     SheetRecorder(const SheetRecorder&) = delete;
     SheetRecorder& operator=(const SheetRecorder&) = delete;
 
-    /// Finds what views that are not reused draw, and makes room for it. A light that cannot have it loses its slots,
-    /// its sets[i].skip says why. Call before record(), once the meshes are bent (GpuScene::update).
-    void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
-    /// Draws are counted in the report.
-    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
-                FrameReport& report);
+    /// Finds what views that are drawn need, and makes room for it. A light that cannot have it loses its maps. Call
+    /// before record(), once the meshes are bent (GpuScene::update).
+    void prepare(const PassInputs& in, const LightAccounts& accounts);
+    void record(const PassInputs& in, const PassOutputs& out);
 
     /// No light has such views any more: frees all but programs.
     void release();
@@ -55,9 +54,9 @@ private:
     };
     bool program(std::size_t which);
     bool programs_ready(const View& view);
-    View gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::size_t view);
-    void record_view(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const View& view,
-                     std::uint32_t offset, gl::CommandList& list, LightReport& report);
+    View gather(const PassInputs& in, std::size_t view);
+    void record_view(const PassInputs& in, const View& view, std::uint32_t offset, gl::CommandList& list,
+                     LightReport& report);
 
     gl::Device& device_;
     bool with_margins_;

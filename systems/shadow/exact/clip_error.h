@@ -6,7 +6,7 @@
 
 #include "systems/shadow/exact/caster_topology.h"
 #include "systems/shadow/exact/error_margins.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 namespace gnomon::shadow {
 
@@ -22,8 +22,8 @@ public:
     ClipRounding(const CasterSurface& surface, const InstanceItem& item, const ShadowView& view)
         : clip_from_anchor_(view.clip_from_anchor) {
         const glm::dvec3 local = absolute(item.basis, surface.reach_ms);
-        const glm::dvec3 reach = local + glm::abs(item.translation_ws_m - view.anchor_ws_m);
-        const double split = kSplitUnits * (glm::length(item.translation_ws_m) + glm::length(view.anchor_ws_m));
+        const glm::dvec3 reach = local + glm::abs(item.translation_ws_m - view.pose.anchor_ws_m);
+        const double split = kSplitUnits * (glm::length(item.translation_ws_m) + glm::length(view.pose.anchor_ws_m));
         error_ = (kPlacedUnits + kProjectedUnits) * kUnitRoundoff * reach + split;
     }
     double of_row(int r) const {

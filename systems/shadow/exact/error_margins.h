@@ -5,6 +5,9 @@
 /// shaders/shadow/filters/exact/error_margins.glsl; the test SheetMargins.AreTheSameInShaders holds them together.
 namespace gnomon::shadow {
 
+/// Error of a facet's normal, rounded to float, with the products and sums of its test; units of rounding.
+inline constexpr double kFacingUnits = 4.0;
+
 inline constexpr double kUnitRoundoff = 5.9604644775390625e-8;  // of float, 2^-24
 
 /// Units of 2^-24 by which a vertex may be off before it is projected: its basis (1), three products, two sums, the

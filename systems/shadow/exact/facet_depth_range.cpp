@@ -12,14 +12,9 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of a facet's normal, rounded to float, with the products and sums of its test.
-constexpr double kFacingUnits = 4.0;
-
-bool is_parallel(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
-
 /// Half a texel along u and v, in metres, or as tangents.
 glm::dvec2 half_texel(const ShadowView& view, std::uint32_t size_px) {
-    if (!is_parallel(view)) return (view.tan_high - view.tan_low) * (0.5 / size_px);
+    if (!is_parallel(view)) return (view.plane.tan_high - view.plane.tan_low) * (0.5 / size_px);
     return {1.0 / (size_px * glm::length(row(view.clip_from_anchor, 0))),
             1.0 / (size_px * glm::length(row(view.clip_from_anchor, 1)))};
 }
@@ -37,7 +32,7 @@ double least_stretch(const InstanceItem& item) {
 SheetFloor sheet_floor(const ShadowView& view, std::uint32_t size_px) {
     const glm::dvec2 half = half_texel(view, size_px);
     if (!is_parallel(view)) return {0.0, 0.0f, kFloorTangent * std::max(half.x, half.y)};
-    if (view.warp != glm::dvec2(0.0)) return {};
+    if (view.plane.warp != glm::dvec2(0.0)) return {};
     const double departure = kFloorTangent * std::max(half.x, half.y) * glm::length(row(view.clip_from_anchor, 2));
     return {departure, static_cast<float>(kDepartureFactor * departure + kFlatRounding), 0.0};
 }
@@ -59,7 +54,7 @@ FlatFacets::FlatFacets(const CasterSurface& surface, const InstanceItem& item, c
     possible_ = true;
     off_m_ = rounding.length_m();
     // |n_u| + |n_v| <= t (n · d) with d = (u, v, 1): so n · d is at least this, and |d|² at most that.
-    const glm::dvec2 widest = glm::max(glm::abs(view.tan_low), glm::abs(view.tan_high));
+    const glm::dvec2 widest = glm::max(glm::abs(view.plane.tan_low), glm::abs(view.plane.tan_high));
     const double most = std::max(widest.x, widest.y);
     const double t = kFloorTangent * std::max(half_texel_.x, half_texel_.y) / std::min(half_texel_.x, half_texel_.y);
     least_cosine_ = 1.0 / std::hypot(t, 1.0 + t * most);

@@ -5,7 +5,7 @@
 
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/exact/caster_topology.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 namespace gnomon::shadow {
 

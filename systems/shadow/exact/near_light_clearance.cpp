@@ -28,27 +28,27 @@ struct Opening {
 
 class Clearance {
 public:
-    Clearance(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::uint32_t demand)
-        : scene_(scene),
-          gpu_(gpu),
-          light_(scene.lights[frame.demands[demand].light]),
-          radius_m_(static_cast<double>(frame.demands[demand].filtering.source_radius_m)),
+    Clearance(const PassInputs& in, std::uint32_t light)
+        : scene_(in.scene),
+          gpu_(in.gpu),
+          light_(in.scene.lights[light]),
+          radius_m_(static_cast<double>(in.drawn.lights[light].request.map.filtering.source_radius_m)),
           least_m_(kClearance_radii * radius_m_) {
         // Places in a face without a view are looked up as well: nothing may stand before them.
-        const bool cube = light_.kind == LightKind::point && !frame.demands[demand].aim.used;
+        const bool cube = light_.kind == LightKind::point && !in.drawn.lights[light].request.projection.aim.used;
         if (cube)
             for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
         if (cube) count_ = kFaces;
-        for (std::size_t v = 0; v < frame.views.size(); ++v) {
-            const ShadowView& view = frame.views[v];
-            if (view.demand != demand) continue;
+        const IndexRange range = in.drawn.fitted.lights[light].views;
+        for (std::size_t v = range.first; v < range.end(); ++v) {
+            const ShadowView& view = in.drawn.view(v);
             Opening& opening = openings_[cube ? view.layer : count_++];
-            opening = {{view.axis_u, view.axis_v, view.axis_back},
-                       view.tan_low,
-                       view.tan_high,
-                       view.near_m,
-                       frame.slots[v].texture && !view.lit};
-            least_m_ = std::max(least_m_, kClearance_nears * view.near_m);
+            opening = {{view.pose.axis_u, view.pose.axis_v, view.pose.axis_back},
+                       view.plane.tan_low,
+                       view.plane.tan_high,
+                       view.depth.near_m,
+                       in.drawn.has_map(v) && !view.lit};
+            least_m_ = std::max(least_m_, kClearance_nears * view.depth.near_m);
         }
     }
 
@@ -133,16 +133,16 @@ private:
 
 }  // namespace
 
-void measure_clearances(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
-    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
-        ShadowDemand& demand = frame.demands[d];
-        demand.clear_m = 0.0;
-        const bool soft = filter_row(demand.filter).storage == FilterStorage::soft_sheets;
-        if (!soft || demand.skip != Reason::none || frame.sets[d].skip != Reason::none || demand.traced ||
-            scene.lights[demand.light].kind == LightKind::directional)
+void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m, std::span<double> cpu_us) {
+    clearances_m.assign(in.scene.lights.size(), 0.0);
+    for (std::uint32_t i = 0; i < in.scene.lights.size(); ++i) {
+        const ShadowRequest& request = in.drawn.lights[i].request;
+        const bool soft = filter_row(request.map.filter).storage == FilterStorage::soft_sheets;
+        if (!soft || in.drawn.statuses[i].is_skipped() || request.rays.only ||
+            in.scene.lights[i].kind == LightKind::directional)
             continue;
-        const LightTime time(frame, demand.light);
-        demand.clear_m = Clearance(scene, gpu, frame, static_cast<std::uint32_t>(d)).run();
+        const LightTime time(cpu_us, i);
+        clearances_m[i] = Clearance(in, i).run();
     }
 }
 

@@ -1,7 +1,8 @@
 #pragma once
-#include "systems/extract/gpu_scene.h"
-#include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include <span>
+#include <vector>
+
+#include "systems/shadow/frame/pass_inputs.h"
 
 namespace gnomon::shadow {
 
@@ -9,10 +10,10 @@ namespace gnomon::shadow {
 /// planes: the larger.
 inline constexpr double kClearance_radii = 32.0, kClearance_nears = 4.0;
 
-/// ShadowDemand::clear_m of the lamps whose maps are for a source with a size (FilterStorage::soft_sheets): how near to
-/// the lamp any caster's triangle comes that the map of an opening does not hold whole, behind its near plane, but that
-/// comes within the source's radius of the opening's pyramid; of any opening, drawn or not. At most as far as is looked
-/// for. In double, of triangles as they are bent.
-void measure_clearances(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+/// Measures, for each lamp whose maps are for a source with a size (FilterStorage::soft_sheets), how near to it any
+/// caster's triangle comes that the map of an opening does not hold whole, behind its near plane, but that comes within
+/// the source's radius of the opening's pyramid; of any opening, drawn or not. Metres, one per light, 0 of the others;
+/// at most as far as is looked for. In double, of triangles as they are bent.
+void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m, std::span<double> cpu_us);
 
 }  // namespace gnomon::shadow

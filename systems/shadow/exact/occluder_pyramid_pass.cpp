@@ -9,7 +9,6 @@
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/request/light_kinds.h"
-#include "systems/shadow/update/drawn_views.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -18,7 +17,7 @@ namespace {
 /// reads.
 constexpr std::uint32_t kGroup = 8, kBoundsUnit = 8, kMapUnit = 4, kEndsBinding = 2;
 
-bool has_ends(const ShadowFrame& frame, std::size_t view) { return is_drawn(frame, view) && frame.slots[view].ends; }
+bool has_ends(const DrawnViews& drawn, std::size_t v) { return drawn.is_drawn(v) && drawn.maps[v].sheets.ends; }
 
 std::uint32_t levels_of(std::uint32_t size_px) {
     std::uint32_t levels = 1;
@@ -30,7 +29,7 @@ glm::ivec4 place_of(const EndsLevel& level, std::uint32_t before) {
     return {static_cast<std::int32_t>(before + level.first), static_cast<std::int32_t>(level.side), 0, 0};
 }
 
-double size_of(const FilterDemand& filter, const ShadowView& view) {
+double size_of(const FilterSettings& filter, const ShadowView& view) {
     const bool parallel = view.projection == ViewProjection::orthographic;
     return static_cast<double>(parallel ? filter.sun_radius_tan : filter.source_radius_m);
 }
@@ -63,29 +62,29 @@ bool EndsRecorder::program(Source source) {
     return static_cast<bool>(made.program);
 }
 
-void EndsRecorder::prepare(ShadowFrame& frame) {
+void EndsRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     std::size_t records = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!has_ends(frame, v)) continue;
-        if (program(first_source(frame.views[v])) && program(Source::level))
-            records += levels_of(frame.slots[v].size_px);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!has_ends(in.drawn, v)) continue;
+        if (program(first_source(in.drawn.view(v))) && program(Source::level))
+            records += levels_of(in.drawn.maps[v].size_px);
         else
-            drop_light(frame, frame.views[v].demand, Reason::depth_program_failed);
+            accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::depth_program_failed, true);
     }
     if (records == 0 || records_.reserve(records * aligned(sizeof(EndsRecord), device_.info().uniform_alignment)))
         return;
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (has_ends(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v)
+        if (has_ends(in.drawn, v)) accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::buffer_failed, true);
 }
 
-void EndsRecorder::append_records(const ShadowFrame& frame, std::size_t v) {
-    const ShadowView& view = frame.views[v];
-    const ShadowDemand& demand = frame.demands[view.demand];
-    const std::uint32_t size_px = frame.slots[v].size_px, before = view.layer * ends_count(size_px);
+void EndsRecorder::append_records(const DrawnViews& drawn, std::size_t v) {
+    const ShadowView& view = drawn.view(v);
+    const ShadowRequest& request = drawn.lights[view.light].request;
+    const std::uint32_t size_px = drawn.maps[v].size_px, before = view.layer * ends_count(size_px);
     // A map that had to be shrunk has larger texels than the fit planned.
-    const double stretch = static_cast<double>(demand.resolution_px) / static_cast<double>(size_px);
-    const double texel_u = view.texel_u * stretch, texel_v = view.texel_v * stretch;
+    const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(size_px);
+    const double texel_u = view.plane.texel_u * stretch, texel_v = view.plane.texel_v * stretch;
     const bool parallel = view.projection == ViewProjection::orthographic;
     EndsRecord record;
     if (view.projection == ViewProjection::cube_face) {
@@ -95,8 +94,8 @@ void EndsRecorder::append_records(const ShadowFrame& frame, std::size_t v) {
         record.axis_back = glm::vec4(glm::vec3(face.axis_back), 0.0f);
     }
     record.numbers = {parallel ? 0.0f : static_cast<float>(std::max(texel_u, texel_v)),
-                      static_cast<float>(view.depth_alpha),
-                      static_cast<float>(steepest(view, texel_u, texel_v, size_of(demand.filtering, view))), 0.0f};
+                      static_cast<float>(view.depth.alpha),
+                      static_cast<float>(steepest(view, texel_u, texel_v, size_of(request.map.filtering, view))), 0.0f};
     const auto append = [&] {
         const std::size_t at = record_scratch_.size();
         record_scratch_.resize(at + aligned(sizeof record, device_.info().uniform_alignment));
@@ -113,18 +112,16 @@ void EndsRecorder::append_records(const ShadowFrame& frame, std::size_t v) {
     }
 }
 
-void EndsRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v,
-                               std::uint32_t& offset, gl::CommandList& list) {
-    const ShadowView& view = frame.views[v];
-    const ShadowSlot& slot = frame.slots[v];
-    const std::uint32_t light = frame.demands[view.demand].light;
-    list.add(gl::BeginGroup{{"sheet ends", scene.lights[light].name, std::to_string(view.layer)}});
-    list.add(gl::BeginTimer{shadow_timer(light)});
-    list.add(gl::BindTexture{kMapUnit, slot.texture, {}});
-    list.add(gl::BindTexture{kBoundsUnit, slot.bounds, {}});
-    list.add(gl::BindStorage{kEndsBinding, slot.ends});
+void EndsRecorder::record_view(const PassInputs& in, std::size_t v, std::uint32_t& offset, gl::CommandList& list) {
+    const ShadowView& view = in.drawn.view(v);
+    const MapAssignment& map = in.drawn.maps[v];
+    list.add(gl::BeginGroup{{"sheet ends", in.scene.lights[view.light].name, std::to_string(view.layer)}});
+    list.add(gl::BeginTimer{shadow_timer(view.light)});
+    list.add(gl::BindTexture{kMapUnit, map.texture, {}});
+    list.add(gl::BindTexture{kBoundsUnit, map.sheets.bounds, {}});
+    list.add(gl::BindStorage{kEndsBinding, map.sheets.ends});
     Source source = first_source(view);
-    EndsLevel level = first_ends(slot.size_px);
+    EndsLevel level = first_ends(map.size_px);
     for (;; level = next_ends(level), source = Source::level) {
         const std::uint32_t groups = (level.side + kGroup - 1) / kGroup;
         list.add(gl::BindUniforms{0, records_.handle(), offset, sizeof(EndsRecord)});
@@ -132,21 +129,21 @@ void EndsRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& fr
         offset += aligned(sizeof(EndsRecord), device_.info().uniform_alignment);
         if (level.side == 1) break;
     }
-    list.add(gl::EndTimer{shadow_timer(light)});
+    list.add(gl::EndTimer{shadow_timer(view.light)});
     list.add(gl::EndGroup{});
 }
 
-void EndsRecorder::record(const SceneSnapshot& scene, ShadowFrame& frame, gl::CommandList& list) {
+void EndsRecorder::record(const PassInputs& in, const PassOutputs& out) {
     record_scratch_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (has_ends(frame, v)) append_records(frame, v);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v)
+        if (has_ends(in.drawn, v)) append_records(in.drawn, v);
     if (record_scratch_.empty()) return;
-    list.update(records_.handle(), 0, std::span<const std::byte>(record_scratch_));
+    out.list.update(records_.handle(), 0, std::span<const std::byte>(record_scratch_));
     std::uint32_t offset = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!has_ends(frame, v)) continue;
-        const LightTime time(frame, frame.demands[frame.views[v].demand].light);
-        record_view(scene, frame, v, offset, list);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!has_ends(in.drawn, v)) continue;
+        const LightTime time(out.cpu_us, in.drawn.view(v).light);
+        record_view(in, v, offset, out.list);
     }
 }
 

@@ -7,7 +7,8 @@
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/retry.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/light_accounts.h"
+#include "systems/shadow/frame/pass_inputs.h"
 #include "systems/shadow/request/occluder_pyramid.h"
 
 namespace gnomon::shadow {
@@ -20,7 +21,7 @@ struct EndsRecord {
 };
 static_assert(sizeof(EndsRecord) == 96);
 
-/// For views with ShadowSlot::ends the last of their passes, after the SheetRecorder's: a dispatch for each level.
+/// For views with BoundsMaps::ends the last of their passes, after the SheetRecorder's: a dispatch for each level.
 /// Programs and buffers are made when first called for.
 class EndsRecorder {
 public:
@@ -30,10 +31,10 @@ public:
     EndsRecorder(const EndsRecorder&) = delete;
     EndsRecorder& operator=(const EndsRecorder&) = delete;
 
-    /// A light that cannot have it loses its slots, as with SheetRecorder::prepare(). Call before record().
-    void prepare(ShadowFrame& frame);
+    /// Makes programs and room for records. A light that cannot have them loses its maps. Call before record().
+    void prepare(const PassInputs& in, const LightAccounts& accounts);
     /// Call after SheetRecorder::record().
-    void record(const SceneSnapshot& scene, ShadowFrame& frame, gl::CommandList& list);
+    void record(const PassInputs& in, const PassOutputs& out);
 
     /// No light has such views any more: frees all but programs.
     void release() { records_.release(); }
@@ -46,9 +47,8 @@ private:
     };
     static Source first_source(const ShadowView& view);
     bool program(Source source);
-    void append_records(const ShadowFrame& frame, std::size_t view);
-    void record_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t view, std::uint32_t& offset,
-                     gl::CommandList& list);
+    void append_records(const DrawnViews& drawn, std::size_t view);
+    void record_view(const PassInputs& in, std::size_t view, std::uint32_t& offset, gl::CommandList& list);
 
     gl::Device& device_;
     bool with_margins_;

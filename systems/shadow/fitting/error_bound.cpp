@@ -24,7 +24,7 @@ double depth_from(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
 }
 
 double depth_from_light(const ShadowView& view, const glm::dvec3& p_ws) {
-    return glm::dot(apex_ws_m(view) - p_ws, view.axis_back);
+    return glm::dot(apex_ws_m(view) - p_ws, view.pose.axis_back);
 }
 
 bool orthographic(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
@@ -49,56 +49,56 @@ double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
 
 glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec3 p = p_ws - apex_ws_m(view);
-    return {glm::dot(p, view.axis_u), glm::dot(p, view.axis_v)};
+    return {glm::dot(p, view.pose.axis_u), glm::dot(p, view.pose.axis_v)};
 }
 
 /// Diagonal of a texel across the light at a point that the view holds: in a warped map the bound that counts
 /// everywhere between such points.
 double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::dvec2 texel(view.texel_u, view.texel_v);
+    const glm::dvec2 texel(view.plane.texel_u, view.plane.texel_v);
     if (!orthographic(view)) return glm::length(texel) * depth_from_light(view, p_ws);
-    const double steepness = glm::length(view.warp);
+    const double steepness = glm::length(view.plane.warp);
     if (!(steepness > 0.0)) return glm::length(texel);
-    const glm::dvec2 aside(-view.warp.y / steepness, view.warp.x / steepness);
+    const glm::dvec2 aside(-view.plane.warp.y / steepness, view.plane.warp.x / steepness);
     const double farthest_aside =
-        std::abs(glm::dot(aside, view.centre_ls_m)) + glm::dot(glm::abs(aside), view.half_extent_m);
-    return longest_cell(view.warp, texel, farthest_aside, warp_w(view.warp, across(view, p_ws)));
+        std::abs(glm::dot(aside, view.plane.centre_ls_m)) + glm::dot(glm::abs(aside), view.plane.half_extent_m);
+    return longest_cell(view.plane.warp, texel, farthest_aside, warp_w(view.plane.warp, across(view, p_ws)));
 }
 
 bool within(const ShadowView& view, const glm::dvec3& p_ws) {
     if (orthographic(view)) return true;
     const glm::dvec3 p = p_ws - apex_ws_m(view);
     const double z_m = depth_from_light(view, p_ws);
-    const glm::dvec2 at(glm::dot(p, view.axis_u), glm::dot(p, view.axis_v));
-    const glm::dvec2 slack = kSlack * (view.tan_high - view.tan_low);
-    return z_m > 0.0 && glm::all(glm::greaterThanEqual(at, (view.tan_low - slack) * z_m)) &&
-           glm::all(glm::lessThanEqual(at, (view.tan_high + slack) * z_m));
+    const glm::dvec2 at(glm::dot(p, view.pose.axis_u), glm::dot(p, view.pose.axis_v));
+    const glm::dvec2 slack = kSlack * (view.plane.tan_high - view.plane.tan_low);
+    return z_m > 0.0 && glm::all(glm::greaterThanEqual(at, (view.plane.tan_low - slack) * z_m)) &&
+           glm::all(glm::lessThanEqual(at, (view.plane.tan_high + slack) * z_m));
 }
 
 }  // namespace
 
 TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
     const auto side = [&](const glm::dvec2& texel) {
-        const glm::dvec2 step = orthographic(view) ? unwarped_step(view.warp, across(view, p_ws), texel)
+        const glm::dvec2 step = orthographic(view) ? unwarped_step(view.plane.warp, across(view, p_ws), texel)
                                                    : texel * depth_from_light(view, p_ws);
-        return view.axis_u * step.x + view.axis_v * step.y;
+        return view.pose.axis_u * step.x + view.pose.axis_v * step.y;
     };
-    return {side({view.texel_u, 0.0}), side({0.0, view.texel_v})};
+    return {side({view.plane.texel_u, 0.0}), side({0.0, view.plane.texel_v})};
 }
 
 double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
     constexpr double kSteps = 2.0;
     const double depth = kSteps * depth_format_row(format).step;
-    if (orthographic(view)) return depth * (view.far_m - view.near_m);
+    if (orthographic(view)) return depth * (view.depth.far_m - view.depth.near_m);
     // alpha + beta / z: z becomes z / (1 + part), by as much of the whole way as the ray does.
-    const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth_beta);
+    const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth.beta);
     return glm::length(p_ws - apex_ws_m(view)) * part / (1.0 + part);
 }
 
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
                        const glm::dvec3& normal) {
     const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
-    const glm::dvec3 ray = orthographic(view) ? -view.axis_back : (p_ws - apex_ws_m(view)) / z_m;
+    const glm::dvec3 ray = orthographic(view) ? -view.pose.axis_back : (p_ws - apex_ws_m(view)) / z_m;
     const double facing = glm::dot(ray, normal);
     if (!(z_m > 0.0) || facing == 0.0 || (is_perspective(consumer) && !(depth_from(consumer, p_ws) > 0.0)))
         return kInfinity;
@@ -110,7 +110,7 @@ double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, con
 }
 
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
-    return edge_error_px(view.texel_extent_px * steeper_than_stated(cosine), reach_texel);
+    return edge_error_px(view.error.extent_px * steeper_than_stated(cosine), reach_texel);
 }
 
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
@@ -120,7 +120,7 @@ ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, st
     for (const glm::dvec3& p_ws : points_ws) {
         const double depth_m = depth_from(consumer, p_ws);
         if (!(depth_m > 0.0) || !within(view, p_ws)) continue;
-        const double served_m = std::max({depth_m, consumer.near_m, view.seen_from_m});
+        const double served_m = std::max({depth_m, consumer.near_m, view.cascade.seen_from_m});
         const double texel_m = texel_at(view, p_ws);
         const double metre_px = kSteepestReceiver * pixels_per_metre(consumer, served_m);
         error.texel_m = std::max(error.texel_m, texel_m);
@@ -134,10 +134,10 @@ ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, st
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view) {
     const ViewError error = predict_error(view, consumer, points_ws, reach_texel);
-    view.texel_m = std::max(view.texel_m, error.texel_m);
-    view.texel_extent_px = std::max(view.texel_extent_px, error.extent_px);
-    view.predicted_error_px = std::max(view.predicted_error_px, error.edge_px);
-    view.metre_px = std::max(view.metre_px, error.metre_px);
+    view.error.texel_m = std::max(view.error.texel_m, error.texel_m);
+    view.error.extent_px = std::max(view.error.extent_px, error.extent_px);
+    view.error.edge_px = std::max(view.error.edge_px, error.edge_px);
+    view.error.metre_px = std::max(view.error.metre_px, error.metre_px);
 }
 
 }  // namespace gnomon::shadow

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 /// How far a shadow edge may be off in the picture, told before anything is drawn.
 ///
@@ -48,13 +48,6 @@ double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, con
 /// face the light within 60 degrees; on steeper ones the texel's share of it grows as 1 / cosine (of the normal to the
 /// way to the light). No less than edge_error_px of any visible receiver point that the view serves.
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel);
-
-struct ViewError {
-    double texel_m = 0.0;    // largest diagonal of a texel across the light, at a receiver
-    double extent_px = 0.0;  // Lloyd's m, largest over the receivers
-    double edge_px = 0.0;
-    double metre_px = 0.0;  // longest extent of a metre across the light on such a receiver
-};
 
 /// The bound over all receivers of a view, `points_ws` being corners of convex parts of what is seen of them; those
 /// outside a perspective view do not count. All 0 if nothing is in front of the consumer.

@@ -1,25 +1,25 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-
-#include "systems/shadow/frame/types.h"
+#include <span>
 
 namespace gnomon::shadow {
 
-/// Adds the time of its own life to one light's account in frame.cpu_us. A frame without accounts is left alone.
+/// Adds the time of its own life to one light's account. `cpu_us`: one per light, microseconds; a light beyond its end
+/// has no account.
 class LightTime {
 public:
-    LightTime(ShadowFrame& frame, std::uint32_t light) : frame_(frame), light_(light), start_(Clock::now()) {}
+    LightTime(std::span<double> cpu_us, std::uint32_t light) : cpu_us_(cpu_us), light_(light), start_(Clock::now()) {}
     LightTime(const LightTime&) = delete;
     LightTime& operator=(const LightTime&) = delete;
     ~LightTime() {
-        if (light_ < frame_.cpu_us.size())
-            frame_.cpu_us[light_] += std::chrono::duration<double, std::micro>(Clock::now() - start_).count();
+        if (light_ < cpu_us_.size())
+            cpu_us_[light_] += std::chrono::duration<double, std::micro>(Clock::now() - start_).count();
     }
 
 private:
     using Clock = std::chrono::steady_clock;
-    ShadowFrame& frame_;
+    std::span<double> cpu_us_;
     std::uint32_t light_;
     Clock::time_point start_;
 };

@@ -11,6 +11,7 @@
 #include "engine/ecs/entity.h"
 #include "systems/shadow/frame/cascade_ends.h"
 #include "systems/shadow/frame/quality_limits.h"
+#include "systems/shadow/frame/view_limits.h"
 
 /// What the fits remember from frame to frame, so that a map that is still good enough stays where it is: hysteresis.
 ///
@@ -38,7 +39,7 @@ struct HeldView {
 };
 
 /// Views are indexed by cascade or face, not by their order in this frame.
-inline constexpr std::size_t kHeldViews = 8;
+inline constexpr std::size_t kHeldViews = kMaxViews;
 
 /// How a spot goes from one perspective view to faces of a cube around it and back: not at once.
 struct ConeFade {
@@ -99,7 +100,7 @@ struct HeldLight {
     std::uint32_t spare_frames = 0;  // for how many frames half of it seems to have done
     std::uint32_t cascades = 0;      // that its contract chose; 0: none yet, or it leaves no choice
     std::uint32_t moves = 0;         // in how many frames its maps moved since another number was tried
-    bool gave_way = false;           // ShadowDemand::gives_way
+    bool gave_way = false;           // ShadowRequest::gives_way
     std::uint64_t casters = 0;       // signature of what maps of sheets show, wherever those lie
     std::uint32_t quiet_frames =
         0;  // for how many frames it has stayed, of those whose pictures moved; at most kQuietFrames

@@ -20,6 +20,14 @@ bool has_triangles(FilterStorage storage) {
 
 }  // namespace
 
+std::uint64_t layer_bytes(const LightHistory& map) {
+    std::uint64_t texel = gl::texel_bytes(map.desc.format);
+    if (map.triangles) texel += gl::texel_bytes(kTriangleFormat);
+    return texel * map.desc.width * map.desc.height;
+}
+
+std::uint64_t still_bytes(const LightHistory& map) { return layer_bytes(map) * gl::layer_count(map.desc); }
+
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
     const bool shared = has_sheets(map.storage);
@@ -104,8 +112,8 @@ bool MapStore::make_targets(LightHistory& map) const {
     return true;
 }
 
-Reason MapStore::make_moments(const ShadowDemand& demand, LightHistory& map) const {
-    MomentDescs descs = moments_of(map.desc, demand);
+Reason MapStore::make_moments(const ShadowRequest& request, LightHistory& map) const {
+    MomentDescs descs = moments_of(map.desc, request.map);
     MomentMap& moments = map.moments = {};
     moments.desc = std::move(descs.texture);
     moments.scratch_desc = std::move(descs.scratch);
@@ -160,10 +168,10 @@ void MapStore::release_sheets(SheetMap& sheets) const {
     sheets = {};
 }
 
-Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history) {
+Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& request, LightHistory& history) {
     LightHistory made;
     made.desc = desc;
-    made.storage = filter_row(demand.filter).storage;
+    made.storage = filter_row(request.map.filter).storage;
     made.texture = device_.create_texture(desc, {}).handle;
     const bool triangles = has_triangles(made.storage), sheets = has_sheets(made.storage);
     gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
@@ -172,7 +180,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
     Reason reason = Reason::none;
     if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
     if (reason == Reason::none && !make_targets(made)) reason = Reason::target_incomplete;
-    if (reason == Reason::none) reason = make_moments(demand, made);
+    if (reason == Reason::none) reason = make_moments(request, made);
     if (reason == Reason::none && sheets) reason = make_sheets(made);
     if (reason != Reason::none) {
         release(made);
@@ -192,12 +200,13 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowDemand& dem
     return Reason::none;
 }
 
-bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history) {
-    gl::TextureDesc desc = map_desc(light, demand);
-    const FilterStorage storage = filter_row(demand.filter).storage;
+bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, LightHistory& history) {
+    gl::TextureDesc desc = map_desc(light, request);
+    const FilterStorage storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = history.desc;
-    if (history.texture && !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
-                             history.storage == storage && is_same_store(history.moments, moments_of(held, demand)))) {
+    if (history.texture &&
+        !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
+          history.storage == storage && is_same_store(history.moments, moments_of(held, request.map)))) {
         // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
         release(history);
         history.wanted_px = 0;
@@ -214,13 +223,13 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowDemand& demand, Li
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
         if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // as good
-        const MomentDescs moments = moments_of(desc, demand);
+        const MomentDescs moments = moments_of(desc, request.map);
         const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
-        Reason reason = has_room ? try_create(desc, demand, history) : Reason::map_allocation_failed;
+        Reason reason = has_room ? try_create(desc, request, history) : Reason::map_allocation_failed;
         if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
             spare_->release();
             device_.finish();  // only then is what was freed given back
-            reason = try_create(desc, demand, history);
+            reason = try_create(desc, request, history);
         }
         refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
         if (reason == Reason::none) {
@@ -290,17 +299,16 @@ void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
     if (skip == Reason::over_budget || frame_ - history.last_wanted_frame > kHoldFrames) release(history);
 }
 
-void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
-    const auto light_of = [&](std::size_t d) -> const LightItem& { return scene.lights[frame.demands[d].light]; };
-    const auto wants_map = [&](std::size_t d) { return has_map(frame.demands[d]); };
-    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
-        if (frame.demands[d].skip != Reason::none) continue;
-        if (frame.sets[d].skip != Reason::none) {
-            keep_or_release(light_of(d).entity, frame.sets[d].skip);
-            continue;
-        }
-        if (!wants_map(d)) continue;
-        LightHistory& history = entry(light_of(d).entity);
+void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
+                            const LightAccounts& accounts) {
+    const auto wants_map = [&](std::size_t i) {
+        return !accounts.statuses[i].is_skipped() && has_map(decisions[i].request);
+    };
+    for (std::size_t i = 0; i < decisions.size(); ++i) {
+        if (decisions[i].request.skip != Reason::none) continue;
+        if (accounts.statuses[i].is_skipped()) keep_or_release(scene.lights[i].entity, accounts.statuses[i].skipped());
+        if (!wants_map(i)) continue;
+        LightHistory& history = entry(scene.lights[i].entity);
         history.kept_frame = history.last_wanted_frame = frame_;
         history.waits = false;
     }
@@ -314,32 +322,58 @@ void MapStore::provide_maps(const SceneSnapshot& scene, ShadowFrame& frame) {
     const bool limited = limit_ != kNoLimit;
     if (limited) make_room(0, nullptr);
     for (int round = 0; round < (limited ? 2 : 1); ++round)
-        for (std::size_t d = 0; d < frame.demands.size(); ++d) {
-            if (frame.demands[d].skip != Reason::none || frame.sets[d].skip != Reason::none || !wants_map(d)) continue;
-            const LightTime time(frame, frame.demands[d].light);
-            LightHistory& history = entry(light_of(d).entity);
-            const bool first = !limited || map_bytes(light_of(d), frame.demands[d]) < bytes(history);
+        for (std::uint32_t i = 0; i < decisions.size(); ++i) {
+            if (!wants_map(i)) continue;
+            const LightTime time(accounts.cpu_us, i);
+            const ShadowRequest& request = decisions[i].request;
+            LightHistory& history = entry(scene.lights[i].entity);
+            const bool first = !limited || map_bytes(scene.lights[i], request) < bytes(history);
             if (first != (round == 0)) continue;
-            if (ensure_map(light_of(d), frame.demands[d], history)) continue;
-            drop_light(frame, static_cast<std::uint32_t>(d), history.failure);
+            if (ensure_map(scene.lights[i], request, history)) continue;
+            accounts.statuses[i].lose_maps(history.failure, request.rays.used);
         }
     if (!std::exchange(refused_, false)) return;
     available_ = bytes();
     short_until_frame_ = frame_ + kRetryFrames;
 }
 
-void MapStore::assign_slots(const SceneSnapshot& scene, ShadowFrame& frame) {
-    frame.slots.assign(frame.views.size(), {});
-    provide_maps(scene, frame);
-    assign_views(scene, frame);
-    hold_views(scene, frame);
+void MapStore::release_still(StillMap& still) const {
+    device_.destroy(still.texture);
+    device_.destroy(still.triangles);
+    still.texture = still.triangles = {};
+    for (StillMap::Layer& layer : still.layers) layer.content = 0;
 }
 
-void MapStore::plan_draws(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
-    note_held(scene, frame);
-    assign_moments(scene, frame);
-    keep_still_apart(scene, gpu, frame);
-    choose_routes(scene, frame);
+bool MapStore::provide_still(LightHistory& map) const {
+    StillMap& still = map.still;
+    if (still.texture) return true;
+    if (frame_ < still.retry_frame) return false;
+    gl::TextureDesc desc = map.desc;
+    desc.label += ", still";
+    const bool fits = limit_ == kNoLimit || bytes() + still_bytes(map) <= limit_;
+    if (fits) yield_spare(still_bytes(map));
+    if (fits) still.texture = device_.create_texture(desc, {}).handle;
+    desc.label += " triangles";
+    desc.format = kTriangleFormat;
+    if (still.texture && map.triangles) still.triangles = device_.create_texture(desc, {}).handle;
+    if (still.texture && static_cast<bool>(still.triangles) == static_cast<bool>(map.triangles)) return true;
+    release_still(still);
+    still.retry_frame = frame_ + kRetryFrames;
+    return false;
+}
+
+bool MapStore::is_still_idle(const LightHistory& map) const {
+    return map.still.texture && frame_ - map.still.last_used_frame > kHoldFrames;
+}
+
+void MapStore::release_idle_still() {
+    for (LightHistory& map : lights_)
+        if (is_still_idle(map)) release_still(map.still);
+}
+
+gl::TargetHandle MapStore::whole_target(LightHistory& map) const {
+    if (!map.whole) map.whole = device_.create_target(target_of(map, gl::kAllLayers)).handle;
+    return map.whole;
 }
 
 }  // namespace gnomon::shadow

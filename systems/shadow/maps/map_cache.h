@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -9,7 +10,10 @@
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/budget_decision.h"
+#include "systems/shadow/frame/light_accounts.h"
+#include "systems/shadow/frame/map_assignment.h"
+#include "systems/shadow/frame/shadow_view.h"
 #include "systems/shadow/maps/shown_casters.h"
 #include "systems/shadow/maps/static_copy.h"
 #include "systems/shadow/request/map_textures.h"
@@ -59,13 +63,17 @@ struct LightHistory {
     std::uint64_t kept_frame = 0;  // in which its light last asked for shadows
 };
 
+/// Returns the bytes of one layer of a light's map, with its triangles.
+std::uint64_t layer_bytes(const LightHistory& map);
+
 /// What a store of still casters beside a light's map takes.
 std::uint64_t still_bytes(const LightHistory& map);
 
 /// One layer of a light's map, with its triangles, or gl::kAllLayers.
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer);
 
-/// The maps of all lights: the only state of the shadow system that outlives a frame. Owns the device objects.
+/// The maps of all lights, and what their layers hold: with the fits' History what outlives a frame. Owns the device
+/// objects.
 class MapStore {
 public:
     explicit MapStore(gl::Device& device) : device_(device) {}
@@ -78,8 +86,6 @@ public:
     /// The most that maps may hold from now on, at any time; kNoLimit: anything. Within a limit a map that becomes
     /// larger may go before the new one stands, and what only saves time goes first.
     void set_limit(std::uint64_t bytes) { limit_ = bytes; }
-    /// Whether views may have to wait because a budget has others drawn: what they show is then remembered.
-    void let_take_turns(bool takes_turns) { takes_turns_ = takes_turns; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
     /// Who else holds memory within the limit, and gives it up before any map has to. Outlives this; null: nobody.
     void set_spare(SpareMemory* spare) { spare_ = spare; }
@@ -93,19 +99,25 @@ public:
     /// the end of a map that nobody needs any more, or another try; then the stages have to run.
     bool stay();
 
-    /// Stage 5: gives every view its slot, allocating, keeping and freeing maps; fills frame.slots and sets
-    /// sets[i].skip where a light gets no map. A light without LightShadow, or disabled, or that the budget leaves
-    /// without shadow, loses its map at once; one that nobody sees for kHoldFrames later. A failed allocation is tried
-    /// at half the edge, kHalvings times, then again after kRetryFrames; meanwhile the light is lit.
-    void assign_slots(const SceneSnapshot& scene, ShadowFrame& frame);
-    /// After it: takes the slots of lights whose maps would be drawn anew, and probably in the next frame again, for
-    /// more than rays for all their pixels cost (ShadowDemand::left_to_rays).
-    void leave_to_rays(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
-    /// After that: says how those that are not kept are drawn.
-    void plan_draws(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    /// Stage 5: gives every view its place, allocating, keeping and freeing maps; one entry per view. A light without
+    /// LightShadow, or disabled, or that the budget leaves without shadow, loses its map at once; one that nobody sees
+    /// for kHoldFrames later. A failed allocation is tried at half the edge, kHalvings times, then again after
+    /// kRetryFrames; meanwhile the light is lit, or uses rays alone.
+    void assign(const SceneSnapshot& scene, const FittedViews& fitted, std::span<const BudgetDecision> decisions,
+                std::vector<MapAssignment>& maps, const LightAccounts& accounts);
 
-    /// Remembers what the frame drew. `drawn` false forgets the layers (a failed submission).
-    void commit(const SceneSnapshot& scene, const ShadowFrame& frame, bool drawn);
+    /// Number of frames begun.
+    std::uint64_t frame() const { return frame_; }
+    /// Returns what is remembered of the light, an empty entry if nothing is. Holds until the next assign().
+    LightHistory& entry(ecs::Entity light);
+    /// Makes the copy of static casters beside the light's map. False: there is no room now, in the device or the
+    /// limit. Nobody misses it: all is drawn, as without it.
+    bool provide_still(LightHistory& map) const;
+    /// Frees copies that were not used for kHoldFrames.
+    void release_idle_still();
+    /// Returns the target of all layers at once, {0} where the device refuses.
+    gl::TargetHandle whole_target(LightHistory& map) const;
+    const gl::DeviceInfo& device() const { return device_.info(); }
 
     const LightHistory* find(ecs::Entity light) const;
     /// One per light of the scene: bytes of its map, if that could not be had as it was wanted and it is not yet time
@@ -119,31 +131,19 @@ public:
     static constexpr std::uint32_t kHalvings = 4;      // down to a sixteenth of the edge; below, a shadow says nothing
 
 private:
-    LightHistory& entry(ecs::Entity light);
     void note_places(std::size_t first);
     void release(LightHistory& history);
     bool yield_spare(std::uint64_t bytes_more) const;
     bool make_room(std::uint64_t bytes_more, LightHistory* replaced);
     void keep_or_release(ecs::Entity light, Reason skip);
-    void provide_maps(const SceneSnapshot& scene, ShadowFrame& frame);
-    bool is_others_turn(const ShadowFrame& frame, std::size_t v) const;
-    void note_shown(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v, LightHistory& history) const;
-    Staleness staleness_of(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v,
-                           const LightHistory& history) const;
-    Hold hold_of(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v) const;
-    void hold_views(const SceneSnapshot& scene, ShadowFrame& frame) const;
-    void note_held(const SceneSnapshot& scene, ShadowFrame& frame);
-    void assign_views(const SceneSnapshot& scene, ShadowFrame& frame);
-    bool ensure_map(const LightItem& light, const ShadowDemand& demand, LightHistory& history);
-    void assign_moments(const SceneSnapshot& scene, ShadowFrame& frame);
-    void keep_still_apart(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
-    bool provide_still(LightHistory& map) const;
+    void provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
+                      const LightAccounts& accounts);
+    bool ensure_map(const LightItem& light, const ShadowRequest& request, LightHistory& history);
     void release_still(StillMap& still) const;
     bool is_still_idle(const LightHistory& map) const;
-    void choose_routes(const SceneSnapshot& scene, ShadowFrame& frame);
-    Reason try_create(const gl::TextureDesc& desc, const ShadowDemand& demand, LightHistory& history);
+    Reason try_create(const gl::TextureDesc& desc, const ShadowRequest& request, LightHistory& history);
     bool make_targets(LightHistory& map) const;
-    Reason make_moments(const ShadowDemand& demand, LightHistory& map) const;
+    Reason make_moments(const ShadowRequest& request, LightHistory& map) const;
     Reason make_sheets(LightHistory& map) const;
     void release_sheets(SheetMap& sheets) const;
 
@@ -154,16 +154,9 @@ private:
     SpareMemory* spare_ = nullptr;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
     bool refused_ = false;  // in this frame
-    bool takes_turns_ = false;
 };
 
-/// Everything that decides a view's depth picture, as one number: matrices, size, casters in the order in which they
-/// are drawn, their versions and faces. Never 0. Two different pictures share a number with probability 2^-64.
-struct ContentSignature {
-    std::uint64_t still = 0;  // of its still casters alone
-    std::uint64_t all = 0;
-    std::uint64_t placement = 0;  // without any caster
-};
+/// Computes the hash of what a view's layer is to hold.
 /// `casters`: view.still_casters that stand still, then those that move.
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
                                    std::span<const std::uint32_t> casters, CasterFaces faces);

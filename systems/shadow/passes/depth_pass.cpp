@@ -9,7 +9,6 @@
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/passes/mesh_draw_ranges.h"
-#include "systems/shadow/update/drawn_views.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -27,28 +26,22 @@ gl::PipelineState depth_state(gl::ProgramHandle program) {
 }
 
 /// All that a view draws in this frame.
-std::span<const std::uint32_t> drawn_casters(const ShadowFrame& frame, std::size_t v) {
-    const ShadowView& view = frame.views[v];
-    if (frame.slots[v].still_use == StillUse::copy) return moving_casters(frame, view);
-    return std::span(frame.view_caster_items).subspan(view.casters.first, view.casters.count);
+std::span<const std::uint32_t> drawn_casters(const DrawnViews& drawn, std::size_t v) {
+    const ShadowView& view = drawn.view(v);
+    if (drawn.updates[v].still_use == StillUse::copy) return drawn.fitted.moving_casters_of(view);
+    return drawn.fitted.casters_of(view);
 }
 
-/// A layer of the map into the store of still casters, or back.
-void copy_layer(const ShadowSlot& slot, std::uint32_t layer, bool back, gl::CommandList& list) {
-    const auto copy = [&](gl::TextureHandle map, gl::TextureHandle still) {
-        if (map) list.add(back ? gl::CopyTexture{still, map, layer} : gl::CopyTexture{map, still, layer});
+/// Copies a layer of the map into the store of static casters, or back.
+void copy_layer(const DrawnViews& drawn, std::size_t v, bool back, gl::CommandList& list) {
+    const MapAssignment& map = drawn.maps[v];
+    const UpdatePlan& plan = drawn.updates[v];
+    const std::uint32_t layer = drawn.view(v).layer;
+    const auto copy = [&](gl::TextureHandle from, gl::TextureHandle to) {
+        if (from) list.add(back ? gl::CopyTexture{to, from, layer} : gl::CopyTexture{from, to, layer});
     };
-    copy(slot.texture, slot.still);
-    copy(slot.triangles, slot.still_triangles);
-}
-
-/// For want of a layered program: the maps are the same.
-void draw_separately(ShadowFrame& frame, std::uint32_t demand) {
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (frame.views[v].demand != demand) continue;
-        frame.slots[v].whole = {};
-        frame.slots[v].route = CubeRoute::six_passes;
-    }
+    copy(map.texture, plan.still);
+    copy(map.triangles, plan.still_triangles);
 }
 
 }  // namespace
@@ -69,9 +62,17 @@ std::size_t DepthRecorder::which(const Way& way, bool masked) {
     return coloured + 4 * route + (way.triangles ? 2 : 0) + (masked ? 1 : 0);
 }
 
-DepthRecorder::Way DepthRecorder::way_of(const GpuScene& gpu, const ShadowSlot& slot) {
-    return {slot.route, static_cast<bool>(slot.triangles), static_cast<bool>(slot.second), false,
-            static_cast<bool>(gpu.colours())};
+DepthRecorder::Way DepthRecorder::way_of(const PassInputs& in, std::size_t v) const {
+    const MapAssignment& map = in.drawn.maps[v];
+    const CubeRoute route = is_layered(in, v) ? in.drawn.updates[v].route : CubeRoute::six_passes;
+    return {route, static_cast<bool>(map.triangles), static_cast<bool>(map.sheets.second), false,
+            static_cast<bool>(in.gpu.colours())};
+}
+
+/// Whether the view is drawn with the others of its light in one pass.
+bool DepthRecorder::is_layered(const PassInputs& in, std::size_t v) const {
+    const std::uint32_t light = in.drawn.view(v).light;
+    return in.drawn.updates[v].whole && !std::binary_search(separate_.begin(), separate_.end(), light);
 }
 
 bool DepthRecorder::program(const Way& way, bool masked) {
@@ -103,44 +104,43 @@ bool DepthRecorder::program(const Way& way, bool masked) {
 }
 
 /// What keeps these casters from being drawn: nothing, a program, or that the device has no room for their records.
-Reason DepthRecorder::ready(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way,
-                            std::span<const std::uint32_t> casters) {
+Reason DepthRecorder::ready(const PassInputs& in, const Way& way, std::span<const std::uint32_t> casters) {
     bool masked = false;
     for (const std::uint32_t i : casters) {
-        if (scene.instances[i].gpu_slot >= gpu.capacity()) return Reason::buffer_failed;
-        masked = masked || (!way.sheets && has_masked(gpu, scene.instances[i].mesh));
+        if (in.scene.instances[i].gpu_slot >= in.gpu.capacity()) return Reason::buffer_failed;
+        masked = masked || (!way.sheets && has_masked(in.gpu, in.scene.instances[i].mesh));
     }
     if (way.sheets && !program({way.route, true, true, true}, false)) return Reason::depth_program_failed;
     return program(way, false) && (!masked || program(way, true)) ? Reason::none : Reason::depth_program_failed;
 }
 
-std::size_t DepthRecorder::item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                                      std::size_t v) const {
-    const auto casters = drawn_casters(frame, v);
-    if (!frame.slots[v].triangles) return casters.size();
+std::size_t DepthRecorder::item_count(const PassInputs& in, std::size_t v) const {
+    const auto casters = drawn_casters(in.drawn, v);
+    if (!in.drawn.maps[v].triangles) return casters.size();
     std::size_t items = 0;
     for (const std::uint32_t i : casters)
-        for_each_depth_run(gpu, scene.instances[i].mesh, [&](const DepthRun&) { ++items; });
+        for_each_depth_run(in.gpu, in.scene.instances[i].mesh, [&](const DepthRun&) { ++items; });
     return items;
 }
 
-void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
+void DepthRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
+    separate_.clear();
     std::size_t items = 0, views = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        const LightTime time(frame, frame.demands[view.demand].light);
-        const auto casters = drawn_casters(frame, v);
-        const ShadowSlot& slot = frame.slots[v];
-        if (slot.whole && ready(scene, gpu, way_of(gpu, slot), casters) == Reason::depth_program_failed)
-            draw_separately(frame, view.demand);
-        const Reason reason = ready(scene, gpu, way_of(gpu, slot), casters);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!in.drawn.is_drawn(v)) continue;
+        const std::uint32_t light = in.drawn.view(v).light;
+        const LightTime time(accounts.cpu_us, light);
+        const auto casters = drawn_casters(in.drawn, v);
+        // For want of a layered program: the maps are the same.
+        if (is_layered(in, v) && ready(in, way_of(in, v), casters) == Reason::depth_program_failed)
+            separate_.push_back(light);
+        const Reason reason = ready(in, way_of(in, v), casters);
         if (reason != Reason::none) {
-            drop_light(frame, view.demand, reason);
+            accounts.statuses[light].lose_maps(reason, in.drawn.lights[light].request.rays.used);
             continue;
         }
-        items += item_count(scene, gpu, frame, v);
+        items += item_count(in, v);
         ++views;
     }
     if (views == 0) return;
@@ -148,9 +148,12 @@ void DepthRecorder::prepare(const SceneSnapshot& scene, const GpuScene& gpu, Sha
     // A layered pass has at least two views and takes room for six.
     const std::size_t bytes = views * std::max<std::size_t>(stride, aligned(kFaces * sizeof(DepthViewRecord) / 2,
                                                                             device_.info().uniform_alignment));
-    if (!items_.reserve(std::max<std::size_t>(items, 1) * sizeof(DrawItem)) || !views_.reserve(bytes))
-        for (std::size_t v = 0; v < frame.views.size(); ++v)
-            if (is_drawn(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
+    if (items_.reserve(std::max<std::size_t>(items, 1) * sizeof(DrawItem)) && views_.reserve(bytes)) return;
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        const std::uint32_t light = in.drawn.view(v).light;
+        if (in.drawn.is_drawn(v))
+            accounts.statuses[light].lose_maps(Reason::buffer_failed, in.drawn.lights[light].request.rays.used);
+    }
 }
 
 /// From outside a solid the nearest surface is always a front face: one side of it is enough. From inside, where the
@@ -168,13 +171,13 @@ gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowV
     return state;
 }
 
-/// Draws `count` instances of a mesh. `items_per_draw`: between the items of one draw and those of the next.
-void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque,
-                             std::uint32_t first_item, std::uint32_t count, std::uint32_t items_per_draw,
+/// Draws instances of one mesh.
+void DepthRecorder::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::PipelineState& opaque,
                              gl::CommandList& list, LightReport& report) {
-    for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
+    std::uint32_t first_item = meshes.first_item;
+    for_each_depth_run(gpu, meshes.mesh, [&](const DepthRun& run) {
         const std::uint32_t item = first_item;
-        first_item += items_per_draw;
+        first_item += meshes.items_per_draw;
         if (run.mask && way_.sheets) return;
         if (run.mask) {
             list.add(gl::BindTexture{0, run.mask->texture, run.mask->sampler});
@@ -183,114 +186,115 @@ void DepthRecorder::draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::
         const gl::PipelineState state = run.mask ? depth_state(programs_[which(way_, true)]) : opaque;
         if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
         pipeline_ = state;
-        list.add(gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(mesh).base_vertex, item, count});
+        list.add(
+            gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(meshes.mesh).base_vertex, item, meshes.count});
         ++report.draws;
-        report.triangles += std::uint64_t{run.index_count} / 3 * count;
+        report.triangles += std::uint64_t{run.index_count} / 3 * meshes.count;
     });
 }
 
 /// Opens the pass on cleared faces, or on those of still casters alone. A layered clear would clear every face, so it
 /// is for when every face is drawn.
-void DepthRecorder::begin(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-                          gl::CommandList& list) const {
-    const ShadowSlot& slot = frame.slots[pass.first];
-    const auto size = static_cast<std::int32_t>(slot.size_px);
-    const std::uint32_t light = frame.demands[frame.views[pass.first].demand].light;
-    const std::string layer = pass.layered ? "faces" : std::to_string(frame.views[pass.first].layer);
-    list.add(gl::BeginGroup{{"shadow", scene.lights[light].name, layer}});
-    list.add(gl::BeginTimer{shadow_timer(light)});
+void DepthRecorder::begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const {
+    const UpdatePlan& plan = in.drawn.updates[pass.first];
+    const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
+    const ShadowView& view = in.drawn.view(pass.first);
+    const std::string layer = pass.layered ? "faces" : std::to_string(view.layer);
+    list.add(gl::BeginGroup{{"shadow", in.scene.lights[view.light].name, layer}});
+    list.add(gl::BeginTimer{shadow_timer(view.light)});
     const bool one_clear = !pass.layered || pass.views == kFaces;
     for (std::size_t v = pass.first; v < pass.end && !one_clear; ++v) {
-        if (!is_drawn(frame, v)) continue;
-        list.add(gl::BeginPass{frame.slots[v].target, {0, 0, size, size}, true, 0.0f, false, {}});
+        if (!in.drawn.is_drawn(v)) continue;
+        list.add(gl::BeginPass{in.drawn.maps[v].target, {0, 0, size, size}, true, 0.0f, false, {}});
         list.add(gl::EndPass{});
     }
-    if (slot.still_use == StillUse::copy) copy_layer(slot, frame.views[pass.first].layer, true, list);
-    begin_pass(gpu, frame, pass, one_clear && slot.still_use != StillUse::copy, list);
+    if (plan.still_use == StillUse::copy) copy_layer(in.drawn, pass.first, true, list);
+    begin_pass(in, pass, one_clear && plan.still_use != StillUse::copy, list);
 }
 
-void DepthRecorder::begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
-                               gl::CommandList& list) const {
-    const ShadowSlot& slot = frame.slots[pass.first];
-    begin_pass_into(pass.layered ? slot.whole : slot.target, gpu, frame, pass, clear, list);
+void DepthRecorder::begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const {
+    begin_pass_into(pass.layered ? in.drawn.updates[pass.first].whole : in.drawn.maps[pass.first].target, in, pass,
+                    clear, list);
 }
 
-void DepthRecorder::begin_pass_into(gl::TargetHandle target, const GpuScene& gpu, const ShadowFrame& frame,
-                                    const Pass& pass, bool clear, gl::CommandList& list) const {
-    const auto size = static_cast<std::int32_t>(frame.slots[pass.first].size_px);
+void DepthRecorder::begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
+                                    gl::CommandList& list) const {
+    const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
     list.add(gl::BeginPass{target, {0, 0, size, size}, clear, 0.0f, false, {}});
     const std::size_t records = pass.layered ? kFaces : 1;
     list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
-    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
-    if (gpu.colours()) list.add(gl::BindTexels{kColourUnit, gpu.colours()});
-    list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
+    list.add(gl::BindTexels{kInstanceUnit, in.gpu.instances()});
+    if (in.gpu.colours()) list.add(gl::BindTexels{kColourUnit, in.gpu.colours()});
+    list.add(gl::BindMeshes{in.gpu.vertices(), in.gpu.indices(), items_.handle()});
 }
 
-void DepthRecorder::draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-                         const Way& way, const Group& group, gl::CommandList& list, LightReport& report) {
+void DepthRecorder::draw(const PassInputs& in, const Pass& pass, const Way& way, const Group& group,
+                         gl::CommandList& list, LightReport& report) {
     const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
-    const ShadowView& view = frame.views[pass.first];
+    const ShadowView& view = in.drawn.view(pass.first);
     way_ = way;
     std::uint32_t next_item = group.first_item;
-    const LightItem& light = scene.lights[frame.demands[view.demand].light];
-    const auto state_of = [&](std::uint32_t i) { return opaque_state(gpu, view, light, scene.instances[casters[i]]); };
-    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
+    const LightItem& light = in.scene.lights[view.light];
+    const auto state_of = [&](std::uint32_t i) {
+        return opaque_state(in.gpu, view, light, in.scene.instances[casters[i]]);
+    };
+    for_each_mesh_run(in.scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
         for (std::uint32_t from = first, to = first; from < first + count; from = to) {
             const gl::PipelineState state = state_of(from);
             while (to < first + count && state_of(to) == state) ++to;
-            draw_run(gpu, mesh, state, next_item + from - first, to - from, way_.triangles ? count : 0, list, report);
+            draw_run(in.gpu, {mesh, next_item + from - first, to - from, way_.triangles ? count : 0}, state, list,
+                     report);
         }
         std::uint32_t draws = 1;
         if (way_.triangles) {
             draws = 0;
-            for_each_depth_run(gpu, mesh, [&](const DepthRun&) { ++draws; });
+            for_each_depth_run(in.gpu, mesh, [&](const DepthRun&) { ++draws; });
         }
         next_item += draws * count;
     });
 }
 
 /// The same once more, without what the first map shows.
-void DepthRecorder::peel(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-                         gl::CommandList& list, LightReport& report) {
-    const ShadowSlot& slot = frame.slots[pass.first];
+void DepthRecorder::peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report) {
+    const MapAssignment& map = in.drawn.maps[pass.first];
     pipeline_ = {};
-    begin_pass_into(slot.second_target, gpu, frame, pass, true, list);
-    list.add(gl::BindTexture{0, slot.triangles, {}});
-    const Way way{slot.route, true, true, true};
-    draw(scene, gpu, frame, pass, way, pass.still, list, report);
-    draw(scene, gpu, frame, pass, way, pass.moving, list, report);
+    begin_pass_into(map.sheets.second_target, in, pass, true, list);
+    list.add(gl::BindTexture{0, map.triangles, {}});
+    const Way way{in.drawn.updates[pass.first].route, true, true, true};
+    draw(in, pass, way, pass.still, list, report);
+    draw(in, pass, way, pass.moving, list, report);
     list.add(gl::BindTexture{0, {}, {}});
     list.add(gl::EndPass{});
 }
 
-void DepthRecorder::record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
-                           FrameReport& report) {
-    gather(scene, gpu, frame);
+void DepthRecorder::record(const PassInputs& in, const PassOutputs& out) {
+    gather(in);
     if (passes_.empty()) return;
+    gl::CommandList& list = out.list;
     list.update(items_.handle(), 0, std::span<const DrawItem>(item_scratch_));
     list.update(views_.handle(), 0, std::span<const std::byte>(view_scratch_));
     for (const Pass& pass : passes_) {
-        const std::uint32_t light = frame.demands[frame.views[pass.first].demand].light;
-        const LightTime time(frame, light);
-        LightReport& light_report = report.lights[light];
-        const ShadowSlot& slot = frame.slots[pass.first];
+        const std::uint32_t light = in.drawn.view(pass.first).light;
+        const LightTime time(out.cpu_us, light);
+        LightReport& report = out.report.lights[light];
+        const StillUse still_use = in.drawn.updates[pass.first].still_use;
         pipeline_ = {};
-        begin(scene, gpu, frame, pass, list);
-        const Way way = way_of(gpu, slot);
-        draw(scene, gpu, frame, pass, way, pass.still, list, light_report);
-        if (slot.still_use == StillUse::fill) {
+        begin(in, pass, list);
+        const Way way = way_of(in, pass.first);
+        draw(in, pass, way, pass.still, list, report);
+        if (still_use == StillUse::fill) {
             list.add(gl::EndPass{});
-            copy_layer(slot, frame.views[pass.first].layer, false, list);
-            begin_pass(gpu, frame, pass, false, list);
+            copy_layer(in.drawn, pass.first, false, list);
+            begin_pass(in, pass, false, list);
         }
-        draw(scene, gpu, frame, pass, way, pass.moving, list, light_report);
+        draw(in, pass, way, pass.moving, list, report);
         list.add(gl::EndPass{});
-        if (way.sheets) peel(scene, gpu, frame, pass, list, light_report);
+        if (way.sheets) peel(in, pass, list, report);
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
-        if (slot.still_use != StillUse::copy) light_report.clears += pass.views;
-        light_report.views_drawn += pass.views;
+        if (still_use != StillUse::copy) report.clears += pass.views;
+        report.views_drawn += pass.views;
     }
 }
 

@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "engine/gl/device.h"
-#include "systems/extract/gpu_scene.h"
-#include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/retry.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/light_accounts.h"
+#include "systems/shadow/frame/pass_inputs.h"
 
 namespace gnomon::shadow {
 
@@ -20,14 +19,13 @@ public:
     DepthRecorder(const DepthRecorder&) = delete;
     DepthRecorder& operator=(const DepthRecorder&) = delete;
 
-    /// Makes programs and buffers for the views that are not reused; a view that cannot be drawn loses its slot,
-    /// its light's sets[i].skip says why. Call before record().
-    void prepare(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame);
+    /// Makes programs and buffers for the views that are drawn. A light whose views cannot be drawn loses its maps.
+    /// Call before record().
+    void prepare(const PassInputs& in, const LightAccounts& accounts);
 
-    /// Stage 7, first half: one pass per view that is not reused, in order, or one for all such views of a light whose
-    /// slots name a whole map; counts go to the report, times to frame.cpu_us.
-    void record(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame, gl::CommandList& list,
-                FrameReport& report);
+    /// Stage 7, first half: records one pass per view that is drawn, in order, or one for all such views of a light
+    /// whose plans name a whole map.
+    void record(const PassInputs& in, const PassOutputs& out);
 
 private:
     struct DrawItem {
@@ -54,33 +52,39 @@ private:
         std::uint32_t views = 0, uniform_offset = 0;
         Group still, moving;
     };
+    /// Instances of one mesh that are drawn alike.
+    struct MeshRun {
+        std::uint32_t mesh, first_item, count;
+        std::uint32_t items_per_draw;  // between the items of one draw and those of the next
+    };
     static std::size_t which(const Way& way, bool masked);
-    static Way way_of(const GpuScene& gpu, const ShadowSlot& slot);
+    Way way_of(const PassInputs& in, std::size_t v) const;
+    bool is_layered(const PassInputs& in, std::size_t v) const;
     bool program(const Way& way, bool masked);
-    Reason ready(const SceneSnapshot& scene, const GpuScene& gpu, const Way& way,
-                 std::span<const std::uint32_t> casters);
-    std::size_t item_count(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame,
-                           std::size_t view) const;
-    void gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame);
-    void append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group);
-    void gather_uniforms(const ShadowFrame& frame, Pass& pass);
+    Reason ready(const PassInputs& in, const Way& way, std::span<const std::uint32_t> casters);
+    std::size_t item_count(const PassInputs& in, std::size_t v) const;
+    void gather(const PassInputs& in);
+    void append_items(const PassInputs& in, bool triangles, Group& group);
+    void gather_uniforms(const DrawnViews& drawn, Pass& pass);
     Group gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters);
-    Group gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame, const Pass& pass, bool moving);
+    Group gather_layers(const PassInputs& in, const Pass& pass, bool moving);
     void append_uniforms(const ShadowView& view, std::size_t at);
-    void begin(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-               gl::CommandList& list) const;
-    void begin_pass(const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass, bool clear,
-                    gl::CommandList& list) const;
-    void begin_pass_into(gl::TargetHandle target, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-                         bool clear, gl::CommandList& list) const;
-    void draw(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-              const Way& way, const Group& group, gl::CommandList& list, LightReport& report);
-    void peel(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, const Pass& pass,
-              gl::CommandList& list, LightReport& report);
+    void begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const;
+    void begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const;
+    void begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
+                         gl::CommandList& list) const;
+    void draw(const PassInputs& in, const Pass& pass, const Way& way, const Group& group, gl::CommandList& list,
+              LightReport& report);
+    void peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report);
     gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                    const InstanceItem& item) const;
-    void draw_run(const GpuScene& gpu, std::uint32_t mesh, const gl::PipelineState& opaque, std::uint32_t first_item,
-                  std::uint32_t count, std::uint32_t items_per_draw, gl::CommandList& list, LightReport& report);
+    void draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::PipelineState& opaque, gl::CommandList& list,
+                  LightReport& report);
+
+    /// Room for the uniforms of all faces of a cube, by face.
+    static constexpr std::size_t kFaces = 6;
+    /// Bits of DrawItem::place for the layer.
+    static constexpr std::uint32_t kLayerBits = 3;
 
     gl::Device& device_;
     /// Three ways to choose the layer, opaque and masked, depth alone or triangles, too; what peels; and masked ones
@@ -90,6 +94,7 @@ private:
     Retry retries_[kPrograms];
     std::uint64_t frame_ = 0;
     GrowingBuffer items_, views_;
+    std::vector<std::uint32_t> separate_;  // lights without a layered program, by rising index
     std::vector<Pass> passes_;
     std::vector<std::uint32_t> caster_scratch_;  // indices into the scene's instances, one per item
     std::vector<DrawItem> item_scratch_;

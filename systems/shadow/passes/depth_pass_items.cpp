@@ -5,7 +5,6 @@
 #include "systems/extract/instance_order.h"
 #include "systems/shadow/passes/depth_pass.h"
 #include "systems/shadow/passes/mesh_draw_ranges.h"
-#include "systems/shadow/update/drawn_views.h"
 
 /// The half of the depth passes that says what each of them draws.
 namespace gnomon::shadow {
@@ -21,7 +20,7 @@ bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) 
 }  // namespace
 
 void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
-    const math::TwoFloat3 anchor = math::split(view.anchor_ws_m);
+    const math::TwoFloat3 anchor = math::split(view.pose.anchor_ws_m);
     const DepthViewRecord record{view.clip_from_anchor, glm::vec4(anchor.high, 0.0f),
                                  glm::vec4(anchor.low, static_cast<float>(view.layer))};
     std::memcpy(view_scratch_.data() + at, &record, sizeof record);
@@ -40,17 +39,17 @@ DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std:
 }
 
 /// Of one group the casters of all views, by mesh: one draw per mesh draws it into every face.
-DepthRecorder::Group DepthRecorder::gather_layers(const SceneSnapshot& scene, const ShadowFrame& frame,
-                                                  const Pass& pass, bool moving) {
+DepthRecorder::Group DepthRecorder::gather_layers(const PassInputs& in, const Pass& pass, bool moving) {
     pair_scratch_.clear();
     for (std::size_t v = pass.first; v < pass.end; ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        for (const std::uint32_t i : moving ? moving_casters(frame, view) : still_casters(frame, view))
+        if (!in.drawn.is_drawn(v)) continue;
+        const ShadowView& view = in.drawn.view(v);
+        const FittedViews& fitted = in.drawn.fitted;
+        for (const std::uint32_t i : moving ? fitted.moving_casters_of(view) : fitted.still_casters_of(view))
             pair_scratch_.emplace_back(i, view.layer);
     }
     std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
-        return a.first != b.first ? drawn_before(scene, a.first, b.first) : a.second < b.second;
+        return a.first != b.first ? drawn_before(in.scene, a.first, b.first) : a.second < b.second;
     });
     const IndexRange range{static_cast<std::uint32_t>(caster_scratch_.size()),
                            static_cast<std::uint32_t>(pair_scratch_.size())};
@@ -62,26 +61,26 @@ DepthRecorder::Group DepthRecorder::gather_layers(const SceneSnapshot& scene, co
 }
 
 /// The items of a group whose casters are known, in the order in which draw() takes them.
-void DepthRecorder::append_items(const SceneSnapshot& scene, const GpuScene& gpu, bool triangles, Group& group) {
+void DepthRecorder::append_items(const PassInputs& in, bool triangles, Group& group) {
     group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
     const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
     const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
-        item_scratch_.push_back({scene.instances[casters[i]].gpu_slot,
+        item_scratch_.push_back({in.scene.instances[casters[i]].gpu_slot,
                                  layer_scratch_[group.casters.first + i] | first_triangle << kLayerBits});
     };
     if (!triangles) {
         for (std::uint32_t i = 0; i < casters.size(); ++i) append(i, 0);
         return;
     }
-    for_each_mesh_run(scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
-        for_each_depth_run(gpu, mesh, [&](const DepthRun& run) {
+    for_each_mesh_run(in.scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
+        for_each_depth_run(in.gpu, mesh, [&](const DepthRun& run) {
             for (std::uint32_t i = first; i < first + count; ++i) append(i, run.first_index / 3);
         });
     });
 }
 
 /// The matrices of a pass's views: of a layered one by face.
-void DepthRecorder::gather_uniforms(const ShadowFrame& frame, Pass& pass) {
+void DepthRecorder::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
     const std::size_t at = view_scratch_.size();
     pass.uniform_offset = static_cast<std::uint32_t>(at);
     const std::size_t records = pass.layered ? kFaces : 1;
@@ -89,36 +88,38 @@ void DepthRecorder::gather_uniforms(const ShadowFrame& frame, Pass& pass) {
         at + aligned(static_cast<std::uint32_t>(records * sizeof(DepthViewRecord)), device_.info().uniform_alignment));
     pass.views = 0;
     for (std::size_t v = pass.first; v < pass.end; ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
+        if (!drawn.is_drawn(v)) continue;
+        const ShadowView& view = drawn.view(v);
         append_uniforms(view, at + (pass.layered ? view.layer * sizeof(DepthViewRecord) : 0));
         ++pass.views;
     }
 }
 
 /// What this frame draws, pass by pass.
-void DepthRecorder::gather(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame) {
+void DepthRecorder::gather(const PassInputs& in) {
     passes_.clear();
     layer_scratch_.clear();
     caster_scratch_.clear();
     item_scratch_.clear();
     view_scratch_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_drawn(frame, v)) continue;
-        const ShadowSlot& slot = frame.slots[v];
-        Pass pass{v, v + 1, static_cast<bool>(slot.whole), 1, 0, {}, {}};
-        while (pass.layered && pass.end < frame.views.size() && frame.views[pass.end].demand == frame.views[v].demand)
-            ++pass.end;
-        gather_uniforms(frame, pass);
+    const FittedViews& fitted = in.drawn.fitted;
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!in.drawn.is_drawn(v)) continue;
+        const ShadowView& view = in.drawn.view(v);
+        Pass pass{v, v + 1, is_layered(in, v), 1, 0, {}, {}};
+        if (pass.layered) pass.end = fitted.lights[view.light].views.end();
+        gather_uniforms(in.drawn, pass);
         if (pass.layered) {
-            pass.still = gather_layers(scene, frame, pass, false);
-            pass.moving = gather_layers(scene, frame, pass, true);
+            pass.still = gather_layers(in, pass, false);
+            pass.moving = gather_layers(in, pass, true);
         } else {
-            if (slot.still_use != StillUse::copy) pass.still = gather_view(scene, still_casters(frame, frame.views[v]));
-            pass.moving = gather_view(scene, moving_casters(frame, frame.views[v]));
+            if (in.drawn.updates[v].still_use != StillUse::copy)
+                pass.still = gather_view(in.scene, fitted.still_casters_of(view));
+            pass.moving = gather_view(in.scene, fitted.moving_casters_of(view));
         }
-        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.still);
-        append_items(scene, gpu, static_cast<bool>(slot.triangles), pass.moving);
+        const bool triangles = static_cast<bool>(in.drawn.maps[v].triangles);
+        append_items(in, triangles, pass.still);
+        append_items(in, triangles, pass.moving);
         passes_.push_back(pass);
         v = pass.end - 1;
     }

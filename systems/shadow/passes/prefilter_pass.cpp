@@ -22,15 +22,16 @@ constexpr double kCubeCorner = 1.7320508075688772;
 
 bool is_cube(const ShadowView& view) { return view.projection == ViewProjection::cube_face; }
 
-bool is_converted(const ShadowFrame& frame, std::size_t view) {
-    return frame.slots[view].moment_target && frame.slots[view].convert;
+bool is_converted(const DrawnViews& drawn, std::size_t v) {
+    return drawn.updates[v].convert && drawn.has_prefiltered(v);
 }
 
-/// A bit per face that has a view of this demand.
-std::int32_t faces_of(const ShadowFrame& frame, std::uint32_t demand) {
+/// A bit per face of the light's cube that has a view with a map.
+std::int32_t faces_of(const DrawnViews& drawn, std::uint32_t light) {
+    const IndexRange range = drawn.fitted.lights[light].views;
     std::int32_t faces = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (frame.views[v].demand == demand && frame.slots[v].texture) faces |= 1 << frame.views[v].layer;
+    for (std::size_t v = range.first; v < range.end(); ++v)
+        if (drawn.has_map(v)) faces |= 1 << drawn.view(v).layer;
     return faces;
 }
 
@@ -46,21 +47,21 @@ void draw_whole(gl::TargetHandle target, std::uint32_t width, std::uint32_t heig
 
 }  // namespace
 
-MomentRecord moment_record(const ShadowDemand& demand, const ShadowView& view, std::int32_t faces) {
+MomentRecord moment_record(const MapSettings& map, const ShadowView& view, std::int32_t faces) {
     MomentRecord record;
-    record.settings = demand.moments.settings;
-    const double farthest_m = view.far_m * (is_cube(view) ? kCubeCorner : 1.0);
-    record.range = {static_cast<float>(view.depth_alpha), static_cast<float>(view.depth_beta),
-                    static_cast<float>(view.near_m), static_cast<float>(1.0 / (farthest_m - view.near_m))};
-    record.place = {static_cast<std::int32_t>(view.layer), static_cast<std::int32_t>(demand.filtering.size / 2),
-                    static_cast<std::int32_t>(scratch_rows(demand, is_cube(view))), faces};
+    record.settings = map.moments.settings;
+    const double farthest_m = view.depth.far_m * (is_cube(view) ? kCubeCorner : 1.0);
+    record.range = {static_cast<float>(view.depth.alpha), static_cast<float>(view.depth.beta),
+                    static_cast<float>(view.depth.near_m), static_cast<float>(1.0 / (farthest_m - view.depth.near_m))};
+    record.place = {static_cast<std::int32_t>(view.layer), static_cast<std::int32_t>(map.filtering.size / 2),
+                    static_cast<std::int32_t>(scratch_rows(map, is_cube(view))), faces};
     if (is_cube(view)) {
         const CubeFace& face = cube_face(view.layer);
         record.axis_u = glm::vec4(glm::vec3(face.axis_u), 0.0f);
         record.axis_v = glm::vec4(glm::vec3(face.axis_v), 0.0f);
         record.axis_back = glm::vec4(glm::vec3(face.axis_back), 0.0f);
     }
-    const auto weights = blur_weights(demand.filtering.size);
+    const auto weights = blur_weights(map.filtering.size);
     static_assert(sizeof record.weights == sizeof weights);
     std::memcpy(record.weights, weights.data(), sizeof weights);
     return record;
@@ -99,71 +100,72 @@ gl::ProgramHandle MomentRecorder::program(std::string_view filter_file, Source s
     return found->program;
 }
 
-bool MomentRecorder::ready(const ShadowFrame& frame, std::size_t v) {
-    const ShadowDemand& demand = frame.demands[frame.views[v].demand];
-    return program(filter_row(demand.filter).file, source_of(frame.views[v])) &&
-           (!frame.slots[v].scratch || program({}, Source::scratch));
+bool MomentRecorder::ready(const DrawnViews& drawn, std::size_t v) {
+    return program(filter_row(drawn.request_of(v).map.filter).file, source_of(drawn.view(v))) &&
+           (!drawn.maps[v].prefiltered.scratch || program({}, Source::scratch));
 }
 
-void MomentRecorder::prepare(ShadowFrame& frame) {
+void MomentRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     std::size_t count = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_converted(frame, v)) continue;
-        const LightTime time(frame, frame.demands[frame.views[v].demand].light);
-        if (ready(frame, v))
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!is_converted(in.drawn, v)) continue;
+        const std::uint32_t light = in.drawn.view(v).light;
+        const LightTime time(accounts.cpu_us, light);
+        if (ready(in.drawn, v))
             ++count;
         else
-            drop_moments(frame, frame.views[v].demand);
+            accounts.statuses[light].lose_prefiltered(Reason::filter_program_failed);
     }
     if (count == 0 || records_.reserve(count * aligned(sizeof(MomentRecord), device_.info().uniform_alignment))) return;
-    for (std::size_t v = 0; v < frame.views.size(); ++v)
-        if (is_converted(frame, v)) drop_light(frame, frame.views[v].demand, Reason::buffer_failed);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v)
+        if (is_converted(in.drawn, v))
+            accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::buffer_failed, false);
 }
 
-void MomentRecorder::record_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v,
-                                 std::uint32_t offset, gl::CommandList& list) {
-    const ShadowView& view = frame.views[v];
-    const ShadowDemand& demand = frame.demands[view.demand];
-    const ShadowSlot& slot = frame.slots[v];
-    list.add(gl::BeginGroup{{"moments", scene.lights[demand.light].name, std::to_string(view.layer)}});
-    list.add(gl::BeginTimer{shadow_timer(demand.light)});
+void MomentRecorder::record_view(const PassInputs& in, std::size_t v, std::uint32_t offset, gl::CommandList& list) {
+    const ShadowView& view = in.drawn.view(v);
+    const MapAssignment& map = in.drawn.maps[v];
+    const MapSettings& settings = in.drawn.request_of(v).map;
+    list.add(gl::BeginGroup{{"moments", in.scene.lights[view.light].name, std::to_string(view.layer)}});
+    list.add(gl::BeginTimer{shadow_timer(view.light)});
     list.add(gl::BindUniforms{0, records_.handle(), offset, sizeof(MomentRecord)});
-    const gl::ProgramHandle first = program(filter_row(demand.filter).file, source_of(view));
-    if (slot.scratch) {
-        const std::uint32_t rows = slot.size_px + 2 * scratch_rows(demand, is_cube(view));
-        draw_whole(slot.scratch_target, slot.size_px, rows, first, slot.texture, list);
-        draw_whole(slot.moment_target, slot.size_px, slot.size_px, program({}, Source::scratch), slot.scratch, list);
+    const gl::ProgramHandle first = program(filter_row(settings.filter).file, source_of(view));
+    const PrefilteredMaps& made = map.prefiltered;
+    if (made.scratch) {
+        const std::uint32_t rows = map.size_px + 2 * scratch_rows(settings, is_cube(view));
+        draw_whole(made.scratch_target, map.size_px, rows, first, map.texture, list);
+        draw_whole(made.target, map.size_px, map.size_px, program({}, Source::scratch), made.scratch, list);
     } else {
-        draw_whole(slot.moment_target, slot.size_px, slot.size_px, first, slot.texture, list);
+        draw_whole(made.target, map.size_px, map.size_px, first, map.texture, list);
     }
     bool last = true;
-    for (std::size_t next = v + 1; next < frame.views.size(); ++next)
-        last = last && !(frame.views[next].demand == view.demand && is_converted(frame, next));
-    if (last && demand.moments.levels > 1) list.add(gl::GenerateMips{slot.moments});
-    list.add(gl::EndTimer{shadow_timer(demand.light)});
+    for (std::size_t next = v + 1; next < in.drawn.fitted.lights[view.light].views.end(); ++next)
+        last = last && !is_converted(in.drawn, next);
+    if (last && settings.moments.levels > 1) list.add(gl::GenerateMips{made.moments});
+    list.add(gl::EndTimer{shadow_timer(view.light)});
     list.add(gl::EndGroup{});
 }
 
-void MomentRecorder::record(const SceneSnapshot& scene, ShadowFrame& frame, gl::CommandList& list) {
+void MomentRecorder::record(const PassInputs& in, const PassOutputs& out) {
     const std::uint32_t stride = aligned(sizeof(MomentRecord), device_.info().uniform_alignment);
     record_scratch_.clear();
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_converted(frame, v)) continue;
-        const ShadowView& view = frame.views[v];
-        const MomentRecord record =
-            moment_record(frame.demands[view.demand], view, is_cube(view) ? faces_of(frame, view.demand) : 0);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!is_converted(in.drawn, v)) continue;
+        const ShadowView& view = in.drawn.view(v);
+        const std::int32_t faces = is_cube(view) ? faces_of(in.drawn, view.light) : 0;
+        const MomentRecord record = moment_record(in.drawn.request_of(v).map, view, faces);
         const std::size_t at = record_scratch_.size();
         record_scratch_.resize(at + stride);
         std::memcpy(record_scratch_.data() + at, &record, sizeof record);
     }
     if (record_scratch_.empty()) return;
-    list.update(records_.handle(), 0, std::span<const std::byte>(record_scratch_));
+    out.list.update(records_.handle(), 0, std::span<const std::byte>(record_scratch_));
     std::uint32_t offset = 0;
-    for (std::size_t v = 0; v < frame.views.size(); ++v) {
-        if (!is_converted(frame, v)) continue;
-        const LightTime time(frame, frame.demands[frame.views[v].demand].light);
-        record_view(scene, frame, v, offset, list);
+    for (std::size_t v = 0; v < in.drawn.count(); ++v) {
+        if (!is_converted(in.drawn, v)) continue;
+        const LightTime time(out.cpu_us, in.drawn.view(v).light);
+        record_view(in, v, offset, out.list);
         offset += stride;
     }
 }

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "engine/gl/device.h"
-#include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
 #include "systems/retry.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/light_accounts.h"
+#include "systems/shadow/frame/pass_inputs.h"
 #include "systems/shadow/request/prefilter_settings.h"
 
 namespace gnomon::shadow {
@@ -23,8 +23,8 @@ struct MomentRecord {
 };
 static_assert(sizeof(MomentRecord) == std::size_t{6} * 16 + kMomentWeights * 4);
 
-/// How a view of the given demand is made. `layer`: of its map; `faces`: a bit per face of a cube that is drawn.
-MomentRecord moment_record(const ShadowDemand& demand, const ShadowView& view, std::int32_t faces);
+/// Describes how a view of a map with these settings is made. `faces`: a bit per face of a cube that is drawn.
+MomentRecord moment_record(const MapSettings& map, const ShadowView& view, std::int32_t faces);
 
 /// Makes prefiltered maps of depth maps: two passes per view, one if nothing is blurred; mipmaps if asked for. Programs
 /// are made when first called for.
@@ -35,13 +35,12 @@ public:
     MomentRecorder(const MomentRecorder&) = delete;
     MomentRecorder& operator=(const MomentRecorder&) = delete;
 
-    /// Makes programs and buffers for the slots that say `convert`. A light that cannot have the programs loses its
-    /// moments, one that cannot have the buffer its slots; its demand's note or sets[i].skip says why. Call before
-    /// record().
-    void prepare(ShadowFrame& frame);
+    /// Makes programs and buffers for the prefiltered maps that are made anew. A light that cannot have the programs
+    /// loses these maps, one that cannot have the buffer all of its maps. Call before record().
+    void prepare(const PassInputs& in, const LightAccounts& accounts);
 
-    /// The passes, to follow those that draw the depths.
-    void record(const SceneSnapshot& scene, ShadowFrame& frame, gl::CommandList& list);
+    /// Records the passes, after those that draw the depths.
+    void record(const PassInputs& in, const PassOutputs& out);
 
     /// What a pass reads: a depth map of this projection, or what the first pass left.
     enum class Source : std::uint8_t { orthographic, perspective, cube, scratch };
@@ -56,9 +55,8 @@ private:
         Retry retry;
     };
     static Source source_of(const ShadowView& view);
-    bool ready(const ShadowFrame& frame, std::size_t view);
-    void record_view(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t view, std::uint32_t offset,
-                     gl::CommandList& list);
+    bool ready(const DrawnViews& drawn, std::size_t view);
+    void record_view(const PassInputs& in, std::size_t view, std::uint32_t offset, gl::CommandList& list);
 
     gl::Device& device_;
     GrowingBuffer records_;

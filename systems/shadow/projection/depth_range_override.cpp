@@ -11,19 +11,19 @@ bool is_range(const LightShadow& shadow) {
     return shadow.near_m == 0.0f || shadow.far_m == 0.0f || shadow.near_m < shadow.far_m;
 }
 
-void override_range(const ShadowDemand& demand, double& near_m, double& far_m) {
-    if (demand.near_m > 0.0) near_m = demand.near_m;
-    if (demand.far_m > 0.0) far_m = demand.far_m;
+void override_range(const ProjectionRequest& projection, double& near_m, double& far_m) {
+    if (projection.near_m > 0.0) near_m = projection.near_m;
+    if (projection.far_m > 0.0) far_m = projection.far_m;
     if (near_m < far_m) return;
-    if (demand.far_m > 0.0)
-        near_m = 0.5 * demand.far_m;
-    else if (demand.near_m > 0.0)
-        far_m = 2.0 * demand.near_m;
+    if (projection.far_m > 0.0)
+        near_m = 0.5 * projection.far_m;
+    else if (projection.near_m > 0.0)
+        far_m = 2.0 * projection.near_m;
 }
 
-PerspectiveRange overridden(const ShadowDemand& demand, PerspectiveRange fitted) {
+PerspectiveRange overridden(const ProjectionRequest& projection, PerspectiveRange fitted) {
     if (!(fitted.near_m < fitted.far_m)) return fitted;
-    override_range(demand, fitted.near_m, fitted.far_m);
+    override_range(projection, fitted.near_m, fitted.far_m);
     fitted.near_m = std::max(fitted.near_m, fitted.far_m * kLeastNear);
     return fitted;
 }

@@ -1,6 +1,6 @@
 #pragma once
 #include "components/light_shadow.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/projection/perspective_range.h"
 
 /// LightShadow::near_m and far_m against the fitted depth range. Distances are from the light, or from a sun's eye.
@@ -9,11 +9,11 @@ namespace gnomon::shadow {
 /// Whether they can be obeyed: each 0 (fitted) or positive and finite, near before far where both are given.
 bool is_range(const LightShadow& shadow);
 
-/// Puts the ends that the demand asks for in the place of fitted ones. A fitted end that a given one has passed moves
+/// Puts the ends that the request asks for in the place of fitted ones. A fitted end that a given one has passed moves
 /// out of its way, to half or twice the given distance. Afterwards near_m < far_m if that held before.
-void override_range(const ShadowDemand& demand, double& near_m, double& far_m);
+void override_range(const ProjectionRequest& projection, double& near_m, double& far_m);
 
 /// The same for a perspective view; its near never falls below far * kLeastNear. A range without a volume stays one.
-PerspectiveRange overridden(const ShadowDemand& demand, PerspectiveRange fitted);
+PerspectiveRange overridden(const ProjectionRequest& projection, PerspectiveRange fitted);
 
 }  // namespace gnomon::shadow

@@ -48,17 +48,17 @@ void add_spot(const LightItem& light, int faces_eighths, LightOpenings& openings
 
 }  // namespace
 
-LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand) {
+LightOpenings light_openings(const LightItem& light, const ShadowRequest& request) {
     LightOpenings openings;
-    if (demand.aim.used) {
-        openings.items[openings.count++] = aimed_opening(light, demand.aim);
+    if (request.projection.aim.used) {
+        openings.items[openings.count++] = aimed_opening(light, request.projection.aim);
         return openings;
     }
-    if (light.kind == LightKind::spot) add_spot(light, demand.faces_eighths, openings);
+    if (light.kind == LightKind::spot) add_spot(light, request.projection.faces_eighths, openings);
     if (light.kind == LightKind::point) {
         // A receiver in one face may be filtered with texels of the next.
-        const auto reach_texel = static_cast<double>(demand.filtering.border_texel);
-        const TangentRectangle wide = with_border({}, demand.resolution_px, reach_texel);
+        const auto reach_texel = static_cast<double>(request.map.filtering.border_texel);
+        const TangentRectangle wide = with_border({}, request.map.resolution_px, reach_texel);
         const glm::dmat3 turn = glm::mat3_cast(cube_turn());
         for (std::uint32_t face = 0; face < 6; ++face)
             openings.items[openings.count++] = {turn * axes_of(cube_face(face)), wide.low, wide.high, face, face};

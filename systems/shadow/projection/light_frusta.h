@@ -6,7 +6,7 @@
 #include <span>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 
 /// Through which openings a local light looks at the scene: receivers are sought, and views fitted, one for each.
 namespace gnomon::shadow {
@@ -30,6 +30,6 @@ struct LightOpenings {
 /// or a cube's five faces in its own axes, limited to what the cone can light, or these and then that
 /// (spot_cube_transition.h). A single opening holds no more than kWidestMap_rad to each side. A lamp that is aimed has
 /// one (far_lamp_aim.h), a sun none.
-LightOpenings light_openings(const LightItem& light, const ShadowDemand& demand);
+LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
 
 }  // namespace gnomon::shadow

@@ -3,7 +3,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 namespace gnomon::shadow {
 

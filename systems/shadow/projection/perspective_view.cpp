@@ -23,20 +23,20 @@ ShadowView anchored_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation
                          const PerspectiveRange& range, double size_px, double anchored_m) {
     ShadowView view;
     view.projection = ViewProjection::perspective;
-    view.anchor_ws_m = apex_ws_m - rotation_ws[2] * anchored_m;
-    view.apex_m = anchored_m;
-    view.axis_u = rotation_ws[0];
-    view.axis_v = rotation_ws[1];
-    view.axis_back = rotation_ws[2];
-    view.near_m = range.near_m;
-    view.far_m = range.far_m;
-    view.tan_low = rectangle.low;
-    view.tan_high = rectangle.high;
+    view.pose.anchor_ws_m = apex_ws_m - rotation_ws[2] * anchored_m;
+    view.pose.apex_m = anchored_m;
+    view.pose.axis_u = rotation_ws[0];
+    view.pose.axis_v = rotation_ws[1];
+    view.pose.axis_back = rotation_ws[2];
+    view.depth.near_m = range.near_m;
+    view.depth.far_m = range.far_m;
+    view.plane.tan_low = rectangle.low;
+    view.plane.tan_high = rectangle.high;
     const glm::dvec2 texel = (rectangle.high - rectangle.low) / size_px;
-    view.texel_u = texel.x;
-    view.texel_v = texel.y;
-    view.depth_alpha = -range.near_m / (range.far_m - range.near_m);
-    view.depth_beta = range.near_m * range.far_m / (range.far_m - range.near_m);
+    view.plane.texel_u = texel.x;
+    view.plane.texel_v = texel.y;
+    view.depth.alpha = -range.near_m / (range.far_m - range.near_m);
+    view.depth.beta = range.near_m * range.far_m / (range.far_m - range.near_m);
 
     glm::dmat4 view_from_anchor(glm::transpose(rotation_ws));
     view_from_anchor[3].z = -anchored_m;

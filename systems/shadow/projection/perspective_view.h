@@ -2,7 +2,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 #include "systems/shadow/projection/perspective_range.h"
 
 namespace gnomon::shadow {

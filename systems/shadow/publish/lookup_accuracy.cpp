@@ -8,37 +8,45 @@
 namespace gnomon::shadow {
 namespace {
 
-/// What the fit predicts, which it does for the demand's own filter.
-double planned_error_px(const ShadowView& view, const ShadowDemand& demand, ShadowFilter filter) {
-    if (filter == demand.filter || !(view.predicted_error_px > 0.0)) return view.predicted_error_px;
+/// What the fit predicts, which it does for the request's own filter.
+double planned_error_px(const ShadowView& view, ShadowFilter own, ShadowFilter filter) {
+    if (filter == own || !(view.error.edge_px > 0.0)) return view.error.edge_px;
     const FilterRow& row = filter_row(filter);
-    return edge_error_px(view.texel_extent_px, static_cast<double>(row.reach_texel - row.still_texel));
+    return edge_error_px(view.error.extent_px, static_cast<double>(row.reach_texel - row.still_texel));
 }
 
 /// The same in a map of fewer texels than planned, of casters as they were when it was drawn.
-double shown_error_px(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot, ShadowFilter filter) {
-    const double planned_px = planned_error_px(view, demand, filter);
-    const double texels = static_cast<double>(demand.resolution_px) / slot.size_px;
+double shown_error_px(const DrawnViews& drawn, std::size_t v, ShadowFilter filter) {
+    const MapSettings& map = drawn.request_of(v).map;
+    const double planned_px = planned_error_px(drawn.view(v), map.filter, filter);
+    const double texels = static_cast<double>(map.resolution_px) / drawn.maps[v].size_px;
     const double own_px = edge_error_px(0.0, 0.0);  // the picture's
     const double drawn_px = texels > 1.0 ? (planned_px - own_px) * texels + own_px : planned_px;
-    return drawn_px + slot.stale.error_px;
+    return drawn_px + drawn.updates[v].stale.error_px;
 }
 
 }  // namespace
 
-ShadowFilter published_filter(const ShadowDemand& demand, const ShadowSlot& slot, bool rays) {
-    if (demand.asks_rays && rays) return demand.filter;
-    if (!slot.texture) return ShadowFilter::automatic;
-    const bool prefiltered = filter_row(demand.filter).storage == FilterStorage::moments;
-    return demand.asks_rays || (prefiltered && !slot.moments) ? kPlainFilter : demand.filter;
+ShadowFilter map_filter(const DrawnViews& drawn, std::size_t v) {
+    if (!drawn.has_map(v)) return ShadowFilter::automatic;
+    const ShadowRequest& request = drawn.request_of(v);
+    const bool prefiltered = filter_row(request.map.filter).storage == FilterStorage::moments;
+    return request.rays.used || (prefiltered && !drawn.has_prefiltered(v)) ? kPlainFilter : request.map.filter;
 }
 
-void add_view(const LightItem& light, const ShadowDemand& demand, const ShadowView& view, const ShadowSlot& slot,
-              LookupAccuracy& accuracy) {
-    if (!slot.texture || view.lit) return;
-    accuracy.predicted_error_px =
-        std::max(accuracy.predicted_error_px, shown_error_px(view, demand, slot, accuracy.filter));
-    accuracy.keeps_max_error = slot.size_px >= map_edge_px(demand) && demand.refresh_frames == 1 &&
+ShadowFilter published_filter(const DrawnViews& drawn, std::uint32_t light, bool rays) {
+    const ShadowRequest& request = drawn.lights[light].request;
+    if (request.rays.used && rays) return request.map.filter;
+    const IndexRange views = drawn.fitted.lights[light].views;
+    return views.count > 0 ? map_filter(drawn, views.first) : ShadowFilter::automatic;
+}
+
+void add_view(const LightItem& light, const DrawnViews& drawn, std::size_t v, LookupAccuracy& accuracy) {
+    if (!drawn.has_map(v) || drawn.view(v).lit) return;
+    const BudgetDecision& decision = drawn.lights[drawn.view(v).light];
+    accuracy.predicted_error_px = std::max(accuracy.predicted_error_px, shown_error_px(drawn, v, accuracy.filter));
+    accuracy.keeps_max_error = drawn.maps[v].size_px >= map_edge_px(decision.request.map) &&
+                               decision.refresh_frames == 1 &&
                                keeps_contract(accuracy.predicted_error_px, wished_error_px(light.shadow));
 }
 

@@ -7,6 +7,7 @@
 
 #include "engine/math/projection.h"
 #include "systems/extract/volumes.h"
+#include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/frame/depth_format.h"
@@ -37,9 +38,10 @@ constexpr double kProductRounding = 10.0 * kUnitRoundoff, kConstantRounding = 8.
 /// anchor, if that is not the light.
 double projection_rounding(const ShadowView& view, double reach_m) {
     if (view.projection == ViewProjection::orthographic) return kOrthographicRounding;
-    if (view.apex_m == 0.0) return kAlphaRounding * std::abs(view.depth_alpha);
-    const double terms_m = kProductRounding * reach_m + kConstantRounding * std::abs(view.far_m - view.apex_m);
-    return terms_m * std::abs(view.depth_alpha) / (view.apex_m - reach_m);
+    if (view.pose.apex_m == 0.0) return kAlphaRounding * std::abs(view.depth.alpha);
+    const double terms_m =
+        kProductRounding * reach_m + kConstantRounding * std::abs(view.depth.far_m - view.pose.apex_m);
+    return terms_m * std::abs(view.depth.alpha) / (view.pose.apex_m - reach_m);
 }
 
 /// Of a view whose points are lit: light_block.glsl.
@@ -53,57 +55,62 @@ float at_least(double number) {
 
 glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_cast<float>(w)}; }
 
-ViewRecord view_record(const ShadowView& view, const ShadowDemand& demand, const ShadowSlot& slot,
-                       const ConsumerItem& consumer) {
+ViewRecord view_record(const DrawnViews& drawn, std::size_t v, const ConsumerItem& consumer) {
+    const ShadowView& view = drawn.view(v);
+    const ShadowRequest& request = drawn.request_of(v);
     // A map that had to be shrunk has larger texels than the fit planned.
-    const double stretch = static_cast<double>(demand.resolution_px) / static_cast<double>(slot.size_px);
+    const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(drawn.maps[v].size_px);
     const bool orthographic = view.projection == ViewProjection::orthographic;
     ViewRecord record;
     record.map_from_anchor = view.map_from_anchor;
-    record.axis_u = with_w(view.axis_u, view.texel_u * stretch);
-    record.axis_v = with_w(view.axis_v, view.texel_v * stretch);
-    record.axis_back = with_w(view.axis_back, orthographic ? view.far_m - view.near_m : view.depth_beta);
+    record.axis_u = with_w(view.pose.axis_u, view.plane.texel_u * stretch);
+    record.axis_v = with_w(view.pose.axis_v, view.plane.texel_v * stretch);
+    record.axis_back =
+        with_w(view.pose.axis_back, orthographic ? view.depth.far_m - view.depth.near_m : view.depth.beta);
     // OpenGL 4.5, 2.3.5: a fixed-point value is one of the two nearest, so that it may be off by a whole step.
     const double depth_rounding =
-        depth_format_row(demand.depth_format).step + projection_rounding(view, demand.aim.radius_m);
-    record.numeric = {static_cast<float>(depth_rounding), at_least(slot.stale.moved_m),
-                      static_cast<float>(orthographic ? view.fades_from_m : view.depth_alpha),
+        depth_format_row(request.map.depth_format).step + projection_rounding(view, request.projection.aim.radius_m);
+    record.numeric = {static_cast<float>(depth_rounding), at_least(drawn.updates[v].stale.moved_m),
+                      static_cast<float>(orthographic ? view.cascade.fades_from_m : view.depth.alpha),
                       view.lit ? kNoLayer : static_cast<float>(view.layer)};
-    record.anchor_from_camera = with_w(consumer.position_ws_m - view.anchor_ws_m, view.fades_to_m);
+    record.anchor_from_camera = with_w(consumer.position_ws_m - view.pose.anchor_ws_m, view.cascade.fades_to_m);
     return record;
 }
 
-std::string_view kind_file(const ShadowDemand& demand, const LightKindRow& kind) {
-    if (demand.perspective_sun || demand.aim.used) return kPerspectiveFile;
-    return demand.warp > 0.0f ? kWarpedSunFile : kind.file;
+std::string_view kind_file(const ProjectionRequest& projection, const LightKindRow& kind) {
+    if (projection.perspective_sun || projection.aim.used) return kPerspectiveFile;
+    return projection.warp > 0.0f ? kWarpedSunFile : kind.file;
 }
 
-/// The program and the textures of a light with a map.
-void set_lookup(const ShadowDemand& demand, const LightKindRow& kind, const ShadowSlot& slot,
-                const MapSamplers& samplers, LightingLight& out) {
-    const FilterRow &filter = filter_row(demand.filter), &one_tap = filter_row(kPlainFilter);
-    out.plain.row = {kind.define, kind_file(demand, kind), one_tap.file, one_tap.reach_texel};
-    out.plain.map = slot.texture;
+/// Fills in the program and the textures of a light by one of its views with a map.
+void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind, const MapSamplers& samplers,
+                LightingLight& out) {
+    const ShadowRequest& request = drawn.request_of(v);
+    const MapAssignment& map = drawn.maps[v];
+    const FilterRow &filter = filter_row(request.map.filter), &one_tap = filter_row(kPlainFilter);
+    out.plain.row = {kind.define, kind_file(request.projection, kind), one_tap.file, one_tap.reach_texel};
+    out.plain.map = map.texture;
     out.plain.sampler = samplers.of(one_tap.reading);
     out.row = out.plain.row;
     out.map = out.plain.map;
     out.sampler = out.plain.sampler;
-    out.second = slot.second;
-    out.bounds = slot.bounds;
-    out.ends = slot.ends;
+    out.second = map.sheets.second;
+    out.bounds = map.sheets.bounds;
+    out.ends = map.sheets.ends;
     // By itself the map of one that asks rays is good for no more; nor is one whose moments could not be made.
-    if (published_filter(demand, slot, false) != demand.filter) return;
+    if (map_filter(drawn, v) != request.map.filter) return;
     const bool moments = filter.storage == FilterStorage::moments;
     out.row.filter_file = filter.file;
-    out.row.reach_texel = demand.filtering.reach_texel;
+    out.row.reach_texel = request.map.filtering.reach_texel;
     out.row.depths = filter.reading == MapReading::depths;
     out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
     out.row.moments = moments;
-    out.row.footprint = demand.moments.levels > 1 || demand.moments.anisotropy > 1;
-    out.row.fades = !demand.perspective_sun && (demand.cascade_blend > 0.0f || demand.faces_eighths % 8 != 0);
-    out.triangles = slot.triangles;
-    out.map = moments ? slot.moments : slot.texture;
-    out.sampler = moments ? samplers.of(demand.moments) : samplers.of(filter.reading);
+    out.row.footprint = request.map.moments.levels > 1 || request.map.moments.anisotropy > 1;
+    out.row.fades = !request.projection.perspective_sun &&
+                    (request.map.cascade_blend > 0.0f || request.projection.faces_eighths % 8 != 0);
+    out.triangles = map.triangles;
+    out.map = moments ? map.prefiltered.moments : map.texture;
+    out.sampler = moments ? samplers.of(request.map.moments) : samplers.of(filter.reading);
 }
 
 /// A sun's cascades are chosen by distance along the view that they are fitted to, the consumer's unless that is
@@ -138,7 +145,7 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
 }
 
 /// What filters read.
-void filter_record(const LightShadow& shadow, const FilterDemand& filter, const ConsumerItem& consumer,
+void filter_record(const LightShadow& shadow, const FilterSettings& filter, const ConsumerItem& consumer,
                    LightRecord& record) {
     record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), shadow.early_bail ? 1 : 0,
                         shadow.filter_seed == FilterSeed::world ? 1 : 0};
@@ -150,22 +157,22 @@ void filter_record(const LightShadow& shadow, const FilterDemand& filter, const 
 }
 
 /// What of the source shaders read: metres, or a sun's tangent.
-float source_size(LightKind kind, const FilterDemand& filter) {
+float source_size(LightKind kind, const FilterSettings& filter) {
     return kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
 }
 
 /// A sun that is seen from an eye gets a disk there, as wide as the sky's from the middle of the view's depth.
-float source_size(LightKind kind, const FilterDemand& filter, const ShadowView& view) {
+float source_size(LightKind kind, const FilterSettings& filter, const ShadowView& view) {
     if (kind != LightKind::directional || view.projection == ViewProjection::orthographic)
         return source_size(kind, filter);
-    return filter.sun_radius_tan * static_cast<float>(0.5 * (view.near_m + view.far_m));
+    return filter.sun_radius_tan * static_cast<float>(0.5 * (view.depth.near_m + view.depth.far_m));
 }
 
 /// Whether the maps hold all casters as far away as they are, and around a lamp how far away those are that they do
 /// not.
-glm::vec4 source_record(const ShadowDemand& demand) {
-    const bool fitted = demand.near_m == 0.0 && demand.far_m == 0.0;
-    return {fitted ? 1.0f : 0.0f, static_cast<float>(demand.clear_m), 0.0f, 0.0f};
+glm::vec4 source_record(const ProjectionRequest& projection, double clearance_m) {
+    const bool fitted = projection.near_m == 0.0 && projection.far_m == 0.0;
+    return {fitted ? 1.0f : 0.0f, static_cast<float>(clearance_m), 0.0f, 0.0f};
 }
 
 void bias_record(const LightShadow& shadow, LightingLight& out) {
@@ -208,90 +215,99 @@ CameraRecord camera_record(const ConsumerItem& c) {
 
 namespace {
 
-/// Lights whose shadows are asked for by rays: with their maps, where they have any, for pixels of which those are not
-/// certain. A picture of another camera than those that maps are fitted to may show what is not in them.
-void publish_rays(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
-                  const ShadowFrame& frame, const ConsumerItem& consumer, LightingInputs& inputs) {
-    for (std::size_t d = 0; d < frame.demands.size(); ++d) {
-        const ShadowDemand& demand = frame.demands[d];
-        if (!demand.asks_rays || demand.skip != Reason::none || frame.sets[d].skip != Reason::none || !rays.nodes)
-            continue;
-        LightingLight& out = inputs.lights[demand.light];
-        const LightKindRow& kind = light_kind_row(scene.lights[demand.light].kind);
+/// Publishes lights that use rays: with their maps, where they have any, for pixels of which those are not certain. A
+/// picture of another camera than those that maps are fitted to may show what is not in them.
+void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const ConsumerItem& consumer,
+                  LightingInputs& inputs) {
+    if (!in.rays.nodes) return;
+    for (std::uint32_t i = 0; i < in.drawn.lights.size(); ++i) {
+        const ShadowRequest& request = in.drawn.lights[i].request;
+        if (!request.rays.used || in.drawn.statuses[i].is_skipped()) continue;
+        LightingLight& out = inputs.lights[i];
+        const LightItem& light = scene.lights[i];
+        const LightKindRow& kind = light_kind_row(light.kind);
         out.row = {.kind_define = kind.define,
-                   .kind_file = kind_file(demand, kind),
-                   .filter_file = filter_row(demand.filter).file,
+                   .kind_file = kind_file(request.projection, kind),
+                   .filter_file = filter_row(request.map.filter).file,
                    .rays = true,
-                   .ray_masks = static_cast<bool>(rays.masks)};
-        out.rays = rays;
+                   .ray_masks = static_cast<bool>(in.rays.masks)};
+        out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
         // Also where it has no map.
-        const LightItem& light = scene.lights[demand.light];
-        filter_record(light.shadow, demand.filtering, consumer, out.record);
-        out.record.radiance.w = source_size(light.kind, demand.filtering);
-        out.sampler = samplers.of(MapReading::depths);
+        filter_record(light.shadow, request.map.filtering, consumer, out.record);
+        out.record.radiance.w = source_size(light.kind, request.map.filtering);
+        out.sampler = in.samplers.of(MapReading::depths);
     }
+}
+
+/// Publishes what every light has, map or not.
+void publish_unshadowed(const SceneSnapshot& scene, const PublishInputs& in, std::uint32_t i,
+                        const ConsumerItem& fitted, const ConsumerItem& consumer, LightingLight& out) {
+    const LightItem& light = scene.lights[i];
+    out = {};
+    out.light = i;
+    out.row.kind_define = light_kind_row(light.kind).define;
+    // The rectangle is the cheaper question: of many lights most are not on the screen.
+    out.screen = screen_rectangle(light, consumer);
+    if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
+    out.farthest_depth = farthest_depth(light, consumer);
+    out.record = light_record(light, lamp_ws_m(in.lamps_ws_m, scene, i), fitted, consumer);
+}
+
+/// Adds one view with a map to what its light is published with.
+void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size_t v, const ConsumerItem& consumer,
+                  LightingLight& out) {
+    const ShadowView& view = in.drawn.view(v);
+    const ShadowRequest& request = in.drawn.request_of(v);
+    const LightItem& light = scene.lights[view.light];
+    set_lookup(in.drawn, v, light_kind_row(light.kind), in.samplers, out);
+    out.plain.accuracy.filter = kPlainFilter;
+    add_view(light, in.drawn, v, out.plain.accuracy);
+    out.row.ray_masks = out.row.triangles && in.masked;
+    if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
+        out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
+    out.record.options.w |= 1 << view.layer;
+    if (light.kind == LightKind::spot || request.projection.aim.used)
+        out.record.cone.z = static_cast<float>(request.projection.faces_eighths) / 8.0f;
+    bias_record(light.shadow, out);
+    const MapSettings& map = request.map;
+    filter_record(light.shadow, map.filtering, consumer, out.record);
+    out.record.moments = map.moments.settings;
+    out.record.moment_sampling = {map.moments.bleeding, map.moments.footprint_texel,
+                                  static_cast<float>(map.moments.anisotropy), 0.0f};
+    out.record.radiance.w = source_size(light.kind, map.filtering, view);
+    if (in.drawn.maps[v].sheets.ends)
+        out.record.moments = source_record(request.projection, in.clearances_m[view.light]);
+    out.record.bias.y = map.cascade_blend;
+    out.record.options.z = view.cascade.seen_to_m > 0.0 ? 1 : 0;
 }
 
 }  // namespace
 
-void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
-                    bool masked, ShadowFrame& frame) {
+void publish_lights(const SceneSnapshot& scene, const PublishInputs& in, std::vector<LightingInputs>& out,
+                    std::span<double> cpu_us) {
     const std::vector<ConsumerItem>& pictures = scene.pictures.empty() ? scene.consumers : scene.pictures;
-    frame.inputs.resize(pictures.size());
+    out.resize(pictures.size());
     for (std::uint32_t c = 0; c < pictures.size(); ++c) {
         const ConsumerItem& consumer = pictures[c];
         const ConsumerItem& fitted = c < scene.consumers.size() ? scene.consumers[c] : consumer;
-        LightingInputs& inputs = frame.inputs[c];
+        LightingInputs& inputs = out[c];
         inputs.consumer = c;
         inputs.camera = camera_record(consumer);
         inputs.lights.resize(scene.lights.size());
         for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-            const LightTime time(frame, i);
-            const LightItem& light = scene.lights[i];
-            const LightKindRow& kind = light_kind_row(light.kind);
-            LightingLight& out = inputs.lights[i];
-            out = {};
-            out.light = i;
-            out.row.kind_define = kind.define;
-            // The rectangle is the cheaper question: of many lights most are not on the screen.
-            out.screen = screen_rectangle(light, consumer);
-            if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
-            out.farthest_depth = farthest_depth(light, consumer);
-            out.record = light_record(light, lamp_ws_m(frame, scene, i), fitted, consumer);
+            const LightTime time(cpu_us, i);
+            publish_unshadowed(scene, in, i, fitted, consumer, inputs.lights[i]);
+            const IndexRange views = in.drawn.fitted.lights[i].views;
+            for (std::size_t v = views.first; v < views.end(); ++v) {
+                // Other cameras than those that it is fitted to may see anything.
+                const bool sees = !scene.pictures.empty() || (in.drawn.view(v).consumer_mask & consumer_bit(c)) != 0;
+                if (sees && in.drawn.has_map(v)) publish_view(scene, in, v, consumer, inputs.lights[i]);
+            }
         }
-        for (std::size_t v = 0; v < frame.views.size(); ++v) {
-            const ShadowSlot& slot = frame.slots[v];
-            if (!slot.texture) continue;
-            const ShadowView& view = frame.views[v];
-            // Other cameras than those that it is fitted to may see anything.
-            if (scene.pictures.empty() && (view.consumer_mask & consumer_bit(c)) == 0) continue;
-            const ShadowDemand& demand = frame.demands[view.demand];
-            const LightTime time(frame, demand.light);
-            const LightItem& light = scene.lights[demand.light];
-            LightingLight& out = inputs.lights[demand.light];
-            set_lookup(demand, light_kind_row(light.kind), slot, samplers, out);
-            out.plain.accuracy.filter = kPlainFilter;
-            add_view(light, demand, view, slot, out.plain.accuracy);
-            out.row.ray_masks = out.row.triangles && masked;
-            if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
-                out.record.views[out.record.options.x++] = view_record(view, demand, slot, consumer);
-            out.record.options.w |= 1 << view.layer;
-            if (light.kind == LightKind::spot || demand.aim.used)
-                out.record.cone.z = static_cast<float>(demand.faces_eighths) / 8.0f;
-            bias_record(light.shadow, out);
-            filter_record(light.shadow, demand.filtering, consumer, out.record);
-            out.record.moments = demand.moments.settings;
-            out.record.moment_sampling = {demand.moments.bleeding, demand.moments.footprint_texel,
-                                          static_cast<float>(demand.moments.anisotropy), 0.0f};
-            out.record.radiance.w = source_size(light.kind, demand.filtering, view);
-            if (slot.ends) out.record.moments = source_record(demand);
-            out.record.bias.y = demand.cascade_blend;
-            out.record.options.z = view.seen_to_m > 0.0 ? 1 : 0;
-        }
-        publish_rays(scene, samplers, rays, frame, consumer, inputs);
-        sign_lookups(scene, frame, inputs);
+        publish_rays(scene, in, consumer, inputs);
+        sign_lookups(scene, in.drawn, inputs);
     }
 }
 

@@ -1,7 +1,12 @@
 #pragma once
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/drawn_views.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 #include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::shadow {
@@ -20,23 +25,32 @@ struct MapSamplers {
         if (reading == MapReading::depths) return depths;
         return reading == MapReading::compare_linear ? linear : nearest;
     }
-    gl::SamplerHandle of(const MomentDemand& demand) const {
+    gl::SamplerHandle of(const PrefilterSettings& request) const {
         for (const OfMoments& m : moments)
-            if (m.mipmaps == (demand.levels > 1) && m.anisotropy == anisotropy(demand)) return m.sampler;
+            if (m.mipmaps == (request.levels > 1) && m.anisotropy == anisotropy(request)) return m.sampler;
         return {};
     }
-    static std::uint32_t anisotropy(const MomentDemand& demand) {
-        return demand.sampler_anisotropy ? demand.anisotropy : 1;
+    static std::uint32_t anisotropy(const PrefilterSettings& request) {
+        return request.sampler_anisotropy ? request.anisotropy : 1;
     }
 };
 
 /// The consumer's camera as shaders see it.
 CameraRecord camera_record(const ConsumerItem& consumer);
 
-/// Stage 6: for each camera that draws, each light with its program row, record and textures. A light without a map is
-/// published unshadowed. Fills frame.inputs.
-/// Those that ask by rays get `rays`; `masked`: GpuScene::caster_masks() has something for those that read triangles.
-void publish_lights(const SceneSnapshot& scene, const MapSamplers& samplers, const visibility::RayBuffers& rays,
-                    bool masked, ShadowFrame& frame);
+/// What is published, beside the scene.
+struct PublishInputs {
+    const DrawnViews& drawn;
+    std::span<const glm::dvec3> lamps_ws_m;  // one per light (culling/lamp_offsets.h); empty: where the lights are
+    std::span<const double> clearances_m;    // one per light (exact/near_light_clearance.h)
+    const MapSamplers& samplers;
+    const visibility::RayBuffers& rays;  // nodes {0}: no light can use rays
+    bool masked = false;                 // GpuScene::caster_masks() has something for lights that read triangles
+};
+
+/// Stage 6: publishes, for each camera that draws, each light with its program row, record and textures. A light
+/// without a map is published unshadowed.
+void publish_lights(const SceneSnapshot& scene, const PublishInputs& in, std::vector<LightingInputs>& out,
+                    std::span<double> cpu_us);
 
 }  // namespace gnomon::shadow

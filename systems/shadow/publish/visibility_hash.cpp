@@ -37,24 +37,23 @@ void add_light(const LightingLight& light, Signature& s) {
     s.add(light.farthest_depth);
 }
 
-/// What the layers of its map hold. False: not what stands there now, or it rests too little to be drawn, and what is
-/// kept meanwhile would go with the frame that draws it.
-bool add_views(const ShadowFrame& frame, std::size_t first, std::size_t end, Signature& s) {
-    for (std::size_t v = first; v < end; ++v) {
-        const ShadowSlot& slot = frame.slots[v];
-        if (slot.hold != Hold::none || frame.demands[frame.views[v].demand].left_to_rays) return false;
-        s.add(slot.content);
-        s.add(slot.moment_content);
+/// Adds what the layers of the light's map hold. False: not what stands there now, or it rests too little to be drawn,
+/// and what is kept meanwhile would go with the frame that draws it.
+bool add_views(const DrawnViews& drawn, std::uint32_t light, Signature& s) {
+    const IndexRange range = drawn.fitted.lights[light].views;
+    for (std::size_t v = range.first; v < range.end(); ++v) {
+        const UpdatePlan& plan = drawn.updates[v];
+        if (plan.hold != Hold::none || plan.left_to_rays) return false;
+        s.add(drawn.has_map(v) ? plan.content : 0);
+        s.add(drawn.has_prefiltered(v) ? plan.moment_content : 0);
     }
     return true;
 }
 
 }  // namespace
 
-void sign_lookups(const SceneSnapshot& scene, const ShadowFrame& frame, LightingInputs& inputs) {
-    std::size_t first = 0, end = 0;
-    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i, first = end) {
-        while (end < frame.views.size() && frame.demands[frame.views[end].demand].light == i) ++end;
+void sign_lookups(const SceneSnapshot& scene, const DrawnViews& drawn, LightingInputs& inputs) {
+    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         LightingLight& light = inputs.lights[i];
         const LightShadow& shadow = scene.lights[i].shadow;
         if (light.row.filter_file.empty() || !shadow.economy || !shadow.keep_visibility || scene.version == 0) continue;
@@ -62,7 +61,7 @@ void sign_lookups(const SceneSnapshot& scene, const ShadowFrame& frame, Lighting
         add_light(light, s);
         // Rays meet whatever casts anywhere.
         if (light.row.rays) s.add(scene.version);
-        if (add_views(frame, first, end, s)) light.lookup_signature = s.value();
+        if (add_views(drawn, i, s)) light.lookup_signature = s.value();
     }
 }
 

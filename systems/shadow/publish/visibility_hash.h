@@ -1,6 +1,7 @@
 #pragma once
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/drawn_views.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::shadow {
 
@@ -9,6 +10,6 @@ namespace gnomon::shadow {
 /// and from what its maps hold. 0 for a light that is not looked up, is to save nothing (LightShadow::economy,
 /// keep_visibility), whose maps show casters where they were while those go on or are left to rays as they
 /// change, and of scenes whose changes nobody counts.
-void sign_lookups(const SceneSnapshot& scene, const ShadowFrame& frame, LightingInputs& inputs);
+void sign_lookups(const SceneSnapshot& scene, const DrawnViews& drawn, LightingInputs& inputs);
 
 }  // namespace gnomon::shadow

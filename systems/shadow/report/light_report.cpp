@@ -8,94 +8,118 @@ namespace gnomon::shadow {
 namespace {
 
 /// Of a view that the fits left out: nothing is seen in it, or nothing stands before what is.
-Reason why_left_out(const LightItem& light, const PotentialSets& sets, const ShadowFrame& frame, std::uint32_t layer,
-                    Why& why) {
+Reason why_left_out(const LightItem& light, std::span<const Beam> beams, std::uint32_t layer, Why& why) {
     if (light.kind == LightKind::directional) return Reason::no_visible_receiver;
-    why.receivers = frame.beams[sets.beams.first + layer].receivers;
+    why.receivers = beams[layer].receivers;
     return why.receivers == 0 ? Reason::no_visible_receiver : Reason::no_caster;
 }
 
-Reason why_reused(const ShadowSlot& slot) {
-    return slot.hold == Hold::none ? Reason::content_unchanged : Reason::refresh_held;
+Reason why_reused(const UpdatePlan& plan) {
+    return plan.hold == Hold::none ? Reason::content_unchanged : Reason::refresh_held;
 }
 
-/// Views [first, end) of the frame are the light's.
-void explain_views(const LightItem& light, const ShadowDemand& demand, const ShadowFrame& frame, std::size_t first,
-                   std::size_t end, std::optional<double> view_us, FrameReport& report, LightReport& out) {
+/// Whether any of the light's views was left to rays.
+bool is_left_to_rays(const DrawnViews& drawn, std::uint32_t light) {
+    const IndexRange views = drawn.fitted.lights[light].views;
+    return views.count > 0 && drawn.updates[views.first].left_to_rays;
+}
+
+/// Says what became of view `v`.
+void explain_view(const DrawnViews& drawn, std::size_t v, ViewReport& view) {
+    const UpdatePlan& plan = drawn.updates[v];
+    const bool has_map = drawn.has_map(v);
+    view.why.receivers = drawn.view(v).receivers;
+    view.why.casters = drawn.view(v).casters.count;
+    if (has_map) view.why.stale_px = plan.stale.error_px;
+    if (has_map && plan.reuse) view.state = LightState::reused;
+    if (has_map && plan.reuse) view.reason = why_reused(plan);
+    if (!has_map) view.state = LightState::skipped;  // rays do without
+    if (!has_map)
+        view.reason = plan.left_to_rays ? Reason::rays_cheaper : drawn.statuses[drawn.view(v).light].degraded();
+    if (drawn.view(v).lit) view.state = LightState::skipped;
+    if (drawn.view(v).lit) view.reason = Reason::no_caster;
+}
+
+/// Says what became of each view that the light's map has room for.
+void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t index, FrameReport& report) {
+    LightReport& out = report.lights[index];
+    const std::uint32_t count = in.drawn.lights[index].request.map.view_count;
+    const IndexRange views = in.drawn.fitted.lights[index].views;
+    const std::optional<double> view_us = in.times.view_us(light.entity);
     out.first_view = static_cast<std::uint32_t>(report.views.size());
-    out.view_count = demand.view_count;
-    for (std::uint32_t layer = 0; layer < demand.view_count; ++layer) {
+    out.view_count = count;
+    for (std::uint32_t layer = 0; layer < count; ++layer) {
         ViewReport& view = report.views.emplace_back();
         view.layer = layer;
-        std::size_t v = first;
-        while (v < end && frame.views[v].layer != layer) ++v;
-        if (v == end) {
+        std::size_t v = views.first;
+        while (v < views.end() && in.drawn.view(v).layer != layer) ++v;
+        if (v == views.end()) {
             view.state = LightState::skipped;
-            view.reason = why_left_out(light, frame.sets[demand.light], frame, layer, view.why);
+            view.reason = why_left_out(light, in.drawn.fitted.sets_of(in.sets, index).beams(), layer, view.why);
         } else {
-            view.why.receivers = frame.views[v].receivers;
-            view.why.casters = frame.views[v].casters.count;
-            view.why.stale_px = frame.slots[v].stale.error_px;
-            if (frame.slots[v].reuse) view.state = LightState::reused;
-            if (frame.slots[v].reuse) view.reason = why_reused(frame.slots[v]);
-            if (!frame.slots[v].texture) view.state = LightState::skipped;  // rays do without
-            if (!frame.slots[v].texture) view.reason = demand.left_to_rays ? Reason::rays_cheaper : demand.note;
-            if (frame.views[v].lit) view.state = LightState::skipped;
-            if (frame.views[v].lit) view.reason = Reason::no_caster;
+            explain_view(in.drawn, v, view);
         }
         if (view.state == LightState::rendered) continue;
-        view.why.bytes_saved = out.bytes / demand.view_count;
+        view.why.bytes_saved = out.bytes / count;
         view.why.saved_us = view_us;
     }
 }
 
-/// `lost`: there is neither a map to look up nor a ray to ask. `drawn`: what the light looks up was made or changed in
-/// this frame. `held`: a view of its maps shows casters as they were.
-void explain_state(const PotentialSets& sets, const ShadowDemand& demand, const LightHistory* history, bool lost,
-                   bool drawn, bool held, LightReport& out) {
-    out.reason = sets.skip;
-    if (out.reason != Reason::none) {
+/// What a light's state follows from, beside its status.
+struct LookupState {
+    bool lost = false;   // there is neither a map to look up nor a ray to ask
+    bool drawn = false;  // what the light looks up was made or changed in this frame
+    bool held = false;   // a view of its maps shows casters as they were
+    bool left_to_rays = false;
+};
+
+void explain_state(const LightStatus& status, const BudgetDecision& decision, const LightHistory* history,
+                   const LookupState& lookup, LightReport& out) {
+    out.reason = status.skipped();
+    if (status.is_skipped()) {
         out.state = LightState::skipped;
-    } else if (lost) {
+    } else if (lookup.lost) {
         out.state = LightState::skipped;
-        out.reason = demand.note;
+        out.reason = status.degraded();
     } else if (history && history->failure != Reason::none) {
         out.state = LightState::degraded;
         out.reason = history->failure;
-    } else if (demand.over_budget) {
+    } else if (decision.over_budget) {
         out.state = LightState::degraded;
         out.reason = Reason::budget_shrunk;
-    } else if (demand.note != Reason::none) {
+    } else if (status.degraded() != Reason::none) {
         out.state = LightState::degraded;
-        out.reason = demand.note;
-    } else if (demand.left_to_rays) {
+        out.reason = status.degraded();
+    } else if (lookup.left_to_rays) {
         out.state = LightState::rendered;
         out.reason = Reason::rays_cheaper;
-    } else if (!drawn) {
+    } else if (!lookup.drawn) {
         out.state = LightState::reused;
-        out.reason = held ? Reason::refresh_held : Reason::content_unchanged;
+        out.reason = lookup.held ? Reason::refresh_held : Reason::content_unchanged;
     } else {
         out.state = LightState::rendered;
     }
 }
 
-/// `filter`: that it is published with; another one than its own for want of something, as its demand notes.
-FilterReport filter_report(const ShadowDemand& demand, ShadowFilter filter) {
-    if (filter != demand.filter) return {filter, demand.note, {}};
-    FilterReport out{demand.filter, Reason::none, {}};
-    if (demand.usual_px > 0.0) out.reason = Reason::map_too_coarse;
-    if (demand.usual_px > 0.0) out.usual_error_px = demand.usual_px;
+/// `filter`: that it is published with; another one than its own for want of something, as its status says.
+FilterReport filter_report(const DrawnViews& drawn, std::uint32_t light, ShadowFilter filter) {
+    const ShadowFilter own = drawn.lights[light].request.map.filter;
+    if (filter != own) return {filter, drawn.statuses[light].degraded(), {}};
+    FilterReport out{own, Reason::none, {}};
+    const double default_px = drawn.fitted.lights[light].default_filter_error_px;
+    if (default_px > 0.0) out.reason = Reason::map_too_coarse;
+    if (default_px > 0.0) out.usual_error_px = default_px;
     return out;
 }
 
 /// Of the whole light: what its views saved; all of them, and its map, if it is skipped.
-void explain_savings(const LightItem& light, const ShadowDemand& demand, std::optional<double> view_us,
+void explain_savings(const LightItem& light, const ShadowRequest& request, std::optional<double> view_us,
                      const FrameReport& report, LightReport& out) {
     if (!light.has_shadow) return;
     if (out.state == LightState::skipped) {
-        const std::uint64_t wanted = map_bytes(light, demand);
+        const std::uint64_t wanted = map_bytes(light, request);
         out.why.bytes_saved = wanted - std::min(wanted, out.bytes);
-        if (view_us) out.why.saved_us = *view_us * demand.view_count;
+        if (view_us) out.why.saved_us = *view_us * request.map.view_count;
         return;
     }
     for (const ViewReport& view : report.views_of(out)) {
@@ -104,52 +128,54 @@ void explain_savings(const LightItem& light, const ShadowDemand& demand, std::op
     }
 }
 
+void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint32_t i, FrameReport& report) {
+    const LightItem& light = scene.lights[i];
+    const LightStatus& status = in.drawn.statuses[i];
+    const BudgetDecision& decision = in.drawn.lights[i];
+    LightReport& out = report.lights[i];
+    out.entity = light.entity;
+    out.name = light.name;
+    out.kind = light.kind;
+    out.cpu_us = in.cpu_us[i];
+    const LightHistory* history = in.maps.find(light.entity);
+    if (history && history->texture) {
+        out.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
+        out.bytes = MapStore::bytes(*history);
+    }
+    const ShadowFilter filter = published_filter(in.drawn, i, in.has_rays);
+    LookupAccuracy shown{filter, 0.0, false};
+    LookupState lookup;
+    const IndexRange views = in.drawn.fitted.lights[i].views;
+    for (std::size_t v = views.first; v < views.end(); ++v) {
+        if (!in.drawn.has_map(v) || in.drawn.view(v).lit) continue;
+        ++out.views;
+        lookup.held = lookup.held || in.drawn.updates[v].hold != Hold::none;
+        out.why.stale_px = std::max(out.why.stale_px, in.drawn.updates[v].stale.error_px);
+        add_view(light, in.drawn, v, shown);
+    }
+    const bool uses_rays = decision.request.rays.used, exact = uses_rays && in.has_rays;
+    const bool trees_changed = report.rays.meshes_written > 0 || report.rays.instances_written;
+    if (!exact) out.predicted_error_px = shown.predicted_error_px;
+    lookup.lost = uses_rays && filter == ShadowFilter::automatic;
+    lookup.drawn = out.views_drawn > 0 || (exact && trees_changed);
+    lookup.left_to_rays = is_left_to_rays(in.drawn, i);
+    explain_state(status, decision, history, lookup, out);
+    out.keeps_max_error =
+        (exact && !status.is_skipped()) || (shown.keeps_max_error && !exact && history->failure == Reason::none);
+    const LightSetsView sets = in.drawn.fitted.sets_of(in.sets, i);
+    out.why.receivers = sets.ranges.receivers.count;
+    out.why.casters = sets.ranges.casters.count;
+    out.why.display_steps = in.dim.steps(i);
+    if (out.state != LightState::skipped) out.filter = filter_report(in.drawn, i, filter);
+    if (out.state != LightState::skipped) explain_views(in, light, i, report);
+    explain_savings(light, decision.request, in.times.view_us(light.entity), report, out);
+}
+
 }  // namespace
 
-void explain_lights(const SceneSnapshot& scene, const ShadowFrame& frame, const MapStore& maps, const DrawTimes& times,
-                    const DimLights& dim, bool rays, FrameReport& report) {
+void explain_lights(const SceneSnapshot& scene, const ReportInputs& in, FrameReport& report) {
     report.views.clear();
-    const bool trees_changed = report.rays.meshes_written > 0 || report.rays.instances_written;
-    std::size_t first = 0, end = 0;
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i, first = end) {
-        const LightItem& light = scene.lights[i];
-        const ShadowDemand& demand = frame.demands[i];
-        const PotentialSets& sets = frame.sets[i];
-        LightReport& out = report.lights[i];
-        out.entity = light.entity;
-        out.name = light.name;
-        out.kind = light.kind;
-        out.cpu_us = frame.cpu_us[i];
-        const LightHistory* history = maps.find(light.entity);
-        if (history && history->texture) {
-            out.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
-            out.bytes = MapStore::bytes(*history);
-        }
-        while (end < frame.views.size() && frame.views[end].demand == i) ++end;
-        const bool exact = demand.asks_rays && rays;
-        const ShadowFilter filter = published_filter(demand, first < end ? frame.slots[first] : ShadowSlot{}, rays);
-        LookupAccuracy shown{filter, 0.0, false};
-        bool held = false;
-        for (std::size_t v = first; v < end; ++v) {
-            if (!frame.slots[v].texture || frame.views[v].lit) continue;
-            ++out.views;
-            held = held || frame.slots[v].hold != Hold::none;
-            out.why.stale_px = std::max(out.why.stale_px, frame.slots[v].stale.error_px);
-            add_view(light, demand, frame.views[v], frame.slots[v], shown);
-        }
-        if (!exact) out.predicted_error_px = shown.predicted_error_px;
-        const bool lost = demand.asks_rays && filter == ShadowFilter::automatic;
-        explain_state(sets, demand, history, lost, out.views_drawn > 0 || (exact && trees_changed), held, out);
-        out.keeps_max_error = (exact && sets.skip == Reason::none && demand.skip == Reason::none) ||
-                              (shown.keeps_max_error && !exact && history->failure == Reason::none);
-        out.why.receivers = sets.receivers.count;
-        out.why.casters = sets.casters.count;
-        out.why.display_steps = dim.steps(i);
-        const std::optional<double> view_us = times.view_us(light.entity);
-        if (out.state != LightState::skipped) out.filter = filter_report(demand, filter);
-        if (out.state != LightState::skipped) explain_views(light, demand, frame, first, end, view_us, report, out);
-        explain_savings(light, demand, view_us, report, out);
-    }
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) explain_light(scene, in, i, report);
 }
 
 }  // namespace gnomon::shadow

@@ -32,10 +32,10 @@ double wished_error_px(const LightShadow& shadow) {
     return shadow.max_error_px > 0.0f ? static_cast<double>(shadow.max_error_px) : 1.0;
 }
 
-bool follows_contract(const LightItem& light, const ShadowDemand& demand) {
+bool follows_contract(const LightItem& light, const ShadowRequest& request) {
     const bool stable = light.kind == LightKind::directional && light.shadow.fit == ShadowFit::stable;
-    return light.shadow.resolution_px == 0 && !stable && !needs_distances(demand.filtering) &&
-           !asks_rays(filter_row(demand.filter));  // which err by nothing
+    return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
+           !asks_rays(filter_row(request.map.filter));  // which err by nothing
 }
 
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,

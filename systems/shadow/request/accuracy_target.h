@@ -3,7 +3,7 @@
 #include <span>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 
 /// The accuracy contract: as many texels as LightShadow::max_error_px asks for, and no more.
 ///
@@ -34,9 +34,9 @@ inline constexpr std::uint32_t kLeastMap_px = 256;
 /// max_error_px, or 1 where it is not above 0.
 double wished_error_px(const LightShadow& shadow);
 
-/// Whether the light's maps may be smaller than its demand's most_px. Not where the size is given, where it must not
+/// Whether the light's maps may be smaller than its request's most_px. Not where the size is given, where it must not
 /// depend on what is seen (ShadowFit::stable), or where a filter's width hangs on it (FilterWidth::source).
-bool follows_contract(const LightItem& light, const ShadowDemand& demand);
+bool follows_contract(const LightItem& light, const ShadowRequest& request);
 
 /// What maps of `size_px` that err by `predicted_px` should become: the least multiple of kLeastMap_px that errs by no
 /// more than `wished_px` beside the pixel of the picture's own, at most `most_px`; if they are `held`, size_px itself

@@ -14,6 +14,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 #include "systems/shadow/request/prefilter_settings.h"
+#include "systems/shadow/request/ray_limit.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -37,53 +38,55 @@ Reason wanted(const LightItem& light, bool shadows) {
 }
 
 /// How many cascades a sun has, and what fades between them.
-void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand& demand) {
-    if (depths_failed && shadow.splits == CascadeSplits::sampled) demand.note = Reason::depths_unread;
-    if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
-    if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
+void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowRequest& request) {
+    if (depths_failed && shadow.splits == CascadeSplits::sampled) request.note = Reason::depths_unread;
+    if (!are_splits(shadow)) request.note = Reason::splits_invalid;
+    if (shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
     // A finer map only saves rays: of itself a light asks for one.
-    const bool one = shadow.cascades == 0 && asks_rays(filter_row(demand.filter));
-    set_cascades(shadow, one ? 1 : cascade_count(shadow, demand.view_count), demand);
+    const bool one = shadow.cascades == 0 && asks_rays(filter_row(request.map.filter));
+    set_cascades(shadow, one ? 1 : cascade_count(shadow, request.map.view_count), request);
 }
 
 /// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
 /// as the contract makes them.
-bool leaves_count(const LightItem& light, const ShadowDemand& demand) {
-    return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, demand) &&
-           light.shadow.splits != CascadeSplits::manual && !demand.perspective_sun && demand.warp == 0.0f;
+bool leaves_count(const LightItem& light, const ShadowRequest& request) {
+    return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, request) &&
+           light.shadow.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
+           request.projection.warp == 0.0f;
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
-void decide_projection(const LightItem& light, bool depths_failed, ShadowDemand& demand) {
+void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest& request) {
     const LightProjection wish = light.shadow.projection;
     const bool sun = light.kind == LightKind::directional;
-    if (sun) decide_cascades(light.shadow, depths_failed, demand);
+    if (sun) decide_cascades(light.shadow, depths_failed, request);
     if (is_range(light.shadow)) {
-        demand.near_m = static_cast<double>(light.shadow.near_m);
-        demand.far_m = static_cast<double>(light.shadow.far_m);
+        request.projection.near_m = static_cast<double>(light.shadow.near_m);
+        request.projection.far_m = static_cast<double>(light.shadow.far_m);
     } else {
-        demand.note = Reason::range_invalid;
+        request.note = Reason::range_invalid;
     }
     if (sun && !is_eye(light.shadow)) {
-        demand.note = Reason::eye_invalid;
-        demand.near_m = demand.far_m = 0.0;  // they would be counted from the eye
+        request.note = Reason::eye_invalid;
+        request.projection.near_m = request.projection.far_m = 0.0;  // they would be counted from the eye
     } else if (sun && wish == LightProjection::perspective) {
-        demand.perspective_sun = true;
-        demand.view_count = 1;
+        request.projection.perspective_sun = true;
+        request.map.view_count = 1;
     } else if (!sun && wish == LightProjection::orthographic) {
-        demand.note = Reason::projection_unsupported;
+        request.note = Reason::projection_unsupported;
     }
 }
 
 /// How far a sun's maps may be warped. The fit measures what a warp gains for one camera alone.
-void decide_warp(const LightShadow& shadow, bool one_consumer, ShadowDemand& demand) {
+void decide_warp(const LightShadow& shadow, bool one_consumer, ShadowRequest& request) {
     if (shadow.warp == 0.0f) return;
-    const bool possible = shadow.fit == ShadowFit::tight && one_consumer && !demand.perspective_sun &&
-                          !needs_distances(demand.filtering) && demand.near_m == 0.0 && demand.far_m == 0.0;
+    const bool possible = shadow.fit == ShadowFit::tight && one_consumer && !request.projection.perspective_sun &&
+                          !needs_distances(request.map.filtering) && request.projection.near_m == 0.0 &&
+                          request.projection.far_m == 0.0;
     if (possible && shadow.warp > 0.0f && shadow.warp <= 1.0f)
-        demand.warp = shadow.warp;
+        request.projection.warp = shadow.warp;
     else
-        demand.note = Reason::warp_unsupported;
+        request.note = Reason::warp_unsupported;
 }
 
 /// A sun has no radius in metres, and what is no sun none as an angle.
@@ -96,71 +99,72 @@ LightShadow with_own_source(const LightItem& light) {
 /// Of a point there is nothing to ask but whether it is seen.
 ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
     if (filter != ShadowFilter::exact_soft) return filter;
-    const bool has_size = needs_distances(filter_demand(filter_row(filter), with_own_source(light), kLeastMap_px));
+    const bool has_size = needs_distances(filter_settings(filter_row(filter), with_own_source(light), kLeastMap_px));
     return has_size ? filter : ShadowFilter::exact;
 }
 
 /// A map of sheets costs as it is drawn and cleared, layer by layer, and saves rays: a cube's six are worth half the
 /// edge (docs/exact.md, "What it costs"), a sun's that is drawn once and for all (is_quiet) twice.
-float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowDemand& demand) {
+float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
-    const FilterRow& row = filter_row(demand.filter);
+    const FilterRow& row = filter_row(request.map.filter);
     if (!asks_rays(row)) return row.texels_per_pixel;
-    if (map_texture(light, demand) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
+    if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
     const bool waits = held && light.kind == LightKind::directional && is_quiet(*held);
     return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
 }
 
 /// What errs by nothing is no larger for a smaller error.
-float wished_resolution_px(const LightItem& light, const ShadowDemand& demand) {
-    return asks_rays(filter_row(demand.filter)) ? 0.0f : light.shadow.max_error_px;
+float wished_resolution_px(const LightItem& light, const ShadowRequest& request) {
+    return asks_rays(filter_row(request.map.filter)) ? 0.0f : light.shadow.max_error_px;
 }
 
 /// As large as the picture asks for, or as the fits found to be enough (accuracy_target.h).
 void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, const HeldLight* held,
-                       ShadowDemand& demand) {
+                       ShadowRequest& request) {
     const std::uint32_t held_px = held ? held->map_px : 0;
     const std::uint32_t asked_px = light.shadow.resolution_px;
-    demand.most_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
-                                  : automatic_resolution(viewport_px, texels_per_pixel(light, held, demand),
-                                                         wished_resolution_px(light, demand), limit_px);
-    if (asked_px > 0 && demand.most_px != asked_px) demand.note = Reason::resolution_clamped;
-    set_resolution(light, demand.most_px, demand);
-    if (held_px > 0 && held_px < demand.most_px && follows_contract(light, demand))
-        set_resolution(light, held_px, demand);
+    request.limits.max_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
+                                         : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
+                                                                wished_resolution_px(light, request), limit_px);
+    if (asked_px > 0 && request.limits.max_px != asked_px) request.note = Reason::resolution_clamped;
+    set_resolution(light, request.limits.max_px, request);
+    if (held_px > 0 && held_px < request.limits.max_px && follows_contract(light, request))
+        set_resolution(light, held_px, request);
 }
 
 /// Most edge of each map of a sun that follows the contract.
 std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
-                          const ShadowDemand& demand) {
-    const FilterRow& row = filter_row(demand.filter);
+                          const ShadowRequest& request) {
+    const FilterRow& row = filter_row(request.map.filter);
     const std::uint32_t own_px =
         automatic_resolution(viewport_px, row.texels_per_pixel, light.shadow.max_error_px, limit_px);
     const std::uint32_t usual_px = automatic_resolution(viewport_px, kSunTexelsPerPixel, 1.0f, limit_px);
     return std::max(std::min(usual_px, kUsualSunMap_px), own_px);
 }
 
-void decide_cone(const LightItem& light, const HeldLight* held, ShadowDemand& demand) {
-    demand.faces_eighths = next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
-    demand.view_count = cone_layers(demand.faces_eighths);
+void decide_cone(const LightItem& light, const HeldLight* held, ShadowRequest& request) {
+    request.projection.faces_eighths =
+        next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
+    request.map.view_count = cone_layers(request.projection.faces_eighths);
 }
 
 /// Nothing that is said of maps is of any account.
-void leave_out_map(ShadowDemand& demand) {
-    demand.traced = true;
-    demand.view_count = demand.most_views = 0;
-    demand.perspective_sun = false;
-    demand.note = Reason::none;
+void leave_out_map(ShadowRequest& request) {
+    request.rays.only = true;
+    request.map.view_count = request.limits.max_views = 0;
+    request.projection.perspective_sun = false;
+    request.note = Reason::none;
 }
 
 /// Rays follow the sun, and what its maps are certain of has to as well: no eye, no warp. What they store is compared
 /// to the last digit, and drawn from all sides; whatever else is said of them is of no account.
-void decide_sheets(ShadowDemand& demand) {
-    demand.asks_rays = true;
-    if (demand.perspective_sun) return leave_out_map(demand);
-    demand.depth_format = DepthFormat::d32f;
-    demand.warp = demand.cascade_blend = 0.0f;
-    if (demand.note == Reason::warp_unsupported) demand.note = Reason::none;
+void decide_sheets(ShadowRequest& request) {
+    request.rays.used = true;
+    if (request.projection.perspective_sun) return leave_out_map(request);
+    request.map.depth_format = DepthFormat::d32f;
+    request.projection.warp = request.map.cascade_blend = 0.0f;
+    if (request.note == Reason::warp_unsupported) request.note = Reason::none;
 }
 
 }  // namespace
@@ -176,75 +180,94 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
     return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
 }
 
-void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& demand) {
+void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowRequest& request) {
     const LightShadow& usable = are_splits(shadow) ? shadow : LightShadow{};
-    demand.view_count = count;
-    demand.cascade_blend = count > 1 ? usable.cascade_blend : 0.0f;
+    request.map.view_count = count;
+    request.map.cascade_blend = count > 1 ? usable.cascade_blend : 0.0f;
 }
 
-void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand) {
-    demand.resolution_px = size_px;
+void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest& request) {
+    request.map.resolution_px = size_px;
     const LightShadow shadow = with_own_source(light);
-    const FilterRow& row = filter_row(demand.filter);
-    demand.filtering = filter_demand(row, shadow, size_px);
-    demand.moments = moment_demand(row, shadow, size_px);
-    demand.moments.sampler_anisotropy = map_texture(light, demand) != gl::TextureKind::cube;
-    if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
+    const FilterRow& row = filter_row(request.map.filter);
+    request.map.filtering = filter_settings(row, shadow, size_px);
+    request.map.moments = prefilter_settings(row, shadow, size_px);
+    request.map.moments.sampler_anisotropy = map_texture(light, request) != gl::TextureKind::cube;
+    if (request.map.filtering.cut || request.map.moments.cut) request.note = Reason::filter_cut;
 }
 
-void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowDemand& demand) {
-    demand.most_px = most_px;
-    set_resolution(light, held_px > 0 ? std::min(held_px, most_px) : most_px, demand);
+void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowRequest& request) {
+    request.limits.max_px = most_px;
+    set_resolution(light, held_px > 0 ? std::min(held_px, most_px) : most_px, request);
 }
 
-ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint32_t i,
-                       ShadowFilter filter) {
+ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint32_t i,
+                         ShadowFilter filter) {
     const LightItem& light = scene.lights[i];
     const bool cube = light_kind_row(light.kind).texture == gl::TextureKind::cube;
-    return demand_with(scene, cube ? device.max_cube_px : device.max_texture_px, find(held, light.entity, i), i,
-                       filter);
+    return request_with(scene, cube ? device.max_cube_px : device.max_texture_px, find(held, light.entity, i), i,
+                        filter);
 }
 
-ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held_light,
-                         std::uint32_t i, ShadowFilter filter) {
+ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held_light,
+                           std::uint32_t i, ShadowFilter filter) {
     filter = without_size(scene.lights[i], filter);
     glm::uvec2 viewport_px{1, 1};
     for (const ConsumerItem& consumer : scene.consumers) viewport_px = glm::max(viewport_px, consumer.viewport_px);
     const LightItem& light = scene.lights[i];
-    ShadowDemand demand;
-    demand.light = i;
-    demand.filter = filter;
-    demand.depth_format = light.shadow.depth_format;
-    demand.view_count = light_kind_row(light.kind).layers;
-    demand.device_px = limit_px;
-    demand.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
-    decide_resolution(light, viewport_px, limit_px, held_light, demand);
-    decide_projection(light, scene.sampled_depths.failed, demand);
-    if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
-    if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
-    if (demand.aim.used) {
-        demand.faces_eighths = 0;
-        demand.view_count = 1;
+    ShadowRequest request;
+    request.map.filter = filter;
+    request.map.depth_format = light.shadow.depth_format;
+    request.map.view_count = light_kind_row(light.kind).layers;
+    request.limits.device_px = limit_px;
+    request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
+    decide_resolution(light, viewport_px, limit_px, held_light, request);
+    decide_projection(light, scene.sampled_depths.failed, request);
+    if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, request);
+    if (light.kind == LightKind::spot) decide_cone(light, held_light, request);
+    if (request.projection.aim.used) {
+        request.projection.faces_eighths = 0;
+        request.map.view_count = 1;
     }
-    if (leaves_count(light, demand)) {
-        demand.most_views = demand.view_count;
-        if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
-            set_cascades(light.shadow, held_light->cascades, demand);
+    if (leaves_count(light, request)) {
+        request.limits.max_views = request.map.view_count;
+        if (held_light && held_light->cascades > 0 && held_light->cascades < request.limits.max_views)
+            set_cascades(light.shadow, held_light->cascades, request);
     }
-    if (light.kind == LightKind::directional && follows_contract(light, demand))
-        set_most(light, sun_edge_px(light, viewport_px, limit_px, demand), held_light ? held_light->map_px : 0, demand);
-    if (asks_rays(filter_row(demand.filter))) decide_sheets(demand);
-    return demand;
+    if (light.kind == LightKind::directional && follows_contract(light, request))
+        set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->map_px : 0,
+                 request);
+    if (asks_rays(filter_row(request.map.filter))) decide_sheets(request);
+    return request;
 }
 
-void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,
-                   std::vector<ShadowDemand>& demands) {
-    demands.clear();
+bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
         const HeldLight* last = find(held, light.entity, i);
-        demands.push_back(demand_of(scene, device, held, i, filter_to_fit(light, last ? &last->filter : nullptr)));
-        demands.back().skip = wanted(scene.lights[i], shadows);
+        const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
+        if (wanted(light, shadows) == Reason::none && asks_rays(filter_row(filter))) return true;
+    }
+    return false;
+}
+
+void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, RayFallbacks& fallbacks,
+                     std::vector<ShadowRequest>& requests) {
+    requests.clear();
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const LightItem& light = scene.lights[i];
+        const HeldLight* last = find(inputs.held, light.entity, i);
+        const ShadowFilter filter = filter_to_fit(light, last ? &last->filter : nullptr);
+        requests.push_back(request_of(scene, inputs.device, inputs.held, i, filter));
+        requests.back().skip = wanted(light, inputs.shadows);
+    }
+    choose_fallbacks(scene, inputs.held, inputs.rays, requests, fallbacks);
+    for (std::uint32_t i = 0; i < requests.size(); ++i) {
+        if (fallbacks.reasons[i] == Reason::none) continue;
+        const ShadowFilter filter = filtered_row(requests[i].map.filter);
+        requests[i] = request_of(scene, inputs.device, inputs.held, i, filter);
+        requests[i].rays.fell_back = true;
+        requests[i].note = fallbacks.reasons[i];
     }
 }
 

@@ -3,7 +3,8 @@
 
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
+#include "systems/shadow/request/ray_limit.h"
 
 namespace gnomon::shadow {
 
@@ -14,26 +15,37 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
                                    std::uint32_t limit_px);
 
 /// Sets the size of the light's maps, and what of its filter's settings they bear.
-void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand);
+void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest& request);
 
 /// Sets how many cascades a sun has, and whether they fade into each other.
-void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& demand);
+void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowRequest& request);
 
 /// What the light of that index deserves with that filter, if it deserves anything.
-ShadowDemand demand_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
-                       std::uint32_t light, ShadowFilter filter);
+ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
+                         std::uint32_t light, ShadowFilter filter);
 
 /// The same within the device's limit on a map's edge; `held`: what the light's last fit left, null if there is none.
-ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held, std::uint32_t light,
-                         ShadowFilter filter);
+ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held,
+                           std::uint32_t light, ShadowFilter filter);
 
 /// Sets the size of the light's maps to the most they may have, or to `held_px`, their last one, if that is less and
 /// above 0.
-void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowDemand& demand);
+void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowRequest& request);
 
-/// Stage 2: what each light deserves, one entry per light of the snapshot, same order. What nobody wants ends here.
-/// `shadows` false treats every light as disabled. `held`: what the fits left last frame.
-void decide_demand(const SceneSnapshot& scene, const gl::DeviceInfo& device, bool shadows, const History& held,
-                   std::vector<ShadowDemand>& demands);
+/// Says whether any light asks for a filter that uses rays, before their limit is known.
+bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows);
+
+/// What the requests of a frame follow from, beside the scene.
+struct RequestInputs {
+    const gl::DeviceInfo& device;
+    const History& held;  // what the fits left last frame
+    bool shadows = true;  // false: every light counts as disabled
+    RayLimit rays = {};
+};
+
+/// Stage 2: decides what each light asks for, one entry per light of the snapshot, same order. A light that asks for
+/// nothing says why in ShadowRequest::skip. `fallbacks` is overwritten.
+void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, RayFallbacks& fallbacks,
+                     std::vector<ShadowRequest>& requests);
 
 }  // namespace gnomon::shadow

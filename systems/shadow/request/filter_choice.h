@@ -34,7 +34,7 @@ inline constexpr std::uint32_t kFilterPasses = 30;
 /// a bias by hand, on whose being automatic the prediction rests.
 bool leaves_filter(const LightItem& light);
 
-/// The filter that the light's demand starts from; `held`: what its contract chose, null if it is new.
+/// The filter that the light's request starts from; `held`: what its contract chose, null if it is new.
 ShadowFilter filter_to_fit(const LightItem& light, const HeldFilter* held);
 
 /// What the light is to have, where the largest maps of the usual filter err by `usual_px`. NaN: they do not keep it.

@@ -12,14 +12,14 @@ namespace {
 bool is_length(float value) { return std::isfinite(value) && value >= 0.0f; }
 
 /// The field, or the default instead of what is no length.
-float length_of(const LightShadow& shadow, float LightShadow::*field, FilterDemand& filter) {
+float length_of(const LightShadow& shadow, float LightShadow::*field, FilterSettings& filter) {
     if (is_length(shadow.*field)) return shadow.*field;
     filter.cut = true;
     return LightShadow{}.*field;
 }
 
 /// Taps that differ from point to point.
-void take_seeds(const LightShadow& shadow, FilterDemand& filter) {
+void take_seeds(const LightShadow& shadow, FilterSettings& filter) {
     filter.taps = std::clamp(shadow.filter_taps, 1u, kMostFilterTaps);
     filter.cell_m = length_of(shadow, &LightShadow::filter_cell_m, filter);
     if (!(filter.cell_m > 0.0f)) filter.cell_m = LightShadow{}.filter_cell_m;
@@ -27,12 +27,12 @@ void take_seeds(const LightShadow& shadow, FilterDemand& filter) {
 }
 
 /// In place of taps.
-void take_rays(const LightShadow& shadow, FilterDemand& filter) {
+void take_rays(const LightShadow& shadow, FilterSettings& filter) {
     filter.taps = std::clamp(shadow.penumbra_rays, 1u, kMostPenumbraRays);
     filter.cut = filter.cut || filter.taps != shadow.penumbra_rays;
 }
 
-void take_spread(const LightShadow& shadow, float most_texel, FilterDemand& filter) {
+void take_spread(const LightShadow& shadow, float most_texel, FilterSettings& filter) {
     filter.spread_m = length_of(shadow, &LightShadow::filter_spread_m, filter);
     filter.doubles_m = length_of(shadow, &LightShadow::filter_doubles_m, filter);
     const float spread_texel = length_of(shadow, &LightShadow::filter_spread_texel, filter);
@@ -44,7 +44,7 @@ void take_spread(const LightShadow& shadow, float most_texel, FilterDemand& filt
 }
 
 /// How many texels it reaches follows from where casters are: up to the most.
-void take_source(const LightShadow& shadow, float most_texel, FilterDemand& filter) {
+void take_source(const LightShadow& shadow, float most_texel, FilterSettings& filter) {
     const float radius_m = length_of(shadow, &LightShadow::source_radius_m, filter);
     const float angle_rad = length_of(shadow, &LightShadow::sun_radius_rad, filter);
     filter.source_radius_m = std::min(radius_m, kMostSourceRadius_m);
@@ -58,22 +58,22 @@ void take_source(const LightShadow& shadow, float most_texel, FilterDemand& filt
 
 }  // namespace
 
-float border_texel(const FilterDemand& filter, float penumbra_texel) {
+float border_texel(const FilterSettings& filter, float penumbra_texel) {
     return needs_distances(filter) ? filter.reach_texel + 0.5f * penumbra_texel : filter.widest_texel;
 }
 
-bool needs_distances(const FilterDemand& filter) {
+bool needs_distances(const FilterSettings& filter) {
     return filter.source_radius_m > 0.0f || filter.sun_radius_tan > 0.0f;
 }
 
-FilterDemand filter_demand(const LightShadow& shadow, std::uint32_t resolution_px) {
-    return filter_demand(filter_row(shadow.filter), shadow, resolution_px);
+FilterSettings filter_settings(const LightShadow& shadow, std::uint32_t resolution_px) {
+    return filter_settings(filter_row(shadow.filter), shadow, resolution_px);
 }
 
-FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
+FilterSettings filter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
     const auto most_edge_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
     const float most_texel = std::min(kMostSpread_texel, most_edge_texel);
-    FilterDemand filter;
+    FilterSettings filter;
     filter.reach_texel = row.reach_texel;
     if (row.width == FilterWidth::size) {
         // The nearest odd size below.
@@ -82,7 +82,7 @@ FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std:
         filter.cut = filter.size != shadow.filter_size;
         filter.reach_texel += 0.5f * static_cast<float>(filter.size - 1);
     }
-    filter.reach_texel += moment_demand(row, shadow, resolution_px).reach_texel;
+    filter.reach_texel += prefilter_settings(row, shadow, resolution_px).reach_texel;
     filter.widest_texel = filter.reach_texel;
     filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(shadow, filter);
@@ -93,7 +93,7 @@ FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std:
     return filter;
 }
 
-double reach_texel_at(const FilterDemand& filter, double texel_m) {
+double reach_texel_at(const FilterSettings& filter, double texel_m) {
     if (!(filter.spread_m > 0.0f) || filter.doubles_m > 0.0f) return static_cast<double>(filter.widest_texel);
     const double spread_texel = static_cast<double>(filter.spread_m) / texel_m;
     const auto most_texel = static_cast<double>(filter.most_spread_texel);
@@ -101,7 +101,7 @@ double reach_texel_at(const FilterDemand& filter, double texel_m) {
     return static_cast<double>(filter.reach_texel) + (spread_texel < most_texel ? spread_texel : most_texel);
 }
 
-double edge_texel_at(const FilterDemand& filter, double texel_m) {
+double edge_texel_at(const FilterSettings& filter, double texel_m) {
     return reach_texel_at(filter, texel_m) - static_cast<double>(filter.still_texel);
 }
 

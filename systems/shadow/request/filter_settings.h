@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "components/light_shadow.h"
-#include "systems/shadow/frame/filter_demand.h"
+#include "systems/shadow/frame/shadow_request.h"
 
 namespace gnomon::shadow {
 
@@ -17,18 +17,18 @@ inline constexpr float kMostPenumbra_texel = 128.0f;
 /// Of a map's edge: a wider footprint would leave too little between its borders.
 inline constexpr std::uint32_t kEdgesPerSpread = 8;
 
-FilterDemand filter_demand(const LightShadow& shadow, std::uint32_t resolution_px);
-FilterDemand filter_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
+FilterSettings filter_settings(const LightShadow& shadow, std::uint32_t resolution_px);
+FilterSettings filter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
 
 /// Whether a map has to hold how far casters truly are, instead of flattening those before its depth range.
-bool needs_distances(const FilterDemand& filter);
+bool needs_distances(const FilterSettings& filter);
 
-/// FilterDemand::border_texel where no penumbra is wider than that.
-float border_texel(const FilterDemand& filter, float penumbra_texel);
+/// FilterSettings::border_texel where no penumbra is wider than that.
+float border_texel(const FilterSettings& filter, float penumbra_texel);
 
 /// Bound on E where no texel is finer than `texel_m` metres.
-double reach_texel_at(const FilterDemand& filter, double texel_m);
+double reach_texel_at(const FilterSettings& filter, double texel_m);
 /// The same of what can move a shadow's edge.
-double edge_texel_at(const FilterDemand& filter, double texel_m);
+double edge_texel_at(const FilterSettings& filter, double texel_m);
 
 }  // namespace gnomon::shadow

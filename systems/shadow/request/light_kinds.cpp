@@ -8,28 +8,28 @@ namespace {
 /// Cascades of a sun: each about doubles the depth that one texel size can serve; docs/accuracy.md has the figures.
 constexpr std::uint32_t kCascades = 4;
 
-constexpr LightKindRow kRows[] = {
+constexpr LightKindRow kKindRows[] = {
     {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/lookup/kinds/directional.glsl",
      gl::TextureKind::array, kCascades, fit_directional},
     {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot},
     {LightKind::point, "point", "LIGHT_POINT", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point},
 };
 
-constexpr bool rows_are_in_order() {
-    for (std::size_t i = 0; i < std::size(kRows); ++i)
-        if (static_cast<std::size_t>(kRows[i].kind) != i) return false;
+constexpr bool kinds_are_in_order() {
+    for (std::size_t i = 0; i < std::size(kKindRows); ++i)
+        if (static_cast<std::size_t>(kKindRows[i].kind) != i) return false;
     return true;
 }
-static_assert(rows_are_in_order());
+static_assert(kinds_are_in_order());
 
 }  // namespace
 
-std::span<const LightKindRow> light_kind_table() { return kRows; }
+std::span<const LightKindRow> light_kind_table() { return kKindRows; }
 
-const LightKindRow& light_kind_row(LightKind kind) { return kRows[static_cast<std::size_t>(kind)]; }
+const LightKindRow& light_kind_row(LightKind kind) { return kKindRows[static_cast<std::size_t>(kind)]; }
 
-gl::TextureKind map_texture(const LightItem& light, const ShadowDemand& demand) {
-    return demand.aim.used ? gl::TextureKind::array : light_kind_row(light.kind).texture;
+gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request) {
+    return request.projection.aim.used ? gl::TextureKind::array : light_kind_row(light.kind).texture;
 }
 
 }  // namespace gnomon::shadow

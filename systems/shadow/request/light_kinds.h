@@ -6,21 +6,21 @@
 #include "components/light.h"
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 namespace gnomon::shadow {
 
-/// What a kind's fit sees: its light, its demand, its sets. Points are the visible receivers' corners, world space.
+/// What a kind's fit sees: its light, its request, its sets. Points are the visible receivers' corners, world space.
 struct FitInput {
     const LightItem& light;
-    const ShadowDemand& demand;
+    const ShadowRequest& request;
     const SceneSnapshot& scene;
     std::span<const std::uint32_t> receivers;  // indices into scene.instances
     std::span<const std::uint32_t> casters;
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
     std::span<const Beam> beams;                     // of a local light: one for each of light_openings()
     std::span<const glm::dvec3> frame_points_ws;     // what Beam::receiver_points is a range of
-    float reach_texel = 0.5f;                        // the filter's E, for borders: FilterDemand::border_texel
+    float reach_texel = 0.5f;                        // the filter's E, for borders: FilterSettings::border_texel
     FitScratch& scratch;                             // so that a fit allocates nothing in steady state
     const HeldLight& held;                           // what this light's last fit left
     HeldLight& next;                                 // output, starts as a copy of `held`: see fit_history.h
@@ -55,7 +55,7 @@ std::span<const LightKindRow> light_kind_table();
 const LightKindRow& light_kind_row(LightKind kind);
 
 /// Of the light's map: an aimed lamp has a flat one.
-gl::TextureKind map_texture(const LightItem& light, const ShadowDemand& demand);
+gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request);
 
 bool fit_directional(const FitInput& input, std::vector<ShadowView>& views);
 /// One view from the sun's eye (projection/sun_viewpoint.h).

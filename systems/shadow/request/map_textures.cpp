@@ -13,13 +13,13 @@ gl::TextureDesc without_label(const gl::TextureDesc& desc) {
     return {{}, desc.kind, desc.format, desc.width, desc.height, desc.layers, desc.mips};
 }
 
-gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand) {
-    const gl::TextureKind kind = map_texture(light, demand);
+gl::TextureDesc map_desc(const LightItem& light, const ShadowRequest& request) {
+    const gl::TextureKind kind = map_texture(light, request);
     return {.kind = kind,
-            .format = depth_format_row(demand.depth_format).texture,
-            .width = map_edge_px(demand),
-            .height = map_edge_px(demand),
-            .layers = kind == gl::TextureKind::cube ? 1u : demand.view_count};
+            .format = depth_format_row(request.map.depth_format).texture,
+            .width = map_edge_px(request.map),
+            .height = map_edge_px(request.map),
+            .layers = kind == gl::TextureKind::cube ? 1u : request.map.view_count};
 }
 
 gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
@@ -28,17 +28,17 @@ gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
     return desc;
 }
 
-std::uint32_t scratch_rows(const ShadowDemand& demand, bool cube) { return cube ? demand.filtering.size / 2 : 0; }
+std::uint32_t scratch_rows(const MapSettings& settings, bool cube) { return cube ? settings.filtering.size / 2 : 0; }
 
-MomentDescs moments_of(const gl::TextureDesc& map, const ShadowDemand& demand) {
+MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings) {
     MomentDescs moments;
-    if (filter_row(demand.filter).storage != FilterStorage::moments) return moments;
+    if (filter_row(settings.filter).storage != FilterStorage::moments) return moments;
     moments.texture = without_label(map);
-    moments.texture.format = demand.moments.format;
-    moments.texture.mips = std::min(demand.moments.levels, static_cast<std::uint32_t>(std::bit_width(map.width)));
-    if (demand.filtering.size <= 1) return moments;
-    moments.scratch = {.format = demand.moments.format, .width = map.width};
-    moments.scratch.height = map.height + 2 * scratch_rows(demand, map.kind == gl::TextureKind::cube);
+    moments.texture.format = settings.moments.format;
+    moments.texture.mips = std::min(settings.moments.levels, static_cast<std::uint32_t>(std::bit_width(map.width)));
+    if (settings.filtering.size <= 1) return moments;
+    moments.scratch = {.format = settings.moments.format, .width = map.width};
+    moments.scratch.height = map.height + 2 * scratch_rows(settings, map.kind == gl::TextureKind::cube);
     return moments;
 }
 
@@ -68,11 +68,11 @@ std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const
     return bytes;
 }
 
-std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand) {
-    if (!has_map(demand)) return 0;
-    const gl::TextureDesc map = map_desc(light, demand);
-    const MomentDescs moments = moments_of(map, demand);
-    return map_bytes(map, filter_row(demand.filter).storage, moments.texture, moments.scratch);
+std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request) {
+    if (!has_map(request)) return 0;
+    const gl::TextureDesc map = map_desc(light, request);
+    const MomentDescs moments = moments_of(map, request.map);
+    return map_bytes(map, filter_row(request.map.filter).storage, moments.texture, moments.scratch);
 }
 
 }  // namespace gnomon::shadow

@@ -3,10 +3,10 @@
 
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// Which textures a light's demand asks for. None has a label: those are for what is made, and a longer one takes
+/// Which textures a light's request asks for. None has a label: those are for what is made, and a longer one takes
 /// memory, which a steady frame must not.
 namespace gnomon::shadow {
 
@@ -16,7 +16,7 @@ inline constexpr gl::Format kTriangleFormat = gl::Format::rg32ui;
 gl::TextureDesc without_label(const gl::TextureDesc& desc);
 
 /// The depth map, of the edge that the light is given in this frame.
-gl::TextureDesc map_desc(const LightItem& light, const ShadowDemand& demand);
+gl::TextureDesc map_desc(const LightItem& light, const ShadowRequest& request);
 
 /// What each of its texels shows.
 gl::TextureDesc triangles_of(const gl::TextureDesc& map);
@@ -25,10 +25,10 @@ gl::TextureDesc triangles_of(const gl::TextureDesc& map);
 struct MomentDescs {
     gl::TextureDesc texture{.width = 0}, scratch{.width = 0};
 };
-MomentDescs moments_of(const gl::TextureDesc& map, const ShadowDemand& demand);
+MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings);
 
 /// Rows of the scratch texture beyond the map's, above and below: a cube's neighbours go on there.
-std::uint32_t scratch_rows(const ShadowDemand& demand, bool cube);
+std::uint32_t scratch_rows(const MapSettings& settings, bool cube);
 
 /// What else a map of FilterStorage::sheets has (docs/exact.md): what each texel shows, until the next triangles behind
 /// are drawn, view by view in one layer; and, per view, those triangles' depths, and where sheets end and how far they
@@ -42,6 +42,6 @@ SheetDescs sheets_of(const gl::TextureDesc& map);
 std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch);
 /// 0: it has no map.
-std::uint64_t map_bytes(const LightItem& light, const ShadowDemand& demand);
+std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request);
 
 }  // namespace gnomon::shadow

@@ -27,8 +27,9 @@ std::uint64_t ends_bytes(std::uint32_t size_px, std::uint32_t views) {
 
 double steepest(const ShadowView& view, double texel_u, double texel_v, double source_size) {
     const double texel = std::min(texel_u, texel_v);
-    if (view.projection == ViewProjection::orthographic) return texel / (source_size * (view.far_m - view.near_m));
-    return texel * view.depth_beta / (source_size * kMostStretch);
+    if (view.projection == ViewProjection::orthographic)
+        return texel / (source_size * (view.depth.far_m - view.depth.near_m));
+    return texel * view.depth.beta / (source_size * kMostStretch);
 }
 
 }  // namespace gnomon::shadow

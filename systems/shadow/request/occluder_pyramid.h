@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 /// What a source with a size asks of a map of sheets (docs/exact.md, "A source with a size"): per texel how near to the
 /// light anything comes there that may keep a place from being lit by all of the source, or dark to all of it; and the

@@ -27,14 +27,14 @@ constexpr float kMostFootprint_texel = 16.0f;
 
 /// A sampler's blend at the coarsest level reads texels up to one and a half of its own away, of which E has one of the
 /// finest already; anisotropy moves it along the footprint, by half of it.
-void set_footprint(MomentDemand& demand) {
-    const auto coarsest_texel = static_cast<float>(1u << (demand.levels - 1));
-    demand.footprint_texel = std::min(coarsest_texel * static_cast<float>(demand.anisotropy), kMostFootprint_texel);
-    demand.reach_texel = demand.levels > 1 ? 1.5f * coarsest_texel - 1.0f : 0.0f;
-    if (demand.anisotropy > 1) demand.reach_texel += 0.5f * demand.footprint_texel;
+void set_footprint(PrefilterSettings& request) {
+    const auto coarsest_texel = static_cast<float>(1u << (request.levels - 1));
+    request.footprint_texel = std::min(coarsest_texel * static_cast<float>(request.anisotropy), kMostFootprint_texel);
+    request.reach_texel = request.levels > 1 ? 1.5f * coarsest_texel - 1.0f : 0.0f;
+    if (request.anisotropy > 1) request.reach_texel += 0.5f * request.footprint_texel;
 }
 
-/// Of FilterWidth::source, as filter_demand() takes its size.
+/// Of FilterWidth::source, as filter_settings() takes its size.
 std::uint32_t penumbra_levels(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
     const auto has_size = [](float radius) { return std::isfinite(radius) && radius > 0.0f; };
     const bool soft =
@@ -50,32 +50,32 @@ std::uint32_t widest_penumbra_levels(float radius_texel) {
     return static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(std::max(radius_texel, 1.0f))));
 }
 
-MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
-    MomentDemand demand;
-    if (!row.moments) return demand;
+PrefilterSettings prefilter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
+    PrefilterSettings request;
+    if (!row.moments) return request;
     const bool half = shadow.moment_bits <= 16;
     const MomentStore& store = half ? row.moments->bits_16 : row.moments->bits_32;
-    demand.cut = shadow.moment_bits != 16 && shadow.moment_bits != 32;
-    demand.format = store.format;
+    request.cut = shadow.moment_bits != 16 && shadow.moment_bits != 32;
+    request.format = store.format;
     const float negative = row.moments->usual_negative_exponent;
-    demand.settings = {
-        exponent(shadow.moment_exponent, store.usual_exponent, store.most_exponent, demand.cut),
-        negative > 0.0f ? exponent(shadow.moment_negative_exponent, negative, store.most_exponent, demand.cut) : 0.0f,
+    request.settings = {
+        exponent(shadow.moment_exponent, store.usual_exponent, store.most_exponent, request.cut),
+        negative > 0.0f ? exponent(shadow.moment_negative_exponent, negative, store.most_exponent, request.cut) : 0.0f,
         store.least, half ? 1.0f : 0.0f};
     const bool share = shadow.moment_bleeding >= 0.0f && shadow.moment_bleeding <= kMostMomentBleeding;
-    demand.bleeding = share ? shadow.moment_bleeding : LightShadow{}.moment_bleeding;
-    demand.levels = std::clamp(shadow.moment_levels, 1u, kMostMomentLevels);
-    demand.anisotropy = std::clamp(shadow.moment_anisotropy, 1u, kMostMomentAnisotropy);
-    set_footprint(demand);
+    request.bleeding = share ? shadow.moment_bleeding : LightShadow{}.moment_bleeding;
+    request.levels = std::clamp(shadow.moment_levels, 1u, kMostMomentLevels);
+    request.anisotropy = std::clamp(shadow.moment_anisotropy, 1u, kMostMomentAnisotropy);
+    set_footprint(request);
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
-    while (demand.reach_texel > most_texel && demand.levels + demand.anisotropy > 2) {
-        (demand.levels > 1 ? demand.levels : demand.anisotropy) -= 1;
-        set_footprint(demand);
+    while (request.reach_texel > most_texel && request.levels + request.anisotropy > 2) {
+        (request.levels > 1 ? request.levels : request.anisotropy) -= 1;
+        set_footprint(request);
     }
-    demand.cut =
-        demand.cut || !share || demand.levels != shadow.moment_levels || demand.anisotropy != shadow.moment_anisotropy;
-    demand.levels = std::max(demand.levels, penumbra_levels(row, shadow, resolution_px));
-    return demand;
+    request.cut = request.cut || !share || request.levels != shadow.moment_levels ||
+                  request.anisotropy != shadow.moment_anisotropy;
+    request.levels = std::max(request.levels, penumbra_levels(row, shadow, resolution_px));
+    return request;
 }
 
 std::array<float, kMomentWeights> blur_weights(std::uint32_t size) {

@@ -1,25 +1,30 @@
-#include "engine/core/signature.h"
-#include "systems/shadow/budget/ray_budget.h"
-#include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/update/skip_map_for_rays.h"
 
-/// The part of stage 5 that asks whether a map is worth drawing.
+#include "engine/core/signature.h"
+#include "systems/shadow/request/ray_limit.h"
+
 namespace gnomon::shadow {
 namespace {
 
-/// What the views [first, end) are to hold.
-std::uint64_t content_of(const ShadowFrame& frame, std::size_t first, std::size_t end) {
+/// What a ray costs, and in rays what else does: a triangle of a caster, drawn three times and measured; a texel of a
+/// map, cleared and written as often; a pixel's verdict. Ratios of one run (docs/exact.md, "What it costs").
+constexpr double kTriangle_rays = 2.5, kTexel_rays = 0.1, kVerdict_rays = 0.15;
+
+/// What the views of the range hold after this frame.
+std::uint64_t content_of(const std::vector<UpdatePlan>& plans, IndexRange range) {
     Signature s;
-    for (std::size_t v = first; v < end; ++v) s.add(frame.slots[v].content);
+    for (std::size_t v = range.first; v < range.end(); ++v) s.add(plans[v].content);
     return s.value();
 }
 
-SheetLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowFrame& frame, std::size_t first,
-                  std::size_t end) {
+SheetLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs,
+                  const std::vector<UpdatePlan>& plans, IndexRange range) {
     SheetLoad load;
-    for (std::size_t v = first; v < end; ++v) {
-        if (frame.slots[v].reuse) continue;
-        load.texels += static_cast<double>(frame.slots[v].size_px) * static_cast<double>(frame.slots[v].size_px);
-        for (const std::uint32_t i : casters_of(frame, frame.views[v]))
+    for (std::size_t v = range.first; v < range.end(); ++v) {
+        if (plans[v].reuse) continue;
+        const double size_px = inputs.maps[v].size_px;
+        load.texels += size_px * size_px;
+        for (const std::uint32_t i : inputs.fitted.casters_of(inputs.fitted.views[v]))
             load.triangles += static_cast<double>(gpu.mesh(scene.instances[i].mesh).triangles);
     }
     return load;
@@ -27,21 +32,30 @@ SheetLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const ShadowF
 
 }  // namespace
 
-void MapStore::leave_to_rays(const SceneSnapshot& scene, const GpuScene& gpu, ShadowFrame& frame) {
-    for (std::size_t first = 0, end = 0; first < frame.views.size(); first = end) {
-        while (end < frame.views.size() && frame.views[end].demand == frame.views[first].demand) ++end;
-        ShadowDemand& demand = frame.demands[frame.views[first].demand];
-        const LightItem& light = scene.lights[demand.light];
-        if (!demand.asks_rays || !light.shadow.economy || !frame.slots[first].texture) continue;
-        LightHistory& history = entry(light.entity);
-        const std::uint64_t content = content_of(frame, first, end);
+bool are_rays_cheaper(double pixels, double rays_per_pixel, const SheetLoad& load) {
+    const double drawn = load.triangles * kTriangle_rays + load.texels * kTexel_rays;
+    return pixels * rays_per_pixel < drawn + pixels * (kVerdict_rays + kUncertainShare * rays_per_pixel);
+}
+
+void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
+                        std::vector<UpdatePlan>& plans) {
+    for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
+        const IndexRange range = inputs.fitted.lights[i].views;
+        const LightItem& light = scene.lights[i];
+        const ShadowRequest& request = inputs.decisions[i].request;
+        if (range.count == 0 || !request.rays.used || !light.shadow.economy || !inputs.maps[range.first].texture)
+            continue;
+        LightHistory& history = maps.entry(light.entity);
+        const std::uint64_t content = content_of(plans, range);
         const bool moves = history.wanted_content != 0 && history.wanted_content != content;
         history.wanted_content = content;
-        if (!moves || !are_rays_cheaper(asking_pixels(scene, light), rays_per_pixel(demand),
-                                        load_of(scene, gpu, frame, first, end)))
+        if (!moves || !are_rays_cheaper(asking_pixels(scene, light), rays_per_pixel(request.map),
+                                        load_of(scene, gpu, inputs, plans, range)))
             continue;
-        demand.left_to_rays = true;
-        for (std::size_t v = first; v < end; ++v) frame.slots[v] = {};
+        for (std::size_t v = range.first; v < range.end(); ++v) {
+            plans[v] = {};
+            plans[v].left_to_rays = true;
+        }
     }
 }
 

@@ -19,12 +19,12 @@ Pose read(const PoseItem* pose) { return pose ? Pose{pose->since, pose->bent_m} 
 
 /// Of vectors: how far across the light. Both are convex in what moved, so that a box's corners say it for the box.
 double across_m(const ShadowView& view, const glm::dvec3& v) {
-    return std::hypot(glm::dot(v, view.axis_u), glm::dot(v, view.axis_v));
+    return std::hypot(glm::dot(v, view.pose.axis_u), glm::dot(v, view.pose.axis_v));
 }
 
 /// The largest tangent that the view's map holds.
 double widest_tangent(const ShadowView& view) {
-    const glm::dvec2 side = glm::max(glm::abs(view.tan_low), glm::abs(view.tan_high));
+    const glm::dvec2 side = glm::max(glm::abs(view.plane.tan_low), glm::abs(view.plane.tan_high));
     return glm::length(side);
 }
 
@@ -32,7 +32,7 @@ double widest_tangent(const ShadowView& view) {
 double least_distance_m(const ShadowView& view, const math::Aabb& box) {
     double least_m = kInfinity;
     for (const glm::dvec3& corner : math::corners(box))
-        least_m = std::min(least_m, glm::dot(apex_ws_m(view) - corner, view.axis_back));
+        least_m = std::min(least_m, glm::dot(apex_ws_m(view) - corner, view.pose.axis_back));
     return least_m;
 }
 
@@ -49,7 +49,7 @@ BoxShift box_shift(const ShadowView& view, const ShownCaster& then, const Instan
         if (!(any_m < kInfinity)) return {kInfinity, kInfinity, kInfinity};
         most.any_m = std::max(most.any_m, any_m);
         most.across_m = std::max(most.across_m, across_m(view, moved));
-        most.along_m = std::max(most.along_m, std::abs(glm::dot(moved, view.axis_back)));
+        most.along_m = std::max(most.along_m, std::abs(glm::dot(moved, view.pose.axis_back)));
     }
     return {most.any_m + bent_m, most.across_m + bent_m, most.along_m + bent_m};
 }
@@ -91,7 +91,7 @@ CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const 
 Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const ShownCasters& shown,
                     std::uint64_t still_content, std::span<const std::uint32_t> casters) {
     const auto moving = casters.subspan(std::min<std::size_t>(view.still_casters, casters.size()));
-    if (shown.still != still_content || shown.moving.size() != moving.size() || !(view.metre_px > 0.0))
+    if (shown.still != still_content || shown.moving.size() != moving.size() || !(view.error.metre_px > 0.0))
         return kUnknownStaleness;
     CasterShift most;
     for (std::size_t i = 0; i < moving.size(); ++i) {
@@ -105,8 +105,9 @@ Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const Sh
     const bool orthographic = view.projection == ViewProjection::orthographic;
     // Of a perspective view a tangent is as much longer than a texel as it is in the texel's own coordinates.
     const double across_px =
-        orthographic ? view.metre_px : view.texel_extent_px / glm::length(glm::dvec2(view.texel_u, view.texel_v));
-    return {most.any_m, most.across * across_px + most.any_m * view.metre_px};
+        orthographic ? view.error.metre_px
+                     : view.error.extent_px / glm::length(glm::dvec2(view.plane.texel_u, view.plane.texel_v));
+    return {most.any_m, most.across * across_px + most.any_m * view.error.metre_px};
 }
 
 }  // namespace gnomon::shadow

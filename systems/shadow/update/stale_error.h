@@ -8,7 +8,8 @@
 
 #include "engine/math/aabb.h"
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_view.h"
+#include "systems/shadow/frame/update_plan.h"
 #include "systems/shadow/maps/shown_casters.h"
 
 /// How far off shadows are in a map that is kept although casters moved since it was drawn.

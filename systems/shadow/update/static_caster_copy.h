@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/update/update_inputs.h"
 
 namespace gnomon::shadow {
 
@@ -15,5 +17,9 @@ inline constexpr std::uint64_t kCopiedBytesPerTriangle = 256;
 /// every device.
 bool pays_to_copy(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> still_casters,
                   std::uint64_t bytes);
+
+/// Has views whose casters move in part copy the static ones, where that is less work than drawing them again.
+void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
+                         std::vector<UpdatePlan>& plans);
 
 }  // namespace gnomon::shadow

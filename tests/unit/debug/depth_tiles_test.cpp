@@ -19,10 +19,10 @@ std::vector<ShadowView> views_of(std::uint32_t count, ViewProjection projection)
     for (std::uint32_t i = 0; i < count; ++i) {
         views[i].layer = i;
         views[i].projection = projection;
-        views[i].near_m = 0.5;
-        views[i].far_m = 20.0 + i;
-        views[i].depth_alpha = -0.25;
-        views[i].depth_beta = 0.75;
+        views[i].depth.near_m = 0.5;
+        views[i].depth.far_m = 20.0 + i;
+        views[i].depth.alpha = -0.25;
+        views[i].depth.beta = 0.75;
     }
     return views;
 }

@@ -14,23 +14,27 @@ using ::testing::HasSubstr;
 struct DepthView : ::testing::Test {
     DepthView() {
         for (const char* name : {"sun", "lantern", "dark"}) scene.lights.emplace_back().name = name;
-        frame.demands = {{.light = 0}, {.light = 1}, {.light = 2}};
-        frame.sets.resize(3);
-        frame.sets[2].skip = Reason::no_caster;
+        frame.fitted.lights.resize(3);
+        frame.sets.lights.resize(3);
+        frame.decisions.resize(3);
+        frame.statuses.resize(3);
+        frame.statuses[2].skip(Reason::no_caster);
         add_views(0, 2, shadow::ViewProjection::orthographic, {7});
         add_views(1, 6, shadow::ViewProjection::cube_face, {9});
         request.view = find_view("depth");
     }
-    void add_views(std::uint32_t demand, std::uint32_t count, shadow::ViewProjection projection,
+    void add_views(std::uint32_t light, std::uint32_t count, shadow::ViewProjection projection,
                    gl::TextureHandle map) {
+        frame.fitted.lights[light].views = {static_cast<std::uint32_t>(frame.fitted.views.size()), count};
         for (std::uint32_t i = 0; i < count; ++i) {
-            shadow::ShadowView& view = frame.views.emplace_back();
-            view.demand = demand;
+            shadow::ShadowView& view = frame.fitted.views.emplace_back();
+            view.light = light;
             view.layer = i;
             view.projection = projection;
-            view.near_m = projection == shadow::ViewProjection::orthographic ? -3.0 : 0.25;
-            view.far_m = 12.5;
-            frame.slots.emplace_back().texture = map;
+            view.depth.near_m = projection == shadow::ViewProjection::orthographic ? -3.0 : 0.25;
+            view.depth.far_m = 12.5;
+            frame.maps.emplace_back().texture = map;
+            frame.updates.emplace_back();
         }
     }
     std::optional<Drawing> draw(const std::string& light) {
@@ -99,7 +103,7 @@ TEST_F(DepthView, ALightWithoutAMapSaysWhy) {
 }
 
 TEST_F(DepthView, AViewThatGotNoMapIsLeftOut) {
-    frame.slots[0].texture = {};
+    frame.maps[0].texture = {};
     EXPECT_EQ(tiles_of(*draw("sun")).options.x, 1);
 }
 

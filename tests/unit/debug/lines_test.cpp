@@ -59,24 +59,24 @@ TEST(Lines, ColoursAreLinear) {
 
 TEST(Lines, AnOrthographicViewIsItsBoxAroundItsAnchor) {
     shadow::ShadowView view;
-    view.anchor_ws_m = {1.0e6, 5.0, -3.0};
+    view.pose.anchor_ws_m = {1.0e6, 5.0, -3.0};
     view.clip_from_anchor = glm::mat4(math::reversed_orthographic(-2.0, 4.0, -1.0, 3.0, 0.5, 20.5));
     const Corners corners = corners_of(view);
     const auto expect_near = [](const glm::dvec3& a, const glm::dvec3& b) { EXPECT_LT(glm::distance(a, b), 1e-5); };
-    expect_near(corners[0], view.anchor_ws_m + glm::dvec3(-2.0, -1.0, -20.5));
-    expect_near(corners[3], view.anchor_ws_m + glm::dvec3(4.0, 3.0, -20.5));
-    expect_near(corners[4], view.anchor_ws_m + glm::dvec3(-2.0, -1.0, -0.5));
-    expect_near(corners[7], view.anchor_ws_m + glm::dvec3(4.0, 3.0, -0.5));
+    expect_near(corners[0], view.pose.anchor_ws_m + glm::dvec3(-2.0, -1.0, -20.5));
+    expect_near(corners[3], view.pose.anchor_ws_m + glm::dvec3(4.0, 3.0, -20.5));
+    expect_near(corners[4], view.pose.anchor_ws_m + glm::dvec3(-2.0, -1.0, -0.5));
+    expect_near(corners[7], view.pose.anchor_ws_m + glm::dvec3(4.0, 3.0, -0.5));
 }
 
 TEST(Lines, APerspectiveViewWidensFromNearToFar) {
     shadow::ShadowView view;
-    view.anchor_ws_m = {3.0, 4.0, 5.0};
+    view.pose.anchor_ws_m = {3.0, 4.0, 5.0};
     constexpr double kNear = 0.001, kFar = 50.0, kTan = 0.75;
     view.clip_from_anchor = glm::mat4(math::reversed_perspective(-kTan, 0.5 * kTan, -kTan, kTan, kNear, kFar));
     const Corners corners = corners_of(view);
     const auto expect_at = [&](std::size_t i, const glm::dvec3& offset) {
-        EXPECT_LT(glm::distance(corners[i], view.anchor_ws_m + offset), 1e-4 * glm::length(offset)) << i;
+        EXPECT_LT(glm::distance(corners[i], view.pose.anchor_ws_m + offset), 1e-4 * glm::length(offset)) << i;
     };
     expect_at(0, {-kTan * kFar, -kTan * kFar, -kFar});
     expect_at(1, {0.5 * kTan * kFar, -kTan * kFar, -kFar});

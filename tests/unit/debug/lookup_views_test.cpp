@@ -49,8 +49,8 @@ TEST_F(LookupViews, MapsAreNamedInTheColoursThatTheShaderIsGiven) {
 }
 
 TEST_F(LookupViews, ThoseChosenByDistanceSayFromWhereToWhere) {
-    frame.views[1].seen_from_m = 3.25;
-    frame.views[1].seen_to_m = 1250.0;
+    frame.fitted.views[1].cascade.seen_from_m = 3.25;
+    frame.fitted.views[1].cascade.seen_to_m = 1250.0;
     EXPECT_EQ(draw("cascades", "sun", 1)->labels[1].text, "map 1, from 3.25 m to 1.25 km, texels up to 12.5 mm");
     EXPECT_EQ(draw("cascades", "sun", 2)->labels[1].text, "map 2, texels up to 12.5 mm");
 }

@@ -15,21 +15,26 @@ struct ViewTest : ::testing::Test {
         }
         scene.consumers.emplace_back();
         frame.inputs.emplace_back();
-        frame.demands = {{.light = 0}, {.light = 1}, {.light = 2}};
-        frame.sets.resize(3);
-        frame.sets[2].skip = Reason::no_caster;
+        frame.fitted.lights.resize(3);
+        frame.sets.lights.resize(3);
+        frame.decisions.resize(3);
+        frame.statuses.resize(3);
+        frame.statuses[2].skip(Reason::no_caster);
         for (std::uint32_t i = 0; i < 4; ++i) add_view(0, i, shadow::ViewProjection::orthographic);
         add_view(1, 0, shadow::ViewProjection::perspective);
     }
-    void add_view(std::uint32_t demand, std::uint32_t layer, shadow::ViewProjection projection) {
-        shadow::ShadowView& view = frame.views.emplace_back();
-        view.demand = demand;
+    void add_view(std::uint32_t light, std::uint32_t layer, shadow::ViewProjection projection) {
+        shadow::ShadowView& view = frame.fitted.views.emplace_back();
+        view.light = light;
         view.layer = layer;
         view.projection = projection;
-        view.near_m = 0.5;
-        view.far_m = 12.5;
-        view.texel_m = 0.0125;
-        frame.slots.emplace_back().texture = {demand + 1};
+        view.depth.near_m = 0.5;
+        view.depth.far_m = 12.5;
+        view.error.texel_m = 0.0125;
+        frame.maps.emplace_back().texture = {light + 1};
+        frame.updates.emplace_back();
+        shadow::IndexRange& views = frame.fitted.lights[light].views;
+        if (views.count++ == 0) views.first = static_cast<std::uint32_t>(frame.fitted.views.size() - 1);
     }
     /// `items` are instances of the scene.
     shadow::IndexRange add(std::vector<std::uint32_t>& all, std::initializer_list<std::uint32_t> items) {

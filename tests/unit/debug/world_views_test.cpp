@@ -18,9 +18,9 @@ struct WorldViews : ViewTest {
             const double x = 10.0 * i;
             scene.instances.emplace_back().bounds_ws = {{x, 0.0, 0.0}, {x + 1.0, 1.0, 1.0}};
         }
-        frame.sets[0].receivers = add(frame.receiver_items, {4, 0, 1});
-        frame.sets[0].casters = add(frame.caster_items, {1, 5, 2, 3});
-        frame.views[2].casters = add(frame.view_caster_items, {3, 1});
+        frame.fitted.lights[0].sets.receivers = add(frame.sets.receiver_items, {4, 0, 1});
+        frame.fitted.lights[0].sets.casters = add(frame.sets.caster_items, {1, 5, 2, 3});
+        frame.fitted.views[2].casters = add(frame.fitted.casters, {3, 1});
     }
 };
 
@@ -75,7 +75,7 @@ TEST_F(WorldViews, TheCameraThatFitsAreFrozenToIsDrawnAsFarAsItsFarthestReceiver
     camera.near_m = 0.1;
     camera.fov_y_rad = 2.0 * std::atan(0.5);
     camera.viewport_px = {200, 100};
-    frame.receiver_points_ws = {{0.0, 0.0, -3.0}, {2.0, 1.0, -11.0}, {0.0, 0.0, 100.0}};
+    frame.sets.receiver_points_ws = {{0.0, 0.0, -3.0}, {2.0, 1.0, -11.0}, {0.0, 0.0, 100.0}};
     fitted = &camera;
     const auto drawing = draw("frusta", "sun", 0);
     ASSERT_THAT(drawing->lines, SizeIs(2 * kBox));

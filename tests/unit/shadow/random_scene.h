@@ -5,9 +5,7 @@
 
 #include "engine/math/frustum.h"
 #include "systems/extract/volumes.h"
-#include "systems/shadow/culling/receiver_caster_sets.h"
-#include "systems/shadow/fitting/fit_light.h"
-#include "systems/shadow/request/decide_requests.h"
+#include "tests/oracle/fit_stages.h"
 #include "tests/unit/math/random_seed.h"
 
 namespace gnomon::shadow {
@@ -74,17 +72,6 @@ inline void place(SceneSnapshot& s, double scale, const glm::dvec3& offset) {
         l.position_ws_m = l.position_ws_m * scale + offset;
         l.range_m *= scale;
     }
-}
-
-inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
-    gl::DeviceInfo device;
-    device.max_texture_px = device.max_cube_px = 16384;
-    ShadowFrame frame;
-    frame.shared_out = shared_out;
-    decide_demand(scene, device, true, held, frame.demands);
-    select_sets(scene, frame);
-    fit_views(scene, held, frame);
-    return frame;
 }
 
 /// Whether the light's rays can reach the point, were nothing in the way.

@@ -95,15 +95,15 @@ bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const D
     if (shadow.splits != CascadeSplits::sampled || !are_splits(shadow)) return false;
     const double width_m = shadow.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
                                                            : seen_width_m(input.receiver_points_ws, consumer);
-    const SampledSplit split{input.scene.sampled_depths, consumer, input.demand.view_count, whole, width_m};
+    const SampledSplit split{input.scene.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
     if (shadow.fit == ShadowFit::tight) return sampled_ends(split, ends);
     return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
 }
 
 /// More than one map is chosen only where depths lie so far apart that even parts of them, however small their share,
 /// leave nothing to what is near: 4.6 % wrong instead of 0.8 in a valley of kilometres (docs/cost.md).
-LightShadow with_ends_for_count(LightShadow shadow, const ShadowDemand& demand) {
-    if (demand.most_views > 0 && shadow.splits == CascadeSplits::practical) shadow.split_lambda = 1.0f;
+LightShadow with_ends_for_count(LightShadow shadow, const ShadowRequest& request) {
+    if (request.limits.max_views > 0 && shadow.splits == CascadeSplits::practical) shadow.split_lambda = 1.0f;
     return shadow;
 }
 
@@ -121,7 +121,7 @@ CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
             const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
             receivers.push_back({middle - reach, middle + reach});
         }
-    return cascade_ends(with_ends_for_count(shadow, input.demand), input.demand.view_count, whole,
+    return cascade_ends(with_ends_for_count(shadow, input.request), input.request.map.view_count, whole,
                         consumer.projection == CameraProjection::perspective, receivers);
 }
 
@@ -130,10 +130,10 @@ CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
 CascadeSlices cascade_slices(const FitInput& input) {
     const ConsumerItem& consumer = input.scene.consumers.front();
     const CascadeEnds wanted = wanted_ends(input, consumer);
-    const std::uint32_t count = input.demand.view_count;
+    const std::uint32_t count = input.request.map.view_count;
     // Several consumers: all cascades serve by what they hold, none by distance.
     const bool moves_slowly = input.light.shadow.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
-    const double blend = static_cast<double>(input.demand.cascade_blend);
+    const double blend = static_cast<double>(input.request.map.cascade_blend);
     const GlidingEnds ends = moves_slowly ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
                                           : GlidingEnds{wanted, wanted, wanted};
     if (!moves_slowly) input.next.splits.count = 0;

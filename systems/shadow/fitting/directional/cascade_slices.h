@@ -13,8 +13,8 @@ struct CascadeSlice {
 };
 using CascadeSlices = std::array<CascadeSlice, kMaxCascades>;
 
-/// The first demand.view_count are filled. Where maps are held their borders glide (split_transition.h); while they are
-/// on their way, maps hold what is served at both ends of it, so that they need not follow.
+/// The first request.view_count are filled. Where maps are held their borders glide (split_transition.h); while they
+/// are on their way, maps hold what is served at both ends of it, so that they need not follow.
 CascadeSlices cascade_slices(const FitInput& input);
 
 }  // namespace gnomon::shadow

@@ -31,15 +31,15 @@ void include_casters(const FitInput& input, double radius_tan, OrthographicBox& 
 }  // namespace
 
 float penumbra_border_texel(const FitInput& input, double content, double aside) {
-    const double texels = input.demand.resolution_px * aside / (content + 2.0 * aside);
-    const float most_texel = input.demand.filtering.most_spread_texel;
+    const double texels = input.request.map.resolution_px * aside / (content + 2.0 * aside);
+    const float most_texel = input.request.map.filtering.most_spread_texel;
     float wide_texel = 1.0f;
     while (wide_texel < most_texel && static_cast<double>(wide_texel) < texels) wide_texel *= 2.0f;
-    return border_texel(input.demand.filtering, std::min(wide_texel, most_texel));
+    return border_texel(input.request.map.filtering, std::min(wide_texel, most_texel));
 }
 
 bool fit_cascade(const CascadeInput& input, OrthographicBox& box) {
-    const FilterDemand& filter = input.light.demand.filtering;
+    const FilterSettings& filter = input.light.request.map.filtering;
     const CascadeFit fit = cascade_fit(input.light.light.shadow.fit);
     if (!needs_distances(filter)) return fit(input, box);
     const auto radius_tan = static_cast<double>(filter.sun_radius_tan);

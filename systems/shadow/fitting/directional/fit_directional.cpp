@@ -42,7 +42,7 @@ glm::dvec3 lattice_anchor(const glm::dvec3& centre_ws, double extent_m) {
 }
 
 double with_border(double extent_m, const FitInput& input) {
-    const double size_px = input.demand.resolution_px;
+    const double size_px = input.request.map.resolution_px;
     return extent_m * size_px / (size_px - 2.0 * border_px(size_px, static_cast<double>(input.reach_texel)));
 }
 
@@ -52,10 +52,10 @@ namespace {
 /// bias/automatic.glsl along both sides of a texel, 4 sqrt(2), and rounding. Beyond it moves along the normal, by less.
 constexpr double kMostRise = 6.0;
 
-double bias_room(const ShadowDemand& demand, const glm::dvec2& extent_m) {
-    const FilterDemand& filter = demand.filtering;
+double bias_room(const ShadowRequest& request, const glm::dvec2& extent_m) {
+    const FilterSettings& filter = request.map.filtering;
     const auto reach_texel = static_cast<double>(needs_distances(filter) ? filter.reach_texel : filter.widest_texel);
-    return kMostRise * reach_texel * std::max(extent_m.x, extent_m.y) / demand.resolution_px;
+    return kMostRise * reach_texel * std::max(extent_m.x, extent_m.y) / request.map.resolution_px;
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ void place(const CascadeInput& input, const glm::dvec3& centre_ws, const glm::dv
     const glm::dvec3 c = (centre_ws - box.anchor_ws_m) * box.axes;
     box.centre_m = glm::dvec2(c);
     box.half_extent_m = 0.5 * extent_m;
-    box.near_m = -c.z - 0.5 * depth_m - slack_m - bias_room(input.light.demand, extent_m);
+    box.near_m = -c.z - 0.5 * depth_m - slack_m - bias_room(input.light.request, extent_m);
     box.far_m = -c.z + 0.5 * depth_m + slack_m;
 }
 
@@ -78,11 +78,11 @@ namespace {
 /// get as much room, in depth ranges, as tells the two apart in 16 bits (docs/filters.md, "Prefiltered maps").
 constexpr double kRoomForCasters = 0.5;
 
-/// The depth range that the demand asks for, counted from the sun's eye.
-void override_from_eye(const ShadowDemand& demand, const SunEye& eye, OrthographicBox& box) {
+/// The depth range that the request asks for, counted from the sun's eye.
+void override_from_eye(const ShadowRequest& request, const SunEye& eye, OrthographicBox& box) {
     const double eye_at_m = -glm::dot(eye.position_ws_m - box.anchor_ws_m, box.axes[2]);
     double near_m = box.near_m - eye_at_m, far_m = box.far_m - eye_at_m;
-    override_range(demand, near_m, far_m);
+    override_range(request.projection, near_m, far_m);
     box.near_m = near_m + eye_at_m;
     box.far_m = far_m + eye_at_m;
     // A range that its own place rounds away.
@@ -105,7 +105,8 @@ std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerI
 
 /// The view serves up to there, and fades into none.
 void end_before(double distance_m, ShadowView& view) {
-    if (view.seen_to_m > 0.0) view.seen_to_m = view.fades_from_m = view.fades_to_m = distance_m;
+    if (view.cascade.seen_to_m > 0.0)
+        view.cascade.seen_to_m = view.cascade.fades_from_m = view.cascade.fades_to_m = distance_m;
 }
 
 /// Whether a held size of some cascade is no longer the one that the last frame had.
@@ -119,12 +120,12 @@ bool has_stepped(const FitInput& input) {
 
 void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, Stepping stepping,
                   std::vector<ShadowView>& views) {
-    const bool counts_from_eye = input.demand.near_m > 0.0 || input.demand.far_m > 0.0;
+    const bool counts_from_eye = input.request.projection.near_m > 0.0 || input.request.projection.far_m > 0.0;
     const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
     const ConsumerItem& consumer = input.scene.consumers.front();
     // Several consumers share the cascades: the last one then holds whatever any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
-    const std::uint32_t count = input.demand.view_count;
+    const std::uint32_t count = input.request.map.view_count;
     const std::size_t before = views.size();
     for (HeldView& view : input.next.views) view.too_large = false;  // of those that are fitted the fit says it
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -137,27 +138,27 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws, stepping};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
         // Where maps hold true distances they reach up to the casters.
-        if (filter_row(input.demand.filter).storage == FilterStorage::moments &&
-            !needs_distances(input.demand.filtering))
+        if (filter_row(input.request.map.filter).storage == FilterStorage::moments &&
+            !needs_distances(input.request.map.filtering))
             box.near_m -= kRoomForCasters * (box.far_m - box.near_m);
-        if (counts_from_eye) override_from_eye(input.demand, eye, box);
+        if (counts_from_eye) override_from_eye(input.request, eye, box);
         // No receiver lies in the slices that were left out, their part of the fading included.
         if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());
         // What a map holds beyond its slice it serves as well, with the texels that a warp makes coarsest: only the
         // last one holds nothing of others.
-        const auto warp = static_cast<double>(input.demand.warp);
+        const auto warp = static_cast<double>(input.request.projection.warp);
         ShadowView view = warp > 0.0 ? warped_view(cascade, last ? warp : 0.0, box)
-                                     : orthographic_view(box, input.demand.resolution_px);
+                                     : orthographic_view(box, input.request.map.resolution_px);
         view.layer = i;
         view.receivers = receivers;
         view.held = input.light.shadow.fit != ShadowFit::tight;
-        view.seen_from_m = alone ? slice.holds_from_m : 0.0;
-        view.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
-        view.fades_from_m = alone ? slice.fades_from_m : 0.0;
-        view.fades_to_m = alone ? slice.serves_to_m : 0.0;
-        if (view.warp != glm::dvec2(0.0))
+        view.cascade.seen_from_m = alone ? slice.holds_from_m : 0.0;
+        view.cascade.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
+        view.cascade.fades_from_m = alone ? slice.fades_from_m : 0.0;
+        view.cascade.fades_to_m = alone ? slice.serves_to_m : 0.0;
+        if (view.plane.warp != glm::dvec2(0.0))
             state_error(consumer, points_ws,
-                        static_cast<double>(input.reach_texel - input.demand.filtering.still_texel), view);
+                        static_cast<double>(input.reach_texel - input.request.map.filtering.still_texel), view);
         views.push_back(view);
     }
 }
@@ -166,7 +167,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
 
 bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const glm::dmat3 basis = math::basis_from_back(input.light.rotation_ws[2]);
-    if (input.demand.perspective_sun) return fit_perspective_sun(input, basis, views);
+    if (input.request.projection.perspective_sun) return fit_perspective_sun(input, basis, views);
     const CascadeSlices slices = cascade_slices(input);
     const std::size_t before = views.size();
     const HeldLight& held = input.held;

@@ -72,7 +72,7 @@ public:
         for (int i = 0; i < 2; ++i) c.extent_m[i] = with_border(c.extent_m[i], input_.light);
         // Judged by a square texel of the same area: the smallest rectangle may turn at once, its area does not change
         // then.
-        const double side_m = std::sqrt(c.extent_m.x * c.extent_m.y) / input_.light.demand.resolution_px;
+        const double side_m = std::sqrt(c.extent_m.x * c.extent_m.y) / input_.light.request.map.resolution_px;
         const glm::dvec2 steepness(glm::length(c.gradient), 0.0);
         const auto texel_at = [&](double t) {
             return longest_cell(steepness, glm::dvec2(side_m), aside, 1.0 + steepness.x * t);
@@ -98,18 +98,18 @@ public:
         const double far_z = -tight.far_m + glm::dot(tight.anchor_ws_m - origin_ws_m_, basis[2]);
         ShadowView view;
         const math::TwoFloat3 anchor = math::split(origin_ws_m_ + basis * glm::dvec3(anchor_m_, far_z));
-        view.anchor_ws_m = glm::dvec3(anchor.high) + glm::dvec3(anchor.low);
+        view.pose.anchor_ws_m = glm::dvec3(anchor.high) + glm::dvec3(anchor.low);
         const glm::dvec2 u = c.rectangle.axis_u;
-        view.axis_u = basis[0] * u.x + basis[1] * u.y;
-        view.axis_v = basis[1] * u.x - basis[0] * u.y;
-        view.axis_back = basis[2];
-        view.warp = in_axes(c.rectangle, c.gradient);
-        view.centre_ls_m = 0.5 * (c.rectangle.min + c.rectangle.max);
-        view.half_extent_m = 0.5 * c.extent_m;
-        const auto size_px = static_cast<double>(input_.light.demand.resolution_px);
-        view.texel_u = c.extent_m.x / size_px;
-        view.texel_v = c.extent_m.y / size_px;
-        view.near_m = -range(c, far_z, tight.far_m - tight.near_m);
+        view.pose.axis_u = basis[0] * u.x + basis[1] * u.y;
+        view.pose.axis_v = basis[1] * u.x - basis[0] * u.y;
+        view.pose.axis_back = basis[2];
+        view.plane.warp = in_axes(c.rectangle, c.gradient);
+        view.plane.centre_ls_m = 0.5 * (c.rectangle.min + c.rectangle.max);
+        view.plane.half_extent_m = 0.5 * c.extent_m;
+        const auto size_px = static_cast<double>(input_.light.request.map.resolution_px);
+        view.plane.texel_u = c.extent_m.x / size_px;
+        view.plane.texel_v = c.extent_m.y / size_px;
+        view.depth.near_m = -range(c, far_z, tight.far_m - tight.near_m);
         set_warped_matrices(view);
         return view;
     }
@@ -244,12 +244,12 @@ private:
 }  // namespace
 
 void set_warped_matrices(ShadowView& view) {
-    const glm::dvec4 w(view.warp, 0.0, 1.0);
-    const glm::dvec4 u = (glm::dvec4(1, 0, 0, 0) - view.centre_ls_m.x * w) / view.half_extent_m.x;
-    const glm::dvec4 v = (glm::dvec4(0, 1, 0, 0) - view.centre_ls_m.y * w) / view.half_extent_m.y;
-    const glm::dvec4 depth(0.0, 0.0, -1.0 / view.near_m, 0.0);
+    const glm::dvec4 w(view.plane.warp, 0.0, 1.0);
+    const glm::dvec4 u = (glm::dvec4(1, 0, 0, 0) - view.plane.centre_ls_m.x * w) / view.plane.half_extent_m.x;
+    const glm::dvec4 v = (glm::dvec4(0, 1, 0, 0) - view.plane.centre_ls_m.y * w) / view.plane.half_extent_m.y;
+    const glm::dvec4 depth(0.0, 0.0, -1.0 / view.depth.near_m, 0.0);
     const glm::dmat4 clip_from_view = glm::transpose(glm::dmat4(u, v, depth, w));
-    const glm::dmat3 axes(view.axis_u, view.axis_v, view.axis_back);
+    const glm::dmat3 axes(view.pose.axis_u, view.pose.axis_v, view.pose.axis_back);
     const glm::dmat4 clip_from_anchor = clip_from_view * glm::dmat4(glm::transpose(axes));
     view.clip_from_anchor = glm::mat4(clip_from_anchor);
     view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);

@@ -23,11 +23,11 @@ bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::ve
         const double reach = glm::dot(math::half_extent(box), glm::abs(basis[2]));
         nearest = std::min(nearest, glm::dot(eye.position_ws_m - math::centre(box), basis[2]) - reach);
     }
-    const PerspectiveRange range = overridden(input.demand, perspective_range(nearest, farthest));
+    const PerspectiveRange range = overridden(input.request.projection, perspective_range(nearest, farthest));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     const double tan_half = std::tan(0.5 * static_cast<double>(input.light.shadow.eye_angle_rad));
     const TangentRectangle square{glm::dvec2(-tan_half), glm::dvec2(tan_half)};
-    views.push_back(perspective_view(eye.position_ws_m, basis, square, range, input.demand.resolution_px,
+    views.push_back(perspective_view(eye.position_ws_m, basis, square, range, input.request.map.resolution_px,
                                      static_cast<double>(input.reach_texel)));
     return true;
 }

@@ -42,13 +42,14 @@ int held_step_for(double needed, const HeldView& held, int held_step, const Hold
 }
 
 /// What is seen along an axis.
-struct Span {
+struct CoordinateRange {
     double low, high;
 };
 
 /// Around `seen`, of which it is no longer than `room` of a step, on parts of `grid` of it; the held one where that
 /// still holds it.
-Side hold(const Span& seen, double room, double grid, const HeldView& held, double held_low, int held_step, int step) {
+Side hold(const CoordinateRange& seen, double room, double grid, const HeldView& held, double held_low, int held_step,
+          int step) {
     Side side{0.0, step_size(step)};
     const auto [low, high] = seen;
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
@@ -75,12 +76,12 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
 
     const HeldView& held = input.light.held.views[input.index];
     HeldView& next = input.light.next.views[input.index];
-    const double texel = 1.0 / input.light.demand.resolution_px;
+    const double texel = 1.0 / input.light.request.map.resolution_px;
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
     glm::dvec3 low, size;
     next.too_large = false;
     for (int axis = 0; axis < 2; ++axis) {
-        const Span span{seen.low[axis], seen.high[axis]};
+        const CoordinateRange span{seen.low[axis], seen.high[axis]};
         const int held_step = held.extent_step[axis];
         int& step = next.extent_step[axis];
         step = held_step_for((span.high - span.low) / room, held, held_step, kAcross, input.stepping, next);
@@ -89,7 +90,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
         size[axis] = side.size;
     }
     constexpr double kDepthRoom = 1.0 - 4.0 * kDepthSlack;
-    const Span span{seen.low.z, seen.high.z};
+    const CoordinateRange span{seen.low.z, seen.high.z};
     next.far_step =
         held_step_for((span.high - span.low) / kDepthRoom, held, held.far_step, kAlong, input.stepping, next);
     const Side depth = hold(span, kDepthRoom, kDepthSlack, held, held.near_m, held.far_step, next.far_step);

@@ -20,7 +20,7 @@ bool fit_stable(const CascadeInput& input, OrthographicBox& box) {
     if (!(sphere.radius_m > 0.0) || !std::isfinite(sphere.radius_m)) return false;
 
     const double side_m = with_border(2.0 * sphere.radius_m * (kPlaces / (kPlaces - 1.0)), input.light);
-    const double size_px = input.light.demand.resolution_px;
+    const double size_px = input.light.request.map.resolution_px;
     const double place_m = std::max(std::floor(size_px / kPlaces), 1.0) * (side_m / size_px);
     const glm::dvec3 centre_ws = consumer.position_ws_m - consumer.rotation_ws[2] * sphere.centre_m;
     box.axes = input.basis;

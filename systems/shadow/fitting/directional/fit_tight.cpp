@@ -36,7 +36,7 @@ bool fit_tight(const CascadeInput& input, OrthographicBox& box) {
     box.axes[0] = input.basis[0] * rectangle.axis_u.x + input.basis[1] * rectangle.axis_u.y;
     box.axes[1] = input.basis[1] * rectangle.axis_u.x - input.basis[0] * rectangle.axis_u.y;
     box.axes[2] = input.basis[2];
-    const glm::dvec2 least(largest * std::max(kLeastExtent, kLeastTexel * input.light.demand.resolution_px));
+    const glm::dvec2 least(largest * std::max(kLeastExtent, kLeastTexel * input.light.request.map.resolution_px));
     const glm::dvec2 middle = 0.5 * (rectangle.min + rectangle.max);
     const glm::dvec3 centre_ws =
         origin_ws + box.axes[0] * middle.x + box.axes[1] * middle.y + box.axes[2] * (0.5 * (lowest + highest));

@@ -98,13 +98,13 @@ bool knows(const SampledSplit& split) {
 
 }  // namespace
 
-bool wants_sampled_depths(const SceneSnapshot& scene, const ShadowFrame& frame) {
-    for (std::size_t i = 0; i < frame.demands.size(); ++i) {
-        const ShadowDemand& demand = frame.demands[i];
-        const LightItem& light = scene.lights[demand.light];
-        const bool has_views = demand.skip == Reason::none && frame.sets[i].skip == Reason::none;
-        if (has_views && light.kind == LightKind::directional && !demand.perspective_sun && demand.view_count > 1 &&
-            light.shadow.splits == CascadeSplits::sampled && are_splits(light.shadow))
+bool wants_sampled_depths(const SceneSnapshot& scene, const FittedViews& fitted,
+                          std::span<const LightStatus> statuses) {
+    for (std::size_t i = 0; i < fitted.lights.size(); ++i) {
+        const ShadowRequest& request = fitted.lights[i].request;
+        const LightItem& light = scene.lights[i];
+        if (!statuses[i].is_skipped() && light.kind == LightKind::directional && !request.projection.perspective_sun &&
+            request.map.view_count > 1 && light.shadow.splits == CascadeSplits::sampled && are_splits(light.shadow))
             return true;
     }
     return false;

@@ -1,12 +1,13 @@
 #pragma once
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/light_status.h"
+#include "systems/shadow/frame/shadow_view.h"
 
 /// CascadeSplits::sampled: splits by where the pixels of an earlier picture lie.
 namespace gnomon::shadow {
 
 /// Some sun that has views this frame wants to know where pixels lie.
-bool wants_sampled_depths(const SceneSnapshot& scene, const ShadowFrame& frame);
+bool wants_sampled_depths(const SceneSnapshot& scene, const FittedViews& fitted, std::span<const LightStatus> statuses);
 
 struct SampledSplit {
     const SampledDepths& depths;

@@ -16,7 +16,7 @@ namespace {
 
 /// What the view's border is made from.
 float reach_texel(const FitInput& input, const TangentRectangle& crop, const PerspectiveRange& range) {
-    const FilterDemand& filter = input.demand.filtering;
+    const FilterSettings& filter = input.request.map.filtering;
     if (!needs_distances(filter)) return input.reach_texel;
     const glm::dvec2 sides = crop.high - crop.low;
     // The source stands across the ray: away from the axis its picture is longer, as 1 / cos (light_size.glsl).
@@ -30,16 +30,17 @@ float reach_texel(const FitInput& input, const TangentRectangle& crop, const Per
 /// How far before the light its view's anchor lies. About an aimed lamp floats tell nothing apart that is small where
 /// its light falls. Sheets keep the light's own place: what they are not certain of rays decide.
 double anchored_m(const FitInput& input) {
-    if (!input.demand.aim.used || input.demand.asks_rays) return 0.0;
-    return glm::distance(input.light.position_ws_m, input.demand.aim.middle_ws_m);
+    if (!input.request.projection.aim.used || input.request.rays.used) return 0.0;
+    return glm::distance(input.light.position_ws_m, input.request.projection.aim.middle_ws_m);
 }
 
 /// An aimed view's depth is told apart by a share of its range instead of the distance: it is as short as the ball.
 PerspectiveRange depth_range(const FitInput& input, const LocalContent& content, const HeldView& held, HeldView& next) {
     const double anchor_m = anchored_m(input), nearest_m = content.nearest_m, farthest_m = content.farthest_m;
-    const bool near_is_free = is_near_free(input.demand);
+    const bool near_is_free = is_near_free(input.request);
     if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
-    return held_range_around(anchor_m, input.demand.aim.radius_m, nearest_m, farthest_m, near_is_free, held, next);
+    return held_range_around(anchor_m, input.request.projection.aim.radius_m, nearest_m, farthest_m, near_is_free, held,
+                             next);
 }
 
 }  // namespace
@@ -51,15 +52,15 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     const HeldView& held = input.held.views[opening.held_as];
     HeldView next = held;
     const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
-    const bool has_size = needs_distances(input.demand.filtering);
+    const bool has_size = needs_distances(input.request.map.filtering);
     const auto reach = static_cast<double>(input.reach_texel);
-    include_casters(input, beam, has_size ? with_border(crop, input.demand.resolution_px, reach) : crop, content);
+    include_casters(input, beam, has_size ? with_border(crop, input.request.map.resolution_px, reach) : crop, content);
     if (!content.casters) return true;
-    const PerspectiveRange range = overridden(input.demand, depth_range(input, content, held, next));
+    const PerspectiveRange range = overridden(input.request.projection, depth_range(input, content, held, next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[opening.held_as] = next;
-    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, crop, range, input.demand.resolution_px,
+    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, crop, range, input.request.map.resolution_px,
                                        static_cast<double>(reach_texel(input, crop, range)), anchored_m(input));
     view.layer = opening.layer;
     view.held = true;

@@ -35,9 +35,10 @@ Side hold(const Side& needed, const Side& full, bool used, const Side& held) {
 
 }  // namespace
 
-bool is_near_free(const ShadowDemand& demand) {
-    return demand.depth_format == DepthFormat::d32f && filter_row(demand.filter).storage != FilterStorage::moments &&
-           !needs_distances(demand.filtering) && !(demand.filtering.spread_m > 0.0f);
+bool is_near_free(const ShadowRequest& request) {
+    return request.map.depth_format == DepthFormat::d32f &&
+           filter_row(request.map.filter).storage != FilterStorage::moments &&
+           !needs_distances(request.map.filtering) && !(request.map.filtering.spread_m > 0.0f);
 }
 
 PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,

@@ -1,7 +1,7 @@
 #pragma once
 #include "systems/shadow/fitting/size_steps.h"
 #include "systems/shadow/frame/fit_history.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/projection/perspective_range.h"
 #include "systems/shadow/projection/perspective_view.h"
 
@@ -20,7 +20,7 @@ inline constexpr int kHoldFreeNearSteps = 4 * kStepsPerOctave, kFreeNearHeadroom
 
 /// Whether near may be anywhere before what is seen: reversed floats tell depths apart by a share of the distance, and
 /// results of comparing them hang on nothing else. Not where a filter's width in texels follows from near.
-bool is_near_free(const ShadowDemand& demand);
+bool is_near_free(const ShadowRequest& request);
 
 /// The range of perspective_range(), rounded outward to steps. near >= far only if nothing lies before the light.
 PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,

@@ -23,7 +23,7 @@ ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening
                      const PerspectiveRange& range) {
     const std::uint32_t face = opening.layer;
     ShadowView view =
-        perspective_view(beam.origin_ws_m, opening.axes, TangentRectangle{}, range, input.demand.resolution_px);
+        perspective_view(beam.origin_ws_m, opening.axes, TangentRectangle{}, range, input.request.map.resolution_px);
     view.projection = ViewProjection::cube_face;
     view.layer = face;
     view.held = true;
@@ -33,9 +33,9 @@ ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening
 }  // namespace
 
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
-    const LightOpenings openings = light_openings(input.light, input.demand);
-    input.next.aim = input.demand.aim;
-    if (input.demand.aim.used) return fit_opening(input, openings.items[0], input.beams[0], views);
+    const LightOpenings openings = light_openings(input.light, input.request);
+    input.next.aim = input.request.projection.aim;
+    if (input.request.projection.aim.used) return fit_opening(input, openings.items[0], input.beams[0], views);
     std::array<LocalContent, 6> faces;
     double nearest_m = HUGE_VAL, farthest_m = 0.0;
     bool any = false;
@@ -50,8 +50,9 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     }
     if (!any) return true;
     HeldView next = input.held.views[0];
-    const PerspectiveRange range = overridden(
-        input.demand, held_range(nearest_m, farthest_m, is_near_free(input.demand), input.held.views[0], next));
+    const PerspectiveRange range =
+        overridden(input.request.projection,
+                   held_range(nearest_m, farthest_m, is_near_free(input.request), input.held.views[0], next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[0] = next;

@@ -41,15 +41,15 @@ public:
         LightLoad load;
         load.light = &light;
         load.key = random_();
-        load.wanted.filter = light.shadow.filter;
-        load.wanted.view_count = light.kind == LightKind::directional ? 4 : (light.kind == LightKind::point ? 6 : 1);
-        load.wanted.most_px = 2048;
+        load.wanted.map.filter = light.shadow.filter;
+        load.wanted.map.view_count = light.kind == LightKind::directional ? 4 : (light.kind == LightKind::point ? 6 : 1);
+        load.wanted.limits.max_px = 2048;
         set_resolution(light, 256 * (1 + below(8)), load.wanted);
         load.weight = number(0.0, 1.0);
         load.extent_px = number(0.1, 3.0);
         load.activity = below(2) == 0 ? 0.0 : number(0.0, 1.0);
         load.pixels = number(0.0, 1.0e6);
-        load.views = load.wanted.view_count;
+        load.views = load.wanted.map.view_count;
         load.triangles = below(100'000);
         load.draws = below(100);
         return load;
@@ -292,12 +292,12 @@ TEST(Budget, WhatIsNoBudgetIsNoBound) {
 TEST(Budget, AGrantOfAllLeavesADemandAsItIs) {
     RandomLoads random(11);
     for (const LightLoad& load : random.make(50)) {
-        const ShadowDemand same = granted(*load.light, load.wanted, {});
-        EXPECT_EQ(same.resolution_px, load.wanted.resolution_px);
-        EXPECT_EQ(same.most_px, load.wanted.most_px);
-        EXPECT_EQ(same.filter, load.wanted.filter);
-        EXPECT_EQ(same.view_count, load.wanted.view_count);
-        EXPECT_EQ(same.moments, load.wanted.moments);
+        const ShadowRequest same = granted(*load.light, load.wanted, {});
+        EXPECT_EQ(same.map.resolution_px, load.wanted.map.resolution_px);
+        EXPECT_EQ(same.limits.max_px, load.wanted.limits.max_px);
+        EXPECT_EQ(same.map.filter, load.wanted.map.filter);
+        EXPECT_EQ(same.map.view_count, load.wanted.map.view_count);
+        EXPECT_EQ(same.map.moments, load.wanted.map.moments);
         EXPECT_FALSE(is_less(*load.light, load.wanted, {}));
         const Cost cost = cost_of(load, {}, {});
         EXPECT_EQ(cost.bytes, map_bytes(*load.light, load.wanted));
@@ -310,7 +310,7 @@ TEST(Budget, LessCostsLessAndHarmsMore) {
     for (const LightLoad& load : random.make(200)) {
         Grant grant;
         Cost last = cost_of(load, grant, {});
-        for (std::uint32_t px = load.wanted.resolution_px / 2; px >= kLeastGranted_px; px /= 2) {
+        for (std::uint32_t px = load.wanted.map.resolution_px / 2; px >= kLeastGranted_px; px /= 2) {
             grant.most_px = px;
             const Cost cost = cost_of(load, grant, {});
             EXPECT_LT(cost.bytes, last.bytes);
@@ -352,9 +352,9 @@ TEST(BudgetCost, CountsEveryByteOfATexelThatAFilterHasDrawn) {
     for (const FilterRow& row : filter_table()) {
         if (row.storage == FilterStorage::moments) continue;      // whose blur is counted as fetches
         if (row.storage == FilterStorage::soft_sheets) continue;  // sheets, and what is made of them
-        ShadowDemand demand;
-        demand.filter = row.id;
-        demand.view_count = 1;
+        ShadowRequest demand;
+        demand.map.filter = row.id;
+        demand.map.view_count = 1;
         set_resolution(light, 512, demand);
         EXPECT_EQ(storage_work(row.storage).texel_bytes * 512.0 * 512.0, static_cast<double>(map_bytes(light, demand)))
             << row.name;
@@ -369,9 +369,9 @@ TEST(BudgetCost, CountsEveryTimeThatCastersAreDrawn) {
         light.kind = LightKind::spot;
         LightLoad load;
         load.light = &light;
-        load.wanted.filter = filter;
-        load.wanted.view_count = load.views = 1;
-        load.wanted.most_px = kEdge_px;
+        load.wanted.map.filter = filter;
+        load.wanted.map.view_count = load.views = 1;
+        load.wanted.limits.max_px = kEdge_px;
         set_resolution(light, kEdge_px, load.wanted);
         load.activity = 1.0;
         load.triangles = static_cast<std::uint64_t>(kTriangles);
@@ -383,7 +383,7 @@ TEST(BudgetCost, CountsEveryTimeThatCastersAreDrawn) {
     EXPECT_NEAR(drawing(ShadowFilter::triangles), kPass_ns + 3.0 * texels_ns + casters_ns, 1.0);
     EXPECT_NEAR(drawing(ShadowFilter::exact), 3.0 * kPass_ns + 6.0 * texels_ns + 3.0 * casters_ns, 1.0);
     // What a report counts of maps of sheets holds all three times already.
-    ShadowDemand sheets;
+    MapSettings sheets;
     sheets.filter = ShadowFilter::exact;
     EXPECT_NEAR(drawing_ns(sheets, kEdge_px, 1.0, 3.0 * kTriangles, 3.0 * kDraws), drawing(ShadowFilter::exact), 1.0);
 }

@@ -15,22 +15,22 @@ constexpr double kPixels = 1000.0 * 1000.0;
 double learned_factor(ShadowFilter drawn, ShadowFilter said) {
     SceneSnapshot scene;
     scene.lights.resize(1);
-    ShadowFrame frame;
-    frame.demands = {{.filter = ShadowFilter::exact}};
+    BudgetDecision decision;
+    decision.request.map.filter = ShadowFilter::exact;
     LightingLight light;
     light.row.filter_file = "any";
     light.screen = {0, 0, 1000, 1000};
-    frame.inputs.resize(1);
-    frame.inputs.front().lights = {light};
+    LightingInputs inputs;
+    inputs.lights = {light};
     FrameReport report;
     report.lights.resize(1);
     report.lights[0].filter.filter = said;
     const double fetches =
-        drawn == ShadowFilter::automatic ? 0.0 : mean_fetches(scene.lights[0], frame.demands[0], drawn);
+        drawn == ShadowFilter::automatic ? 0.0 : mean_fetches(scene.lights[0], decision.request, drawn);
     const double model_us = kPixels * (kShadedPixel_ns + fetches * kFetch_ns) / 1000.0;
     CostClock clock;
     for (std::uint64_t i = 0; i < 32; ++i) {
-        clock.submitted(i, scene, frame, report);
+        clock.submitted(i, scene, {&decision, 1}, {&inputs, 1}, report);
         const gl::Timing timing{lighting_timer(0), i, 2.0 * model_us};
         clock.learn({&timing, 1});
     }

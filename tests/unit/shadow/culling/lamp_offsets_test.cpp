@@ -19,12 +19,13 @@ constexpr double kClear_m = shadow::kClearOfClipping * kReach_m;
 /// From where shadows of lamps at these places are looked for, with boxes around triangles or without.
 class LampPlacesTest : public ::testing::TestWithParam<bool> {
 protected:
-    glm::dvec3 place_of(const LightItem& light, const GpuScene& gpu, shadow::ShadowFrame& frame) {
+    glm::dvec3 place_of(const LightItem& light, const GpuScene& gpu) {
         scene.snapshot.lights = {light};
-        frame.demands.assign(1, {.asks_rays = by_rays});
-        frame.cpu_us.assign(1, 0.0);
-        places.update(scene.snapshot, gpu, frame);
-        return frame.lamps_ws_m.at(0);
+        shadow::ShadowRequest request;
+        request.rays.used = by_rays;
+        std::vector<glm::dvec3> lamps_ws_m;
+        places.update(scene.snapshot, gpu, {&request, 1}, lamps_ws_m, {});
+        return lamps_ws_m.at(0);
     }
     void finish() {
         scene.snapshot.shapes.clear();
@@ -43,8 +44,7 @@ protected:
         gl::RecordingDevice device;
         auto gpu = GpuScene::create(device, scene.library);
         EXPECT_TRUE(gpu);
-        shadow::ShadowFrame frame;
-        return gpu ? place_of(light, gpu.value(), frame) : glm::dvec3(NAN);
+        return gpu ? place_of(light, gpu.value()) : glm::dvec3(NAN);
     }
 
     oracle::AnalyticScene scene;
@@ -140,14 +140,13 @@ TEST_P(LampPlacesTest, FollowWhatTheLampTouchesAndTheLamp) {
     gl::RecordingDevice device;
     auto gpu = GpuScene::create(device, scene.library);
     ASSERT_TRUE(gpu);
-    shadow::ShadowFrame frame;
     const LightItem lamp = scene.lamp({0.3, 0.0, -0.2});
-    const glm::dvec3 above = place_of(lamp, gpu.value(), frame);
-    EXPECT_EQ(place_of(lamp, gpu.value(), frame), above);
+    const glm::dvec3 above = place_of(lamp, gpu.value());
+    EXPECT_EQ(place_of(lamp, gpu.value()), above);
     scene.snapshot.instances[0].translation_ws_m.y = 1e-9;
     finish();
-    EXPECT_LT(place_of(lamp, gpu.value(), frame).y, -kClear_m) << "the floor rose";
-    EXPECT_GT(place_of(scene.lamp({0.3, 2e-9, -0.2}), gpu.value(), frame).y, kClear_m) << "the lamp rose";
+    EXPECT_LT(place_of(lamp, gpu.value()).y, -kClear_m) << "the floor rose";
+    EXPECT_GT(place_of(scene.lamp({0.3, 2e-9, -0.2}), gpu.value()).y, kClear_m) << "the lamp rose";
 }
 
 }  // namespace

@@ -320,14 +320,14 @@ TEST(NearestReceiver, IsWhereTheFirstCascadeBegins) {
         const double nearest_m = world.nearest_m();
         EXPECT_GT(nearest_m, 2.5);
         const ShadowFrame found = fitted(world.scene);
-        ASSERT_EQ(found.views.size(), 4u);
-        EXPECT_LE(found.views[0].seen_from_m, nearest_m);
-        EXPECT_GT(found.views[0].seen_from_m, nearest_m / std::exp2(0.5));
+        ASSERT_EQ(found.fitted.views.size(), 4u);
+        EXPECT_LE(found.fitted.views[0].cascade.seen_from_m, nearest_m);
+        EXPECT_GT(found.fitted.views[0].cascade.seen_from_m, nearest_m / std::exp2(0.5));
         world.scene.shapes.clear();
         const ShadowFrame by_bounds = fitted(world.scene);
-        ASSERT_FALSE(by_bounds.views.empty());
-        EXPECT_LT(by_bounds.views[0].seen_from_m, 0.1);
-        EXPECT_LT(4.0 * found.views[0].predicted_error_px, by_bounds.views[0].predicted_error_px);
+        ASSERT_FALSE(by_bounds.fitted.views.empty());
+        EXPECT_LT(by_bounds.fitted.views[0].cascade.seen_from_m, 0.1);
+        EXPECT_LT(4.0 * found.fitted.views[0].error.edge_px, by_bounds.fitted.views[0].error.edge_px);
     }
 }
 
@@ -336,12 +336,12 @@ TEST(NearestReceiver, MovesNoStableFit) {
     const ShadowFrame found = fitted(world.scene);
     world.scene.shapes.clear();
     const ShadowFrame by_bounds = fitted(world.scene);
-    for (const ShadowView& view : found.views) {
-        const auto same = std::find_if(by_bounds.views.begin(), by_bounds.views.end(),
+    for (const ShadowView& view : found.fitted.views) {
+        const auto same = std::find_if(by_bounds.fitted.views.begin(), by_bounds.fitted.views.end(),
                                        [&](const ShadowView& v) { return v.layer == view.layer; });
-        ASSERT_NE(same, by_bounds.views.end());
+        ASSERT_NE(same, by_bounds.fitted.views.end());
         EXPECT_EQ(same->clip_from_anchor, view.clip_from_anchor);
-        EXPECT_EQ(same->seen_from_m, view.seen_from_m);
+        EXPECT_EQ(same->cascade.seen_from_m, view.cascade.seen_from_m);
     }
 }
 
@@ -354,9 +354,9 @@ TEST(NearestReceiver, OfAViewPastEverythingLeavesNothingToShadow) {
     world.scene.instances[1].visible = false;
     world.scene.consumers[0] = camera_at({0.0, -2.0, 3.0}, {0.0, 1.0, 0.5});
     EXPECT_EQ(world.nearest_m(), kInfinity);
-    EXPECT_EQ(fitted(world.scene).sets.at(0).skip, Reason::no_visible_receiver);
+    EXPECT_EQ(fitted(world.scene).statuses[0].skipped(), Reason::no_visible_receiver);
     world.scene.shapes.clear();
-    EXPECT_NE(fitted(world.scene).sets.at(0).skip, Reason::no_visible_receiver) << "its box is seen";
+    EXPECT_NE(fitted(world.scene).statuses[0].skipped(), Reason::no_visible_receiver) << "its box is seen";
 }
 
 }  // namespace

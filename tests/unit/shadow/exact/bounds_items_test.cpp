@@ -145,7 +145,7 @@ TEST(SheetItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
         const bool parallel = world % 2 == 0;
         const glm::dvec3 from = 3.0 * point();
         shadow::ShadowView view = parallel ? sun(from) : lamp(from);
-        view.anchor_ws_m += scene.offset_m;
+        view.pose.anchor_ws_m += scene.offset_m;
         const auto found = edges_of(SheetItemsOf(scene).before(view));
         const assets::Mesh& mesh = scene.library.meshes[0];
         const auto corner = [&](std::uint32_t v) {
@@ -154,7 +154,7 @@ TEST(SheetItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
         // What lies beside the map is left out.
         const auto is_beside = [&](std::uint32_t a, std::uint32_t b) {
             const glm::dmat4 m(view.clip_from_anchor);
-            const glm::dvec3 anchor = view.anchor_ws_m - scene.offset_m;
+            const glm::dvec3 anchor = view.pose.anchor_ws_m - scene.offset_m;
             const glm::dvec4 p = m * glm::dvec4(corner(a) - anchor, 1.0), q = m * glm::dvec4(corner(b) - anchor, 1.0);
             bool beside = p.w < 0.0 && q.w < 0.0;
             for (int i = 0; i < 2; ++i) beside = beside || (p[i] > p.w && q[i] > q.w) || (-p[i] > p.w && -q[i] > q.w);
@@ -170,7 +170,7 @@ TEST(SheetItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
             const auto faces = [&](std::uint32_t t) {
                 const glm::dvec3 a = corner(mesh.indices[3 * t]), b = corner(mesh.indices[3 * t + 1]),
                                  c = corner(mesh.indices[3 * t + 2]);
-                const glm::dvec3 toward = parallel ? view.axis_back : from - a;
+                const glm::dvec3 toward = parallel ? view.pose.axis_back : from - a;
                 return glm::dot(glm::normalize(glm::cross(b - a, c - a)), glm::normalize(toward));
             };
             const double first = faces(fold.first), second = faces(fold.second);
@@ -247,7 +247,7 @@ TEST(SheetItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
                 glm::dvec2 low(1e9), high(-1e9);
                 for (const std::uint32_t v : {one.a, one.b, one.c}) {
                     const glm::dvec3 place =
-                        item.basis * glm::dvec3(vertices[v].position_ms) + item.translation_ws_m - view.anchor_ws_m;
+                        item.basis * glm::dvec3(vertices[v].position_ms) + item.translation_ws_m - view.pose.anchor_ws_m;
                     const glm::dvec4 clip = glm::dmat4(view.clip_from_anchor) * glm::dvec4(place, 1.0);
                     ASSERT_GT(clip.w, 0.0);
                     const glm::dvec2 texel = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * static_cast<double>(kMap_px);

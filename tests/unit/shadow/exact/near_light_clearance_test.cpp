@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "engine/gl/device_recording.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/projection/perspective_view.h"
 #include "systems/shadow/request/filter_settings.h"
@@ -55,19 +56,24 @@ double clearance(oracle::AnalyticScene& scene, bool whole_view = true, bool cube
     light.shadow = {.filter = ShadowFilter::exact_soft, .source_radius_m = kRadius_m};
     scene.snapshot.lights = {light};
     shadow::ShadowFrame frame;
-    shadow::ShadowDemand demand;
-    demand.filter = light.shadow.filter;
-    demand.filtering = shadow::filter_demand(light.shadow, 512);
-    frame.demands = {demand};
-    frame.sets.resize(1);
-    frame.cpu_us.resize(1);
+    frame.decisions.resize(1);
+    frame.statuses.resize(1);
+    shadow::MapSettings& map = frame.decisions[0].request.map;
+    map.filter = light.shadow.filter;
+    map.filtering = shadow::filter_settings(light.shadow, 512);
     const double side = whole_view ? 1.0 : 0.5;
-    frame.views = {shadow::perspective_view({}, glm::dmat3(1.0), {glm::dvec2(-side), glm::dvec2(side)}, {0.1, 50.0}, 512)};
-    if (cube) frame.views = faces();
-    frame.slots.resize(frame.views.size());
-    for (shadow::ShadowSlot& slot : frame.slots) slot.texture = gl::TextureHandle{1};
-    shadow::measure_clearances(scene.snapshot, gpu.value(), frame);
-    return frame.demands[0].clear_m;
+    frame.fitted.views = {
+        shadow::perspective_view({}, glm::dmat3(1.0), {glm::dvec2(-side), glm::dvec2(side)}, {0.1, 50.0}, 512)};
+    if (cube) frame.fitted.views = faces();
+    const std::size_t views = frame.fitted.views.size();
+    frame.fitted.lights.resize(1);
+    frame.fitted.lights[0].views.count = static_cast<std::uint32_t>(views);
+    frame.maps.resize(views);
+    frame.updates.resize(views);
+    for (shadow::MapAssignment& assigned : frame.maps) assigned.texture = gl::TextureHandle{1};
+    const shadow::DrawnViews drawn = shadow::drawn_views(frame);
+    shadow::measure_clearances({scene.snapshot, gpu.value(), drawn}, frame.clearances_m, {});
+    return frame.clearances_m[0];
 }
 
 TEST(Clearance, OfAnEmptyWorldIsAsFarAsItIsLookedFor) {

@@ -53,7 +53,7 @@ protected:
     }
     static double predicted_px(const ShadowFrame& frame) {
         double worst = 0.0;
-        for (const ShadowView& view : frame.views) worst = std::max(worst, view.predicted_error_px);
+        for (const ShadowView& view : frame.fitted.views) worst = std::max(worst, view.error.edge_px);
         return worst;
     }
 };
@@ -67,21 +67,21 @@ TEST_P(Contract, IsKeptByThePredictionOrTheMapIsAsLargeAsItMayBe) {
         for (const float wish_px : {0.5f, 1.0f, 2.0f, 4.0f, 8.0f}) {
             s.lights[0].shadow.max_error_px = wish_px;
             const ShadowFrame frame = fitted(s);
-            if (frame.views.empty()) continue;
-            const ShadowDemand& demand = frame.demands[0];
-            EXPECT_LE(demand.resolution_px, demand.most_px);
+            if (frame.fitted.views.empty()) continue;
+            const ShadowRequest& demand = frame.fitted.lights[0].request;
+            EXPECT_LE(demand.map.resolution_px, demand.limits.max_px);
             // A step more: where fewer texels err far more than in proportion, the last of the fits asks for too many.
-            EXPECT_LE(demand.resolution_px, finer + kLeastMap_px) << "asking for less gave more";
-            finer = demand.resolution_px;
-            smaller += demand.resolution_px < demand.most_px ? 1 : 0;
+            EXPECT_LE(demand.map.resolution_px, finer + kLeastMap_px) << "asking for less gave more";
+            finer = demand.map.resolution_px;
+            smaller += demand.map.resolution_px < demand.limits.max_px ? 1 : 0;
             if (!keeps_contract(predicted_px(frame), wish_px)) {
-                EXPECT_EQ(demand.resolution_px, demand.most_px) << wish_px;
+                EXPECT_EQ(demand.map.resolution_px, demand.limits.max_px) << wish_px;
                 continue;
             }
             ++kept;
             // A step less would not do; two, where the border's share is another then.
-            if (demand.resolution_px > 2 * kLeastMap_px) {
-                s.lights[0].shadow.resolution_px = demand.resolution_px - 2 * kLeastMap_px;
+            if (demand.map.resolution_px > 2 * kLeastMap_px) {
+                s.lights[0].shadow.resolution_px = demand.map.resolution_px - 2 * kLeastMap_px;
                 EXPECT_FALSE(keeps_contract(predicted_px(fitted(s)), wish_px)) << wish_px;
                 s.lights[0].shadow.resolution_px = 0;
             }
@@ -101,7 +101,7 @@ TEST_P(Contract, FindsTheSameAgainWhileNothingChanges) {
         History held = first.next_history;
         for (std::uint32_t f = 0; f < kSpareFrames + 4; ++f) {
             const ShadowFrame next = fitted(s, held);
-            ASSERT_EQ(first.demands[0].resolution_px, next.demands[0].resolution_px) << f;
+            ASSERT_EQ(first.fitted.lights[0].request.map.resolution_px, next.fitted.lights[0].request.map.resolution_px) << f;
             held = next.next_history;
         }
     }
@@ -120,8 +120,8 @@ TEST_P(Contract, KeepsItsSizeWhileTheCameraSways) {
             s.consumers[0].position_ws_m = from * (1.0 + 0.02 * std::sin(0.9 * f));  // seven frames to and fro
             const ShadowFrame frame = fitted(s, held);
             held = frame.next_history;
-            if (frame.views.empty()) continue;
-            const std::uint32_t size = frame.demands[0].resolution_px;
+            if (frame.fitted.views.empty()) continue;
+            const std::uint32_t size = frame.fitted.lights[0].request.map.resolution_px;
             shrinks += last > size ? 1 : 0;
             last = size;
         }
@@ -139,24 +139,24 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
             s.lights[0].shadow.max_error_px = 1.0f;
             const ShadowFrame fine = fitted(s);
             s.lights[0].shadow.max_error_px = 8.0f;
-            const std::uint32_t before = fine.demands[0].resolution_px, enough = fitted(s).demands[0].resolution_px;
-            if (fine.views.empty() || enough > before / 2) continue;
+            const std::uint32_t before = fine.fitted.lights[0].request.map.resolution_px, enough = fitted(s).fitted.lights[0].request.map.resolution_px;
+            if (fine.fitted.views.empty() || enough > before / 2) continue;
             History held = fine.next_history;
             for (std::uint32_t f = 1; f < kSpareFrames; ++f) {
                 const ShadowFrame frame = fitted(s, held);
-                ASSERT_EQ(frame.demands[0].resolution_px, before) << f;
+                ASSERT_EQ(frame.fitted.lights[0].request.map.resolution_px, before) << f;
                 held = frame.next_history;
             }
             const ShadowFrame after = fitted(s, held);
-            EXPECT_LE(after.demands[0].resolution_px, before);  // half is tried, and may be too small
-            given_up += after.demands[0].resolution_px < before ? 1 : 0;
+            EXPECT_LE(after.fitted.lights[0].request.map.resolution_px, before);  // half is tried, and may be too small
+            given_up += after.fitted.lights[0].request.map.resolution_px < before ? 1 : 0;
             EXPECT_TRUE(keeps_contract(predicted_px(after), 8.0));
             s.lights[0].shadow.max_error_px = 1.0f;
             const ShadowFrame again = fitted(s, after.next_history);
             EXPECT_TRUE(keeps_contract(predicted_px(again), 1.0) ||
-                        again.demands[0].resolution_px == again.demands[0].most_px)
-                << "more are given at once: scene " << i << ", " << again.demands[0].resolution_px << " of "
-                << again.demands[0].most_px << " px, " << predicted_px(again) << " px off";
+                        again.fitted.lights[0].request.map.resolution_px == again.fitted.lights[0].request.limits.max_px)
+                << "more are given at once: scene " << i << ", " << again.fitted.lights[0].request.map.resolution_px << " of "
+                << again.fitted.lights[0].request.limits.max_px << " px, " << predicted_px(again) << " px off";
         }
         EXPECT_GT(given_up, 5);
     }
@@ -174,11 +174,11 @@ TEST_P(Contract, ComesToRest) {
             s.lights[0].shadow.filter = ShadowFilter::pcf_grid;
             s.lights[0].shadow.filter_size = 15;  // a border of a sixteenth of the smallest map
             float& wish_px = s.lights[0].shadow.max_error_px;
-            const auto size = [&] { return fitted(s).demands[0].resolution_px; };
+            const auto size = [&] { return fitted(s).fitted.lights[0].request.map.resolution_px; };
             for (wish_px = 0.125f; wish_px < 64.0f && size() > 2 * kLeastMap_px; wish_px *= 1.1f) {
             }
             const ShadowFrame fine = fitted(s);
-            if (fine.views.empty() || fine.demands[0].resolution_px != 2 * kLeastMap_px) continue;
+            if (fine.fitted.views.empty() || fine.fitted.lights[0].request.map.resolution_px != 2 * kLeastMap_px) continue;
             for (int step = 0; step < 12; ++step) {
                 wish_px *= 1.1f;
                 History held = fine.next_history;
@@ -201,17 +201,17 @@ TEST_P(Contract, LeavesASizeAloneThatIsGivenOrMustNotFollowWhatIsSeen) {
         LightShadow& shadow = s.lights[0].shadow;
         shadow.max_error_px = 1000.0f;
         shadow.resolution_px = 1000;
-        EXPECT_EQ(fitted(s).demands[0].resolution_px, 1000u);
+        EXPECT_EQ(fitted(s).fitted.lights[0].request.map.resolution_px, 1000u);
         shadow.resolution_px = 0;
         shadow.filter = ShadowFilter::pcss;
         shadow.source_radius_m = shadow.sun_radius_rad = 0.1f;
         const ShadowFrame soft = fitted(s);
-        EXPECT_EQ(soft.demands[0].resolution_px, soft.demands[0].most_px);
+        EXPECT_EQ(soft.fitted.lights[0].request.map.resolution_px, soft.fitted.lights[0].request.limits.max_px);
         shadow.filter = ShadowFilter::hard;
         shadow.fit = ShadowFit::stable;
         const ShadowFrame stable = fitted(s);
         if (GetParam() == LightKind::directional) {
-            EXPECT_EQ(stable.demands[0].resolution_px, stable.demands[0].most_px);
+            EXPECT_EQ(stable.fitted.lights[0].request.map.resolution_px, stable.fitted.lights[0].request.limits.max_px);
         }
     }
 }

@@ -83,12 +83,12 @@ protected:
     }
     static double predicted_px(const ShadowFrame& frame) {
         double worst = 0.0;
-        for (const ShadowView& view : frame.views) worst = std::max(worst, view.predicted_error_px);
+        for (const ShadowView& view : frame.fitted.views) worst = std::max(worst, view.error.edge_px);
         return worst;
     }
     static std::uint64_t texels(const ShadowFrame& frame) {
-        const std::uint64_t edge_px = frame.demands[0].resolution_px;
-        return edge_px * edge_px * frame.demands[0].view_count;
+        const std::uint64_t edge_px = frame.fitted.lights[0].request.map.resolution_px;
+        return edge_px * edge_px * frame.fitted.lights[0].request.map.view_count;
     }
 };
 
@@ -99,14 +99,14 @@ TEST_F(CountedCascades, AreFewWhereAllThatIsSeenIsAsFarAndNeverCostMoreTexelsOrT
             SceneSnapshot s = scene(20.0, far_m);
             s.lights[0].shadow.max_error_px = wish_px;
             const ShadowFrame chosen = fitted(s);
-            ASSERT_FALSE(chosen.views.empty());
+            ASSERT_FALSE(chosen.fitted.views.empty());
             s.lights[0].shadow.cascades = 4;
             const ShadowFrame four = fitted(s);
             EXPECT_LE(texels(chosen), texels(four)) << far_m;
             if (keeps_contract(predicted_px(four), wish_px)) {
                 EXPECT_TRUE(keeps_contract(predicted_px(chosen), wish_px)) << far_m;
             }
-            fewer += chosen.demands[0].view_count < 4 ? 1 : 0;
+            fewer += chosen.fitted.lights[0].request.map.view_count < 4 ? 1 : 0;
             EXPECT_EQ(fitted(s).next_history.lights[0].cascades, 0u) << "a number that is given is no choice";
         }
     EXPECT_GT(fewer, 5);
@@ -122,8 +122,8 @@ TEST_F(CountedCascades, StayWhileTheCameraSwaysAndComeToRest) {
             s.consumers[0].position_ws_m.z = 0.3 * std::sin(0.9 * f);
             const ShadowFrame frame = fitted(s, held);
             held = frame.next_history;
-            changes += f > 0 && last != frame.demands[0].view_count ? 1 : 0;
-            last = frame.demands[0].view_count;
+            changes += f > 0 && last != frame.fitted.lights[0].request.map.view_count ? 1 : 0;
+            last = frame.fitted.lights[0].request.map.view_count;
         }
         EXPECT_LE(changes, 1u) << far_m;
         for (int f = 0; f < 3; ++f) held = fitted(s, held).next_history;
@@ -144,9 +144,9 @@ TEST_F(CountedCascades, HardlyChangeOverRandomScenesWhileTheCameraSways) {
             s.consumers[0].position_ws_m = from * (1.0 + 0.02 * std::sin(0.9 * f));  // seven frames to and fro
             const ShadowFrame frame = fitted(s, held);
             held = frame.next_history;
-            if (frame.views.empty()) continue;
-            changes += last > 0 && last != frame.demands[0].view_count ? 1 : 0;
-            last = frame.demands[0].view_count;
+            if (frame.fitted.views.empty()) continue;
+            changes += last > 0 && last != frame.fitted.lights[0].request.map.view_count ? 1 : 0;
+            last = frame.fitted.lights[0].request.map.view_count;
         }
         scenes += last > 0 ? 1 : 0;
         fewer += last > 0 && last < 4 ? 1 : 0;
@@ -159,7 +159,7 @@ TEST_F(CountedCascades, AreMoreAtOnceWhereTheWordWouldBeBroken) {
     SceneSnapshot s = scene(20.0, 20.5);
     s.lights[0].shadow.max_error_px = 4.0f;
     ShadowFrame frame = fitted(s);
-    ASSERT_LT(frame.demands[0].view_count, 4u);
+    ASSERT_LT(frame.fitted.lights[0].request.map.view_count, 4u);
     s.consumers[0].position_ws_m.z = -19.0;
     frame = fitted(s, frame.next_history);
     SceneSnapshot four = s;
@@ -167,7 +167,7 @@ TEST_F(CountedCascades, AreMoreAtOnceWhereTheWordWouldBeBroken) {
     if (keeps_contract(predicted_px(fitted(four)), 4.0)) {
         EXPECT_TRUE(keeps_contract(predicted_px(frame), 4.0));
     } else {
-        EXPECT_EQ(frame.demands[0].view_count, 4u);
+        EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, 4u);
     }
 }
 
@@ -179,7 +179,7 @@ TEST_F(CountedCascades, AreFourWhereTheirEndsOrTheirSizeAreGiven) {
         if (i == 0) shadow.resolution_px = 512;
         if (i == 1) shadow.fit = ShadowFit::stable;
         if (i == 2) shadow.splits = CascadeSplits::manual, shadow.split_m = {20.1f, 20.2f, 20.3f};
-        EXPECT_EQ(fitted(s).demands[0].view_count, 4u) << i;
+        EXPECT_EQ(fitted(s).fitted.lights[0].request.map.view_count, 4u) << i;
     }
 }
 

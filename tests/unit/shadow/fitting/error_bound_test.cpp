@@ -26,10 +26,10 @@ vec2x pixel_of(const ConsumerItem& c, const vec3x& p_ws) {
 /// The point of the plane (p_ws, normal) that lies texel (du, dv) beside p_ws in the map.
 vec3x beside(const ShadowView& view, const vec3x& p_ws, const vec3x& normal, Exact du, Exact dv) {
     const bool flat = view.projection == ViewProjection::orthographic;
-    const vec3x anchor(apex_ws_m(view)), back(view.axis_back);
+    const vec3x anchor(apex_ws_m(view)), back(view.pose.axis_back);
     const Exact z_m = flat ? Exact{1} : glm::dot(anchor - p_ws, back);
-    const vec3x shifted = p_ws + vec3x(view.axis_u) * (du * static_cast<Exact>(view.texel_u) * z_m) +
-                          vec3x(view.axis_v) * (dv * static_cast<Exact>(view.texel_v) * z_m);
+    const vec3x shifted = p_ws + vec3x(view.pose.axis_u) * (du * static_cast<Exact>(view.plane.texel_u) * z_m) +
+                          vec3x(view.pose.axis_v) * (dv * static_cast<Exact>(view.plane.texel_v) * z_m);
     const vec3x source = flat ? shifted + back : anchor;
     const vec3x ray = shifted - source;
     return source + ray * (glm::dot(p_ws - source, normal) / glm::dot(ray, normal));
@@ -53,10 +53,10 @@ protected:
         for (int round = 0; round < rounds; ++round) {
             const SceneSnapshot scene = random.scene(GetParam());
             const ShadowFrame frame = fitted(scene);
-            for (const ShadowView& view : frame.views)
-                for (const std::uint32_t r : frame.receiver_items) {
+            for (const ShadowView& view : frame.fitted.views)
+                for (const std::uint32_t r : frame.sets.receiver_items) {
                     const glm::dvec3 p = random_point(random, scene.instances[r].bounds_ws), n = random.direction();
-                    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p - view.anchor_ws_m), 1.0f);
+                    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p - view.pose.anchor_ws_m), 1.0f);
                     const glm::vec3 at = glm::vec3(q) / q.w;
                     const bool in_map = q.w > 0.0f && at.x > 0.0f && at.x < 1.0f && at.y > 0.0f && at.y < 1.0f;
                     const glm::dvec3 to_light = glm::normalize(source_of(scene.lights[0], p) - p);
@@ -64,7 +64,7 @@ protected:
                     const double depth_m =
                         glm::dot(scene.consumers[0].position_ws_m - p, scene.consumers[0].rotation_ws[2]);
                     if (!in_map || !seen(scene.consumers[0], p) || !reaches(scene.lights[0], p) ||
-                        facing < kLeastFacing || depth_m < view.seen_from_m ||
+                        facing < kLeastFacing || depth_m < view.cascade.seen_from_m ||
                         glm::dot(n, scene.consumers[0].position_ws_m - p) < 0.0)
                         continue;
                     visit(frame, Case{scene, view, p, n, facing});
@@ -99,7 +99,7 @@ TEST_P(PredictedError, AViewStatesABoundForEveryReceiverBySlope) {
         const double own_px = edge_error_px(texel_extent_px(c.view, c.scene.consumers[0], c.p_ws, c.normal), kReach);
         EXPECT_LE(own_px, stated_error_px(c.view, c.facing, kReach) * (1.0 + 1e-9)) << c.facing;
         ++(c.facing >= 1.0 / kSteepestReceiver ? flat : steep);
-        beyond += own_px > c.view.predicted_error_px ? 1 : 0;
+        beyond += own_px > c.view.error.edge_px ? 1 : 0;
     });
     EXPECT_GT(flat, 100);
     EXPECT_GT(steep, 100);
@@ -108,7 +108,7 @@ TEST_P(PredictedError, AViewStatesABoundForEveryReceiverBySlope) {
 
 TEST(StatedError, IsThePredictedOneWithinSixtyDegreesAndGrowsAsOneOverTheCosine) {
     ShadowView view;
-    view.texel_extent_px = 3.0;
+    view.error.extent_px = 3.0;
     EXPECT_DOUBLE_EQ(stated_error_px(view, 1.0, 0.5), edge_error_px(3.0, 0.5));
     EXPECT_DOUBLE_EQ(stated_error_px(view, 0.5, 0.5), edge_error_px(3.0, 0.5));
     EXPECT_DOUBLE_EQ(stated_error_px(view, 0.25, 0.5), edge_error_px(6.0, 0.5));
@@ -122,7 +122,7 @@ TEST_P(PredictedError, IsNotLooserThanTheTiltItAllows) {
     std::vector<double> ratios;
     for_each_case(1000, [&](const ShadowFrame&, const Case& c) {
         const glm::dvec3 square = glm::normalize(source_of(c.scene.lights[0], c.p_ws) - c.p_ws);
-        ratios.push_back(c.view.texel_extent_px / texel_extent_px(c.view, c.scene.consumers[0], c.p_ws, square));
+        ratios.push_back(c.view.error.extent_px / texel_extent_px(c.view, c.scene.consumers[0], c.p_ws, square));
     });
     ASSERT_GT(ratios.size(), 100u);
     std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
@@ -135,21 +135,21 @@ INSTANTIATE_TEST_SUITE_P(EachKind, PredictedError,
 
 TEST(ToldApart, IsTheWayThatTwoStepsOfTheFormatTake) {
     ShadowView flat;
-    flat.near_m = 3.0;
-    flat.far_m = 23.0;
+    flat.depth.near_m = 3.0;
+    flat.depth.far_m = 23.0;
     EXPECT_EQ(told_apart_m(flat, DepthFormat::d32f, {}), 0.0);
     EXPECT_DOUBLE_EQ(told_apart_m(flat, DepthFormat::d16, {}), 2.0 * 20.0 / 65535.0);
 
     ShadowView lamp;
     lamp.projection = ViewProjection::perspective;
-    lamp.anchor_ws_m = {1.0, 2.0, 3.0};
-    lamp.depth_beta = 0.01;
+    lamp.pose.anchor_ws_m = {1.0, 2.0, 3.0};
+    lamp.depth.beta = 0.01;
     for (const double z_m : {0.5, 5.0, 500.0}) {
-        const glm::dvec3 p = lamp.anchor_ws_m + glm::dvec3(0.4 * z_m, -0.3 * z_m, -z_m);
-        const double way = glm::length(p - lamp.anchor_ws_m);
+        const glm::dvec3 p = lamp.pose.anchor_ws_m + glm::dvec3(0.4 * z_m, -0.3 * z_m, -z_m);
+        const double way = glm::length(p - lamp.pose.anchor_ws_m);
         const double caster_z_m = z_m * (1.0 - told_apart_m(lamp, DepthFormat::d16, p) / way);
         EXPECT_GT(caster_z_m, 0.0) << "it is before the light";
-        EXPECT_NEAR(lamp.depth_beta / caster_z_m - lamp.depth_beta / z_m, 2.0 / 65535.0, 1e-15) << z_m;
+        EXPECT_NEAR(lamp.depth.beta / caster_z_m - lamp.depth.beta / z_m, 2.0 / 65535.0, 1e-15) << z_m;
         EXPECT_EQ(told_apart_m(lamp, DepthFormat::d32f, p), 0.0);
     }
 }

@@ -11,7 +11,7 @@ namespace {
 
 /// Map coordinates and depth as the shaders compute them: float matrix, float offset from the anchor.
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f);
+    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
     return glm::dvec3(q) / static_cast<double>(q.w);
 }
 
@@ -20,15 +20,15 @@ protected:
     /// The view whose map the point is looked up in, and the margin it keeps there, in map edges.
     /// Of faces around a local light, only the one that looks most nearly toward the point.
     const ShadowView* view_of(const ShadowFrame& frame, const SceneSnapshot& scene, const glm::dvec3& p) const {
-        const double margin = static_cast<double>(filter_demand(scene.lights[0].shadow, 512).widest_texel) / scene.lights[0].shadow.resolution_px;
+        const double margin = static_cast<double>(filter_settings(scene.lights[0].shadow, 512).widest_texel) / scene.lights[0].shadow.resolution_px;
         double deepest = 0.0;
         if (GetParam() != LightKind::directional)
-            for (const ShadowView& view : frame.views)
-                deepest = std::max(deepest, glm::dot(apex_ws_m(view) - p, view.axis_back));
-        for (const ShadowView& view : frame.views) {
+            for (const ShadowView& view : frame.fitted.views)
+                deepest = std::max(deepest, glm::dot(apex_ws_m(view) - p, view.pose.axis_back));
+        for (const ShadowView& view : frame.fitted.views) {
             const double keep = GetParam() == LightKind::point ? -1e-6 : margin;
             const glm::dvec3 q = in_map(view, p);
-            const double ahead = glm::dot(apex_ws_m(view) - p, view.axis_back);
+            const double ahead = glm::dot(apex_ws_m(view) - p, view.pose.axis_back);
             const bool before = GetParam() == LightKind::directional || (ahead > 0.0 && ahead == deepest);
             if (before && q.x >= keep && q.y >= keep && q.x <= 1.0 - keep && q.y <= 1.0 - keep && q.z >= 0.0 && q.z <= 1.0)
                 return &view;
@@ -51,7 +51,7 @@ TEST_P(FitTest, EveryVisiblePointLiesInAMapWithRoomForTheFilterAndItsBlockersBef
     for (int round = 0; round < 150; ++round) {
         const SceneSnapshot scene = random.scene(GetParam());
         const ShadowFrame frame = fitted(scene);
-        if (frame.views.empty()) continue;
+        if (frame.fitted.views.empty()) continue;
         for_each_point(random, scene, [&](const glm::dvec3& p) {
             ++points;
             const ShadowView* view = view_of(frame, scene, p);
@@ -77,8 +77,8 @@ TEST_P(FitTest, AShiftedMapIsNoticed) {
     RandomScene random(7);
     const SceneSnapshot scene = random.scene(GetParam());
     ShadowFrame frame = fitted(scene);
-    if (frame.views.empty()) GTEST_SKIP() << "this seed shows nothing to this kind";
-    for (ShadowView& view : frame.views)  // shifted by a map's width
+    if (frame.fitted.views.empty()) GTEST_SKIP() << "this seed shows nothing to this kind";
+    for (ShadowView& view : frame.fitted.views)  // shifted by a map's width
         for (int c = 0; c < 4; ++c) view.map_from_anchor[c][0] += view.map_from_anchor[c][3];
     bool outside = false;
     for_each_point(random, scene, [&](const glm::dvec3& p) { outside = outside || view_of(frame, scene, p) == nullptr; });
@@ -90,30 +90,30 @@ TEST_P(FitTest, TexelSizesAreThoseOfTheMap) {
     for (int round = 0; round < 60; ++round) {
         const SceneSnapshot scene = random.scene(GetParam());
         const double size_px = scene.lights[0].shadow.resolution_px;
-        for (const ShadowView& view : fitted(scene).views) {
+        for (const ShadowView& view : fitted(scene).fitted.views) {
             const bool flat = view.projection == ViewProjection::orthographic;
-            const double distance_m = flat ? 0.5 * (view.near_m + view.far_m) : view.far_m;
-            const glm::dvec3 p = apex_ws_m(view) - view.axis_back * distance_m +
-                                 (flat ? view.axis_u * view.centre_ls_m.x + view.axis_v * view.centre_ls_m.y
-                                       : distance_m * 0.5 * (view.axis_u * (view.tan_low.x + view.tan_high.x) +
-                                                             view.axis_v * (view.tan_low.y + view.tan_high.y)));
+            const double distance_m = flat ? 0.5 * (view.depth.near_m + view.depth.far_m) : view.depth.far_m;
+            const glm::dvec3 p = apex_ws_m(view) - view.pose.axis_back * distance_m +
+                                 (flat ? view.pose.axis_u * view.plane.centre_ls_m.x + view.pose.axis_v * view.plane.centre_ls_m.y
+                                       : distance_m * 0.5 * (view.pose.axis_u * (view.plane.tan_low.x + view.plane.tan_high.x) +
+                                                             view.pose.axis_v * (view.plane.tan_low.y + view.plane.tan_high.y)));
             const double unit = flat ? 1.0 : distance_m;
             // A perspective view's matrix is float: its rounding grows with how far the map lies off its axis, in maps.
             const glm::dvec2 off = flat ? glm::dvec2(0.0)
-                                        : glm::max(glm::abs(view.tan_low), glm::abs(view.tan_high)) /
-                                              (view.tan_high - view.tan_low);
+                                        : glm::max(glm::abs(view.plane.tan_low), glm::abs(view.plane.tan_high)) /
+                                              (view.plane.tan_high - view.plane.tan_low);
             const double slack = 1e-5 * (1.0 + std::max(off.x, off.y));
-            const glm::dvec3 at = in_map(view, p), right = in_map(view, p + 100.0 * unit * view.texel_u * view.axis_u),
-                             up = in_map(view, p + 100.0 * unit * view.texel_v * view.axis_v);
+            const glm::dvec3 at = in_map(view, p), right = in_map(view, p + 100.0 * unit * view.plane.texel_u * view.pose.axis_u),
+                             up = in_map(view, p + 100.0 * unit * view.plane.texel_v * view.pose.axis_v);
             EXPECT_NEAR(at.x, 0.5, slack);
             EXPECT_NEAR(at.y, 0.5, slack);
             EXPECT_NEAR((right.x - at.x) * size_px, 100.0, 1e-2);
             EXPECT_NEAR((up.y - at.y) * size_px, 100.0, 1e-2);
             EXPECT_NEAR(right.y, at.y, slack);
             EXPECT_NEAR(up.x, at.x, slack);
-            EXPECT_LT(view.near_m, view.far_m);
+            EXPECT_LT(view.depth.near_m, view.depth.far_m);
             if (!flat) {
-                EXPECT_NEAR(at.z, view.depth_alpha + view.depth_beta / distance_m, 1e-6 * (1.0 + std::abs(view.depth_alpha)));
+                EXPECT_NEAR(at.z, view.depth.alpha + view.depth.beta / distance_m, 1e-6 * (1.0 + std::abs(view.depth.alpha)));
             }
         }
     }
@@ -123,15 +123,15 @@ TEST_P(FitTest, LayersAreCountedUpAndEveryViewNamesItsDemand) {
     RandomScene random(print_seed());
     for (int round = 0; round < 60; ++round) {
         const ShadowFrame frame = fitted(random.scene(GetParam()));
-        for (std::uint32_t v = 0; v < frame.views.size(); ++v) {
+        for (std::uint32_t v = 0; v < frame.fitted.views.size(); ++v) {
             if (v > 0) {
-                EXPECT_GT(frame.views[v].layer, frame.views[v - 1].layer);
+                EXPECT_GT(frame.fitted.views[v].layer, frame.fitted.views[v - 1].layer);
             }
-            EXPECT_LT(frame.views[v].layer, std::max(frame.demands[0].view_count, light_kind_row(GetParam()).layers));
-            EXPECT_EQ(frame.views[v].demand, 0u);
-            EXPECT_TRUE(std::isfinite(frame.views[v].predicted_error_px));
+            EXPECT_LT(frame.fitted.views[v].layer, std::max(frame.fitted.lights[0].request.map.view_count, light_kind_row(GetParam()).layers));
+            EXPECT_EQ(frame.fitted.views[v].light, 0u);
+            EXPECT_TRUE(std::isfinite(frame.fitted.views[v].error.edge_px));
         }
-        EXPECT_LE(frame.views.size(), frame.demands[0].view_count);
+        EXPECT_LE(frame.fitted.views.size(), frame.fitted.lights[0].request.map.view_count);
     }
 }
 
@@ -145,7 +145,7 @@ TEST_P(FitTest, TwiceTheTexelsHalveThePredictedErrorBeyondThePixelItself) {
     const auto error = [&](std::uint32_t px) {
         scene.lights[0].shadow.resolution_px = px;
         const ShadowFrame frame = fitted(scene);
-        return frame.views.empty() ? 0.0 : frame.views[0].predicted_error_px - 1.0;
+        return frame.fitted.views.empty() ? 0.0 : frame.fitted.views[0].error.edge_px - 1.0;
     };
     ASSERT_GT(error(1024), 0.0);
     EXPECT_NEAR(error(1024) / error(2048), 2.0, 0.05);

@@ -12,7 +12,7 @@ namespace gnomon::shadow {
 namespace {
 
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.anchor_ws_m, 1.0);
+    const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.pose.anchor_ws_m, 1.0);
     return q.w > 0.0 ? glm::dvec3(q) / q.w : glm::dvec3(-1.0);
 }
 bool in_rectangle(const glm::dvec3& q, double margin) {
@@ -31,10 +31,10 @@ struct Counts {
 /// the source is the ellipse of a disk that is small beside its distance. A large one's inner side reaches farther.
 double lamp_reads_texel(const ShadowView& view, const glm::dvec3& p, double radius_m) {
     const glm::dvec3 d = p - apex_ws_m(view);
-    const double z_m = -glm::dot(d, view.axis_back);
-    const glm::dvec2 tangent = glm::dvec2(glm::dot(d, view.axis_u), glm::dot(d, view.axis_v)) / z_m;
+    const double z_m = -glm::dot(d, view.pose.axis_back);
+    const glm::dvec2 tangent = glm::dvec2(glm::dot(d, view.pose.axis_u), glm::dot(d, view.pose.axis_v)) / z_m;
     const double stretch = std::sqrt(1.0 + glm::dot(tangent, tangent));
-    return stretch * radius_m * (1.0 / view.near_m - 1.0 / z_m) / std::min(view.texel_u, view.texel_v);
+    return stretch * radius_m * (1.0 / view.depth.near_m - 1.0 / z_m) / std::min(view.plane.texel_u, view.plane.texel_v);
 }
 
 /// Receivers that are seen, and points of casters that hide some of the source from them: whether the view that serves
@@ -64,10 +64,10 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
                 !reaches(light, p))
                 continue;
             const ShadowView* view = nullptr;
-            for (const ShadowView& v : frame.views) {
+            for (const ShadowView& v : frame.fitted.views) {
                 const glm::dvec3 q = in_map(v, p);
                 // As shaders choose a cascade: as far from its border as may matter.
-                const double range_texel = kTan * (v.far_m - v.near_m) / std::min(v.texel_u, v.texel_v);
+                const double range_texel = kTan * (v.depth.far_m - v.depth.near_m) / std::min(v.plane.texel_u, v.plane.texel_v);
                 const double reads_texel = 3.0 + std::min(range_texel * (1.0 - q.z), kMost_texel);
                 const double margin = soft && kind == LightKind::directional ? reads_texel / kMap_px : 0.0;
                 if (!view && in_rectangle(q, margin) && q.z >= 0.0 && q.z <= 1.0) view = &v;
@@ -86,7 +86,7 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
             ++counts.pairs;
             counts.outside += !in_rectangle(q, 0.0);
             counts.flattened += q.z > 1.0 + 1e-6;
-            const auto listed = std::span(frame.view_caster_items).subspan(view->casters.first, view->casters.count);
+            const auto listed = std::span(frame.fitted.casters).subspan(view->casters.first, view->casters.count);
             counts.unlisted += std::find(listed.begin(), listed.end(), c) == listed.end();
         }
     }

@@ -45,7 +45,7 @@ TEST(ContentSignature, EveryThingThatDecidesThePictureChangesIt) {
         [](Input& i) { i.faces = CasterFaces::back; },
     };
     for (int k = 0; k < 3; ++k)
-        edits.push_back([k](Input& i) { i.view.anchor_ws_m[k] = 1e-12; });
+        edits.push_back([k](Input& i) { i.view.pose.anchor_ws_m[k] = 1e-12; });
     for (int column = 0; column < 4; ++column)
         for (int row = 0; row < 4; ++row)
             edits.push_back([=](Input& i) { i.view.clip_from_anchor[column][row] += 1e-6f; });
@@ -60,7 +60,7 @@ TEST(ContentSignature, EveryThingThatDecidesThePictureChangesIt) {
 TEST(ContentSignature, WhatDoesNotDecideThePictureLeavesIt) {
     Input input;
     input.scene.instances[3].version = 99;  // no caster of this view
-    input.view.predicted_error_px = 5.0;
+    input.view.error.edge_px = 5.0;
     input.view.consumer_mask = 3;
     input.view.casters = {17, 3};
     EXPECT_EQ(input.signature(), Input().signature());

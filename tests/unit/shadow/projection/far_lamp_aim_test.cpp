@@ -30,9 +30,9 @@ SceneSnapshot far_scene(RandomScene& random, LightKind kind, double distance_m) 
 }
 
 const ShadowView* aimed_view(const ShadowFrame& frame) {
-    const bool aimed = frame.views.size() == 1 && frame.demands[0].aim.used &&
-                       frame.views[0].projection == ViewProjection::perspective;
-    return aimed ? frame.views.data() : nullptr;
+    const bool aimed = frame.fitted.views.size() == 1 && frame.fitted.lights[0].request.projection.aim.used &&
+                       frame.fitted.views[0].projection == ViewProjection::perspective;
+    return aimed ? frame.fitted.views.data() : nullptr;
 }
 
 struct Placed {
@@ -41,21 +41,21 @@ struct Placed {
 };
 /// As the depth pass and the lookup place it: in float, from the anchor.
 Placed placed(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f);
+    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
     return {glm::dvec2(q) / static_cast<double>(q.w), static_cast<double>(q.z / q.w)};
 }
 /// In double, from the light itself.
 Placed truly(const ShadowView& view, const LightItem& light, const glm::dvec3& p_ws) {
-    const glm::dvec3 p = (p_ws - light.position_ws_m) * glm::dmat3(view.axis_u, view.axis_v, view.axis_back);
-    return {(glm::dvec2(p) / -p.z - view.tan_low) / (view.tan_high - view.tan_low),
-            view.near_m * (view.far_m + p.z) / (-p.z * (view.far_m - view.near_m))};
+    const glm::dvec3 p = (p_ws - light.position_ws_m) * glm::dmat3(view.pose.axis_u, view.pose.axis_v, view.pose.axis_back);
+    return {(glm::dvec2(p) / -p.z - view.plane.tan_low) / (view.plane.tan_high - view.plane.tan_low),
+            view.depth.near_m * (view.depth.far_m + p.z) / (-p.z * (view.depth.far_m - view.depth.near_m))};
 }
 
 /// How far a depth that is off by so much is off along the view's axis, as a share of a texel's diagonal there.
 double off_texel(const ShadowView& view, const LightItem& light, const glm::dvec3& p_ws, double depth_off) {
-    const double z_m = glm::dot(light.position_ws_m - p_ws, view.axis_back);
-    const double off_m = depth_off * z_m * z_m * (view.far_m - view.near_m) / (view.near_m * view.far_m);
-    return off_m / (z_m * glm::length(glm::dvec2(view.texel_u, view.texel_v)));
+    const double z_m = glm::dot(light.position_ws_m - p_ws, view.pose.axis_back);
+    const double off_m = depth_off * z_m * z_m * (view.depth.far_m - view.depth.near_m) / (view.depth.near_m * view.depth.far_m);
+    return off_m / (z_m * glm::length(glm::dvec2(view.plane.texel_u, view.plane.texel_v)));
 }
 
 TEST(LampAim, HoldsAllThatIsSeenAndLittleMore) {
@@ -67,12 +67,12 @@ TEST(LampAim, HoldsAllThatIsSeenAndLittleMore) {
         const LightKind kind = kLamps[round % 2];
         const SceneSnapshot scene = far_scene(random, kind, kDistances_m[round / 2 % 4]);
         const ShadowFrame frame = fitted(scene);
-        if (frame.sets[0].skip != Reason::none) continue;
+        if (frame.statuses[0].skipped() != Reason::none) continue;
         const ShadowView* view = aimed_view(frame);
         ASSERT_TRUE(view);
         ++fits;
         glm::dvec2 low(1.0), high(0.0);
-        for (const glm::dvec3& p_ws : frame.receiver_points_ws) {
+        for (const glm::dvec3& p_ws : frame.sets.receiver_points_ws) {
             const Placed at = placed(*view, p_ws);
             ASSERT_GE(std::min(at.map.x, at.map.y), 0.0);
             ASSERT_LE(std::max(at.map.x, at.map.y), 1.0);
@@ -98,20 +98,20 @@ TEST(LampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
         SceneSnapshot scene = far_scene(random, kLamps[round % 2], kDistances_m[round / 2 % 3]);
         scene.lights[0].shadow.resolution_px = 2048;
         const ShadowFrame frame = fitted(scene);
-        if (frame.sets[0].skip != Reason::none) continue;
+        if (frame.statuses[0].skipped() != Reason::none) continue;
         const ShadowView* view = aimed_view(frame);
         ASSERT_TRUE(view);
-        const TangentRectangle sides{view->tan_low, view->tan_high};
-        const ShadowView about_lamp = perspective_view(apex_ws_m(*view), {view->axis_u, view->axis_v, view->axis_back},
-                                                       sides, {view->near_m, view->far_m}, 2048.0);
+        const TangentRectangle sides{view->plane.tan_low, view->plane.tan_high};
+        const ShadowView about_lamp = perspective_view(apex_ws_m(*view), {view->pose.axis_u, view->pose.axis_v, view->pose.axis_back},
+                                                       sides, {view->depth.near_m, view->depth.far_m}, 2048.0);
         // The matrix's own rounding shifts all depths alike, those of casters as well: between two it says nothing.
-        const glm::dvec3& first_ws = frame.receiver_points_ws.front();
+        const glm::dvec3& first_ws = frame.sets.receiver_points_ws.front();
         const double shift = placed(*view, first_ws).depth - truly(*view, scene.lights[0], first_ws).depth;
-        for (const glm::dvec3& p_ws : frame.receiver_points_ws) {
+        for (const glm::dvec3& p_ws : frame.sets.receiver_points_ws) {
             const Placed at = placed(*view, p_ws), truth = truly(*view, scene.lights[0], p_ws);
             EXPECT_LT(glm::length(at.map - truth.map) * 2048.0, kMostOff_texel) << round;
             // Depths as coarse as texels are said to be so: of a caster that stands beside the lamp.
-            if (frame.demands[0].note != Reason::depth_coarse) {
+            if (frame.fitted.lights[0].request.note != Reason::depth_coarse) {
                 EXPECT_LT(off_texel(*view, scene.lights[0], p_ws, std::abs(at.depth - truth.depth - shift)), 1.0) << round;
             }
             worst_about_lamp =
@@ -146,9 +146,9 @@ TEST(LampAim, LeavesALampThatLightsMuchOfWhatItSeesItsOwnMaps) {
             scene.lights[0].kind = kind;
             scene.lights[0].rotation_ws = math::basis_from_back(scene.lights[0].position_ws_m);
             const ShadowFrame frame = fitted(scene);
-            EXPECT_FALSE(frame.demands[0].aim.used) << distance_m;
-            ASSERT_FALSE(frame.views.empty());
-            for (const ShadowView& view : frame.views) EXPECT_EQ(view.anchor_ws_m, scene.lights[0].position_ws_m);
+            EXPECT_FALSE(frame.fitted.lights[0].request.projection.aim.used) << distance_m;
+            ASSERT_FALSE(frame.fitted.views.empty());
+            for (const ShadowView& view : frame.fitted.views) EXPECT_EQ(view.pose.anchor_ws_m, scene.lights[0].position_ws_m);
         }
     }
 }
@@ -158,21 +158,21 @@ TEST(LampAim, StaysWhileTheCameraTurnsAndWalksALittle) {
     History held;
     ShadowFrame frame = fitted(scene, held);
     ASSERT_TRUE(aimed_view(frame));
-    const LampAim aim = frame.demands[0].aim;
+    const LampAim aim = frame.fitted.lights[0].request.projection.aim;
     int changes = 0;
     for (int i = 0; i < 200; ++i) {
         held = frame.next_history;
-        const ShadowView before = frame.views[0];
+        const ShadowView before = frame.fitted.views[0];
         const double turn = 0.3 * std::sin(0.05 * i);
         scene.consumers[0].position_ws_m = {3.0 * turn, 6.0, 9.0 + turn};
         scene.consumers[0].rotation_ws = math::basis_from_back({turn, 6.0, 9.0});
         frame = fitted(scene, held);
         ASSERT_TRUE(aimed_view(frame));
-        EXPECT_EQ(frame.demands[0].aim, aim);
-        changes += frame.views[0].clip_from_anchor != before.clip_from_anchor;
+        EXPECT_EQ(frame.fitted.lights[0].request.projection.aim, aim);
+        changes += frame.fitted.views[0].clip_from_anchor != before.clip_from_anchor;
     }
     EXPECT_LE(changes, 12);
-    EXPECT_EQ(fitted(scene, frame.next_history).views[0].clip_from_anchor, frame.views[0].clip_from_anchor);
+    EXPECT_EQ(fitted(scene, frame.next_history).fitted.views[0].clip_from_anchor, frame.fitted.views[0].clip_from_anchor);
 }
 
 TEST(LampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
@@ -182,7 +182,7 @@ TEST(LampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
         scene.lights[0].position_ws_m = glm::normalize(scene.lights[0].position_ws_m) * distance_m;
         const ShadowFrame frame = fitted(scene, held);
         held = frame.next_history;
-        return frame.demands[0].aim.used;
+        return frame.fitted.lights[0].request.projection.aim.used;
     };
     double begins_m = 50.0;
     while (!aims_at(begins_m) && begins_m < 1e4) begins_m *= 1.02;
@@ -202,11 +202,11 @@ TEST(LampAim, LeavesOutWhatTheConeAndTheRangeLeaveDark) {
     scene.instances.push_back(beside);
     scene.consumers[0].far_m = 1e4;
     scene.consumers[0].rotation_ws = math::basis_from_back({-1.0, 0.5, 1.0});
-    const double both = fitted(scene).demands[0].aim.radius_m;
+    const double both = fitted(scene).fitted.lights[0].request.projection.aim.radius_m;
     EXPECT_GT(both, 800.0) << "a point lights both";
     LightItem& light = scene.lights[0];
     light.range_m = kFar_m + 100.0;  // the other is 300 m farther than the yard
-    const double by_range = fitted(scene).demands[0].aim.radius_m;
+    const double by_range = fitted(scene).fitted.lights[0].request.projection.aim.radius_m;
     EXPECT_GT(by_range, 1.0);
     EXPECT_LT(by_range, 0.1 * both);
     light.range_m = 0.0;
@@ -214,7 +214,7 @@ TEST(LampAim, LeavesOutWhatTheConeAndTheRangeLeaveDark) {
     light.rotation_ws = math::basis_from_back(light.position_ws_m);
     light.outer_cone_rad = 0.01;
     light.inner_cone_rad = 0.005;
-    const double by_cone = fitted(scene).demands[0].aim.radius_m;
+    const double by_cone = fitted(scene).fitted.lights[0].request.projection.aim.radius_m;
     EXPECT_GT(by_cone, 1.0);
     EXPECT_LT(by_cone, 0.1 * both);
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
 glm::dvec4 clip_of(const ShadowView& view, const glm::dvec3& p_ws) {
-    return glm::dvec4(view.clip_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f));
+    return glm::dvec4(view.clip_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f));
 }
 
 TEST(Projection, APerspectiveSunHasOneViewFromItsEyeThatHoldsAllThatIsSeen) {
@@ -26,18 +26,18 @@ TEST(Projection, APerspectiveSunHasOneViewFromItsEyeThatHoldsAllThatIsSeen) {
         scene.lights[0].shadow.projection = LightProjection::perspective;
         scene.lights[0].shadow.eye_angle_rad = static_cast<float>(random.number(0.05, 2.5));
         const ShadowFrame frame = fitted(scene);
-        if (frame.views.empty()) continue;
-        ASSERT_EQ(frame.views.size(), 1u);
-        EXPECT_EQ(frame.demands[0].view_count, 1u);
-        const ShadowView& view = frame.views[0];
+        if (frame.fitted.views.empty()) continue;
+        ASSERT_EQ(frame.fitted.views.size(), 1u);
+        EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, 1u);
+        const ShadowView& view = frame.fitted.views[0];
         EXPECT_EQ(view.projection, ViewProjection::perspective);
-        for (const glm::dvec3& p : frame.receiver_points_ws) {
+        for (const glm::dvec3& p : frame.sets.receiver_points_ws) {
             const glm::dvec4 c = clip_of(view, p);
             EXPECT_GT(c.w, 0.0);
             EXPECT_LE(std::max(std::abs(c.x), std::abs(c.y)), c.w);
             EXPECT_GE(c.z, 0.0);
             EXPECT_LE(c.z, c.w);
-            EXPECT_GT(glm::dot(view.anchor_ws_m - p, scene.lights[0].rotation_ws[2]), 0.0)
+            EXPECT_GT(glm::dot(view.pose.anchor_ws_m - p, scene.lights[0].rotation_ws[2]), 0.0)
                 << "the eye stands toward the light";
             ++views;
         }
@@ -79,7 +79,7 @@ TEST(Projection, WhatIsNoRangeIsNotTakenForOne) {
 TEST(Projection, AGivenEndReplacesTheFittedOneAndTheOtherMakesRoom) {
     const auto result = [](double near_m, double far_m) {
         double n = 10.0, f = 20.0;
-        override_range({.near_m = near_m, .far_m = far_m}, n, f);
+        override_range(ProjectionRequest{.near_m = near_m, .far_m = far_m}, n, f);
         return std::pair(n, f);
     };
     EXPECT_EQ(result(0.0, 0.0), std::pair(10.0, 20.0));
@@ -88,7 +88,7 @@ TEST(Projection, AGivenEndReplacesTheFittedOneAndTheOtherMakesRoom) {
     EXPECT_EQ(result(1.0, 2.0), std::pair(1.0, 2.0));
     EXPECT_EQ(result(40.0, 0.0), std::pair(40.0, 80.0));
     EXPECT_EQ(result(0.0, 4.0), std::pair(2.0, 4.0));
-    const PerspectiveRange thin = overridden({.near_m = 1e-30, .far_m = 1e8}, {10.0, 20.0});
+    const PerspectiveRange thin = overridden(ProjectionRequest{.near_m = 1e-30, .far_m = 1e8}, {10.0, 20.0});
     EXPECT_GT(thin.near_m, 1.0) << "D32F has to hold it";
     EXPECT_EQ(thin.far_m, 1e8);
 }
@@ -105,14 +105,14 @@ TEST_P(ProjectionOfKind, AGivenRangeIsThatOfEveryView) {
         shadow.far_m = 30.0f;
         shadow.eye_distance_m = 20.0f;
         const ShadowFrame frame = fitted(scene);
-        for (const ShadowView& view : frame.views) {
-            EXPECT_NEAR(view.far_m - view.near_m, 28.0, 1e-9);
+        for (const ShadowView& view : frame.fitted.views) {
+            EXPECT_NEAR(view.depth.far_m - view.depth.near_m, 28.0, 1e-9);
             glm::dvec3 from = scene.lights[0].position_ws_m;
             if (GetParam() == LightKind::directional)
-                from = sun_eye(math::basis_from_back(scene.lights[0].rotation_ws[2]), frame.receiver_points_ws, shadow)
+                from = sun_eye(math::basis_from_back(scene.lights[0].rotation_ws[2]), frame.sets.receiver_points_ws, shadow)
                            .position_ws_m;
-            const glm::dvec4 start = clip_of(view, from - 2.0 * view.axis_back),
-                             end = clip_of(view, from - 30.0 * view.axis_back);
+            const glm::dvec4 start = clip_of(view, from - 2.0 * view.pose.axis_back),
+                             end = clip_of(view, from - 30.0 * view.pose.axis_back);
             EXPECT_NEAR(start.z / start.w, 1.0, 1e-5);
             EXPECT_NEAR(end.z / end.w, 0.0, 1e-5);
             ++views;
@@ -125,20 +125,20 @@ TEST_P(ProjectionOfKind, AbsurdRangesChangeNoViewAndAreNoted) {
     RandomScene random(9);
     SceneSnapshot scene = random.scene(GetParam());
     const ShadowFrame plain = fitted(scene);
-    ASSERT_FALSE(plain.views.empty());
+    ASSERT_FALSE(plain.fitted.views.empty());
     for (const auto& [near_m, far_m] :
          {std::pair(5.0f, 4.0f), {kNan, 0.0f}, {0.0f, -1.0f}, {kInfinity, 0.0f}, {2.0f, 2.0f}}) {
         scene.lights[0].shadow.near_m = near_m;
         scene.lights[0].shadow.far_m = far_m;
         const ShadowFrame frame = fitted(scene);
-        EXPECT_EQ(frame.demands[0].note, Reason::range_invalid) << near_m << ", " << far_m;
-        ASSERT_EQ(frame.views.size(), plain.views.size());
-        for (std::size_t v = 0; v < frame.views.size(); ++v)
-            EXPECT_EQ(frame.views[v].clip_from_anchor, plain.views[v].clip_from_anchor);
+        EXPECT_EQ(frame.fitted.lights[0].request.note, Reason::range_invalid) << near_m << ", " << far_m;
+        ASSERT_EQ(frame.fitted.views.size(), plain.fitted.views.size());
+        for (std::size_t v = 0; v < frame.fitted.views.size(); ++v)
+            EXPECT_EQ(frame.fitted.views[v].clip_from_anchor, plain.fitted.views[v].clip_from_anchor);
     }
     scene.lights[0].shadow.near_m = 0.0f;
     scene.lights[0].shadow.far_m = 0.5f;
-    EXPECT_NE(fitted(scene).views[0].clip_from_anchor, plain.views[0].clip_from_anchor) << "a range that is one does";
+    EXPECT_NE(fitted(scene).fitted.views[0].clip_from_anchor, plain.fitted.views[0].clip_from_anchor) << "a range that is one does";
 }
 
 TEST_P(ProjectionOfKind, ExtremeButUsableRangesGiveFiniteViews) {
@@ -148,7 +148,7 @@ TEST_P(ProjectionOfKind, ExtremeButUsableRangesGiveFiniteViews) {
          {std::pair(1e-38f, 0.0f), {0.0f, 1e-30f}, {1e-38f, 1e38f}, {0.0f, 1e38f}, {1e30f, 0.0f}}) {
         scene.lights[0].shadow.near_m = near_m;
         scene.lights[0].shadow.far_m = far_m;
-        for (const ShadowView& view : fitted(scene).views)
+        for (const ShadowView& view : fitted(scene).fitted.views)
             for (int c = 0; c < 4; ++c)
                 for (int r = 0; r < 4; ++r)
                     EXPECT_TRUE(std::isfinite(view.clip_from_anchor[c][r])) << near_m << ", " << far_m;
@@ -162,16 +162,16 @@ TEST_P(ProjectionOfKind, TheWishForAProjectionThatTheKindHasNotIsNotedAndItsOwnI
     const ShadowFrame plain = fitted(scene);
     scene.lights[0].shadow.projection = LightProjection::orthographic;
     const ShadowFrame flat = fitted(scene);
-    EXPECT_EQ(flat.demands[0].note, sun ? Reason::none : Reason::projection_unsupported);
+    EXPECT_EQ(flat.fitted.lights[0].request.note, sun ? Reason::none : Reason::projection_unsupported);
     scene.lights[0].shadow.projection = LightProjection::perspective;
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::none);
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::none);
     scene.lights[0].shadow.eye_angle_rad = 3.0f;
     const ShadowFrame blind = fitted(scene);
-    EXPECT_EQ(blind.demands[0].note, sun ? Reason::eye_invalid : Reason::none);
+    EXPECT_EQ(blind.fitted.lights[0].request.note, sun ? Reason::eye_invalid : Reason::none);
     for (const ShadowFrame* frame : {&flat, &blind}) {
-        ASSERT_EQ(frame->views.size(), plain.views.size());
-        for (std::size_t v = 0; v < plain.views.size(); ++v)
-            EXPECT_EQ(frame->views[v].clip_from_anchor, plain.views[v].clip_from_anchor);
+        ASSERT_EQ(frame->fitted.views.size(), plain.fitted.views.size());
+        for (std::size_t v = 0; v < plain.fitted.views.size(); ++v)
+            EXPECT_EQ(frame->fitted.views[v].clip_from_anchor, plain.fitted.views[v].clip_from_anchor);
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include <functional>
 
+#include "systems/shadow/frame/shadow_frame.h"
+
 /// Which lights' lookups are signed at all, and what of a light and of its map counts (visibility_hash.h). What a kept
 /// picture follows from besides is held by tests/system/kept_visibility_test.cpp.
 namespace gnomon::shadow {
@@ -14,16 +16,20 @@ protected:
     LookupSignature() {
         scene.version = 7;
         scene.lights.resize(1);
-        frame.demands.resize(1);
-        frame.views.resize(2);
-        frame.slots.resize(2);
+        frame.decisions.resize(1);
+        frame.statuses.resize(1);
+        frame.fitted.lights.resize(1);
+        frame.fitted.lights[0].views.count = 2;
+        frame.fitted.views.resize(2);
+        frame.maps.assign(2, {.texture = {1}});
+        frame.updates.resize(2);
         inputs.lights.resize(1);
         light().row.filter_file = "shadow/filters/pcf/hard.glsl";
     }
     LightingLight& light() { return inputs.lights[0]; }
     std::uint64_t signature() {
         light().lookup_signature = 0;
-        sign_lookups(scene, frame, inputs);
+        sign_lookups(scene, drawn_views(frame), inputs);
         return light().lookup_signature;
     }
     SceneSnapshot scene;
@@ -39,7 +45,7 @@ TEST_F(LookupSignature, IsTheSameForTheSameAndFollowsFromWhatIsLookedUp) {
     EXPECT_EQ(signature(), before) << "how much arrives, not whether";
     scene.version = 8;
     EXPECT_EQ(signature(), before) << "something moved elsewhere";
-    frame.slots[1].content = 5;
+    frame.updates[1].content = 5;
     const std::uint64_t redrawn = signature();
     EXPECT_NE(redrawn, before);
     light().row.rays = true;
@@ -66,9 +72,9 @@ TEST_F(LookupSignature, IsNoneWhereNothingIsToBeKept) {
     EXPECT_EQ(without([&] { scene.lights[0].shadow.economy = false; }), 0u);
     EXPECT_EQ(without([&] { scene.lights[0].shadow.keep_visibility = false; }), 0u);
     EXPECT_EQ(without([&] { scene.version = 0; }), 0u) << "nobody counts its changes";
-    EXPECT_EQ(without([&] { frame.slots[1].hold = Hold::by_turn; }), 0u) << "casters as they were";
+    EXPECT_EQ(without([&] { frame.updates[1].hold = Hold::by_turn; }), 0u) << "casters as they were";
     // What is kept while a map changes too much to be drawn goes with the first frame that draws it.
-    EXPECT_EQ(without([&] { frame.demands[0].left_to_rays = true; }), 0u);
+    EXPECT_EQ(without([&] { frame.updates[0].left_to_rays = true; }), 0u);
 }
 
 }  // namespace

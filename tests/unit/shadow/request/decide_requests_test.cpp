@@ -23,25 +23,25 @@ protected:
             scene.lights.push_back(light);
         }
     }
-    const std::vector<ShadowDemand>& decide(bool shadows = true) {
-        decide_demand(scene, device, shadows, {}, demands);
+    const std::vector<ShadowRequest>& decide(bool shadows = true) {
+        decide_requests(scene, {device, {}, shadows}, fallbacks, demands);
         return demands;
     }
     gl::DeviceInfo device;
     SceneSnapshot scene;
-    std::vector<ShadowDemand> demands;
+    std::vector<ShadowRequest> demands;
+    RayFallbacks fallbacks;
 };
 
 TEST_F(DemandTest, EachLightHasOneInItsOrder) {
     ASSERT_EQ(decide().size(), 3u);
     for (std::uint32_t i = 0; i < 3; ++i) {
-        EXPECT_EQ(demands[i].light, i);
         EXPECT_EQ(demands[i].skip, Reason::none);
         EXPECT_EQ(demands[i].note, Reason::none);
     }
-    EXPECT_EQ(demands[0].view_count, 4u);
-    EXPECT_EQ(demands[1].view_count, 1u);
-    EXPECT_EQ(demands[2].view_count, 6u);
+    EXPECT_EQ(demands[0].map.view_count, 4u);
+    EXPECT_EQ(demands[1].map.view_count, 1u);
+    EXPECT_EQ(demands[2].map.view_count, 6u);
     decide();
     EXPECT_EQ(demands.size(), 3u) << "and not more the next time";
 }
@@ -65,7 +65,7 @@ constexpr float kUsual = FilterRow{}.texels_per_pixel;
 TEST_F(DemandTest, AFilterThatNeedsFewerTexelsGetsThem) {
     for (const FilterRow& row : filter_table()) {
         scene.lights[1].shadow.filter = row.id;
-        EXPECT_EQ(decide()[1].resolution_px,
+        EXPECT_EQ(decide()[1].map.resolution_px,
                   automatic_resolution(scene.consumers[0].viewport_px, row.texels_per_pixel, 1.0f, 16384))
             << row.name;
     }
@@ -103,44 +103,46 @@ TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
 
 TEST_F(DemandTest, EveryKindTakesAnisotropyAndPaysForHalfItsFootprint) {
     for (LightItem& light : scene.lights) light.shadow.filter = ShadowFilter::vsm;
-    for (const ShadowDemand& d : decide()) EXPECT_EQ(d.moments.reach_texel, 0.0f);
+    for (const ShadowRequest& d : decide()) EXPECT_EQ(d.map.moments.reach_texel, 0.0f);
     for (LightItem& light : scene.lights) light.shadow.moment_anisotropy = 4;
-    for (const ShadowDemand& d : decide()) {
+    decide();
+    for (std::size_t i = 0; i < demands.size(); ++i) {
+        const ShadowRequest& d = demands[i];
         EXPECT_EQ(d.note, Reason::none);
-        EXPECT_EQ(d.moments.anisotropy, 4u);
-        EXPECT_EQ(d.moments.footprint_texel, 4.0f);
-        EXPECT_EQ(d.moments.reach_texel, 2.0f);
-        EXPECT_EQ(d.moments.sampler_anisotropy, d.light != 2) << "a sampler knows nothing of a cube's faces";
+        EXPECT_EQ(d.map.moments.anisotropy, 4u);
+        EXPECT_EQ(d.map.moments.footprint_texel, 4.0f);
+        EXPECT_EQ(d.map.moments.reach_texel, 2.0f);
+        EXPECT_EQ(d.map.moments.sampler_anisotropy, i != 2) << "a sampler knows nothing of a cube's faces";
     }
 }
 
 TEST_F(DemandTest, ARequestedSizeIsKeptOrClampedWithANote) {
     for (LightItem& light : scene.lights) light.shadow.resolution_px = 777;
-    for (const ShadowDemand& d : decide()) {
-        EXPECT_EQ(d.resolution_px, 777u);
+    for (const ShadowRequest& d : decide()) {
+        EXPECT_EQ(d.map.resolution_px, 777u);
         EXPECT_EQ(d.note, Reason::none);
     }
     for (LightItem& light : scene.lights) light.shadow.resolution_px = 8192;
     decide();
-    EXPECT_EQ(demands[1].resolution_px, 8192u);
+    EXPECT_EQ(demands[1].map.resolution_px, 8192u);
     EXPECT_EQ(demands[1].note, Reason::none);
-    EXPECT_EQ(demands[2].resolution_px, 4096u) << "cubes have a limit of their own";
+    EXPECT_EQ(demands[2].map.resolution_px, 4096u) << "cubes have a limit of their own";
     EXPECT_EQ(demands[2].note, Reason::resolution_clamped);
     scene.lights[1].shadow.resolution_px = 1;
     EXPECT_EQ(decide()[1].note, Reason::resolution_clamped);
-    EXPECT_GT(demands[1].resolution_px, 1u);
+    EXPECT_GT(demands[1].map.resolution_px, 1u);
 }
 
 TEST_F(DemandTest, AWideConeGetsFiveFacesInsteadOfOneView) {
     scene.lights[1].outer_cone_rad = 1.5;
     EXPECT_EQ(decide()[1].note, Reason::none);
-    EXPECT_EQ(demands[1].view_count, 5u);
-    EXPECT_EQ(demands[1].faces_eighths, 8);
+    EXPECT_EQ(demands[1].map.view_count, 5u);
+    EXPECT_EQ(demands[1].projection.faces_eighths, 8);
 }
 
 TEST_F(DemandTest, WithoutCamerasItStaysTotal) {
     scene.consumers.clear();
-    for (const ShadowDemand& d : decide()) EXPECT_GE(d.resolution_px, 256u);
+    for (const ShadowRequest& d : decide()) EXPECT_GE(d.map.resolution_px, 256u);
 }
 
 }  // namespace

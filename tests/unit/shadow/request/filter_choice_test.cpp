@@ -102,11 +102,11 @@ protected:
         s.lights[0].shadow = {.max_error_px = wish_px};
         return s;
     }
-    static ShadowFilter filter(const ShadowFrame& frame) { return frame.demands[0].filter; }
+    static ShadowFilter filter(const ShadowFrame& frame) { return frame.fitted.lights[0].request.map.filter; }
     static double looked_up_px(const ShadowFrame& frame) {
         double worst = 0.0;
-        for (const ShadowView& view : frame.views)
-            if (!view.lit) worst = std::max(worst, view.predicted_error_px);
+        for (const ShadowView& view : frame.fitted.views)
+            if (!view.lit) worst = std::max(worst, view.error.edge_px);
         return worst;
     }
     static bool is_named_kept(SceneSnapshot s) {
@@ -122,20 +122,20 @@ TEST_P(FittedFilter, IsTheKeepingOneExactlyWhereTheUsualOnesMapsDoNotKeepTheWord
         for (const float wish_px : {0.5f, 2.0f, 8.0f}) {
             const SceneSnapshot s = scene(random, wish_px);
             const ShadowFrame frame = fitted(s);
-            if (frame.views.empty()) continue;
+            if (frame.fitted.views.empty()) continue;
             const bool kept = is_named_kept(s);
             if (filter(frame) == kUsualFilter) {
                 ++usual;
                 EXPECT_TRUE(keeps_contract(looked_up_px(frame), wish_px)) << "no other is needed";
                 more_cascades += kept ? 0 : 1;
-                EXPECT_EQ(frame.demands[0].usual_px, 0.0);
+                EXPECT_EQ(frame.fitted.lights[0].default_filter_error_px, 0.0);
                 continue;
             }
             ++keeping;
             EXPECT_EQ(filter(frame), kKeepingFilter);
             EXPECT_FALSE(kept);
-            EXPECT_TRUE(frame.demands[0].asks_rays);
-            EXPECT_FALSE(keeps_contract(frame.demands[0].usual_px, wish_px)) << "the number behind it";
+            EXPECT_TRUE(frame.fitted.lights[0].request.rays.used);
+            EXPECT_FALSE(keeps_contract(frame.fitted.lights[0].default_filter_error_px, wish_px)) << "the number behind it";
         }
     std::cout << usual << " have the usual filter, " << more_cascades << " of them by another number of cascades, "
               << keeping << " the keeping one\n";
@@ -152,7 +152,7 @@ TEST_P(FittedFilter, IsTheUsualOneAsItEverWasWhereNothingIsSaid) {
         s.lights[0].shadow.filter = kUsualFilter;
         const ShadowFrame named = fitted(s);
         EXPECT_EQ(filter(frame), kUsualFilter);
-        EXPECT_EQ(frame.demands[0].resolution_px, named.demands[0].resolution_px);
+        EXPECT_EQ(frame.fitted.lights[0].request.map.resolution_px, named.fitted.lights[0].request.map.resolution_px);
         EXPECT_EQ(frame.next_history, named.next_history);
         broken += keeps_contract(looked_up_px(frame), 1.0) ? 0 : 1;
     }
@@ -172,7 +172,7 @@ TEST_P(FittedFilter, HardlyChangesWhileTheCameraSways) {
             s.consumers[0].position_ws_m = from * (1.0 + 0.02 * std::sin(0.9 * f));  // seven frames to and fro
             const ShadowFrame frame = fitted(s, held);
             held = frame.next_history;
-            if (frame.views.empty()) continue;
+            if (frame.fitted.views.empty()) continue;
             of_scene += last != ShadowFilter::automatic && last != filter(frame) ? 1 : 0;
             last = filter(frame);
         }
@@ -197,7 +197,7 @@ TEST_P(FittedFilter, ChangesAtOnceForTheWordAndComesBackASecondAfterItWasNeeded)
         const ShadowFrame far = fitted(s);
         stand(1.0);
         const ShadowFrame near = fitted(s, far.next_history);
-        if (far.views.empty() || near.views.empty() || filter(far) != kUsualFilter || filter(near) != kKeepingFilter)
+        if (far.fitted.views.empty() || near.fitted.views.empty() || filter(far) != kUsualFilter || filter(near) != kKeepingFilter)
             continue;
         ++there;
         History held = near.next_history;
@@ -231,7 +231,7 @@ TEST_P(FittedFilter, WaitsForTheNextFrameWithinABudget) {
     int waited = 0;
     for (int i = 0; i < 40; ++i) {
         const SceneSnapshot s = scene(random, 0.5f);
-        if (const ShadowFrame now = fitted(s); now.views.empty() || filter(now) != kKeepingFilter) continue;
+        if (const ShadowFrame now = fitted(s); now.fitted.views.empty() || filter(now) != kKeepingFilter) continue;
         const ShadowFrame first = fitted(s, {}, true);
         EXPECT_EQ(filter(first), kUsualFilter);
         EXPECT_EQ(filter(fitted(s, first.next_history, true)), kKeepingFilter);

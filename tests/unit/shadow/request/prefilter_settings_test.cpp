@@ -58,7 +58,7 @@ class Store {
 public:
     virtual ~Store() = default;
     Store(ShadowFilter filter, std::uint32_t bits, float exponent = 0.0f, float negative = 0.0f)
-        : demand_(moment_demand(filter_row(filter),
+        : demand_(prefilter_settings(filter_row(filter),
                                 {.filter = filter, .moment_bits = bits, .moment_exponent = exponent, .moment_negative_exponent = negative}, 1024)) {}
 
     /// What is stored of these surfaces, each step rounded to the format: texels, blurred along u, then along v.
@@ -73,7 +73,7 @@ public:
     float lit(const std::vector<Surface>& surfaces, double share) const { return lit(stored(surfaces), share); }
     virtual float lit(const vec4& moments, double share) const = 0;
     virtual vec4 moments_of(double share) const = 0;
-    const MomentDemand& demand() const { return demand_; }
+    const PrefilterSettings& demand() const { return demand_; }
     vec4 settings() const { return {demand_.settings.x, demand_.settings.y, demand_.settings.z, demand_.settings.w}; }
 
     template <class Use>
@@ -98,7 +98,7 @@ private:
             return std::round(std::clamp(value, 0.0f, 1.0f) * 65535.0f) / 65535.0f;
         return value;
     }
-    MomentDemand demand_;
+    PrefilterSettings demand_;
 };
 
 template <class Shader, ShadowFilter kFilter>
@@ -260,9 +260,9 @@ TEST(Moments, InSixteenBitsAreUnpackedAsTheyWerePacked) {
     }
 }
 
-TEST(MomentDemand, CutsWhatIsAbsurdAndSaysSo) {
+TEST(PrefilterSettings, CutsWhatIsAbsurdAndSaysSo) {
     const FilterRow& evsm4 = filter_row(ShadowFilter::evsm4);
-    const MomentDemand usual = moment_demand(evsm4, {}, 1024);
+    const PrefilterSettings usual = prefilter_settings(evsm4, {}, 1024);
     EXPECT_FALSE(usual.cut);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const LightShadow absurd[] = {{.moment_bits = 24},          {.moment_exponent = nan},        {.moment_exponent = -1.0f},
@@ -270,7 +270,7 @@ TEST(MomentDemand, CutsWhatIsAbsurdAndSaysSo) {
                                   {.moment_bleeding = 1.0f},    {.moment_levels = 0},            {.moment_levels = 5},
                                   {.moment_anisotropy = 0},     {.moment_anisotropy = 17}};
     for (const LightShadow& shadow : absurd) {
-        const MomentDemand demand = moment_demand(evsm4, shadow, 1024);
+        const PrefilterSettings demand = prefilter_settings(evsm4, shadow, 1024);
         EXPECT_TRUE(demand.cut);
         EXPECT_TRUE(demand.settings.x > 0.0f && demand.settings.x <= 42.0f);
         EXPECT_TRUE(demand.settings.y > 0.0f && demand.settings.y <= 42.0f);
@@ -278,42 +278,42 @@ TEST(MomentDemand, CutsWhatIsAbsurdAndSaysSo) {
         EXPECT_TRUE(demand.levels >= 1 && demand.levels <= kMostMomentLevels);
         EXPECT_TRUE(demand.anisotropy >= 1 && demand.anisotropy <= kMostMomentAnisotropy);
     }
-    EXPECT_EQ(moment_demand(filter_row(ShadowFilter::hard), absurd[0], 1024), MomentDemand{}) << "not its business";
+    EXPECT_EQ(prefilter_settings(filter_row(ShadowFilter::hard), absurd[0], 1024), PrefilterSettings{}) << "not its business";
 }
 
-TEST(MomentDemand, WidensTheFilterByWhatAPixelMayCoverAndFitsTheMap) {
+TEST(PrefilterSettings, WidensTheFilterByWhatAPixelMayCoverAndFitsTheMap) {
     const FilterRow& vsm = filter_row(ShadowFilter::vsm);
     const LightShadow widest{.moment_levels = kMostMomentLevels, .moment_anisotropy = kMostMomentAnisotropy};
-    EXPECT_EQ(moment_demand(vsm, {}, 1024).reach_texel, 0.0f);
-    const float reach = moment_demand(vsm, widest, 1024).reach_texel;
+    EXPECT_EQ(prefilter_settings(vsm, {}, 1024).reach_texel, 0.0f);
+    const float reach = prefilter_settings(vsm, widest, 1024).reach_texel;
     EXPECT_GE(reach, 1.5f * 8.0f - 1.0f + 0.5f * 16.0f);
-    EXPECT_EQ(filter_demand(vsm, widest, 1024).widest_texel, filter_demand(vsm, {}, 1024).widest_texel + reach);
+    EXPECT_EQ(filter_settings(vsm, widest, 1024).widest_texel, filter_settings(vsm, {}, 1024).widest_texel + reach);
     for (const std::uint32_t size : {16u, 64u, 128u}) {
-        const MomentDemand small = moment_demand(vsm, widest, size);
+        const PrefilterSettings small = prefilter_settings(vsm, widest, size);
         EXPECT_LE(small.reach_texel, static_cast<float>(size) / kEdgesPerSpread);
         EXPECT_TRUE(small.cut);
     }
 }
 
-TEST(MomentDemand, HasALevelForEveryPenumbraOfASourceWithASizeAndNoMoreThanAskedForOfAnyOther) {
+TEST(PrefilterSettings, HasALevelForEveryPenumbraOfASourceWithASizeAndNoMoreThanAskedForOfAnyOther) {
     const FilterRow& soft = filter_row(ShadowFilter::pcss_moments);
-    EXPECT_EQ(moment_demand(soft, {}, 1024).levels, 1u);
-    EXPECT_EQ(moment_demand(soft, {.moment_levels = 3}, 1024).levels, 3u);
+    EXPECT_EQ(prefilter_settings(soft, {}, 1024).levels, 1u);
+    EXPECT_EQ(prefilter_settings(soft, {.moment_levels = 3}, 1024).levels, 3u);
     for (const auto field : {&LightShadow::source_radius_m, &LightShadow::sun_radius_rad}) {
         LightShadow shadow{.filter = ShadowFilter::pcss_moments};
         shadow.*field = 0.02f;
         for (const std::uint32_t size : {16u, 64u, 512u, 1024u, 4096u}) {
-            const MomentDemand demand = moment_demand(soft, shadow, size);
-            const float widest = filter_demand(shadow, size).most_spread_texel;
+            const PrefilterSettings demand = prefilter_settings(soft, shadow, size);
+            const float widest = filter_settings(shadow, size).most_spread_texel;
             const auto coarsest = static_cast<float>(1u << (demand.levels - 1));
             EXPECT_TRUE(coarsest <= widest && widest < 2.0f * coarsest) << size;
             EXPECT_EQ(demand.reach_texel, 0.0f) << "the bias is for what is read, not for the widest";
             EXPECT_FALSE(demand.cut);
         }
-        EXPECT_EQ(moment_demand(filter_row(ShadowFilter::moments), shadow, 1024).levels, 1u);
+        EXPECT_EQ(prefilter_settings(filter_row(ShadowFilter::moments), shadow, 1024).levels, 1u);
         for (const float absurd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f}) {
             shadow.*field = absurd;
-            EXPECT_EQ(moment_demand(soft, shadow, 1024).levels, 1u) << absurd;
+            EXPECT_EQ(prefilter_settings(soft, shadow, 1024).levels, 1u) << absurd;
         }
     }
 }

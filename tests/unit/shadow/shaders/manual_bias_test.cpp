@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bench/glsl_on_cpu/glsl_types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/publish/publish_lights.h"
 
 /// The shader's own manual biases, compiled in double: their formulas, one by one.
@@ -128,13 +129,20 @@ shadow::LightingLight published(const LightShadow& settings) {
     scene.lights[0].kind = LightKind::directional;
     scene.lights[0].shadow = settings;
     shadow::ShadowFrame frame;
-    frame.demands.resize(1);
-    frame.demands[0].resolution_px = 64;
-    frame.views.resize(1);
-    frame.slots.resize(1);
-    frame.slots[0].texture = {1};
-    frame.slots[0].size_px = 64;
-    shadow::publish_lights(scene, {}, {}, false, frame);
+    frame.decisions.resize(1);
+    frame.decisions[0].request.map.resolution_px = 64;
+    frame.statuses.resize(1);
+    frame.fitted.lights.resize(1);
+    frame.fitted.lights[0].views.count = 1;
+    frame.fitted.views.resize(1);
+    frame.maps.resize(1);
+    frame.maps[0].texture = {1};
+    frame.maps[0].size_px = 64;
+    frame.updates.resize(1);
+    const shadow::DrawnViews drawn = shadow::drawn_views(frame);
+    const shadow::MapSamplers samplers;
+    const visibility::RayBuffers no_rays;
+    shadow::publish_lights(scene, {drawn, {}, {}, samplers, no_rays}, frame.inputs, {});
     return frame.inputs.at(0).lights.at(0);
 }
 

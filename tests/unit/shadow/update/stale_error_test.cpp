@@ -55,11 +55,11 @@ ShownCaster shown_of(const InstanceItem& item) {
 ShadowView flat_view(RandomScene& random) {
     ShadowView view;
     const glm::dmat3 axes = math::basis_from_back(random.direction());
-    view.axis_u = axes[0];
-    view.axis_v = axes[1];
-    view.axis_back = axes[2];
-    view.texel_u = view.texel_v = 0.01;
-    view.metre_px = 1.0;
+    view.pose.axis_u = axes[0];
+    view.pose.axis_v = axes[1];
+    view.pose.axis_back = axes[2];
+    view.plane.texel_u = view.plane.texel_v = 0.01;
+    view.error.metre_px = 1.0;
     return view;
 }
 
@@ -67,19 +67,19 @@ ShadowView lamp_view(RandomScene& random) {
     const glm::dmat3 axes = math::basis_from_back(random.direction());
     const glm::dvec2 low(random.number(-1.5, 0.0), random.number(-1.5, 0.0));
     ShadowView view = perspective_view(random.vector(3.0), axes, {low, low + 1.5}, {0.1, 100.0}, 512.0);
-    view.metre_px = 1.0;
-    view.texel_extent_px = glm::length(glm::dvec2(view.texel_u, view.texel_v));  // a tangent is a pixel
+    view.error.metre_px = 1.0;
+    view.error.extent_px = glm::length(glm::dvec2(view.plane.texel_u, view.plane.texel_v));  // a tangent is a pixel
     return view;
 }
 
 /// In the view: x and y across, z along.
 glm::dvec3 in_view(const ShadowView& view, const glm::dvec3& p) {
-    const glm::dvec3 d = p - view.anchor_ws_m;
-    return {glm::dot(d, view.axis_u), glm::dot(d, view.axis_v), -glm::dot(d, view.axis_back)};
+    const glm::dvec3 d = p - view.pose.anchor_ws_m;
+    return {glm::dot(d, view.pose.axis_u), glm::dot(d, view.pose.axis_v), -glm::dot(d, view.pose.axis_back)};
 }
 bool in_map(const ShadowView& view, const glm::dvec2& tangent) {
-    return glm::all(glm::greaterThanEqual(tangent, view.tan_low)) &&
-           glm::all(glm::lessThanEqual(tangent, view.tan_high));
+    return glm::all(glm::greaterThanEqual(tangent, view.plane.tan_low)) &&
+           glm::all(glm::lessThanEqual(tangent, view.plane.tan_high));
 }
 
 TEST(CasterShift, HoldsWhateverAnyPointOfACasterMoves) {
@@ -129,8 +129,8 @@ TEST(CasterShift, CannotBeToldOfWhatHoldsALampOrHasNoVolumeOrBentAnew) {
     const math::Aabb box_ms{glm::dvec3(-1.0), glm::dvec3(1.0)};
     RandomScene random(print_seed());
     const ShadowView lamp = lamp_view(random), sun = flat_view(random);
-    const InstanceItem around = item_at(box_ms, {glm::dmat3(1.0), lamp.anchor_ws_m}, 1);
-    const InstanceItem moved = item_at(box_ms, {glm::dmat3(1.0), lamp.anchor_ws_m + 0.1}, 2);
+    const InstanceItem around = item_at(box_ms, {glm::dmat3(1.0), lamp.pose.anchor_ws_m}, 1);
+    const InstanceItem moved = item_at(box_ms, {glm::dmat3(1.0), lamp.pose.anchor_ws_m + 0.1}, 2);
     EXPECT_EQ(caster_shift(lamp, shown_of(around), moved, nullptr).across, kInfinity);
     EXPECT_LT(caster_shift(sun, shown_of(around), moved, nullptr).across, 1.0);
     const InstanceItem flat = item_at(box_ms, {glm::dmat3(0.0), glm::dvec3(0.0)}, 1);
@@ -157,7 +157,7 @@ TEST(CasterShift, CountsWhatAMeshBentSinceInItsInstancesOwnScale) {
 class StaleViews : public ::testing::Test {
 protected:
     void SetUp() override {
-        view.metre_px = 4.0;
+        view.error.metre_px = 4.0;
         view.still_casters = 1;
         for (std::uint32_t i = 0; i < 3; ++i) {
             InstanceItem item = item_at({glm::dvec3(-1.0), glm::dvec3(1.0)}, {glm::dmat3(1.0), glm::dvec3(5.0 * i)}, 1);
@@ -204,9 +204,9 @@ TEST_F(StaleViews, AreOffByNobodyKnowsWhatWhereOthersAreThereOrStillOnesChanged)
     EXPECT_EQ(now().error_px, 0.0);
     move(1, glm::dvec3(kInfinity));
     EXPECT_EQ(now().error_px, kInfinity);
-    view.metre_px = 0.0;
+    view.error.metre_px = 0.0;
     SetUp();
-    view.metre_px = 0.0;
+    view.error.metre_px = 0.0;
     EXPECT_EQ(now().error_px, kInfinity) << "nobody sees it, or it is warped";
 }
 
@@ -215,9 +215,9 @@ TEST(MetrePx, IsTheTexelsExtentPerMetreOfATexel) {
     int suns = 0;
     for (int round = 0; round < 50; ++round) {
         const ShadowFrame frame = fitted(random.scene(LightKind::directional));
-        for (const ShadowView& view : frame.views) {
-            if (view.texel_m == 0.0) continue;
-            EXPECT_NEAR(view.metre_px * view.texel_m, view.texel_extent_px, 1e-9 * view.texel_extent_px);
+        for (const ShadowView& view : frame.fitted.views) {
+            if (view.error.texel_m == 0.0) continue;
+            EXPECT_NEAR(view.error.metre_px * view.error.texel_m, view.error.extent_px, 1e-9 * view.error.extent_px);
             ++suns;
         }
     }

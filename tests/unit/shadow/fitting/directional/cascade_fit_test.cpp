@@ -15,7 +15,7 @@ namespace gnomon::shadow {
 namespace {
 
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f);
+    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
     return glm::dvec3(q) / static_cast<double>(q.w);
 }
 
@@ -40,7 +40,7 @@ protected:
 
 TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneItFadesInto) {
     RandomScene random(print_seed());
-    const double margin = static_cast<double>(filter_demand({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
+    const double margin = static_cast<double>(filter_settings({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
     int points = 0, fading = 0;
     for (int round = 0; round < 150; ++round) {
         SceneSnapshot scene = scene_of(random);
@@ -50,26 +50,26 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
         shadow.split_m = {12.0f, 16.0f, 20.0f};
         shadow.cascade_blend = 0.2f;
         const ShadowFrame frame = fitted(scene);
-        if (frame.views.empty()) continue;
+        if (frame.fitted.views.empty()) continue;
         for (const InstanceItem& receiver : scene.instances)
             for (int k = 0; k < 10; ++k) {
                 const glm::dvec3 p = random_point(random, receiver.bounds_ws);
                 if (!receiver.visible || !receiver.receives || !seen(scene.consumers[0], p)) continue;
                 ++points;
                 if (GetParam() == ShadowFit::tight) {
-                    EXPECT_TRUE(std::any_of(frame.views.begin(), frame.views.end(),
+                    EXPECT_TRUE(std::any_of(frame.fitted.views.begin(), frame.fitted.views.end(),
                                             [&](const ShadowView& v) { return holds(v, p, margin); }));
                     continue;
                 }
                 const double distance_m = distance_of(scene, p);
                 std::size_t i = 0;
-                while (i + 1 < frame.views.size() && distance_m > frame.views[i].seen_to_m) ++i;
-                EXPECT_TRUE(holds(frame.views[i], p, margin)) << "round " << round << ", cascade " << i;
-                if (i + 1 == frame.views.size()) continue;
-                if (!(distance_m > frame.views[i].fades_from_m)) continue;
-                EXPECT_EQ(frame.views[i + 1].layer, frame.views[i].layer + 1) << "nothing is seen beyond";
+                while (i + 1 < frame.fitted.views.size() && distance_m > frame.fitted.views[i].cascade.seen_to_m) ++i;
+                EXPECT_TRUE(holds(frame.fitted.views[i], p, margin)) << "round " << round << ", cascade " << i;
+                if (i + 1 == frame.fitted.views.size()) continue;
+                if (!(distance_m > frame.fitted.views[i].cascade.fades_from_m)) continue;
+                EXPECT_EQ(frame.fitted.views[i + 1].layer, frame.fitted.views[i].layer + 1) << "nothing is seen beyond";
                 ++fading;
-                EXPECT_TRUE(holds(frame.views[i + 1], p, margin)) << "round " << round << ", beyond cascade " << i;
+                EXPECT_TRUE(holds(frame.fitted.views[i + 1], p, margin)) << "round " << round << ", beyond cascade " << i;
             }
     }
     EXPECT_GT(points, 500);
@@ -80,20 +80,20 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
 
 TEST_P(CascadeFitTest, AHistoryOfAnythingLosesNoPoint) {
     RandomScene random(print_seed());
-    const double margin = static_cast<double>(filter_demand({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
+    const double margin = static_cast<double>(filter_settings({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
     History history;
     int points = 0;
     for (int round = 0; round < 100; ++round) {
         const SceneSnapshot scene = scene_of(random);  // another world, light and camera each time
         const ShadowFrame frame = fitted(scene, history);
         history = frame.next_history;
-        if (frame.views.empty()) continue;  // no caster can darken what is seen
-        for (const glm::dvec3& p : frame.receiver_points_ws) {
+        if (frame.fitted.views.empty()) continue;  // no caster can darken what is seen
+        for (const glm::dvec3& p : frame.sets.receiver_points_ws) {
             ++points;
-            EXPECT_TRUE(std::any_of(frame.views.begin(), frame.views.end(),
+            EXPECT_TRUE(std::any_of(frame.fitted.views.begin(), frame.fitted.views.end(),
                                     [&](const ShadowView& v) { return holds(v, p, margin * 0.5); }))
                 << "round " << round << " at " << distance_of(scene, p) << " m of "
-                << frame.views.front().seen_from_m << " to " << frame.views.back().seen_to_m;
+                << frame.fitted.views.front().cascade.seen_from_m << " to " << frame.fitted.views.back().cascade.seen_to_m;
         }
     }
     EXPECT_GT(points, 500);
@@ -105,16 +105,16 @@ TEST_P(CascadeFitTest, CascadesAreAsManyAsAskedForAndAtMostEight) {
     for (const std::uint32_t count : {1u, 3u, 8u}) {
         scene.lights[0].shadow.cascades = count;
         const ShadowFrame frame = fitted(scene);
-        EXPECT_EQ(frame.demands[0].view_count, count);
-        EXPECT_LE(frame.views.size(), count);
-        EXPECT_EQ(frame.demands[0].note, Reason::none);
+        EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, count);
+        EXPECT_LE(frame.fitted.views.size(), count);
+        EXPECT_EQ(frame.fitted.lights[0].request.note, Reason::none);
     }
     scene.lights[0].shadow.cascades = 9;
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::cascades_clamped);
-    EXPECT_EQ(fitted(scene).demands[0].view_count, 8u);
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::cascades_clamped);
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.map.view_count, 8u);
     scene.lights[0].shadow.cascades = 2;
     scene.lights[0].shadow.splits = CascadeSplits::manual;
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::splits_invalid) << "no distance is given";
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::splits_invalid) << "no distance is given";
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -131,7 +131,7 @@ double median_waste(ShadowFit mode) {
         SceneSnapshot scene = random.scene(LightKind::directional);
         scene.lights[0].shadow.fit = mode;
         const ShadowFrame frame = fitted(scene);
-        for (const ShadowView& view : frame.views) wastes.push_back(waste(scene, frame, view));
+        for (const ShadowView& view : frame.fitted.views) wastes.push_back(waste(scene, frame, view));
     }
     const double middle = median(wastes);
     ::testing::Test::RecordProperty("median_waste_percent", static_cast<int>(middle * 100.0));
@@ -152,14 +152,14 @@ TEST(CascadeWaste, AStableMapIsItsSphereAndAPlaceToMove) {
         SceneSnapshot scene = random.scene(LightKind::directional);
         scene.lights[0].shadow.fit = ShadowFit::stable;
         const ShadowFrame frame = fitted(scene);
-        for (std::size_t v = 0; v < frame.views.size(); ++v) {
-            const ShadowView& view = frame.views[v];
+        for (std::size_t v = 0; v < frame.fitted.views.size(); ++v) {
+            const ShadowView& view = frame.fitted.views[v];
             // Before a slice without receivers, a view serves farther than its own slice.
-            if (v + 1 < frame.views.size() && frame.views[v + 1].layer != view.layer + 1) continue;
-            const SliceSphere sphere = slice_sphere(scene.consumers[0], view.seen_from_m, view.seen_to_m);
+            if (v + 1 < frame.fitted.views.size() && frame.fitted.views[v + 1].layer != view.layer + 1) continue;
+            const SliceSphere sphere = slice_sphere(scene.consumers[0], view.cascade.seen_from_m, view.cascade.seen_to_m);
             const double border = 1.0 - 2.0 * 4.0 / 512.0, place = 31.0 / 32.0;
-            EXPECT_NEAR(view.half_extent_m.x * border * place / sphere.radius_m, 1.0, 1e-3);
-            EXPECT_EQ(view.half_extent_m.x, view.half_extent_m.y);
+            EXPECT_NEAR(view.plane.half_extent_m.x * border * place / sphere.radius_m, 1.0, 1e-3);
+            EXPECT_EQ(view.plane.half_extent_m.x, view.plane.half_extent_m.y);
         }
     }
 }
@@ -192,10 +192,10 @@ glm::dmat3 turned(double yaw_rad, double roll_rad) {
 }
 
 bool same_pictures(const ShadowFrame& a, const ShadowFrame& b) {
-    if (a.views.size() != b.views.size()) return false;
-    for (std::size_t v = 0; v < a.views.size(); ++v)
-        if (a.views[v].clip_from_anchor != b.views[v].clip_from_anchor ||
-            a.views[v].anchor_ws_m != b.views[v].anchor_ws_m)
+    if (a.fitted.views.size() != b.fitted.views.size()) return false;
+    for (std::size_t v = 0; v < a.fitted.views.size(); ++v)
+        if (a.fitted.views[v].clip_from_anchor != b.fitted.views[v].clip_from_anchor ||
+            a.fitted.views[v].pose.anchor_ws_m != b.fitted.views[v].pose.anchor_ws_m)
             return false;
     return true;
 }
@@ -204,17 +204,17 @@ TEST(StableFit, RollChangesNoBit) {
     SceneSnapshot scene = street(ShadowFit::stable);
     History history;
     ShadowFrame first = fitted(scene, history);
-    ASSERT_GE(first.views.size(), 3u);
+    ASSERT_GE(first.fitted.views.size(), 3u);
     history = first.next_history;
     for (int step = 1; step <= 300; ++step) {
         scene.consumers[0].rotation_ws = turned(0.0, 2.0 * 3.14159265358979 * step / 300.0);
         const ShadowFrame rolled = fitted(scene, history);
         // Rolled far enough, another slice may have no receiver; those that have one are the same.
-        for (const ShadowView& view : rolled.views)
-            for (const ShadowView& start : first.views) {
+        for (const ShadowView& view : rolled.fitted.views)
+            for (const ShadowView& start : first.fitted.views) {
                 if (view.layer != start.layer) continue;
                 EXPECT_EQ(view.clip_from_anchor, start.clip_from_anchor) << "step " << step;
-                EXPECT_EQ(view.anchor_ws_m, start.anchor_ws_m);
+                EXPECT_EQ(view.pose.anchor_ws_m, start.pose.anchor_ws_m);
             }
         history = rolled.next_history;
     }
@@ -234,22 +234,22 @@ Moves moves_along(ShadowFit mode, double speed_m, double pan_rad) {
         scene.consumers[0].rotation_ws = turned(pan_rad * i, 0.0);
         ShadowFrame frame = fitted(scene, history);
         history = frame.next_history;
-        for (const ShadowView& view : frame.views)
-            for (const ShadowView& before : last.views) {
+        for (const ShadowView& view : frame.fitted.views)
+            for (const ShadowView& before : last.fitted.views) {
                 if (view.layer != before.layer) continue;
                 const bool moved =
-                    view.clip_from_anchor != before.clip_from_anchor || view.anchor_ws_m != before.anchor_ws_m;
-                const bool stepped = view.texel_u != before.texel_u || view.texel_v != before.texel_v ||
-                                     std::abs((view.far_m - view.near_m) - (before.far_m - before.near_m)) > 1e-9;
+                    view.clip_from_anchor != before.clip_from_anchor || view.pose.anchor_ws_m != before.pose.anchor_ws_m;
+                const bool stepped = view.plane.texel_u != before.plane.texel_u || view.plane.texel_v != before.plane.texel_v ||
+                                     std::abs((view.depth.far_m - view.depth.near_m) - (before.depth.far_m - before.depth.near_m)) > 1e-9;
                 moves.pictures += moved ? 1 : 0;
                 moves.steps += stepped ? 1 : 0;
                 if (!moved || stepped) continue;
                 // On the texels of the world: shifted by whole ones.
-                const glm::dvec3 shift = view.anchor_ws_m - before.anchor_ws_m;
+                const glm::dvec3 shift = view.pose.anchor_ws_m - before.pose.anchor_ws_m;
                 const double u =
-                    (glm::dot(shift, view.axis_u) + view.centre_ls_m.x - before.centre_ls_m.x) / view.texel_u;
+                    (glm::dot(shift, view.pose.axis_u) + view.plane.centre_ls_m.x - before.plane.centre_ls_m.x) / view.plane.texel_u;
                 const double v =
-                    (glm::dot(shift, view.axis_v) + view.centre_ls_m.y - before.centre_ls_m.y) / view.texel_v;
+                    (glm::dot(shift, view.pose.axis_v) + view.plane.centre_ls_m.y - before.plane.centre_ls_m.y) / view.plane.texel_v;
                 moves.parted += std::abs(u - std::round(u)) > 1e-6 || std::abs(v - std::round(v)) > 1e-6 ? 1 : 0;
             }
         last = std::move(frame);
@@ -269,7 +269,7 @@ TEST(StableFit, AStepWithinATexelMovesNothing) {
     SceneSnapshot scene = street(ShadowFit::stable);
     const ShadowFrame here = fitted(scene);
     double least_texel_m = 1e9;
-    for (const ShadowView& view : here.views) least_texel_m = std::min(least_texel_m, view.texel_u);
+    for (const ShadowView& view : here.fitted.views) least_texel_m = std::min(least_texel_m, view.plane.texel_u);
     scene.consumers[0].position_ws_m += glm::dvec3(0.3, 0.1, -0.2) * least_texel_m;
     EXPECT_TRUE(same_pictures(here, fitted(scene, here.next_history)));
     scene.consumers[0].position_ws_m += glm::dvec3(30.0, 0.0, 0.0);
@@ -306,7 +306,7 @@ protected:
         for (InstanceItem& item : scene_.instances) item.bounds_ws = {glm::dvec3(-half_m), glm::dvec3(half_m)};
         const ShadowFrame frame = fitted(scene_, held);
         held = frame.next_history;
-        return frame.views.at(0).half_extent_m.x;
+        return frame.fitted.views.at(0).plane.half_extent_m.x;
     }
     double extent_alone_m(double half_m) {
         History none;

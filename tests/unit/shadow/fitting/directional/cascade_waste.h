@@ -1,7 +1,7 @@
 #pragma once
 #include "systems/extract/volumes.h"
 #include "systems/shadow/fitting/directional/min_area_rectangle.h"
-#include "systems/shadow/frame/types.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/perspective_view.h"
 
 namespace gnomon::shadow {
@@ -10,26 +10,25 @@ namespace gnomon::shadow {
 /// map has before its border.
 inline double waste(const SceneSnapshot& scene, const ShadowFrame& frame, const ShadowView& view) {
     ConsumerItem slice = scene.consumers[0];
-    slice.near_m = view.seen_from_m;
-    const bool last = &view == &frame.views.back() || (&view + 1)->demand != view.demand;
-    if (!last) slice.far_m = std::max(view.seen_to_m, (&view + 1)->seen_from_m);
+    slice.near_m = view.cascade.seen_from_m;
+    const bool last = &view == &frame.fitted.views.back() || (&view + 1)->light != view.light;
+    if (!last) slice.far_m = std::max(view.cascade.seen_to_m, (&view + 1)->cascade.seen_from_m);
     const math::Frustum frustum = consumer_frustum(slice);
     std::vector<glm::dvec3> points_ws;
-    const IndexRange receivers = frame.sets[view.demand].receivers;
-    for (std::uint32_t r = receivers.first; r < receivers.first + receivers.count; ++r)
-        math::clip_box(frustum, scene.instances[frame.receiver_items[r]].bounds_ws, points_ws);
+    for (const std::uint32_t r : frame.fitted.sets_of(frame.sets, view.light).receivers())
+        math::clip_box(frustum, scene.instances[r].bounds_ws, points_ws);
     std::vector<glm::dvec2> points, hull;
     for (const glm::dvec3& p : points_ws) {
-        const glm::dvec3 q = p - view.anchor_ws_m;
-        points.emplace_back(glm::dot(q, view.axis_u), glm::dot(q, view.axis_v));
+        const glm::dvec3 q = p - view.pose.anchor_ws_m;
+        points.emplace_back(glm::dot(q, view.pose.axis_u), glm::dot(q, view.pose.axis_v));
     }
     const Rectangle best = smallest_rectangle(points, hull);
     const glm::dvec2 size = best.max - best.min;
-    const ShadowDemand& demand = frame.demands[view.demand];
-    const double size_px = demand.resolution_px;
+    const ShadowRequest& demand = frame.fitted.lights[view.light].request;
+    const double size_px = demand.map.resolution_px;
     const double border =
-        1.0 - 2.0 * border_px(size_px, static_cast<double>(demand.filtering.widest_texel)) / size_px;
-    const glm::dvec2 map = 2.0 * view.half_extent_m * border;
+        1.0 - 2.0 * border_px(size_px, static_cast<double>(demand.map.filtering.widest_texel)) / size_px;
+    const glm::dvec2 map = 2.0 * view.plane.half_extent_m * border;
     return 1.0 - size.x * size.y / (map.x * map.y);
 }
 

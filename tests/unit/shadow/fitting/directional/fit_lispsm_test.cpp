@@ -44,7 +44,7 @@ SceneSnapshot floor_scene(double angle_rad, float warp) {
 }
 
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
-    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.anchor_ws_m), 1.0f);
+    const glm::vec4 q = view.map_from_anchor * glm::vec4(glm::vec3(p_ws - view.pose.anchor_ws_m), 1.0f);
     return glm::dvec3(q) / static_cast<double>(q.w);
 }
 
@@ -57,8 +57,8 @@ glm::dvec2 folded(const glm::dvec3& q) {
 /// Largest distance, in maps, by which any point that is seen lies elsewhere in b than in a.
 double farthest_move(const ShadowFrame& a, const ShadowFrame& b) {
     double worst = 0.0;
-    for (const glm::dvec3& p : a.receiver_points_ws) {
-        const glm::dvec2 d = glm::abs(folded(in_map(a.views.at(0), p)) - folded(in_map(b.views.at(0), p)));
+    for (const glm::dvec3& p : a.sets.receiver_points_ws) {
+        const glm::dvec2 d = glm::abs(folded(in_map(a.fitted.views.at(0), p)) - folded(in_map(b.fitted.views.at(0), p)));
         worst = std::max({worst, d.x, d.y});
     }
     return worst;
@@ -66,12 +66,12 @@ double farthest_move(const ShadowFrame& a, const ShadowFrame& b) {
 
 TEST(WarpedFit, AcrossTheViewTexelsGrowWithTheDistanceFromTheCamera) {
     const ShadowFrame frame = fitted(floor_scene(1.5, 1.0f));
-    ASSERT_EQ(frame.views.size(), 1u);
-    EXPECT_GT(glm::length(frame.views[0].warp), 0.0);
+    ASSERT_EQ(frame.fitted.views.size(), 1u);
+    EXPECT_GT(glm::length(frame.fitted.views[0].plane.warp), 0.0);
     const SceneSnapshot scene = floor_scene(1.5, 1.0f);
     const glm::dvec3 along = -scene.consumers[0].rotation_ws[2];
-    const glm::dvec2 toward(glm::dot(along, frame.views[0].axis_u), glm::dot(along, frame.views[0].axis_v));
-    EXPECT_GT(glm::dot(toward, frame.views[0].warp), 0.0) << "w grows away from the camera";
+    const glm::dvec2 toward(glm::dot(along, frame.fitted.views[0].pose.axis_u), glm::dot(along, frame.fitted.views[0].pose.axis_v));
+    EXPECT_GT(glm::dot(toward, frame.fitted.views[0].plane.warp), 0.0) << "w grows away from the camera";
 }
 
 TEST(WarpedFit, WhereTheLightShinesAlongTheViewThereIsNoWarpAndTheMapIsTheTightOne) {
@@ -88,11 +88,11 @@ TEST(WarpedFit, TheWarpChangesContinuouslyWhileTheLightTurnsThroughTheView) {
         double worst = 0.0, before = -1.0;
         for (int i = -steps; i <= steps; ++i) {
             const ShadowFrame frame = fitted(floor_scene(0.5 * i / steps, 1.0f));
-            const ShadowView& v = frame.views.at(0);
+            const ShadowView& v = frame.fitted.views.at(0);
             double most_w = 1.0;
-            for (const glm::dvec3& p : frame.receiver_points_ws) {
-                const glm::dvec3 d = p - v.anchor_ws_m;
-                most_w = std::max(most_w, warp_w(v.warp, {glm::dot(d, v.axis_u), glm::dot(d, v.axis_v)}));
+            for (const glm::dvec3& p : frame.sets.receiver_points_ws) {
+                const glm::dvec3 d = p - v.pose.anchor_ws_m;
+                most_w = std::max(most_w, warp_w(v.plane.warp, {glm::dot(d, v.pose.axis_u), glm::dot(d, v.pose.axis_v)}));
             }
             if (before >= 0.0) worst = std::max(worst, std::abs(std::log(most_w) - before));
             before = std::log(most_w);
@@ -114,10 +114,10 @@ TEST(WarpedFit, TheWorstTexelIsHardlyEverLargerThanWithoutAWarp) {
         const ShadowFrame flat = fitted(scene);
         scene.lights[0].shadow.warp = 1.0f;
         const ShadowFrame frame = fitted(scene);
-        if (frame.views.empty()) continue;
-        warped += frame.views[0].warp != glm::dvec2(0.0) ? 1 : 0;
+        if (frame.fitted.views.empty()) continue;
+        warped += frame.fitted.views[0].plane.warp != glm::dvec2(0.0) ? 1 : 0;
         // What a view states counts the corners of its rectangle as well, which hold nothing.
-        const double share = frame.views[0].texel_extent_px / flat.views.at(0).texel_extent_px;
+        const double share = frame.fitted.views[0].error.extent_px / flat.fitted.views.at(0).error.extent_px;
         EXPECT_LE(share, 1.2) << i;
         larger += share > 1.05 ? 1 : 0;
     }
@@ -127,15 +127,15 @@ TEST(WarpedFit, TheWorstTexelIsHardlyEverLargerThanWithoutAWarp) {
 
 TEST(WarpedFit, WhatCannotBeWarpedSaysSo) {
     SceneSnapshot scene = floor_scene(1.5, 1.0f);
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::none);
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::none);
     scene.lights[0].shadow.fit = ShadowFit::stable;
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::warp_unsupported);
-    EXPECT_EQ(fitted(scene).views.at(0).warp, glm::dvec2(0.0));
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::warp_unsupported);
+    EXPECT_EQ(fitted(scene).fitted.views.at(0).plane.warp, glm::dvec2(0.0));
     scene = floor_scene(1.5, 2.0f);
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::warp_unsupported);
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::warp_unsupported);
     scene = floor_scene(1.5, 1.0f);
     scene.consumers.push_back(scene.consumers[0]);
-    EXPECT_EQ(fitted(scene).demands[0].note, Reason::warp_unsupported);
+    EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::warp_unsupported);
 }
 
 TEST(Warp, AStepOfTheWarpedPlaneIsTheInverseOfTheWarpsDerivative) {

@@ -168,37 +168,36 @@ SceneSnapshot two_suns() {
     return scene;
 }
 
-ShadowFrame with_views(std::uint32_t cascades) {
-    ShadowFrame frame;
-    for (std::uint32_t i = 0; i < 2; ++i) frame.demands.push_back({.light = i, .view_count = cascades});
-    frame.sets.resize(2);
-    return frame;
-}
+/// Two suns' fits of so many cascades.
+struct TwoFits {
+    explicit TwoFits(std::uint32_t cascades) : fitted{std::vector<FitChoice>(2), {}, {}, {}}, statuses(2) {
+        for (FitChoice& light : fitted.lights) light.request.map.view_count = cascades;
+    }
+    bool want(const SceneSnapshot& scene) const { return wants_sampled_depths(scene, fitted, statuses); }
+    FittedViews fitted;
+    std::vector<LightStatus> statuses;
+};
 
 TEST(SampledDepths, AreWantedByASunWithCascadesThatAsksForThem) {
     SceneSnapshot scene = two_suns();
-    EXPECT_FALSE(wants_sampled_depths(scene, with_views(4)));
+    EXPECT_FALSE(TwoFits(4).want(scene));
     scene.lights[1].shadow.splits = CascadeSplits::sampled;
-    EXPECT_TRUE(wants_sampled_depths(scene, with_views(4)));
-    EXPECT_FALSE(wants_sampled_depths(scene, with_views(1))) << "one cascade has no end to choose";
-    ShadowFrame frame = with_views(4);
-    frame.sets[1].skip = Reason::no_visible_receiver;
-    EXPECT_FALSE(wants_sampled_depths(scene, frame));
-    frame = with_views(4);
-    frame.demands[1].skip = Reason::shadows_off;
-    EXPECT_FALSE(wants_sampled_depths(scene, frame));
-    frame = with_views(4);
-    frame.demands[1].perspective_sun = true;
-    EXPECT_FALSE(wants_sampled_depths(scene, frame));
+    EXPECT_TRUE(TwoFits(4).want(scene));
+    EXPECT_FALSE(TwoFits(1).want(scene)) << "one cascade has no end to choose";
+    TwoFits unseen(4), eye(4);
+    unseen.statuses[1].skip(Reason::no_visible_receiver);
+    EXPECT_FALSE(unseen.want(scene));
+    eye.fitted.lights[1].request.projection.perspective_sun = true;
+    EXPECT_FALSE(eye.want(scene));
     scene.lights[1].kind = LightKind::spot;
-    EXPECT_FALSE(wants_sampled_depths(scene, with_views(4)));
+    EXPECT_FALSE(TwoFits(4).want(scene));
 }
 
 TEST(SampledDepths, AreNotWantedWhereSplitsFallBackToTheDefault) {
     SceneSnapshot scene = two_suns();
     scene.lights[0].shadow.splits = CascadeSplits::sampled;
     scene.lights[0].shadow.split_lambda = -1.0f;
-    EXPECT_FALSE(wants_sampled_depths(scene, with_views(4)));
+    EXPECT_FALSE(TwoFits(4).want(scene));
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ SceneSnapshot floor_and_posts(LightKind kind, double outer_cone_rad = 0.7) {
 }
 
 double map_area(const ShadowView& view) {
-    const glm::dvec2 size = view.tan_high - view.tan_low;
+    const glm::dvec2 size = view.plane.tan_high - view.plane.tan_low;
     return size.x * size.y;
 }
 
@@ -66,26 +66,26 @@ TEST(LocalFit, ASpotIsCroppedToTheReceiversThatAreSeen) {
     s.instances.push_back(instance(box({0.8, 0.0, 0.5}, 0.3), false));
     s.instances.push_back(instance(box({0.7, 1.0, 0.4}, 0.2), true));
     const ShadowFrame frame = fitted(s);
-    ASSERT_EQ(frame.views.size(), 1u);
+    ASSERT_EQ(frame.fitted.views.size(), 1u);
     const double whole = 2.0 * std::tan(0.7) / 512.0;
-    EXPECT_LT(frame.views[0].texel_u, 0.25 * whole);
-    EXPECT_LT(frame.views[0].texel_v, 0.25 * whole);
+    EXPECT_LT(frame.fitted.views[0].plane.texel_u, 0.25 * whole);
+    EXPECT_LT(frame.fitted.views[0].plane.texel_v, 0.25 * whole);
 
     s.instances.push_back(instance({{-20.0, -0.1, -20.0}, {20.0, 0.0, 20.0}}, false));
     s.consumers[0].position_ws_m = {0.0, 30.0, 1.0};  // sees all that the cone lights
     s.consumers[0].rotation_ws = math::basis_from_back({0.0, 1.0, 0.0});
     const ShadowFrame all = fitted(s);
-    ASSERT_EQ(all.views.size(), 1u);
-    EXPECT_NEAR(all.views[0].texel_u, whole, 0.05 * whole) << "nothing to crop";
+    ASSERT_EQ(all.fitted.views.size(), 1u);
+    EXPECT_NEAR(all.fitted.views[0].plane.texel_u, whole, 0.05 * whole) << "nothing to crop";
 }
 
 TEST(LocalFit, NearAndFarHoldCastersAndReceiversWithinTwoSteps) {
     const ShadowFrame frame = fitted(floor_and_posts(LightKind::spot));
-    ASSERT_EQ(frame.views.size(), 1u);
-    EXPECT_LE(frame.views[0].near_m, 4.0);  // the posts' tops
-    EXPECT_GE(frame.views[0].near_m, 4.0 / 1.2);
-    EXPECT_GE(frame.views[0].far_m, 5.1);
-    EXPECT_LE(frame.views[0].far_m, 5.1 * 1.2);
+    ASSERT_EQ(frame.fitted.views.size(), 1u);
+    EXPECT_LE(frame.fitted.views[0].depth.near_m, 4.0);  // the posts' tops
+    EXPECT_GE(frame.fitted.views[0].depth.near_m, 4.0 / 1.2);
+    EXPECT_GE(frame.fitted.views[0].depth.far_m, 5.1);
+    EXPECT_LE(frame.fitted.views[0].depth.far_m, 5.1 * 1.2);
 }
 
 TEST(LocalFit, DepthsCoarserThanTexelsAreReported) {
@@ -93,7 +93,7 @@ TEST(LocalFit, DepthsCoarserThanTexelsAreReported) {
         SceneSnapshot s = floor_and_posts(LightKind::spot);
         s.lights[0].shadow.depth_format = format;
         s.lights[0].shadow.near_m = near_m;
-        return fitted(s).demands[0].note;
+        return fitted(s).fitted.lights[0].request.note;
     };
     EXPECT_EQ(note(DepthFormat::d16, 0.0f), Reason::none) << "fitted from 4 to 5 m";
     EXPECT_EQ(note(DepthFormat::d16, 0.001f), Reason::depth_coarse) << "5 m in steps of 40 cm";
@@ -114,7 +114,7 @@ Walk walk(SceneSnapshot scene, bool with_history) {
         scene.consumers[0].position_ws_m += glm::dvec3(0.011, 0.0, -0.017);
         ShadowFrame frame = fitted(scene, held);
         std::vector<glm::mat4> now;
-        for (const ShadowView& view : frame.views) now.push_back(view.clip_from_anchor);
+        for (const ShadowView& view : frame.fitted.views) now.push_back(view.clip_from_anchor);
         result.fits += now.empty() ? 0 : 1;
         result.changes += i > 0 && now != last ? 1 : 0;
         last = now;
@@ -143,8 +143,8 @@ TEST(LocalFit, ACameraThatBobsAcrossAStepMovesNothing) {
             // Where the sight begins to leave the cone, one way and back, ever again; the whole way crosses a step.
             s.consumers[0].position_ws_m.z = 3.0 + 0.5 * std::sin(0.3 * i);
             const ShadowFrame frame = fitted(s, held);
-            ASSERT_EQ(frame.views.size(), 1u);
-            if (i > 40) areas.insert(map_area(frame.views[0]));
+            ASSERT_EQ(frame.fitted.views.size(), 1u);
+            if (i > 40) areas.insert(map_area(frame.fitted.views[0]));
             if (remembers) held = frame.next_history;
         }
         if (remembers)
@@ -167,10 +167,10 @@ int near_changes(LightKind kind, DepthFormat format) {
         s.instances.back().bounds_ws = box({0.4, y_m, 0.0}, 0.2);
         const ShadowFrame frame = fitted(s, held);
         held = frame.next_history;
-        EXPECT_FALSE(frame.views.empty());
-        for (const ShadowView& view : frame.views) EXPECT_LE(view.near_m, 5.0 - y_m - 0.2);
-        changes += i > 0 && frame.views[0].near_m != last_m ? 1 : 0;
-        last_m = frame.views[0].near_m;
+        EXPECT_FALSE(frame.fitted.views.empty());
+        for (const ShadowView& view : frame.fitted.views) EXPECT_LE(view.depth.near_m, 5.0 - y_m - 0.2);
+        changes += i > 0 && frame.fitted.views[0].depth.near_m != last_m ? 1 : 0;
+        last_m = frame.fitted.views[0].depth.near_m;
     }
     return changes;
 }
@@ -203,13 +203,13 @@ TEST(LocalFit, AnyHistoryIsSafe) {
         wrong.lights[0].views[1].near_step = std::numeric_limits<int>::min();
         wrong.lights[0].views[2].low = glm::dvec2(std::numeric_limits<double>::quiet_NaN());
         const ShadowFrame free = fitted(scene), bound = fitted(scene, wrong);
-        ASSERT_EQ(free.views.size(), bound.views.size());
-        for (std::size_t v = 0; v < free.views.size(); ++v) {
-            const ShadowView &a = free.views[v], &b = bound.views[v];
+        ASSERT_EQ(free.fitted.views.size(), bound.fitted.views.size());
+        for (std::size_t v = 0; v < free.fitted.views.size(); ++v) {
+            const ShadowView &a = free.fitted.views[v], &b = bound.fitted.views[v];
             const double worst = step_size(kHoldSteps + 1) * (1.0 + 1.0 / 15.0);
-            EXPECT_LE(b.far_m, a.far_m * worst);
-            EXPECT_LE(b.texel_u, a.texel_u * worst);
-            EXPECT_LE(b.texel_v, a.texel_v * worst);
+            EXPECT_LE(b.depth.far_m, a.depth.far_m * worst);
+            EXPECT_LE(b.plane.texel_u, a.plane.texel_u * worst);
+            EXPECT_LE(b.plane.texel_v, a.plane.texel_v * worst);
             ++compared;
         }
     }
@@ -233,16 +233,16 @@ TEST(LocalFit, OnlyFacesWithAReceiverAndACasterAreViews) {
     s.instances.back().receives = false;
     s.lights[0].shadow.filter = ShadowFilter::hard;
     ShadowFrame frame = fitted(s);
-    ASSERT_EQ(frame.views.size(), 2u);
-    EXPECT_EQ(frame.views[0].layer, 0u);
-    EXPECT_EQ(frame.views[1].layer, 3u);
-    EXPECT_EQ(frame.views[0].near_m, frame.views[1].near_m) << "taps may cross seams";
+    ASSERT_EQ(frame.fitted.views.size(), 2u);
+    EXPECT_EQ(frame.fitted.views[0].layer, 0u);
+    EXPECT_EQ(frame.fitted.views[1].layer, 3u);
+    EXPECT_EQ(frame.fitted.views[0].depth.near_m, frame.fitted.views[1].depth.near_m) << "taps may cross seams";
 
     s.lights[0].shadow.filter = ShadowFilter::pcf_grid;
     frame = fitted(s);
-    ASSERT_EQ(frame.views.size(), 3u) << "a filter reads across the seam of what is seen and has no caster";
-    EXPECT_EQ(frame.views[1].layer, 1u);
-    EXPECT_EQ(frame.views[1].casters.count, 0u);
+    ASSERT_EQ(frame.fitted.views.size(), 3u) << "a filter reads across the seam of what is seen and has no caster";
+    EXPECT_EQ(frame.fitted.views[1].layer, 1u);
+    EXPECT_EQ(frame.fitted.views[1].casters.count, 0u);
 }
 
 TEST(LocalFit, NothingBetweenLightAndReceiversIsNoViewAndSaysSo) {
@@ -251,8 +251,8 @@ TEST(LocalFit, NothingBetweenLightAndReceiversIsNoViewAndSaysSo) {
     s.instances.push_back(instance(box({-0.8, 1.0, -0.4}, 0.2), true));
     s.instances.back().receives = false;
     const ShadowFrame frame = fitted(s);
-    EXPECT_TRUE(frame.views.empty());
-    EXPECT_EQ(frame.sets[0].skip, Reason::no_caster);
+    EXPECT_TRUE(frame.fitted.views.empty());
+    EXPECT_EQ(frame.statuses[0].skipped(), Reason::no_caster);
 }
 
 TEST(ConeFade, FacesComeAt122DegreesAndGoAt117AnEighthPerFrame) {
@@ -277,20 +277,20 @@ TEST(ConeFade, FacesComeAt122DegreesAndGoAt117AnEighthPerFrame) {
 TEST(ConeFade, WhileItFadesBothKindsOfViewsAreThereAndLayersAreFixed) {
     SceneSnapshot s = floor_and_posts(LightKind::spot, 55.0 * kDegree);
     ShadowFrame frame = fitted(s);
-    ASSERT_EQ(frame.views.size(), 1u);
-    EXPECT_EQ(frame.demands[0].view_count, 1u);
+    ASSERT_EQ(frame.fitted.views.size(), 1u);
+    EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, 1u);
     s.lights[0].outer_cone_rad = 65.0 * kDegree;
     for (int i = 1; i < 8; ++i) {
         frame = fitted(s, History(frame.next_history));
-        EXPECT_EQ(frame.demands[0].faces_eighths, i);
-        EXPECT_EQ(frame.demands[0].view_count, kConeFaces + 1);
-        ASSERT_GE(frame.views.size(), 2u);
-        EXPECT_EQ(frame.views.front().layer, 0u);
-        EXPECT_EQ(frame.views.back().layer, kSingleView);
+        EXPECT_EQ(frame.fitted.lights[0].request.projection.faces_eighths, i);
+        EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, kConeFaces + 1);
+        ASSERT_GE(frame.fitted.views.size(), 2u);
+        EXPECT_EQ(frame.fitted.views.front().layer, 0u);
+        EXPECT_EQ(frame.fitted.views.back().layer, kSingleView);
     }
     frame = fitted(s, History(frame.next_history));
-    EXPECT_EQ(frame.demands[0].view_count, kConeFaces);
-    EXPECT_LT(frame.views.back().layer, kSingleView);
+    EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, kConeFaces);
+    EXPECT_LT(frame.fitted.views.back().layer, kSingleView);
 }
 
 TEST(Steps, BoundTheirSizesAndAreExactUnderPowersOfTwo) {
@@ -327,10 +327,10 @@ TEST(LocalFit, D16AndD24StepsAreTwentyTimesFinerThanFromACentimetreToTheRange) {
         SceneSnapshot scene = random.scene(round % 2 == 0 ? LightKind::spot : LightKind::point);
         if (scene.lights[0].range_m == 0.0) continue;  // three of ten
         ++scenes;
-        for (const ShadowView& view : fitted(scene).views) {
-            const double z_m = view.far_m;
+        for (const ShadowView& view : fitted(scene).fitted.views) {
+            const double z_m = view.depth.far_m;
             gains.push_back(depth_step_m(1.0, 0.01, scene.lights[0].range_m, z_m) /
-                            depth_step_m(1.0, view.near_m, view.far_m, z_m));
+                            depth_step_m(1.0, view.depth.near_m, view.depth.far_m, z_m));
         }
     }
     EXPECT_GE(scenes, 900);
@@ -343,12 +343,12 @@ TEST(LocalFit, ReversedFloatDepthTellsApartWhatIsTwoRoundingsOfItsDistanceApart)
     RandomScene random(print_seed());
     int points = 0;
     for (int round = 0; round < 200; ++round) {
-        for (const ShadowView& view : fitted(random.scene(round % 2 == 0 ? LightKind::spot : LightKind::point)).views) {
+        for (const ShadowView& view : fitted(random.scene(round % 2 == 0 ? LightKind::spot : LightKind::point)).fitted.views) {
             for (int i = 0; i < 20; ++i) {
-                const double z_m = view.near_m * std::pow(view.far_m / view.near_m, random.number(0.0, 0.999));
-                const auto stored = static_cast<float>(view.depth_alpha + view.depth_beta / z_m);
+                const double z_m = view.depth.near_m * std::pow(view.depth.far_m / view.depth.near_m, random.number(0.0, 0.999));
+                const auto stored = static_cast<float>(view.depth.alpha + view.depth.beta / z_m);
                 const double quantum = static_cast<double>(stored) - static_cast<double>(std::nextafter(stored, 0.0f));
-                EXPECT_LE(quantum * z_m * z_m / view.depth_beta, 2.0 * kUnitRoundoff * z_m);
+                EXPECT_LE(quantum * z_m * z_m / view.depth.beta, 2.0 * kUnitRoundoff * z_m);
                 ++points;
             }
         }

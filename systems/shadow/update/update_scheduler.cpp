@@ -1,4 +1,4 @@
-#include "systems/shadow/budget/update_scheduler.h"
+#include "systems/shadow/update/update_scheduler.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,0 +1,14 @@
+#pragma once
+#include <span>
+
+#include "systems/shadow/fitting/fit_light.h"
+#include "systems/shadow/frame/light_accounts.h"
+
+namespace gnomon::shadow {
+
+/// Stage 4: fits the views of every light that is not skipped, each with its own casters and predicted edge error.
+/// Skips a light with fit_degenerate where no finite volume exists. `next`: what the next frame's fits go on from.
+void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& storage, FittedViews& fitted,
+               History& next, const LightAccounts& accounts);
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,51 @@
+#include "systems/shadow/fitting/quiet_frames.h"
+
+#include <algorithm>
+
+#include "engine/core/signature.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Where the cameras stand.
+std::uint64_t pictures_of(const SceneSnapshot& scene) {
+    Signature s;
+    for (const ConsumerItem& camera : scene.pictures.empty() ? scene.consumers : scene.pictures) {
+        for (int i = 0; i < 3; ++i) s.add(camera.position_ws_m[i]);
+        for (int i = 0; i < 9; ++i) s.add(camera.rotation_ws[i / 3][i % 3]);
+    }
+    return s.value();
+}
+
+}  // namespace
+
+void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool shared_out,
+                        History& next) {
+    const auto uses_rays = [](const FitChoice& choice) {
+        return choice.request.skip == Reason::none && choice.request.rays.used;
+    };
+    const bool any = std::any_of(fitted.lights.begin(), fitted.lights.end(), uses_rays);
+    next.pictures = any ? pictures_of(scene) : 0;
+    if (!any) return;
+    const bool moved = held.pictures != next.pictures;
+    for (std::uint32_t i = 0; i < fitted.lights.size(); ++i) {
+        const LightItem& light = scene.lights[i];
+        const auto views = fitted.views_of(i);
+        if (views.empty() || !fitted.lights[i].request.rays.used) continue;
+        Signature casters;
+        casters.add(light.shape_version);
+        for (const ShadowView& view : views)
+            for (const std::uint32_t c : fitted.casters_of(view)) {
+                casters.add(std::uint64_t{scene.instances[c].gpu_slot});
+                casters.add(scene.instances[c].version);
+            }
+        for (HeldLight& entry : next.lights) {
+            if (entry.light != light.entity) continue;
+            const bool same = entry.casters == casters.value() && light.shadow.economy && !shared_out;
+            entry.casters = casters.value();
+            entry.quiet_frames = same ? std::min(entry.quiet_frames + (moved ? 1 : 0), kQuietFrames) : 0;
+        }
+    }
+}
+
+}  // namespace gnomon::shadow

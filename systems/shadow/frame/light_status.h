@@ -1,0 +1,40 @@
+#pragma once
+#include "systems/report.h"
+
+namespace gnomon::shadow {
+
+/// What became of one light so far. Every stage adds to it, none takes anything back. The report is made from it.
+class LightStatus {
+public:
+    /// Leaves the light without a shadow. The first reason stands.
+    void skip(Reason reason) {
+        if (skip_ == Reason::none) skip_ = reason;
+    }
+    /// Notes a degradation. The latest stands: a failed pass weighs more than a clamped setting.
+    void degrade(Reason reason) { note_ = reason; }
+    /// Takes the light's maps out of use in this frame. `rays`: rays stand in for them; else it has no shadow.
+    void lose_maps(Reason reason, bool rays) {
+        maps_lost_ = true;
+        if (rays)
+            degrade(reason);
+        else
+            skip(reason);
+    }
+    /// Takes the prefiltered maps out of use. The depth map is looked up instead.
+    void lose_prefiltered(Reason reason) {
+        prefiltered_lost_ = true;
+        degrade(reason);
+    }
+
+    bool is_skipped() const { return skip_ != Reason::none; }
+    Reason skipped() const { return skip_; }
+    Reason degraded() const { return note_; }
+    bool has_lost_maps() const { return maps_lost_; }
+    bool has_lost_prefiltered() const { return prefiltered_lost_; }
+
+private:
+    Reason skip_ = Reason::none, note_ = Reason::none;
+    bool maps_lost_ = false, prefiltered_lost_ = false;
+};
+
+}  // namespace gnomon::shadow

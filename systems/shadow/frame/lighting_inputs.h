@@ -1,0 +1,90 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
+#include <vector>
+
+#include "components/light_shadow.h"
+#include "engine/gl/commands.h"
+#include "systems/shadow/frame/shader_key.h"
+#include "systems/shadow/frame/view_limits.h"
+#include "systems/visibility/ray_records.h"
+
+namespace gnomon::shadow {
+
+/// Matches ViewRecord in shaders/shadow/lookup/light_block.glsl (std140).
+struct ViewRecord {
+    glm::mat4 map_from_anchor{1.0f};
+    glm::vec4 axis_u{0.0f}, axis_v{0.0f}, axis_back{0.0f};
+    glm::vec4 numeric{0.0f};
+    glm::vec4 anchor_from_camera{0.0f};
+    bool operator==(const ViewRecord&) const = default;
+};
+static_assert(sizeof(ViewRecord) == 144);
+
+/// Matches LightBlock in shaders/shadow/lookup/light_block.glsl (std140).
+struct LightRecord {
+    glm::vec4 position{0.0f};
+    glm::vec4 to_light{0.0f};
+    glm::vec4 radiance{0.0f};
+    glm::vec4 cone{0.0f};
+    glm::ivec4 options{0};
+    glm::vec4 bias{0.0f};
+    glm::ivec4 filtering{0};
+    glm::vec4 spread{0.0f};
+    glm::ivec4 seed_cell{0};
+    glm::vec4 seed_place{0.0f};
+    glm::vec4 moments{0.0f}, moment_sampling{0.0f};
+    glm::vec4 low{0.0f};
+    ViewRecord views[kMaxViews];
+};
+static_assert(sizeof(LightRecord) == std::size_t{13} * 16 + kMaxViews * sizeof(ViewRecord));
+
+/// Matches CameraBlock in shaders/common/camera_block.glsl (std140).
+struct CameraRecord {
+    glm::mat4 clip_from_anchor{1.0f};
+    glm::vec4 anchor_high{0.0f}, anchor_low{0.0f};
+    glm::vec4 right{0.0f}, up{0.0f}, back{0.0f};
+    glm::vec4 unproject{0.0f};
+};
+static_assert(sizeof(CameraRecord) == 160);
+
+/// What a light's report says of the shadow that is looked up so.
+struct LookupAccuracy {
+    ShadowFilter filter = ShadowFilter::automatic;  // automatic: there is nothing to look up
+    double predicted_error_px = 0.0;                // worst over its views; 0: none shows an edge
+    bool keeps_max_error = false;
+};
+
+/// How a light is looked up while its own row's program cannot be had: one tap of the depths that it has in any case.
+struct PlainLookup {
+    ProgramRow row;  // no filter file: the light has no map
+    gl::TextureHandle map{};
+    gl::SamplerHandle sampler{};
+    LookupAccuracy accuracy;
+};
+
+/// Struct 6. One light as one consumer's lighting needs it: GPU-ready, with the textures to bind.
+struct LightingLight {
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
+    ProgramRow row;
+    gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
+    gl::TextureHandle second{}, bounds{};  // {0} unless row.sheets
+    gl::BufferHandle ends{};               // {0} unless they are of a source with a size
+    gl::SamplerHandle sampler{};
+    visibility::RayBuffers rays{};  // {0} unless row.rays
+    PlainLookup plain;
+    gl::Rect screen{};            // pixels the light can reach; empty: none
+    float farthest_depth = 0.0f;  // of the picture: surfaces that it can reach have larger ones, and the sky never has
+    /// Of all that a lookup's result at a place of the picture follows from, beside that place and the camera
+    /// (visibility_hash.h): the same number, the same visibility. 0: nobody knows, or it is not to be kept.
+    std::uint64_t lookup_signature = 0;
+    LightRecord record;
+};
+struct LightingInputs {
+    std::uint32_t consumer = 0;
+    CameraRecord camera;
+    std::vector<LightingLight> lights;
+};
+
+}  // namespace gnomon::shadow

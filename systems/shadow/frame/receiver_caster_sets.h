@@ -1,0 +1,86 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "engine/math/frustum.h"
+#include "systems/shadow/frame/index_range.h"
+#include "systems/shadow/frame/index_set.h"
+
+namespace gnomon::shadow {
+
+/// Light on its way to the receivers, through one opening: a sun's sky, a spot's view, a face of the cube around a
+/// light. Everything on that way is what casters may be.
+struct Beam {
+    bool parallel = false;        // the light comes along -axes[2]; else from the origin
+    glm::dvec3 origin_ws_m{0.0};  // of the outline's coordinates
+    glm::dmat3 axes{1.0};         // columns u, v, toward the light; orthonormal
+    IndexRange receiver_points;   // into ReceiverCasterSets::receiver_points_ws: what lies in this opening
+    std::uint32_t receivers = 0;  // of how many that is, once for each consumer
+    std::uint32_t consumers = 0;  // consumer_bit() of each that sees any of it
+    IndexRange outline;           // into ReceiverCasterSets::outlines: convex polygon around them as the light sees
+                                  // them, in metres along u and v (parallel), or tangents
+    double slack = 0.0;           // by how much rounding may have moved a corner of it
+    double far_m = 0.0;           // farthest of them along -axes[2]
+    double reach_m = 0.0;         // farthest of them from the origin; infinite if parallel
+};
+
+/// One light's potential receivers (PSR) and casters (PSC), as ranges of ReceiverCasterSets' arrays.
+struct LightSets {
+    IndexRange receivers;        // of receiver_items
+    IndexRange casters;          // of caster_items, for all views of the light
+    IndexRange receiver_points;  // of receiver_points_ws: corners of receivers clipped to what is seen and lit
+    IndexRange beams;            // one of a sun or a spot, one per face of a cube
+};
+
+/// Struct 3. Which receivers are seen and lit, and which casters can darken these.
+struct ReceiverCasterSets {
+    std::vector<LightSets> lights;              // one per light; empty ranges where it is skipped
+    std::vector<math::Frustum> camera_frusta;   // one per consumer: what it sees, from its nearest receiver on
+    std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
+    std::vector<std::uint32_t> caster_items;    // the same
+    std::vector<glm::dvec3> receiver_points_ws;
+    std::vector<Beam> beams;
+    std::vector<glm::dvec2> outlines;
+
+    void clear();
+};
+
+/// One light's sets, with the arrays that they lie in.
+struct LightSetsView {
+    const ReceiverCasterSets& arrays;
+    const LightSets& ranges;
+    std::span<const std::uint32_t> receivers() const { return slice(arrays.receiver_items, ranges.receivers); }
+    std::span<const std::uint32_t> casters() const { return slice(arrays.caster_items, ranges.casters); }
+    std::span<const glm::dvec3> receiver_points_ws() const {
+        return slice(arrays.receiver_points_ws, ranges.receiver_points);
+    }
+    std::span<const Beam> beams() const { return slice(arrays.beams, ranges.beams); }
+    std::span<const glm::dvec2> outline(const Beam& beam) const { return slice(arrays.outlines, beam.outline); }
+};
+
+inline void ReceiverCasterSets::clear() {
+    lights.clear();
+    camera_frusta.clear();
+    receiver_items.clear();
+    caster_items.clear();
+    receiver_points_ws.clear();
+    beams.clear();
+    outlines.clear();
+}
+
+/// Reused storage of the search for receivers and casters; holds nothing between two searches.
+struct SetScratch {
+    struct Candidate {
+        std::uint32_t item, consumer;
+    };
+    Marks marks, receivers;  // of instances
+    std::vector<Candidate> candidates;
+    std::vector<glm::dvec3> points_ws;
+    std::vector<glm::dvec2> points, polygon, clipped, outline;
+    std::vector<std::uint32_t> items, mesh_starts;
+};
+
+}  // namespace gnomon::shadow

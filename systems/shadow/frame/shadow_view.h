@@ -1,0 +1,129 @@
+#pragma once
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "systems/shadow/frame/cascade_ends.h"
+#include "systems/shadow/frame/index_range.h"
+#include "systems/shadow/frame/receiver_caster_sets.h"
+#include "systems/shadow/frame/shadow_request.h"
+
+namespace gnomon::shadow {
+
+enum class ViewProjection : std::uint8_t { orthographic, perspective, cube_face };
+
+/// Where a view stands and how it is turned, in the world.
+struct ViewPose {
+    glm::dvec3 anchor_ws_m{0.0};  // fixed to the light, never to a camera
+    double apex_m = 0.0;          // perspective: distance of the light behind the anchor, along axis_back
+    glm::dvec3 axis_u{1.0, 0.0, 0.0}, axis_v{0.0, 1.0, 0.0}, axis_back{0.0, 0.0, 1.0};  // unit
+};
+
+/// Depths of a view, along -axis_back from the anchor's plane; perspective: from the light.
+struct ViewDepths {
+    double near_m = 0.0, far_m = 0.0;
+    double alpha = 0.0, beta = 0.0;  // perspective: stored depth = alpha + beta / distance
+};
+
+/// Sides and texels of a view's map across the light: metres (orthographic), or tangents at distance 1.
+struct MapPlane {
+    double texel_u = 0.0, texel_v = 0.0;  // edges of a texel
+    glm::dvec2 half_extent_m{0.0};        // orthographic: half of the map's sides along axis_u and axis_v
+    glm::dvec2 centre_ls_m{0.0};          // orthographic: the map's centre from the anchor, along the same
+    /// Orthographic: gradient of w along axis_u and axis_v, per metre (projection/lispsm_math.h). Extents, centre and
+    /// texels are then those of the warped plane, near_m that at the anchor. 0: not warped.
+    glm::dvec2 warp{0.0};
+    glm::dvec2 tan_low{0.0}, tan_high{0.0};  // perspective, cube face: sides of the map
+};
+
+/// View distances that one cascade serves, metres. All 0: any.
+struct ServedDistances {
+    double seen_from_m = 0.0;   // nearest
+    double seen_to_m = 0.0;     // from here the next cascade serves; 0: where its map ends
+    double fades_from_m = 0.0;  // from here it may fade into the next
+    double fades_to_m = 0.0;    // up to here only its map's border keeps it from having done so
+};
+
+/// What a view's texels mean on the screen of the camera that sees them largest (fitting/error_bound.h).
+struct ViewError {
+    double texel_m = 0.0;    // largest diagonal of a texel across the light, at a receiver
+    double extent_px = 0.0;  // longest extent of a texel on screen: Lloyd's m
+    double edge_px = 0.0;    // bound on how far a shadow edge may be off
+    double metre_px = 0.0;   // longest extent of a metre across the light, on a receiver
+};
+
+/// Struct 4. One depth picture: a cascade, a spot's view, a cube face. All hard numerics end here.
+struct ShadowView {
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights
+    std::uint32_t layer = 0;  // cascade or face
+    ViewProjection projection = ViewProjection::orthographic;
+    glm::mat4 clip_from_anchor{1.0f};  // reversed depth in [0,1]
+    glm::mat4 map_from_anchor{1.0f};   // texture coordinates instead of clip
+    ViewPose pose;
+    ViewDepths depth;
+    MapPlane plane;
+    ServedDistances cascade;
+    ViewError error;
+    std::uint32_t consumer_mask = ~0u;  // consumer_bit() of each camera that sees receivers in it
+    std::uint32_t receivers = 0;        // number of receivers seen in it
+    /// The view is to stay while cameras move: its casters are all that its map can show. Else only those that can
+    /// darken what is seen now.
+    bool held = false;
+    /// Into FittedViews::casters: static casters, then moving ones, each by mesh, then by index. Drawn in that order,
+    /// since of equal depths the first drawn stays.
+    IndexRange casters;
+    std::uint32_t still_casters = 0;  // number of static casters
+    bool lit = false;                 // nothing can darken what it serves: published, but neither drawn nor looked up
+};
+
+/// Returns where the light of a perspective view or a cube's face stands.
+inline glm::dvec3 apex_ws_m(const ShadowView& view) {
+    return view.pose.anchor_ws_m + view.pose.axis_back * view.pose.apex_m;
+}
+
+/// Whether the view's light comes in parallel: a sun's, unless it is seen from an eye.
+inline bool is_parallel(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
+
+/// What the fits chose for one light.
+struct FitChoice {
+    ShadowRequest request;  // with the filter, size and number of views that were chosen
+    IndexRange views;       // of FittedViews::views; empty: it has none
+    LightSets sets;         // as the light's views were last fitted
+    bool resized = false;   // these lie in FittedViews::resized_sets, not in the arrays of the stage before
+    /// Error of maps of the default filter, for which the accuracy target chose another one. 0: it did not.
+    double default_filter_error_px = 0.0;
+    std::uint32_t fits = 0;  // number of fits that this took (kMaxFits)
+};
+
+/// What the fits leave, all lights together.
+struct FittedViews {
+    std::vector<FitChoice> lights;  // one per light
+    std::vector<ShadowView> views;  // the views of a light side by side, lights in order
+    std::vector<std::uint32_t> casters;
+    /// Sets of cube lights whose maps the fits made another size: a face's border is a share of its map.
+    ReceiverCasterSets resized_sets;
+
+    std::span<const ShadowView> views_of(std::uint32_t light) const { return slice(views, lights[light].views); }
+    std::span<const std::uint32_t> casters_of(const ShadowView& view) const { return slice(casters, view.casters); }
+    std::span<const std::uint32_t> still_casters_of(const ShadowView& view) const {
+        return casters_of(view).first(view.still_casters);
+    }
+    std::span<const std::uint32_t> moving_casters_of(const ShadowView& view) const {
+        return casters_of(view).subspan(view.still_casters);
+    }
+    /// `sets`: of the stage before the fits.
+    LightSetsView sets_of(const ReceiverCasterSets& sets, std::uint32_t light) const {
+        return {lights[light].resized ? resized_sets : sets, lights[light].sets};
+    }
+};
+
+/// Reused storage of the fits; holds nothing between them.
+struct FitScratch {
+    std::vector<glm::dvec3> points_ws;
+    std::vector<glm::dvec2> points, hull, outline, profile;
+    std::vector<DepthSpan> depths;
+};
+
+}  // namespace gnomon::shadow

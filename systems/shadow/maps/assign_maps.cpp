@@ -1,0 +1,77 @@
+#include <algorithm>
+
+#include "engine/core/signature.h"
+#include "systems/shadow/frame/cpu_timer.h"
+#include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/request/filter_table.h"
+
+/// The half of stage 5 that says where each view's map lies and what its layer is to hold.
+namespace gnomon::shadow {
+namespace {
+
+/// Between casters that stand still and those that move: where a draw may not go on.
+constexpr std::uint64_t kBoundary = ~std::uint64_t{0};
+
+/// What is made of a map for a source with a size follows from that as well.
+std::uint64_t with_source(std::uint64_t content, const FilterSettings& filter) {
+    Signature s;
+    s.add(content);
+    s.add(filter.source_radius_m);
+    s.add(filter.sun_radius_tan);
+    return s.value();
+}
+
+}  // namespace
+
+ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
+                                   std::span<const std::uint32_t> casters, CasterFaces faces) {
+    Signature s;
+    s.add(std::uint64_t{size_px});
+    s.add(static_cast<std::uint64_t>(faces));
+    for (int i = 0; i < 3; ++i) s.add(view.pose.anchor_ws_m[i]);
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 4; ++row) s.add(view.clip_from_anchor[column][row]);
+    const std::uint64_t placement = s.value();
+    const auto add = [&](std::span<const std::uint32_t> group) {
+        for (const std::uint32_t i : group) {
+            s.add(std::uint64_t{scene.instances[i].gpu_slot});
+            s.add(scene.instances[i].version);
+        }
+    };
+    const std::size_t still = std::min<std::size_t>(view.still_casters, casters.size());
+    add(casters.first(still));
+    const std::uint64_t of_still = s.value();
+    if (still > 0 && still < casters.size()) s.add(kBoundary);
+    add(casters.subspan(still));
+    return {of_still, s.value(), placement};
+}
+
+void MapStore::assign(const SceneSnapshot& scene, const FittedViews& fitted, std::span<const BudgetDecision> decisions,
+                      std::vector<MapAssignment>& maps, const LightAccounts& accounts) {
+    provide_maps(scene, decisions, accounts);
+    maps.assign(fitted.views.size(), {});
+    for (std::size_t v = 0; v < fitted.views.size(); ++v) {
+        const ShadowView& view = fitted.views[v];
+        if (accounts.statuses[view.light].is_skipped()) continue;
+        const LightTime time(accounts.cpu_us, view.light);
+        const LightItem& light = scene.lights[view.light];
+        const LightHistory& history = entry(light.entity);
+        if (!history.texture) continue;  // rays do without
+        MapAssignment& map = maps[v];
+        map.texture = history.texture;
+        map.target = history.targets[view.layer];
+        map.triangles = history.triangles;
+        if (has_sheets(history.storage))
+            map.sheets = {history.sheets.second, history.sheets.second_targets[view.layer], history.sheets.bounds,
+                          history.sheets.bounds_targets[view.layer], history.sheets.ends};
+        if (history.moments.texture)
+            map.prefiltered = {history.moments.texture, history.moments.targets[view.layer], history.moments.scratch,
+                               history.moments.scratch_target};
+        map.size_px = history.desc.width;
+        map.content = content_signature(view, map.size_px, scene, fitted.casters_of(view), light.shadow.caster_faces);
+        if (map.sheets.ends)
+            map.content.all = with_source(map.content.all, decisions[view.light].request.map.filtering);
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,80 @@
+#include "systems/shadow/request/ray_limit.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "systems/shadow/projection/screen_bounds.h"
+#include "systems/shadow/request/decide_requests.h"
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Room that a light needs to come back.
+constexpr double kBackAgain = 1.25;
+
+double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request) {
+    const double pixels = asking_pixels(scene, light) * (request.rays.only ? 1.0 : kUncertainShare);
+    return pixels * rays_per_pixel(request.map);
+}
+
+/// What a light's shadow means to the picture, to compare lights by: pixels times illuminance at the camera.
+double meaning(const SceneSnapshot& scene, const LightItem& light) {
+    const double emitted = static_cast<double>(light.intensity) *
+                           static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
+    double nearest_m2 = std::numeric_limits<double>::infinity();
+    for (const ConsumerItem& consumer : scene.consumers) {
+        const glm::dvec3 way_m = light.position_ws_m - consumer.position_ws_m;
+        nearest_m2 = std::min(nearest_m2, glm::dot(way_m, way_m));
+    }
+    constexpr double kLeast_m2 = 1.0;  // nearer than a metre all is as bright as there
+    const double lux = light.kind == LightKind::directional ? emitted : emitted / std::max(nearest_m2, kLeast_m2);
+    return lux * asking_pixels(scene, light);
+}
+
+bool uses_rays(const ShadowRequest& request) { return request.skip == Reason::none && request.rays.used; }
+
+}  // namespace
+
+double rays_per_pixel(const MapSettings& map) {
+    return filter_row(map.filter).storage == FilterStorage::soft_sheets ? map.filtering.taps : 1.0;
+}
+
+double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {
+    double pixels = 0.0;
+    for (const ConsumerItem& consumer : scene.pictures.empty() ? scene.consumers : scene.pictures) {
+        const gl::Rect area = screen_rectangle(light, consumer);
+        pixels += static_cast<double>(area.width) * area.height;
+    }
+    return pixels;
+}
+
+void choose_fallbacks(const SceneSnapshot& scene, const History& held, const RayLimit& limit,
+                      std::span<const ShadowRequest> requests, RayFallbacks& out) {
+    out.reasons.assign(requests.size(), Reason::none);
+    if (limit.lacks_memory) {
+        for (std::size_t i = 0; i < requests.size(); ++i)
+            if (uses_rays(requests[i])) out.reasons[i] = Reason::buffer_failed;
+        return;
+    }
+    if (limit.rays == 0) return;
+    out.lights.clear();
+    for (std::uint32_t i = 0; i < requests.size(); ++i)
+        if (uses_rays(requests[i])) out.lights.push_back({meaning(scene, scene.lights[i]), i});
+    // A stable sort would allocate.
+    std::sort(out.lights.begin(), out.lights.end(), [](const RayLight& a, const RayLight& b) {
+        return a.importance != b.importance ? a.importance > b.importance : a.light < b.light;
+    });
+    double left = static_cast<double>(limit.rays);
+    for (const RayLight& asker : out.lights) {
+        const LightItem& light = scene.lights[asker.light];
+        const HeldLight* last = find(held, light.entity, asker.light);
+        const double rays = rays_of(scene, light, requests[asker.light]);
+        if (rays * (last && last->gave_way ? kBackAgain : 1.0) <= left)
+            left -= rays;
+        else
+            out.reasons[asker.light] = Reason::ray_budget;
+    }
+}
+
+}  // namespace gnomon::shadow

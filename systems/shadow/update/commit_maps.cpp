@@ -1,0 +1,43 @@
+#include "systems/shadow/update/commit_maps.h"
+
+#include "systems/shadow/update/keep_stale_maps.h"
+#include "systems/shadow/update/stale_error.h"
+
+namespace gnomon::shadow {
+namespace {
+
+/// Notes what a layer shows now that was just drawn, where it may have to be known later how far off that is.
+void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t v, bool takes_turns,
+                LightHistory& history) {
+    const ShadowView& view = drawn.view(v);
+    if (!may_be_held(scene.lights[view.light].shadow) && !takes_turns) {
+        history.shown.clear();
+        return;
+    }
+    history.shown.resize(history.targets.size());
+    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still, history.shown[view.layer]);
+}
+
+}  // namespace
+
+void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapStore& maps) {
+    for (std::size_t v = 0; v < drawn.count(); ++v) {
+        if (!drawn.has_map(v)) continue;
+        const std::uint32_t layer = drawn.view(v).layer;
+        const UpdatePlan& plan = drawn.updates[v];
+        const ContentSignature& wanted = drawn.maps[v].content;
+        LightHistory& history = maps.entry(scene.lights[drawn.view(v).light].entity);
+        if (!plan.reuse) {
+            history.content[layer] = end.executed ? plan.content : 0;
+            history.placements[layer] = wanted.placement;
+            note_shown(scene, drawn, v, end.takes_turns, history);
+        }
+        if (layer < history.shown.size())
+            history.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
+        if (plan.still_use == StillUse::fill) history.still.layers[layer].content = end.executed ? wanted.still : 0;
+        if (plan.convert && drawn.has_prefiltered(v))
+            history.moments.content[layer] = end.executed ? plan.moment_content : 0;
+    }
+}
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,20 @@
+#pragma once
+#include <vector>
+
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/maps/map_cache.h"
+#include "systems/shadow/update/update_inputs.h"
+#include "systems/shadow/update/update_scheduler.h"
+
+namespace gnomon::shadow {
+
+/// Plans for each view with a map whether it is drawn, copied in part, kept, or left to rays; one entry per view. The
+/// store remembers what lights want. `due` is overwritten.
+void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
+                  std::vector<DueView>& due, std::vector<UpdatePlan>& plans);
+
+/// Keeps every map, in a frame in which nothing changed.
+void keep_all(std::span<const MapAssignment> maps, std::vector<UpdatePlan>& plans);
+
+}  // namespace gnomon::shadow

@@ -1,0 +1,50 @@
+#pragma once
+#include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
+#include "systems/shadow/culling/receiver_caster_sets.h"
+#include "systems/shadow/fitting/fit_views.h"
+#include "systems/shadow/frame/shadow_frame.h"
+#include "systems/shadow/request/decide_requests.h"
+
+namespace gnomon::shadow {
+
+/// Runs the stages of a frame one by one, up to the fits, without a device.
+class FitStages {
+public:
+    ShadowFrame frame;
+
+    /// Decides requests for a device that takes maps of `max_px` along an edge.
+    void decide(const SceneSnapshot& scene, const History& held = {}, std::uint32_t max_px = 16384) {
+        gl::DeviceInfo device;
+        device.max_texture_px = device.max_cube_px = max_px;
+        decide(scene, device, held);
+    }
+    void decide(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held = {}) {
+        decide_requests(scene, {device, held}, fallbacks_, frame.requests);
+        frame.statuses.assign(frame.requests.size(), {});
+        for (std::size_t i = 0; i < frame.requests.size(); ++i) frame.statuses[i].skip(frame.requests[i].skip);
+    }
+    void select(const SceneSnapshot& scene) {
+        select_sets(scene, {frame.requests, {}}, storage.sets, frame.sets, {frame.statuses, {}});
+    }
+    void fit(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
+        fit_views(scene, {frame.requests, frame.sets, {}, held, {}, shared_out}, storage, frame.fitted,
+                  frame.next_history, {frame.statuses, {}});
+    }
+
+    FitStorage storage;
+
+private:
+    RayFallbacks fallbacks_;
+};
+
+/// Returns a frame with its requests, sets and fits.
+inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
+    FitStages stages;
+    stages.decide(scene, held);
+    stages.select(scene);
+    stages.fit(scene, held, shared_out);
+    return std::move(stages.frame);
+}
+
+}  // namespace gnomon::shadow
