@@ -62,8 +62,8 @@ def breaches_of_include(path, name, root):
         found.append(f"may not include {name}")
     if name == REGISTRY and not path.startswith(READS_REGISTRY):
         found.append(f"may not include {name}: extraction is the only reader of the registry")
-    if path.startswith("systems/lighting/") and name.startswith("systems/shadow/") and name != "systems/shadow/frame/types.h":
-        found.append(f"may not include {name}: lighting sees of shadow only systems/shadow/frame/types.h")
+    if path.startswith("systems/lighting/") and name.startswith("systems/shadow/") and name != "systems/shadow/frame/lighting_inputs.h":
+        found.append(f"may not include {name}: lighting sees of shadow only systems/shadow/frame/lighting_inputs.h")
     if path.startswith("systems/shadow/") and name.startswith("systems/lighting/"):
         found.append(f"may not include {name}: shadow does not know who lights with it")
     return found
@@ -143,35 +143,35 @@ CLEAN = {
     "shaders/embedded.h": "#pragma once\n",
     "systems/extract/snapshot.h": '#include "components/transform.h"\n',
     "systems/extract/extract.h": '#include "engine/ecs/registry.h"\n#include "systems/extract/snapshot.h"\n',
-    "systems/shadow/frame/types.h": '#include "systems/extract/snapshot.h"\n',
-    "systems/shadow/fitting/fit_light.h": '#include "systems/shadow/frame/types.h"\n',
+    "systems/shadow/frame/lighting_inputs.h": '#include "systems/extract/snapshot.h"\n',
+    "systems/shadow/fitting/fit_light.h": '#include "systems/shadow/frame/lighting_inputs.h"\n',
     "systems/shadow/fitting/local/fit_spot.cpp": '#include "systems/shadow/fitting/fit_light.h"\n',
     "systems/shadow/publish/publish_lights.h": '#include "systems/shadow/fitting/fit_light.h"\n',
     "systems/shadow/shadow_system.h": '#include "systems/shadow/publish/publish_lights.h"\n',
-    "systems/lighting/lighting.cpp": '#include "shaders/embedded.h"\n#include "systems/shadow/frame/types.h"\n',
+    "systems/lighting/lighting.cpp": '#include "shaders/embedded.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
     "sample_game/main.cpp": '#include "engine/ecs/registry.h"\n#include "systems/extract/extract.h"\n',
-    "tests/install_consumer/main.cpp": '#include "own.h"\n#include "systems/shadow/frame/types.h"\n',
+    "tests/install_consumer/main.cpp": '#include "own.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
     "tests/gl/raw_test.cpp": '#include "systems/shadow/fitting/fit_light.h"\nvoid t() { glGetError(); }\n',
 }
 BREACHES = (
     ("components/light.h", '#include "engine/math/aabb.h"\n', "no path from"),
     ("components/light.h", '#include "engine/gl/device_gl45.cpp"\n', "may not include engine/gl"),
-    ("components/light.h", '#include "systems/shadow/frame/types.h"\n', "may not include systems/"),
+    ("components/light.h", '#include "systems/shadow/frame/lighting_inputs.h"\n', "may not include systems/"),
     ("components/light.h", "#include <spdlog/spdlog.h>\n", "components know GLM"),
     ("engine/gl/device.h", '#include "components/transform.h"\n', "may not include components/"),
-    ("engine/gl/device.h", '#include "systems/shadow/frame/types.h"\n', "may not include systems/"),
+    ("engine/gl/device.h", '#include "systems/shadow/frame/lighting_inputs.h"\n', "may not include systems/"),
     ("engine/gl/device.h", '  #  include "shaders/embedded.h"\n', "may not include shaders/"),
     ("engine/gl/device.h", "#include <components/transform.h>\n", "hides an arrow"),
     ("systems/shadow/fitting/steps.h", '#include "systems/shadow/publish/publish_lights.h"\n', "comes before it"),
     ("systems/shadow/report/why.cpp", '#include "systems/shadow/shadow_system.h"\n', "comes before it"),
-    ("systems/shadow/rooms/fit.cpp", '#include "systems/shadow/frame/types.h"\n', "in no room"),
+    ("systems/shadow/rooms/fit.cpp", '#include "systems/shadow/frame/lighting_inputs.h"\n', "in no room"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "sample_game/main.cpp"\n', "may not include sample_game/"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "engine/ecs/registry.h"\n', "only reader"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "systems/extract/extract.h"\n', "reaches the registry"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "systems/lighting/lighting.cpp"\n', "does not know who lights"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", "void f() { glDrawArrays(4, 0, 3); }\n", "may not call glDrawArrays"),
-    ("systems/lighting/shade.cpp", '#include "systems/shadow/fitting/fit_light.h"\n', "only systems/shadow/frame/types.h"),
+    ("systems/lighting/shade.cpp", '#include "systems/shadow/fitting/fit_light.h"\n', "only systems/shadow/frame/lighting_inputs.h"),
     ("engine/platform/window.cpp", "#include <epoxy/gl.h>\n", "only engine/gl calls"),
     ("sample_game/hud.cpp", "void f() {\n    ::glEnable(1);\n    glEnable (1);\n}\n", "may not call glEnable"),
     ("sample_game/main.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
