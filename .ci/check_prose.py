@@ -42,7 +42,7 @@ BANNED = (
 )
 BANNED = tuple((re.compile(rf"\b(?:{words})\b", re.IGNORECASE), instead) for words, instead in BANNED)
 # First words that make a sentence start with what it is about last.
-BAD_START_COMMENT = re.compile(r"(?:of|by(?! default)|to|who|whom|whose|those|whether|lest|whatever|as if)\b", re.IGNORECASE)
+BAD_START_COMMENT = re.compile(r"(?:By(?! default)|(?i:of|to|who|whom|whose|those|whether|lest|whatever|as if))\b")
 BAD_START_DOCUMENT = re.compile(r"(?:Of(?! course)|Who|Whom|Whose|Those|Lest|Whatever|As if)\b")
 NO_VERB = re.compile(
     r"(?:this|its|is|was|has|as|always|less|others|ones|besides|afterwards|perhaps|axis|bytes|casters|corners|depths|entities|entries"
@@ -50,6 +50,7 @@ NO_VERB = re.compile(
     r"|vectors|vertices|whereas|\w*ness)\b", re.IGNORECASE)
 
 STRING = re.compile(r'"(?:\\.|[^"\\])*"')
+ITEM = re.compile(r"\s*(?:[-*]|\d+\.) ")
 DIRECTIVE = re.compile(r"(?:namespace|NOLINT|clang-format|IWYU|SPDX|GCC diagnostic)\b|-{3,}|={3,}")
 # Declaration of a function, operator or constructor: type, name, parenthesis, with neither = nor ; before it.
 FUNCTION = re.compile(r"(?!using\b|return\b|struct\b|class\b|enum\b|#)(?:[^=;(]*[\w>&*\]] +[*&]?[\w:~]*(?:operator[^(]*)?\(|(?:explicit |constexpr )*~?[A-Z]\w*\()")
@@ -94,31 +95,41 @@ def bare(line):
 
 
 def comments(text, shader):
-    """Yields the comments of C++ or GLSL as passages: neighbouring lines that start in the same column are one."""
-    lines, block = text.splitlines(), []
+    """Yields the comments of C++ or GLSL as passages. Neighbouring lines that start in the same column are one comment."""
+    lines, block, first, start, mark, alone = text.splitlines(), [], 0, 0, "", False
     for number, line in enumerate(lines + [""], 1):
         column = STRING.sub(lambda match: "s" * len(match.group()), line).find("//")
-        mark, words = re.match(r"(//[/!]?<?)\s?(.*)", line[column:]).groups() if column >= 0 else ("", "")
-        alone = column >= 0 and not line[:column].strip()
-        item = re.match(r"\s*(?:- |\* |\d\. )", words)
-        if block and not (alone and column == block[0][1] and mark == block[0][2] and words.strip() and not item):
-            first, start, kind, _, was_alone = block[0]
-            declares = was_alone and not (alone and column == start) and FUNCTION.match(
-                next((code for code in map(bare, lines[number - 1:]) if code), ""))
-            documents = kind.startswith("///") or (shader and start == 0)
-            joined = " ".join(row[3] for row in block)
-            if not DIRECTIVE.match(joined.strip()):
-                yield Passage(first, "function" if declares and documents else "comment", joined)
+        is_alone = column >= 0 and not line[:column].strip()
+        new_mark, words = re.match(r"(//[/!]?<?)\s?(.*)", line[column:]).groups() if column >= 0 else ("", "")
+        if block and not (is_alone and column == start and new_mark == mark):
+            code = next((code for code in map(bare, lines[number - 1:]) if code), "")
+            documents = alone and line.strip() and column != start and (mark == "///" or (shader and start == 0)) and FUNCTION.match(code)
+            yield from passages_of(block, first, "function" if documents else "comment")
             block = []
-        if column >= 0 and words.strip():
-            block.append((number, column, mark, re.sub(r"^\s*(?:- |\* |\d\. )", "", words), alone))
+        if column >= 0:
+            if not block:
+                first, start, mark, alone = number, column, new_mark, is_alone
+            block.append(words)
+
+
+def passages_of(block, first, kind):
+    """Splits a comment at list items and empty lines; the first passage alone has the kind given."""
+    rows = []
+    for number, words in enumerate(block + [""], first):
+        if rows and (not words.strip() or ITEM.match(words)):
+            joined = " ".join(words for _, words in rows)
+            if not DIRECTIVE.match(joined):
+                yield Passage(rows[0][0], kind, joined)
+            rows, kind = [], "comment"
+        if words.strip():
+            rows.append((number, ITEM.sub("", words).strip()))
 
 
 def paragraphs(text):
     """Yields the paragraphs and list items of Markdown, without code, tables and headings."""
     block, first, fenced = [], 0, False
     for number, line in enumerate(text.splitlines() + [""], 1):
-        fence, item = line.lstrip().startswith("```"), re.match(r"\s*(?:[-*]|\d+\.) ", line)
+        fence, item = line.lstrip().startswith("```"), ITEM.match(line)
         ends = fenced or fence or item or not line.strip() or line.lstrip()[0] in "|#<>"
         if ends and block:
             yield Passage(first, "document", " ".join(block))
@@ -185,6 +196,7 @@ SAMPLES = (
     ("a.h", f"int a;  // {'word ' * 13}\n        // {'word ' * 13}\n", "26 words"),
     ("a.h", f"// {'word ' * 13}\n// - {'word ' * 13}\n", None),
     ("a.h", "/// Of a map.\nint a;\n", "starts with 'Of'"), ("a.h", "/// Edge of a map. Default by cost, e.g. of a map.\nint a;\n", None),
+    ("a.h", "std::vector<int> edges;  // by slot\n", None), ("a.h", "/// Finds it:\n/// - edge\nint edge(int a);\n", None),
     ("a.h", "/// Edge. To be kept.\nint a;\n", "starts with 'To'"), ("a.h", "/// Edge. Whether kept.\nint a;\n", "starts with 'Whether'"),
     ("a.h", "/// The edge.\nint edge(int a);\n", "starts with a verb"), ("a.h", "/// Returns it.\nint edge(int a);\n", None),
     ("a.h", "/// Bytes of an edge.\nint edge(int a);\n", "starts with a verb"),
