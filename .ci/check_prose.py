@@ -22,7 +22,7 @@ BANNED = (
     (r"lest", "so that ... not"),
     (r"whom|whose|whoever|whosoever", "name the noun; 'with', 'its'"),
     (r"(?:those|ones|one) (?:that|who|which)|all those", "name the noun"),
-    (r"(?:of|for|by|from|in|to) (?:which|whom)", "split the sentence"),
+    (r"of which", "split the sentence"),
     (r"but for", "except"),
     (r"how-?manieth|so many(?! that)", "index, count, or the number's name"),
     (r"ke(?:ep|eps|pt|eping) (?:its|their|the|a|no|that) (?:word|contract|promise)|its word|contract allows", "meets the target"),
