@@ -26,8 +26,8 @@ struct Deformer {
     std::vector<std::uint32_t> first_influence;  // per vertex, plus one; empty: no vertex follows a joint
     std::vector<Influence> influences;
     std::vector<Target> targets;
-    std::vector<math::Aabb>
-        joint_bounds_ms;  // at rest, up to the last joint that a vertex follows; only vertices with a triangle count
+    /// At rest, up to the last joint that a vertex follows; only vertices with a triangle count.
+    std::vector<math::Aabb> joint_bounds_ms;
 
     bool has_skin() const { return !first_influence.empty(); }
 };

@@ -17,8 +17,8 @@ struct SurfaceEdges {
     struct Fold {
         std::uint32_t a = 0, b = 0;
         std::uint32_t first = 0, second = 0;
-        bool same_way =
-            false;  // both triangles run along it in the same direction, so that their fronts are opposite sides of it
+        /// Both triangles run along it in the same direction, so that their fronts are opposite sides of it.
+        bool same_way = false;
         bool operator==(const Fold&) const = default;
     };
     std::vector<Border> borders;
