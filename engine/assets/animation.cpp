@@ -89,7 +89,7 @@ void sample(const AnimationChannel& channel, double time_s, std::span<double> ou
         return;
     }
     const double start_s = static_cast<double>(times[key]), span_s = static_cast<double>(times[after]) - start_s;
-    const double share = (time_s - start_s) / span_s;  // > 0 span: the later key lies after time_s
+    const double share = (time_s - start_s) / span_s;  // span_s > 0: the later key lies after time_s
     if (channel.interpolation == Interpolation::cubic) {
         bend(keys, key, share, span_s, out);
         if (rotation) make_unit(out);

@@ -14,8 +14,8 @@ double angle_at(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3&
     return std::atan2(glm::length(glm::cross(to_a, to_b)), glm::dot(to_a, to_b));
 }
 
-/// Length below which a sum of normals is rounding noise of opposite faces: 2^-53 per addition, for up to a thousand
-/// faces at a vertex.
+/// Length below which a sum of weighted normals is rounding noise of opposite faces, relative to the sum of weights.
+/// 2^-53 per addition, for up to a thousand faces at a vertex.
 constexpr double kCancelled = 1e-13;
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace {
 /// Maximum number of parts in a leaf, if they lie close together. Distant parts (a wall and a floor) are split, because
 /// the room between them is empty. Measured on Sponza: docs/architecture.md, "Sets".
 constexpr std::size_t kLeafParts = 8;
-constexpr float kLeafShare = 1.0f / 64.0f;  // largest leaf, as a share of the shape's extent
+constexpr float kLeafShare = 1.0f / 64.0f;  // largest leaf with several parts, relative to the shape
 /// Rounding of a GPU's float coordinates: eight units in the last place. The basis, three products, their sums and the
 /// subtraction of the anchor take seven. Rounding in double here is negligible beside it.
 constexpr double kFloatRounding = 0x1p-21;

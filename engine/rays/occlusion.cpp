@@ -15,8 +15,8 @@ constexpr float kSlabSlack = 0x1p-20f;
 float sum_of(const glm::vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 /// Bounds of rounding, in units of SegmentPacket::rounding (r), at least 2^-24 of the largest coordinate M. D: largest
-/// component of `along`, off by r D / M. E: largest component of the triangle's sides, exact up to one rounding. s = a
-/// - from: off by 3 r, at most 2 M.
+/// component of `along`, off by r D / M. E: largest component of the triangle's sides, exact up to one rounding.
+/// s: the difference `a - from`, off by 3 r, at most 2 M.
 /// - cross(along, s): at most 4 D M, off by 18 r D (6 for s, 4 for along, 8 for its products and difference)
 /// - its product with a side: off by 3 * 18 + 12 for the side + 36 for products and sums = 102 r D E
 /// - dot(along, normal): normal at most 2 E^2 <= 4 M E, off by 8 units: 3 * 16 + 12 + 36 = 96 r D E
