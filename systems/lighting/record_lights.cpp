@@ -37,7 +37,7 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
 LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, RowOutput output) {
     const shadow::PlainLookup& plain = light.plain;
     const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
-    // A requested visibility never uses a substitute.
+    // An explicitly requested visibility is never deferred.
     const bool may_wait = has_plain && output != RowOutput::visibility;
     Reason lacks = Reason::buffer_failed;
     const bool lists = light.row.sheets && output != RowOutput::blended;
