@@ -5,11 +5,11 @@
 
 namespace gnomon {
 
-/// Draws mesh number `mesh` of the MeshLibrary that the systems were given.
+/// Draws mesh number `mesh` of the MeshLibrary.
 struct MeshRef {
     std::uint32_t mesh = 0;
-    bool visible = true;             // false: not drawn for any camera; still casts if a ShadowCaster
-    bool receives_shadow = true;     // false: always fully lit by every light
+    bool visible = true;                            // false: not drawn for any camera; still casts if a ShadowCaster
+    bool receives_shadow = true;                    // false: always fully lit by every light
     ShadowLayers shadow_layers = kAllShadowLayers;  // always fully lit by lights of other layers
 };
 

@@ -3,8 +3,9 @@
 
 namespace gnomon {
 
-/// How far each morph target of the entity's mesh is taken, 0 not at all, 1 in full; any finite number goes. Targets
-/// beyond the list count as 0. As for Skin, the entity with the lowest index speaks for all of one mesh.
+/// Weight of each morph target of the entity's mesh: 0 not applied, 1 applied in full, any finite number allowed.
+/// Targets beyond the list count as 0. The entity with the lowest index sets the weights of all that share its mesh
+/// (see Skin).
 struct MorphWeights {
     std::vector<float> weights = {};
 };

@@ -3,7 +3,7 @@
 
 namespace gnomon {
 
-/// What a report, a picture file or a debugger calls the entity.
+/// Name of the entity in reports, picture files and debuggers.
 struct Name {
     std::string text;
 };

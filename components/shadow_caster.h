@@ -3,7 +3,7 @@
 
 namespace gnomon {
 
-/// Add this to an entity with a MeshRef and it casts shadows.
+/// Makes an entity with a MeshRef cast shadows.
 struct ShadowCaster {
     bool enabled = true;
     ShadowLayers layers = kAllShadowLayers;  // lights of other layers do not see it

@@ -6,12 +6,12 @@
 
 namespace gnomon {
 
-/// Add this to an entity whose MeshRef names a mesh with joints (assets::Mesh::deformer), and the mesh follows those
-/// entities; its own Transform is then of no account, as glTF has it. All entities that name one mesh look alike, bent
-/// as the one with the lowest entity index says: give each its own copy of the mesh to bend them apart.
+/// Bends the entity's mesh by joints, which are other entities. The mesh must have joints (assets::Mesh::deformer); the
+/// entity's own Transform is ignored, as in glTF. All entities with the same mesh look alike: the one with the lowest
+/// index sets its pose. For different poses, give each entity its own copy of the mesh.
 struct Skin {
-    std::vector<ecs::Entity> joints = {};         // with Transform; one that has none leaves what follows it at rest
-    std::vector<glm::dmat4x3> inverse_bind = {};  // one per joint: from the mesh at rest to the joint at rest
+    std::vector<ecs::Entity> joints = {};  // entities with Transform; vertices of a joint without one stay at rest
+    std::vector<glm::dmat4x3> inverse_bind = {};  // one per joint: joint space at rest from mesh space at rest
 };
 
 }  // namespace gnomon

@@ -3,7 +3,7 @@
 namespace gnomon {
 namespace {
 
-/// What is measured is told who recorded it.
+/// Registers the submission with all systems that measure it.
 void note_submission(const FrameParts& parts, std::uint64_t submission, bool learn_costs, const FrameReport& report) {
     shadow::ShadowSystem& shadows = parts.shadows;
     shadows.draw_times().submitted(submission, parts.scene, report);

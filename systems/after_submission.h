@@ -10,19 +10,19 @@
 
 namespace gnomon {
 
-/// Who recorded a frame's commands, and of what scene.
+/// Systems that recorded a frame's commands, and their scene.
 struct FrameParts {
     gl::Device& device;
     const SceneSnapshot& scene;
     GpuScene& gpu;
     shadow::ShadowSystem& shadows;
-    lighting::LightingSystem* lighting = nullptr;  // null: somebody else's
+    lighting::LightingSystem* lighting = nullptr;  // null: another renderer lights the scene
 };
 
-/// Tells them what became of those, once after each submission: maps and kept visibility hold what was drawn, uploads
-/// of a list that failed are made again, and times that were measured go to who learns from them. A failure goes into
-/// the report. `learn_costs`: a budget in milliseconds follows what this device takes. Returns the times that came in,
-/// of this submission or of earlier ones.
+/// Reports the submission's result to these systems; call it once after each submission. Maps and kept visibility
+/// become valid, and failed uploads are repeated. Measured times go to the systems that learn from them. A failure is
+/// added to the report. `learn_costs`: a budget in milliseconds adapts to this device. Returns the times that arrived,
+/// from this or earlier submissions.
 std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs,
                                          FrameReport& report);
 

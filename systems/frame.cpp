@@ -50,7 +50,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     snapshot_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
     const bool sample_depths = !held && shadows_->wants_sampled_depths(snapshot_);
-    if (!sample_depths && !held) snapshot_.sampled_depths = {};  // of no use later
+    if (!sample_depths && !held) snapshot_.sampled_depths = {};  // outdated when needed next
     const bool measure_exposure =
         settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();
     if (!measure_exposure) lighting_->forget_exposure();
@@ -75,20 +75,20 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const gl::SubmitResult result = device_.submit(commands_);
     if (settings.repeatable && (sample_depths || measure_exposure)) device_.finish();
     timed_lights_.submitted(result.submission, report_);
-    // What a run measures differs from run to run.
+    // Measured times differ from run to run.
     const bool learn_costs = settings.shadow_budget.gpu_ms > 0.0f && !settings.repeatable;
     collect_timings(
         after_submission({device_, snapshot_, gpu_scene_, *shadows_, lighting_.get()}, result, learn_costs, report_));
 }
 
-/// What the picture will be multiplied by, at most; empty: nobody is to ask.
+/// Returns the largest factor of the picture's radiance; empty: unknown, or not needed.
 std::optional<double> Frame::most_exposure(const FrameSettings& settings) {
     if (!settings.leave_out_dim_lights) return std::nullopt;
     if (settings.exposure_ev) return lighting::exposure_scale(*settings.exposure_ev);
     return lighting_->most_exposure(snapshot_.consumers.empty() ? ecs::Entity{} : snapshot_.consumers.front().entity);
 }
 
-/// While fits are frozen, the stages find the frozen cameras as the scene's consumers.
+/// Updates the shadows. While fits are frozen, the stages see the frozen cameras as the scene's consumers.
 const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) {
     const auto update = [&]() -> const shadow::ShadowFrame& {
         return shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_, settings.shadow_budget);
@@ -97,7 +97,7 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
     if (!settings.freeze_fits || snapshot_.consumers.empty()) return update();
     if (!frozen_) frozen_ = snapshot_.consumers;
     pictures_ = snapshot_.consumers;
-    std::swap(snapshot_.pictures, pictures_);  // its names keep their memory from frame to frame
+    std::swap(snapshot_.pictures, pictures_);  // swapped, so that names keep their memory from frame to frame
     std::swap(snapshot_.consumers, *frozen_);
     const shadow::ShadowFrame& shadows = update();
     std::swap(snapshot_.consumers, *frozen_);
@@ -105,7 +105,7 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
     return shadows;
 }
 
-/// Takes what timers have come in. A device that answers late reports an earlier frame's times.
+/// Adds the timers' results to the report. A late device reports an earlier frame's times.
 void Frame::collect_timings(const std::vector<gl::Timing>& timings) {
     if (!timings.empty()) timed_lights_.tell(timings, report_);
 }

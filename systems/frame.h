@@ -38,54 +38,56 @@ struct FrameSettings {
     std::optional<float> exposure_ev;  // EV100; empty: automatic
     bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
     bool present = false;              // copy the picture to the window at the end
-    /// Wait at the end of a frame for what the GPU measures in it (CascadeSplits::sampled; automatic exposure, where
-    /// lights are faint), so that every run draws the same pictures; else nothing is waited for, and measures arrive
-    /// some frames later.
+    /// Block at the end of a frame for what the GPU measures (CascadeSplits::sampled; automatic exposure with faint
+    /// lights). Every run then draws the same pictures. Otherwise nothing blocks, and measurements arrive some frames
+    /// later.
     bool repeatable = false;
     debug::Request debug = {};  // drawn over the picture; none by default
-    /// Shadows stay fitted to the cameras as they were in the first frame that asked for it, while the picture follows
-    /// its own. Lights and casters go on: shadows follow them, as those cameras need it.
+    /// Keep shadows fitted to the cameras of the first frame with this flag, while the picture follows its own camera.
+    /// Lights and casters stay live: shadows follow them as the frozen cameras need it.
     bool freeze_fits = false;
-    /// What shadows may take; those that are seen least are given less until it holds (docs/economy.md, "Budgets").
+    /// Cost limit for shadows; the least visible ones get less until it is met (docs/economy.md, "Budgets").
     shadow::ShadowBudget shadow_budget = {};
-    /// Lights whose shadows could not be seen in the picture cast none (docs/economy.md).
+    /// Skip shadows that cannot be seen in the picture (docs/economy.md).
     bool leave_out_dim_lights = true;
-    /// So many programs of lights are compiled in one frame at most. A light whose program has to wait is looked up
-    /// with one tap meanwhile, and says so (filter_program_waits). The default waits for none.
+    /// Maximum number of light programs compiled per frame. Until its program is compiled, a light is looked up with
+    /// one tap and reports filter_program_waits. Default: no limit.
     std::uint32_t programs_per_frame = ~0u;
 };
 
-/// The one way of a frame, as a list of calls: transforms, snapshot, shadows, lighting, submit.
-/// Write your own instead if your engine has its own order: it is frame.cpp's run(), and nothing else hides here.
+/// Sequence of a frame as a list of calls: transforms, snapshot, shadows, lighting, submit. For an engine with another
+/// order, write your own after frame.cpp's run(), which is all there is.
 class Frame {
 public:
-    /// `device` and `library` must outlive the frame. `held_fits`: of the frame that this one goes on from, when its
-    /// context was lost; the pictures then go on, too, to the bit. Errors: "gpu.scene".
+    /// Creates a frame. `device` and `library` must outlive it. `held_fits`: of the frame to continue after a lost
+    /// context; pictures then continue bit for bit. Errors: "gpu.scene".
     static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library,
                                                  const shadow::History& held_fits = {});
     ~Frame();
 
     /// Runs one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the world's
-    /// changes by cursors of its own: other readers find all of theirs.
+    /// changes with its own cursors, independent of other readers.
     void run(ecs::Registry& world, const FrameSettings& settings);
 
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const FrameReport& report() const { return report_; }
-    const gl::CommandList& commands() const { return commands_; }  // of the last frame
-    /// What the lights' fits hold on to: it needs no device and survives one.
+    const gl::CommandList& commands() const { return commands_; }  // last frame
+    /// Returns the fit history of all lights. It needs no device and outlives one.
     const shadow::History& held_fits() const;
 
-    /// The last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. False: nothing to read.
+    /// Reads the last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. Returns false if there is
+    /// none.
     bool read_picture(std::vector<std::uint8_t>& rgba);
 
-    /// What read_picture() reads: draw overlays into it, in a list of your own, after run(). {0}: no picture was drawn.
+    /// Returns the target of read_picture(): draw overlays into it after run(), in a list of your own. {0}: no picture
+    /// was drawn.
     gl::TargetHandle picture_target() const;
 
-    /// What the debug view of the last frame has to say; empty without one.
+    /// Returns the labels of the last frame's debug view; empty without one.
     const std::vector<debug::Label>& debug_labels() const;
 
-    /// Visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats, bottom row
-    /// first, with the meaning of --visibility in the README. False: nothing to read.
+    /// Reads the visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats,
+    /// bottom row first, as --visibility in the README. Returns false if there is none.
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
 
 private:
@@ -103,8 +105,8 @@ private:
     std::unique_ptr<shadow::ShadowSystem> shadows_;
     std::unique_ptr<lighting::LightingSystem> lighting_;
     std::unique_ptr<debug::DebugPainter> debug_;
-    std::optional<std::vector<ConsumerItem>> frozen_;  // the cameras that shadows are fitted to
-    std::vector<ConsumerItem> pictures_;               // and those that draw, as they were
+    std::optional<std::vector<ConsumerItem>> frozen_;  // cameras that shadows are fitted to
+    std::vector<ConsumerItem> pictures_;               // drawing cameras meanwhile
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;

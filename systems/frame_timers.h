@@ -3,7 +3,7 @@
 
 namespace gnomon {
 
-/// Timer ids in a frame's commands: what a light's maps and its lighting pass cost, and the rest of the picture.
+/// Returns timer ids in a frame's commands: for a light's maps and lighting pass. Constants: the rest of the picture.
 inline std::uint32_t shadow_timer(std::uint32_t light) { return 2 * light; }
 inline std::uint32_t lighting_timer(std::uint32_t light) { return 2 * light + 1; }
 inline constexpr std::uint32_t kSurfaceTimer = 0xfffffff0u, kFinishTimer = 0xfffffff1u;

@@ -9,19 +9,18 @@
 
 namespace gnomon {
 
-/// A device buffer that is replaced by a larger one when needed; contents are rewritten by its user every frame.
-/// Owns the buffer.
+/// Device buffer that grows by replacement; its user rewrites the contents every frame. Owns the buffer.
 class GrowingBuffer {
 public:
-    /// `texels`: it is read as such, BufferDesc::texels.
+    /// Creates no buffer yet. `texels`: see BufferDesc::texels.
     GrowingBuffer(gl::Device& device, std::string label, bool texels = false)
         : device_(&device), label_(std::move(label)), texels_(texels) {}
     GrowingBuffer(const GrowingBuffer&) = delete;
     GrowingBuffer& operator=(const GrowingBuffer&) = delete;
     ~GrowingBuffer() { device_->destroy(buffer_); }
 
-    /// True if the buffer holds at least `bytes` now. Sizes are powers of two, so growth is rare.
-    /// On failure the old buffer stays.
+    /// Ensures a size of at least `bytes`. Returns false on failure; the old buffer then stays. Sizes are powers of
+    /// two, so that growth is rare.
     bool reserve(std::uint64_t bytes) {
         if (bytes <= size_) return true;
         constexpr std::uint64_t kLeastBytes = 4096;  // one page
@@ -33,7 +32,7 @@ public:
         size_ = size;
         return true;
     }
-    /// Frees it; the next reserve() makes it anew.
+    /// Frees the buffer; the next reserve() creates it again.
     void release() {
         device_->destroy(buffer_);
         buffer_ = {};

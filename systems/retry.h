@@ -3,8 +3,8 @@
 
 namespace gnomon {
 
-/// When something that failed on the device may be tried again: memory comes back, and so does what needs it,
-/// within half a second at 60 Hz; trying every frame would cost a compilation or an allocation in each.
+/// Time at which a failed device operation may be repeated. Memory may become free again; a retry in every frame would
+/// cost a compilation or an allocation each. 30 frames recover within half a second at 60 Hz.
 class Retry {
 public:
     static constexpr std::uint64_t kFrames = 30;

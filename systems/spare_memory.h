@@ -3,11 +3,11 @@
 
 namespace gnomon {
 
-/// Device memory that only saves time: whoever needs the room for a picture may have it given back, at any time.
+/// Device memory that only saves time, so that it can be freed at any moment for a picture that needs the room.
 class SpareMemory {
 public:
     virtual std::uint64_t bytes() const = 0;
-    /// All of it, at once; what is submitted already may still read it.
+    /// Frees all of it at once; submitted work may still read it.
     virtual void release() = 0;
 
 protected:

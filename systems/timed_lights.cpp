@@ -7,7 +7,7 @@
 namespace gnomon {
 namespace {
 
-/// `guess`: index it probably has.
+/// Finds a light in the report. `guess`: its probable index.
 LightReport* find_light(FrameReport& report, ecs::Entity light, std::size_t guess) {
     if (guess < report.lights.size() && report.lights[guess].entity == light) return &report.lights[guess];
     const auto at = std::find_if(report.lights.begin(), report.lights.end(),
@@ -24,7 +24,7 @@ void TimedLights::submitted(std::uint64_t submission, const FrameReport& report)
     now.number = submission;
     now.lights.clear();
     for (Submission& s : submissions_)
-        s.lights.reserve(report.lights.size());  // at once: later frames allocate nothing
+        s.lights.reserve(report.lights.size());  // at once, so that later frames do not allocate
     for (const LightReport& light : report.lights) now.lights.push_back(light.entity);
 }
 

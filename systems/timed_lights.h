@@ -10,16 +10,16 @@
 
 namespace gnomon {
 
-/// Whose the timers of the last submissions are. They name lights by their index in the frame that was submitted, and
-/// devices may answer some frames late, when another light may have that index.
+/// Owners of the timers of recent submissions. Timers name lights by their index in the submitted frame. Devices may
+/// report some frames late, when another light has that index.
 class TimedLights {
 public:
-    /// The frame that was just submitted, by the lights of its report.
+    /// Registers the submitted frame with its report's lights.
     void submitted(std::uint64_t submission, const FrameReport& report);
 
-    /// Adds the times of the newest frame that `timings` are of to the report: its sums, and to each light that is in
-    /// the report its own. What lights took that are gone counts among the sums alone. Timings of submissions that are
-    /// none of the last kFrames, or no frame's at all, mean nothing.
+    /// Adds the newest frame's times among `timings` to the report: to its sums, and to each light still in the report.
+    /// Removed lights count only in the sums. Timings of other submissions than the last kFrames, or of no frame, are
+    /// ignored.
     void tell(std::span<const gl::Timing> timings, FrameReport& report) const;
 
     static constexpr std::size_t kFrames = 8;  // more than drivers queue

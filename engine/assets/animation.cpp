@@ -16,14 +16,14 @@ void put(const glm::dquat& q, std::span<double> out) {
     out[3] = q.w;
 }
 
-/// Tangents may cancel a rotation; what is left then has no direction.
+/// Normalises a quaternion. Tangents may cancel a rotation; a zero result becomes the identity.
 void make_unit(std::span<double> out) {
     const glm::dquat q = quaternion(out);
     const double length = glm::length(q);
     put(length > 0.0 ? q / length : glm::dquat(1.0, 0.0, 0.0, 0.0), out);
 }
 
-/// What a key holds: of a cubic channel three values.
+/// Parts of a key. Cubic channels have all three, others only the value.
 enum class Part : std::uint8_t { tangent_in, value, tangent_out };
 
 struct Keys {
@@ -48,7 +48,7 @@ void turn(const Keys& keys, std::size_t key, double share, std::span<double> out
     put(glm::normalize(glm::slerp(quaternion(out), quaternion(next), share)), out);
 }
 
-/// Cubic Hermite spline, glTF 2.0 appendix C.5.
+/// Interpolates by a cubic Hermite spline (glTF 2.0, appendix C.5).
 void bend(const Keys& keys, std::size_t key, double share, double span_s, std::span<double> out) {
     const double t = share, t2 = t * t, t3 = t2 * t;
     for (std::size_t i = 0; i < keys.channel.width; ++i)
@@ -89,7 +89,7 @@ void sample(const AnimationChannel& channel, double time_s, std::span<double> ou
         return;
     }
     const double start_s = static_cast<double>(times[key]), span_s = static_cast<double>(times[after]) - start_s;
-    const double share = (time_s - start_s) / span_s;  // the later key lies after time_s: the span is not empty
+    const double share = (time_s - start_s) / span_s;  // span_s > 0: the later key lies after time_s
     if (channel.interpolation == Interpolation::cubic) {
         bend(keys, key, share, span_s, out);
         if (rotation) make_unit(out);

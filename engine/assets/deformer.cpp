@@ -30,7 +30,8 @@ Point morphed(const Mesh& mesh, const MeshPose& pose, std::size_t vertex) {
     return point;
 }
 
-/// A normal follows the cofactors of the matrix, which a flattened joint has, too; they turn it inward in a mirror.
+/// Transforms a normal by the matrix of cofactors, which also exists for a flattened joint. A mirror turns the normal
+/// inward.
 glm::dvec3 turned(const glm::dmat4x3& m, const glm::dvec3& normal) {
     const glm::dvec3 n =
         glm::cross(m[1], m[2]) * normal.x + glm::cross(m[2], m[0]) * normal.y + glm::cross(m[0], m[1]) * normal.z;
@@ -44,7 +45,7 @@ Point skinned(const Deformer& deformer, const MeshPose& pose, std::size_t vertex
     return {blend * glm::dvec4(point.position, 1.0), turned(blend, point.normal)};
 }
 
-/// Where target weights can move a vertex from its place at rest.
+/// Computes a box around all offsets that target weights can give a vertex.
 math::Aabb morph_reach(const Deformer& deformer, const MeshPose& pose) {
     math::Aabb sum{glm::dvec3(0.0), glm::dvec3(0.0)};
     for (std::size_t t = 0; t < deformer.targets.size(); ++t) {
@@ -56,8 +57,8 @@ math::Aabb morph_reach(const Deformer& deformer, const MeshPose& pose) {
     return sum;
 }
 
-/// Weights of a vertex are floats: their sum is off 1 by up to 2^-24, which scales its place; that is rounded to float
-/// once more.
+/// Relative rounding of a posed vertex. Weights are floats: their sum differs from 1 by up to 2^-24, which scales the
+/// position. The position is rounded to float once more.
 constexpr double kRounding = 0x1p-23;
 
 math::Aabb with_rounding(math::Aabb box) {
@@ -80,7 +81,7 @@ void measure(Deformer& deformer, const Mesh& mesh) {
     deformer.joint_bounds_ms.clear();
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
         for (std::uint32_t i = deformer.first_influence[v]; i < deformer.first_influence[v + 1]; ++i) {
-            // Vertices that no triangle has are bent as well: their joints count, their places do not.
+            // Vertices without a triangle are bent as well: their joints count, their places do not.
             const std::uint32_t joint = deformer.influences[i].joint;
             if (joint >= deformer.joint_bounds_ms.size()) deformer.joint_bounds_ms.resize(joint + std::size_t{1});
             math::Aabb& box = deformer.joint_bounds_ms[joint];
@@ -115,8 +116,9 @@ math::Aabb posed_bounds(const Mesh& mesh, const MeshPose& pose) {
     return with_rounding(all);
 }
 
-/// Of a vertex p + t that joints take to B (p + t), afterwards to B' (p + t'): the way is B' (t' - t) + (B' - B)(p +
-/// t), a mean of what each of its joints alone would make of it, whose second part is largest at a corner.
+/// Bounds a vertex p + t that joints take to B (p + t), and later to B' (p + t'). It moves by B' (t' - t) + (B' - B)(p
+/// + t), the weighted mean of the same expression for each joint alone. Its second part is largest at a corner of the
+/// joint's box.
 double farthest_bend_m(const Mesh& mesh, const MeshPose& before, const MeshPose& after) {
     const Deformer& deformer = *mesh.deformer;
     const math::Aabb morphed = morph_reach(deformer, before);
@@ -148,7 +150,7 @@ Mirroring mirroring(const Mesh& mesh, const MeshPose& pose) {
         const glm::dmat4x3& m = pose.joints[j];
         const double determinant = glm::determinant(glm::dmat3(m[0], m[1], m[2]));
         any = any || determinant < 0.0;
-        all = all && determinant <= 0.0;  // what is flat has no side
+        all = all && determinant <= 0.0;  // flat joints have no orientation
     }
     return !any ? Mirroring::none : all ? Mirroring::all : Mirroring::some;
 }

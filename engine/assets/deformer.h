@@ -12,47 +12,51 @@ namespace gnomon::assets {
 struct Mesh;
 struct Vertex;
 
-/// How a mesh bends: each vertex follows joints, or is moved by morph targets, or both (glTF 2.0, 3.7.2.2 and 3.7.3.3).
-/// Targets come first, then joints.
+/// Deformation of a mesh: vertices follow joints, morph targets, or both (glTF 2.0, 3.7.2.2 and 3.7.3.3). Targets apply
+/// first, then joints.
 struct Deformer {
     struct Influence {
         std::uint32_t joint = 0;
-        float weight = 0.0f;  // above 0; those of a vertex sum to 1
+        float weight = 0.0f;  // > 0; the weights of a vertex sum to 1
     };
     struct Target {
-        std::vector<glm::vec3> positions, normals;  // added to each vertex in full; or none at all
-        math::Aabb reach;                           // of all positions and 0
+        std::vector<glm::vec3> positions, normals;  // offsets at weight 1, one per vertex; or empty
+        math::Aabb reach;                           // box around all positions and 0
     };
-    std::vector<std::uint32_t> first_influence;  // per vertex, and one more; none at all: no vertex follows a joint
+    std::vector<std::uint32_t> first_influence;  // per vertex, plus one; empty: no vertex follows a joint
     std::vector<Influence> influences;
     std::vector<Target> targets;
-    std::vector<math::Aabb> joint_bounds_ms;  // up to the last joint of a vertex: those at rest that triangles have
+    /// At rest, up to the last joint that a vertex follows; only vertices with a triangle count.
+    std::vector<math::Aabb> joint_bounds_ms;
 
     bool has_skin() const { return !first_influence.empty(); }
 };
 
-/// What bends a mesh now. Matrices take its own space at rest to where the bent mesh is wanted; one per joint of the
-/// skin. Weights: one per target, those left out count as 0.
+/// Current pose of a mesh. `joints`: one matrix per joint of the skin, from mesh space at rest to the space of the
+/// result. `weights`: one per target; missing ones count as 0.
 struct MeshPose {
     std::span<const glm::dmat4x3> joints;
     std::span<const float> weights;
 };
 
-/// Bounds of the joints' and targets' vertices, those that no triangle has left out. Call once all else is filled in.
+/// Computes the bounds of joints and targets, over vertices with a triangle. Call it last, after filling in all other
+/// fields.
 void measure(Deformer& deformer, const Mesh& mesh);
 
-/// The mesh's vertices in the pose, in double, rounded once. `pose.joints` may be empty if the mesh follows none.
+/// Computes the mesh's vertices in the pose, in double, rounded once. `pose.joints` may be empty if the mesh has no
+/// skin.
 void deform(const Mesh& mesh, const MeshPose& pose, std::vector<Vertex>& out);
 
-/// A box that holds every vertex that deform() gives for the pose, those that no triangle has left out. It costs a box
-/// per joint: a point that follows several lies between where each of them alone would take it.
+/// Computes a box around every vertex of deform() that has a triangle. Costs one box per joint. Conservative: a vertex
+/// that follows several joints lies between the places where each joint alone would take it.
 math::Aabb posed_bounds(const Mesh& mesh, const MeshPose& pose);
 
-/// A bound on how far any vertex is from one pose to the other, those that no triangle has left out; at the cost of
-/// posed_bounds(). Both have as many joints.
+/// Bounds the distance that any vertex with a triangle moves between two poses. Costs the same as posed_bounds(). Both
+/// poses have equally many joints.
 double farthest_bend_m(const Mesh& mesh, const MeshPose& before, const MeshPose& after);
 
-/// Whether the pose turns the mesh inside out, as a mirror does: every joint that a vertex follows does (all), or some.
+/// Result of testing a pose for mirroring, which turns a mesh inside out. `all`: every joint that a vertex follows
+/// mirrors; `some`: only a part of them.
 enum class Mirroring : std::uint8_t { none, some, all };
 Mirroring mirroring(const Mesh& mesh, const MeshPose& pose);
 

@@ -58,7 +58,7 @@ std::size_t column_pitch(const tinygltf::Accessor& accessor) {
     return (column + kColumnAlignment - 1) / kColumnAlignment * kColumnAlignment;
 }
 
-/// Bytes that one element covers, without any padding behind its last column.
+/// Returns the bytes of one element, without padding after its last column.
 std::size_t element_bytes(const tinygltf::Accessor& accessor) {
     const ElementLayout layout = element_layout(accessor.type);
     return (layout.columns - 1) * column_pitch(accessor) + layout.rows * component_bytes(accessor.componentType);
@@ -77,13 +77,14 @@ void validate_view(Document& document, std::size_t i) {
     if (view.byteLength == 0)
         document.take("buffer_view.empty", pointer("bufferViews", i, "byteLength"), "is 0, taken as a view of nothing");
     const BufferData& buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
-    if (!buffer.available) return;  // an error as soon as something reads it
+    if (!buffer.available) return;  // an error when something reads it
     if (view.byteOffset > buffer.bytes.size() || view.byteLength > buffer.bytes.size() - view.byteOffset) {
         fail("buffer_view.out_of_range", pointer("bufferViews", i), "reaches past the end of its buffer");
     }
 }
 
-/// `count` elements of `size` bytes every `stride` bytes from `offset` on, in a view of `length` bytes. count > 0.
+/// Returns true if `count` > 0 elements of `size` bytes fit into a view of `length` bytes. They start at `offset`,
+/// every `stride` bytes.
 bool fits(std::size_t length, std::size_t offset, std::size_t count, std::size_t stride, std::size_t size) {
     if (offset > length || size > length - offset) return false;
     return count - 1 <= (length - offset - size) / stride;
@@ -165,7 +166,7 @@ T load(const std::byte* from) {
     return value;
 }
 
-/// Calls `use(T{})` with the type that `component_type` names.
+/// Calls `use(T{})` with the type of `component_type`.
 template <class Use>
 void with_component(int component_type, Use&& use) {
     switch (component_type) {

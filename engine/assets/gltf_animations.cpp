@@ -16,13 +16,13 @@ namespace {
 
 using nlohmann::json;
 
-/// What the target's path says, and the shape that its values must have.
+/// Property of a target path, and the shape of its values.
 struct PathRow {
     std::string_view path;
     AnimatedProperty property;
-    std::uint32_t width;  // of a value; of weights it is the number of targets
-    int type;             // of the accessor
-    bool integers;        // whether normalised ones do as well
+    std::uint32_t width;  // numbers per value; weights: the number of targets
+    int type;             // accessor type
+    bool integers;        // normalised integers are allowed
 };
 constexpr PathRow kPaths[] = {
     {"translation", AnimatedProperty::translation, 3, TINYGLTF_TYPE_VEC3, false},
@@ -37,7 +37,7 @@ const PathRow* row_of(const std::string& path) {
     return found == std::end(kPaths) ? nullptr : found;
 }
 
-/// glTF 2.0, 3.11: of these kinds numbers are normalised.
+/// Returns true if the accessor's numbers are normalised (glTF 2.0, 3.11).
 bool is_normalised(const tinygltf::Accessor& accessor) {
     return accessor.normalized && accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
@@ -128,8 +128,8 @@ private:
     Document& document_;
     const std::vector<std::int32_t>& scene_nodes_;
     SceneData& scene_;
-    std::string where_;                                          // the channel at hand
-    std::set<std::pair<std::int32_t, AnimatedProperty>> moved_;  // by the animation at hand
+    std::string where_;                                          // current channel
+    std::set<std::pair<std::int32_t, AnimatedProperty>> moved_;  // targets of the current animation
 };
 
 }  // namespace

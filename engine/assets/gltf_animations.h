@@ -7,10 +7,9 @@
 
 namespace gnomon::assets::gltf {
 
-/// Fills scene.animations, one per glTF animation, in order. Needs nodes with their skins; `scene_nodes` as
-/// load_nodes() gave them. A channel that moves nothing of the scene is left out; so is one that says nothing usable
-/// (keys that go back in time, values of another type or number, a rotation of length 0), with a warning: what does not
-/// move is still there.
+/// Fills scene.animations, one per glTF animation, in order. Needs nodes with their skins, and `scene_nodes` from
+/// load_nodes(). Drops channels without effect on the scene. Drops unusable channels with a warning, so that the rest
+/// of the scene remains. Unusable are decreasing times, values of wrong type or number, and rotations of length 0.
 void load_animations(Document& document, const std::vector<std::int32_t>& scene_nodes, SceneData& scene);
 
 }  // namespace gnomon::assets::gltf

@@ -19,7 +19,7 @@ glm::dvec3 any_perpendicular(const glm::dvec3& axis) {
     return glm::normalize(glm::cross(axis, other));
 }
 
-/// Replaces columns that a zero scale has emptied, so that the three are a right-handed orthonormal basis.
+/// Replaces columns that a zero scale has emptied, so that the three form a right-handed orthonormal basis.
 void complete_basis(glm::dmat3& basis, const glm::dvec3& scale) {
     const bool has[3] = {scale.x != 0.0, scale.y != 0.0, scale.z != 0.0};
     const int count = int{has[0]} + int{has[1]} + int{has[2]};
@@ -38,7 +38,8 @@ void complete_basis(glm::dmat3& basis, const glm::dvec3& scale) {
     basis[lost] = glm::cross(basis[(lost + 1) % 3], basis[(lost + 2) % 3]);
 }
 
-/// Makes three columns that are square but for rounding wholly so: a column far shorter than another has its rounding.
+/// Makes three columns orthogonal that are so up to rounding. A column much shorter than another contains that one's
+/// rounding.
 void make_square(glm::dmat4& columns) {
     int order[3] = {0, 1, 2};
     const auto length = [&](int i) { return glm::length(glm::dvec3(columns[i])); };
@@ -55,7 +56,8 @@ void make_square(glm::dmat4& columns) {
 
 /// Converges quadratically; random and nearly singular matrices take at most 6 (SceneImport, sheared matrices).
 constexpr int kJacobiSweeps = 12;
-/// Of the longest column: what is shorter is rounding of a few products in double, of any direction (SceneImport).
+/// Minimum length of a column relative to the longest. Shorter ones are rounding of a few products in double, with an
+/// arbitrary direction (SceneImport).
 constexpr double kLeastColumn = 0x1p-44;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -94,14 +96,14 @@ std::optional<Trs> decompose(const glm::dmat4& matrix, const std::string& pointe
 }
 
 ShearedTrs decompose_sheared(const glm::dmat4& matrix, const std::string& pointer) {
-    // One-sided Jacobi: turns pairs of columns until all three stand square on each other (Golub and Van Loan, 8.6.3).
+    // One-sided Jacobi: rotates pairs of columns until all three are orthogonal (Golub and Van Loan, 8.6.3).
     glm::dmat4 squared = matrix;
     glm::dquat turned(1.0, 0.0, 0.0, 0.0);  // squared = matrix * turned
     for (int sweep = 0; sweep < kJacobiSweeps; ++sweep)
         for (int i = 0; i < 3; ++i) {
             const int p = i, q = (i + 1) % 3;
             const glm::dvec3 a(squared[p]), b(squared[q]);
-            // Of the two turns that do it the one below 45 degrees: the other swaps the columns, and never settles.
+            // Two rotations are possible: the one below 45 degrees converges, the other swaps the columns forever.
             const double longer = glm::dot(a, a) - glm::dot(b, b), along = 2.0 * glm::dot(a, b);
             const double twice_rad = std::atan2(longer < 0.0 ? -along : along, std::abs(longer));
             const double c = std::cos(0.5 * twice_rad), s = std::sin(0.5 * twice_rad);

@@ -14,11 +14,11 @@
 namespace gnomon::assets::gltf {
 namespace {
 
-/// Four weights stored as bytes are off by half of 1/255 each.
+/// Four weights stored as bytes are each off by half of 1/255.
 constexpr double kWeightSumTolerance = 2.0 / 255.0;
 constexpr std::size_t kPerSet = 4;
 
-/// glTF 2.0, 3.7.2.1 and KHR_mesh_quantization. `whole`: integers that are not normalised.
+/// Checks an accessor's type (glTF 2.0, 3.7.2.1 and KHR_mesh_quantization). `whole`: integers that are not normalised.
 void expect_type(const Document& document, int accessor, int type, std::initializer_list<int> integers, bool whole,
                  const std::string& where) {
     const auto& found = document.model.accessors[static_cast<std::size_t>(accessor)];
@@ -71,7 +71,7 @@ void DeformerBuilder::append(const DeformingSource& source, std::size_t count, c
     vertices_ += count;
 }
 
-/// Vertices of primitives without joints in a mesh that has them elsewhere.
+/// Appends vertices of a primitive without joints, in a mesh that has joints elsewhere.
 void DeformerBuilder::append_plain(std::size_t count) {
     for (std::size_t v = 0; v < count; ++v) {
         deformer_.first_influence.push_back(static_cast<std::uint32_t>(deformer_.influences.size()));
@@ -145,7 +145,7 @@ void DeformerBuilder::append_target(std::size_t index, const std::array<int, 2>&
     append_part(source[1], "NORMAL", target.normals);
 }
 
-/// Vertices that came before and have nothing in this part do not move by it.
+/// Pads a part with zeros for earlier vertices, which it does not move.
 void DeformerBuilder::fill_up(std::vector<glm::vec3>& part, const std::string& where) {
     document_.charge((vertices_ - part.size()) * sizeof(glm::vec3), where);
     part.resize(vertices_, glm::vec3(0.0f));

@@ -9,26 +9,26 @@
 
 namespace gnomon::assets::gltf {
 
-/// The accessors of a primitive that bend it. Primitives that share all attributes share their vertices.
+/// Accessors of a primitive that deform it. Primitives that share all attributes share their vertices.
 struct DeformingSource {
     std::vector<std::array<int, 2>> sets;     // JOINTS_n and WEIGHTS_n
-    std::vector<std::array<int, 2>> targets;  // POSITION and NORMAL, kNone where it has none
+    std::vector<std::array<int, 2>> targets;  // POSITION and NORMAL; kNone if absent
     auto operator<=>(const DeformingSource&) const = default;
 };
 
-/// Sets without weights, and the other way round, end the list with a warning.
+/// Reads the accessors of a primitive. A set of joints without weights, or the reverse, ends the list with a warning.
 DeformingSource deforming_source(Document& document, const tinygltf::Primitive& primitive, const std::string& where);
 
-/// Gathers a mesh's Deformer, block of vertices by block, in order.
+/// Builds a mesh's Deformer from blocks of vertices, in order.
 class DeformerBuilder {
 public:
     explicit DeformerBuilder(Document& document) : document_(document) {}
 
-    /// The next `count` vertices. Weights of a vertex are made to sum to 1; one without any follows its first joint.
-    /// Throws Failure on accessors that glTF does not allow here.
+    /// Appends the next `count` vertices. Normalises each vertex's weights to a sum of 1; a vertex without weights
+    /// follows its first joint. Throws Failure on accessors that glTF does not allow here.
     void append(const DeformingSource& source, std::size_t count, const std::string& where);
 
-    /// Null if nothing bends the mesh, which has all its vertices now.
+    /// Returns the result for a mesh with all vertices; null if nothing deforms it.
     std::shared_ptr<const Deformer> finish(const Mesh& mesh, const std::string& where);
 
 private:

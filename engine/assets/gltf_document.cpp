@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 5> kKnownExtensions = {"KHR_lights_punctu
                                                               "KHR_materials_unlit", "KHR_mesh_quantization",
                                                               "KHR_texture_transform"};
 
-/// All that tinygltf is shown. Nothing else is read, so nothing else can hurt.
+/// Members that tinygltf parses. Hiding all others keeps its parser away from them.
 constexpr std::array<const char*, 10> kParsedMembers = {"asset",   "accessors", "bufferViews", "meshes",
                                                         "nodes",   "materials", "textures",    "samplers",
                                                         "cameras", "extensions"};
@@ -100,13 +100,14 @@ tinygltf::Model parsed_model(const json& document) {
         const auto found = document.find(member);
         if (found != document.end()) shown[member] = *found;
     }
-    // tinygltf refuses index accessors without a buffer view (all zero, which glTF allows); the loader reads them raw.
+    // tinygltf rejects index accessors without a buffer view, which glTF allows (all zero). The loader reads indices
+    // itself.
     if (shown.contains("meshes")) {
         for (json& mesh : shown["meshes"]) {
             for (json& primitive : mesh["primitives"]) primitive.erase("indices");
         }
     }
-    // It also refuses strides that are merely outside the letter.
+    // tinygltf also rejects strides that only violate the specification's wording.
     const json views = shown.value("bufferViews", json::array());
     for (std::size_t i = 0; i < views.size(); ++i) shown["bufferViews"][i].erase("byteStride");
     const std::string text = shown.dump();

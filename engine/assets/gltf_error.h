@@ -7,18 +7,17 @@
 
 namespace gnomon::assets::gltf {
 
-/// Thrown inside the loader only; load_gltf turns it into a Result.
+/// Exception inside the loader only; load_gltf turns it into a Result.
 struct Failure {
     Error error;
 };
 
 [[noreturn]] void fail(std::string rule, std::string pointer, std::string message);
 
-/// A warning's line about what is outside the letter of the format and was taken all the same, as an error's line has
-/// it.
+/// Formats the warning for an accepted violation of the format, in the form of an error's line.
 std::string taken(std::string rule, std::string pointer, std::string message);
 
-/// JSON pointer from keys and indices: pointer("accessors", 3, "sparse") is "/accessors/3/sparse".
+/// Builds a JSON pointer from keys and indices: pointer("accessors", 3, "sparse") gives "/accessors/3/sparse".
 template <class... Parts>
 std::string pointer(const Parts&... parts) {
     std::string text;
@@ -34,7 +33,7 @@ std::string pointer(const Parts&... parts) {
     return text;
 }
 
-/// Text from a file, fit for a one-line message: printable ASCII, shortened.
+/// Makes text from a file fit for a one-line message: printable ASCII, shortened.
 std::string printable(std::string_view text);
 
 }  // namespace gnomon::assets::gltf

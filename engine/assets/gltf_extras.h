@@ -6,11 +6,11 @@
 
 namespace gnomon::assets::gltf {
 
-/// Reads the project's own `extras`. Other people's extras may use the same names: a value that does not fit is
-/// ignored with a warning, never an error.
+/// Reads the project's own `extras`. Extras of other tools may use the same names. Hence a value of wrong type is
+/// ignored with a warning and never an error.
 class ExtrasReader {
 public:
-    /// `owner` is the JSON object that may hold "extras"; `pointer` names it.
+    /// Takes the JSON object that may have "extras"; `pointer` is its place in the file.
     ExtrasReader(Document& document, const nlohmann::json& owner, std::string pointer);
 
     bool boolean(const char* key, bool fallback) const;

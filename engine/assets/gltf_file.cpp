@@ -34,7 +34,7 @@ bool is_inside(const std::filesystem::path& target, const std::filesystem::path&
     return in_folder == folder.end();
 }
 
-/// The text without the zeros that some writers fill the chunk up with, where the letter has spaces.
+/// Strips zeros that some writers use as padding, where the specification has spaces.
 std::string_view without_zeros(std::string_view json, Notes& notes) {
     const std::size_t end = json.find_last_not_of('\0');
     if (end == std::string_view::npos || end + 1 == json.size()) return json;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// The door: bytes from disk and from URIs, GLB framing, JSON depth. Everything here throws Failure.
+/// Input of the loader: bytes from disk and URIs, GLB framing, JSON depth. Every function here throws Failure.
 namespace gnomon::assets::gltf {
 
 using Bytes = std::vector<std::byte>;
@@ -16,20 +16,20 @@ Bytes read_file(const std::filesystem::path& file, std::size_t max_bytes, const 
 
 using Notes = std::vector<std::string>;  // lines of taken() (gltf_error.h)
 
-/// The file that a relative URI names, inside `folder` after all links are followed: the first of the URI's readings
-/// that exists. A reading other than the letter's is noted.
+/// Resolves a relative URI to a file inside `folder`, after following all links. Takes the first reading of the URI
+/// that exists, and notes it if it is not the standard one.
 std::filesystem::path resolve_uri(std::string_view uri, const std::filesystem::path& folder, const std::string& pointer,
                                   Notes& notes);
 
-/// One way to read a relative URI as a path. `rule` is null where it is the letter's.
+/// Reading of a relative URI as a path. `rule` is null for the standard reading.
 struct UriReading {
-    std::filesystem::path path;  // normal, inside the folder as far as its text says
+    std::filesystem::path path;  // normalised, lexically inside the folder
     const char* rule = nullptr;
     const char* message = nullptr;
 };
 
-/// The readings of a relative URI, the letter's first: with escapes decoded or left, with or without what follows a
-/// '?' or '#', with '\\' or '/'. No scheme, not absolute, no ".." that leaves the folder, no control characters.
+/// Returns the readings of a relative URI, the standard one first. Variants: escapes decoded or not, text after '?' or
+/// '#' kept or not, '\\' or '/'. Rejects schemes, absolute paths, ".." that leaves the folder, and control characters.
 std::vector<UriReading> readings_of_uri(std::string_view uri, const std::string& pointer);
 
 bool is_data_uri(std::string_view uri);
@@ -37,7 +37,7 @@ Bytes decode_data_uri(std::string_view uri, const std::string& pointer);
 
 struct Framing {
     std::string_view json;
-    std::span<const std::byte> binary;  // the BIN chunk
+    std::span<const std::byte> binary;  // BIN chunk
     bool has_binary = false;
     Notes notes;
 };

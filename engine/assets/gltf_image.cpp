@@ -8,7 +8,8 @@
 
 namespace {
 
-// stb_image grows its buffers as the compressed stream asks; a small file may ask for gigabytes.
+// Limits allocations. stb_image grows its buffers with the compressed stream, so that a small file can demand
+// gigabytes.
 void* bounded_malloc(std::size_t bytes) {
     return bytes <= gnomon::assets::gltf::kMaxImageAllocation ? std::malloc(bytes) : nullptr;
 }
@@ -18,7 +19,7 @@ void* bounded_realloc(void* block, std::size_t bytes) {
 
 }  // namespace
 
-// A private copy: only the two formats of glTF, no files, no shared state with other users of the library.
+// Private copy of stb_image: only the two formats of glTF, no files, no state shared with other users of the library.
 #define STBI_MALLOC(size) bounded_malloc(size)
 #define STBI_REALLOC(block, size) bounded_realloc(block, size)
 #define STBI_FREE(block) std::free(block)
@@ -27,7 +28,7 @@ void* bounded_realloc(void* block, std::size_t bytes) {
 #define STBI_NO_STDIO
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
-// The casts in front of our allocator's macros count as this file's code, not the system header's.
+// The casts in the allocator macros count as this file's code, not the system header's.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wold-style-cast"
 #include <stb_image.h>

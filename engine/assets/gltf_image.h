@@ -16,10 +16,10 @@ struct ImageSize {
     std::uint32_t width = 0, height = 0;  // 0 if the bytes are no PNG or JPEG within the limits
 };
 
-/// Reads the header only. `reason` says why the size is 0.
+/// Reads only the header. `reason` explains a size of 0.
 ImageSize image_size(std::span<const std::byte> bytes, std::string& reason);
 
-/// Decodes PNG or JPEG. Empty on failure, with `reason` set.
+/// Decodes PNG or JPEG. Returns an empty image on failure and sets `reason`.
 DecodedImage decode_image(std::span<const std::byte> bytes, std::string& reason);
 
 }  // namespace gnomon::assets::gltf

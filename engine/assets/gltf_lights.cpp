@@ -12,9 +12,9 @@
 namespace gnomon::assets::gltf {
 namespace {
 
-/// In double, and with the tolerance of a float: files write pi/2 rounded to a float, which is above pi/2.
+/// Largest outer cone angle, in double with the tolerance of a float: files round pi/2 to a float, which is above pi/2.
 constexpr double kLargestCone_rad = glm::half_pi<double>() * (1.0 + 1e-7);
-/// What a perspective camera begins at whose file says 0 or less: a hundredth of what is usual in files in metres.
+/// Near plane of a perspective camera with 0 or less in its file: a hundredth of the usual value in files in metres.
 constexpr double kTakenNear_m = 1.0e-3;
 
 class LightReader {
@@ -85,7 +85,7 @@ private:
     LightData light_;
 };
 
-/// Width by height of the frame; 0 with a warning if the file's is none.
+/// Returns width by height of the frame; 0 with a warning if the file's value is invalid.
 double frame_aspect(Document& document, double aspect, const std::string& where) {
     if (aspect > 0.0 && std::isfinite(aspect)) return aspect;
     document.take("camera.aspect", where, "is no ratio above 0, taken as the picture's");

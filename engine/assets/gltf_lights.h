@@ -7,12 +7,12 @@
 
 namespace gnomon::assets::gltf {
 
-/// Fills scene.lights from KHR_lights_punctual, one each, in order. Values that make no light are taken as the nearest
-/// that do, with a warning; numbers beyond a float throw Failure.
+/// Fills scene.lights from KHR_lights_punctual, one each, in order. Invalid values become the nearest valid ones, with
+/// a warning. Numbers beyond a float throw Failure.
 void load_lights(Document& document, SceneData& scene);
 
-/// Fills scene.cameras, in order, but for those whose values make no camera: these are left out, with a warning.
-/// Returns which of scene.cameras each glTF camera became; kNone for those left out.
+/// Fills scene.cameras, in order. Drops invalid cameras with a warning. Returns for each glTF camera its index in
+/// scene.cameras; kNone for dropped ones.
 std::vector<std::int32_t> load_cameras(Document& document, SceneData& scene);
 
 }  // namespace gnomon::assets::gltf

@@ -38,7 +38,7 @@ SceneData load_scene(std::span<const std::byte> bytes, const std::filesystem::pa
     return scene;
 }
 
-/// The only place where the loader's exceptions, and those of its libraries, end.
+/// Runs the loader and turns all exceptions, including those of its libraries, into an Error.
 template <class Load>
 Result<SceneData> guarded(const std::string& file, Load&& load) {
     Error error;

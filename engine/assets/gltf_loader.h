@@ -9,12 +9,12 @@
 
 namespace gnomon::assets {
 
-/// Loads a .gltf or .glb file with everything it names. Nothing outside the asset's folder is read.
-/// The result is validated: every index in range, every number finite, every node reached once.
-/// On error nothing is kept; the error names file, JSON pointer and rule.
+/// Loads a .gltf or .glb file with everything it names. Reads nothing outside the asset's folder. The result is
+/// validated: every index in range, every number finite, every node reached once. On error nothing is kept; the error
+/// names file, JSON pointer and rule.
 Result<SceneData> load_gltf(const std::filesystem::path& file);
 
-/// The same from memory (fuzzing, embedded scenes). `base_folder` resolves relative URIs; empty: URIs are errors.
+/// Loads from memory (fuzzing, embedded scenes). `base_folder` resolves relative URIs; if empty, URIs are errors.
 Result<SceneData> load_gltf_memory(std::span<const std::byte> bytes, const std::filesystem::path& base_folder,
                                    const std::string& name);
 

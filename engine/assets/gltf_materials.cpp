@@ -32,14 +32,14 @@ float unit_float(Document& document, double value, const std::string& pointer) {
     return static_cast<float>(clamped);
 }
 
-/// Takes a negative number as 0.
+/// Replaces a negative number by 0 with a warning.
 double not_negative(Document& document, double value, const std::string& pointer) {
     if (value >= 0.0) return value;
     document.take("material.negative", pointer, "is negative, taken as 0");
     return 0.0;
 }
 
-/// Bytes of an image. Throws Failure, which the caller turns into a warning.
+/// Reads the bytes of an image. Throws Failure, which the caller turns into a warning.
 Bytes image_bytes(Document& document, const json& image, const std::string& where) {
     const auto uri = image.find("uri");
     if (uri != image.end()) {
@@ -66,7 +66,7 @@ class TextureLoader {
 public:
     TextureLoader(Document& document, SceneData& scene) : document_(document), scene_(scene) {}
 
-    /// Index into scene.textures, or kNone with a warning. Each glTF texture is decoded once.
+    /// Returns the index in scene.textures; kNone with a warning on failure. Decodes each glTF texture once.
     std::int32_t load(int texture) {
         const auto known = loaded_.find(texture);
         if (known != loaded_.end()) return known->second;
@@ -125,7 +125,7 @@ private:
     std::map<int, std::int32_t> loaded_;
 };
 
-/// KHR_texture_transform of a texture info: uv' = translation * rotation * scale * uv.
+/// Reads the KHR_texture_transform of a texture info: uv' = translation * rotation * scale * uv.
 void read_uv_transform(const json& info, const std::string& where, UvSource& source) {
     const auto extensions = info.find("extensions");
     if (extensions == info.end() || !extensions->is_object()) return;
@@ -145,7 +145,7 @@ void read_uv_transform(const json& info, const std::string& where, UvSource& sou
     const double rotation_rad = angle != found->end() && angle->is_number() ? angle->get<double>() : 0.0;
     const double c = std::cos(rotation_rad);
     const double s = std::sin(rotation_rad);
-    // Columns; a positive angle turns counter-clockwise with v pointing down, as the extension defines it.
+    // Columns. A positive angle rotates counter-clockwise with v pointing down, as the extension defines it.
     source.transform =
         glm::mat3x2(glm::vec2(c * scale.x, -s * scale.x), glm::vec2(s * scale.y, c * scale.y), glm::vec2(offset));
     for (int column = 0; column < 3; ++column) {

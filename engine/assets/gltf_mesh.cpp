@@ -18,10 +18,10 @@
 namespace gnomon::assets::gltf {
 namespace {
 
-/// Primitives that share all of this share their vertices.
+/// Accessors of a primitive's vertices. Primitives that share all of them share their vertices.
 struct VertexSource {
     int position = kNone, normal = kNone, uv = kNone, colour = kNone;  // accessors
-    int material = kNone;  // where it transforms texture coordinates, else kNone
+    int material = kNone;  // if it transforms texture coordinates, otherwise kNone
     DeformingSource deforming;
     auto operator<=>(const VertexSource&) const = default;  // NOLINT(modernize-use-nullptr): clang-tidy 14 misreads <=>
 };
@@ -35,7 +35,7 @@ int attribute_of(const tinygltf::Primitive& primitive, const std::string& name) 
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-/// glTF 2.0 table 3.7.2.1 and KHR_mesh_quantization table "extended attribute types".
+/// Tests an attribute's type (glTF 2.0, table 3.7.2.1; KHR_mesh_quantization, "extended attribute types").
 bool is_allowed(const tinygltf::Accessor& accessor, int type, std::initializer_list<int> core, bool quantized) {
     if (accessor.type != type) return false;
     if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return true;
@@ -95,7 +95,7 @@ private:
         return mesh;
     }
 
-    /// Moves the mesh nearer to its own origin if it lies too far away for floats.
+    /// Moves the mesh closer to its own origin if it lies too far away for floats.
     MeshPlace place_of(const tinygltf::Mesh& source, Mesh& mesh, const std::string& where) {
         MeshPlace place = near_origin(mesh);
         if (place == MeshPlace{}) return place;
@@ -169,7 +169,7 @@ private:
     std::uint32_t material_of(const tinygltf::Primitive& primitive) {
         if (primitive.material >= 0) return static_cast<std::uint32_t>(primitive.material);
         const std::size_t file_materials = document_.model.materials.size();
-        if (scene_.materials.size() == file_materials) scene_.materials.emplace_back();  // the default material
+        if (scene_.materials.size() == file_materials) scene_.materials.emplace_back();  // default material
         return static_cast<std::uint32_t>(file_materials);
     }
 
@@ -204,7 +204,7 @@ private:
         return document_.model.accessors[static_cast<std::size_t>(accessor)];
     }
 
-    /// An attribute that a mesh can do without. Empty, with a warning, where its accessor is not as glTF has it.
+    /// Reads an optional attribute. Returns nothing, with a warning, if its accessor violates the specification.
     std::vector<float> optional_floats(int accessor, const char* name, bool is_right, std::size_t count,
                                        bool normalised = false) {
         const std::string where = where_ + "/attributes/" + name;
@@ -290,7 +290,7 @@ private:
         warn_of_no_number(no_number, "TEXCOORD", "0");
     }
 
-    /// Makes colours of the whole mesh as soon as one primitive has any. Vertices without are white.
+    /// Reads colours. Once one primitive has colours the whole mesh has them; other vertices are white.
     void read_colours(int accessor, Mesh& mesh, const VertexBlock& block) {
         if (!mesh.colours.empty()) mesh.colours.resize(mesh.vertices.size(), glm::vec4(1.0f));
         if (accessor < 0) return;
@@ -324,11 +324,11 @@ private:
     bool quantized_;
     std::size_t triangles_ = 0;
     std::string where_;
-    std::map<VertexSource, VertexBlock> blocks_;  // of the mesh at hand
+    std::map<VertexSource, VertexBlock> blocks_;  // current mesh
     std::vector<bool> missing_normals_;
-    std::vector<bool> nowhere_;  // vertices that are no numbers; may be shorter
+    std::vector<bool> nowhere_;  // vertices that are not finite; may be shorter
     std::vector<MeshPlace> places_;
-    DeformerBuilder* deformer_ = nullptr;  // of the same mesh
+    DeformerBuilder* deformer_ = nullptr;  // current mesh
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace {
 
 double largest_of(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// The middle of the range, rounded to a step of its floats; 0 where the range is not as far from 0 as it is long.
-/// So differences to it are exact in float: of numbers within a factor of two on one side of 0 (Sterbenz), as steps go.
+/// Returns the middle of a range, rounded to a step of its floats; 0 if the range is longer than its distance from 0.
+/// Differences to it are then exact in float (Sterbenz): both numbers are within a factor of two on the same side of 0.
 double middle_of(double least, double most) {
     const double nearest = std::min(std::abs(least), std::abs(most)),
                  farthest = std::max(std::abs(least), std::abs(most));

@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Parents of all nodes of the file; a second parent or a cycle is an error.
+/// Returns the parents of all nodes of the file; a second parent or a cycle is an error.
 std::vector<int> parents_of(const Document& document) {
     const auto& nodes = document.model.nodes;
     std::vector<int> parents(nodes.size(), kNone);
@@ -28,7 +28,7 @@ std::vector<int> parents_of(const Document& document) {
             parent = static_cast<int>(i);
         }
     }
-    // With one parent each, a walk upward ends at a root or runs in a circle. Nodes seen by an earlier walk end it.
+    // With one parent each, a walk upward ends at a root or is a cycle. Nodes visited by an earlier walk end it.
     std::vector<std::size_t> seen_by(nodes.size(), 0);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const std::size_t walk = i + 1;
@@ -42,7 +42,7 @@ std::vector<int> parents_of(const Document& document) {
     return parents;
 }
 
-/// Whether one of the nearest kMaxNodeDepth ancestors is a root: nodes that are deeper are an error in any case.
+/// Returns true if one of the nearest kMaxNodeDepth ancestors is a root. Deeper nodes are an error anyway.
 bool stands_below(std::size_t node, const std::vector<bool>& is_root, const std::vector<int>& parents) {
     int at = parents[node];
     for (std::size_t depth = 0; at != kNone && depth < kMaxNodeDepth; ++depth) {
@@ -76,14 +76,14 @@ std::vector<int> roots_of(Document& document, const std::vector<int>& parents) {
             continue;
         }
         seen[root] = true;
-        // Widely used models do this; like other readers we show the node without what stands above it.
+        // Widely used models do this. Like other loaders, the node is shown without its ancestors.
         if (parents[root] != kNone) document.warn(where + ": the node has a parent, which is left out");
         roots.push_back(static_cast<int>(root));
     }
     return roots;
 }
 
-/// What a node says of its place. `inner` turns before all else, where the node's matrix shears.
+/// Place of a node. `inner` is a rotation applied first, for a matrix with shear.
 struct Place {
     Trs trs;
     std::optional<glm::dquat> inner = std::nullopt;
@@ -191,7 +191,7 @@ private:
         if (mesh_node) add(std::move(*mesh_node), where);
     }
 
-    /// The node below `node`, which it becomes next, that has its mesh and places that.
+    /// Moves the mesh of `node` to a new node below it, which carries the mesh's place. Returns the new node.
     Node take_mesh(Node& node) const {
         const MeshPlace& place = places_[static_cast<std::size_t>(node.mesh)];
         Node below;
@@ -255,12 +255,12 @@ private:
     }
 
     Document& document_;
-    const std::vector<std::int32_t>& cameras_;  // per glTF camera, of scene_.cameras
+    const std::vector<std::int32_t>& cameras_;  // index in scene_.cameras per glTF camera
     const std::vector<MeshPlace>& places_;      // per glTF mesh
     SceneData& scene_;
-    std::vector<std::int32_t> became_;              // per glTF node
-    std::vector<glm::dmat4> worlds_;                // of scene_.nodes
-    std::map<std::size_t, std::int32_t> variants_;  // light -> its copy with the other casts_shadow
+    std::vector<std::int32_t> became_;              // index in scene_.nodes per glTF node
+    std::vector<glm::dmat4> worlds_;                // per node of scene_.nodes
+    std::map<std::size_t, std::int32_t> variants_;  // light -> its copy with the opposite casts_shadow
 };
 
 }  // namespace

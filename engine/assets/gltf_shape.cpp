@@ -20,12 +20,12 @@ using nlohmann::json;
 enum class Kind : std::uint8_t { object, list, text, boolean, number, integer, numbers, reference, choice };
 enum class Need : std::uint8_t { optional, required };
 
-/// One property. `path` is a JSON pointer in which * stands for every element or member.
+/// Rule for one property. `path` is a JSON pointer with * for every element or member.
 struct Row {
     std::string_view path;
     Kind kind;
     Need need = Need::optional;
-    std::size_t size = 0;          // list: most elements; numbers: exact length; integer: largest value
+    std::size_t size = 0;          // list: maximum length; numbers: exact length; integer: largest value
     std::string_view target = {};  // reference: the collection; choice: the words, each between bars
 };
 
@@ -34,7 +34,7 @@ constexpr std::size_t kMaxSize = std::size_t{1} << 53;  // exact in a double
 constexpr auto kRequired = Need::required;
 constexpr auto kOptional = Need::optional;
 
-// Parents stand before their members, so that the first complaint is the plainest.
+// Parents come before their members, so that the first error is the clearest.
 constexpr Row kRows[] = {
     {"/asset", Kind::object, kRequired},
     {"/asset/version", Kind::text, kRequired},
@@ -208,14 +208,14 @@ private:
         return list.is_array() ? list.size() : 0;
     }
 
-    /// `rest` is empty or begins with '/'. Recursion ends with the row's path.
+    /// Follows the row's path below `value`. `rest` is empty or begins with '/'. Recursion ends with the path.
     void walk(json& value, std::string_view rest) {
         if (rest.empty()) return check_value(value);
         const std::size_t end = std::min(rest.find('/', 1), rest.size());
         const std::string key{rest.substr(1, end - 1)};
         const std::string_view next = rest.substr(end);
         if (key == "*") return walk_all(value, next);
-        if (!value.is_object()) return;  // its own row has complained, or nothing reads it
+        if (!value.is_object()) return;  // its own row has reported it, or nothing reads it
         const auto member = value.find(key);
         if (member != value.end()) return step(member.value(), key, next);
         if (next.empty() && row_->need == Need::required) {
@@ -320,10 +320,10 @@ private:
 
 // glTF 2.0 table 3.6.2.2: BYTE, UNSIGNED_BYTE, SHORT, UNSIGNED_SHORT, UNSIGNED_INT, FLOAT.
 constexpr int kComponentTypes[] = {5120, 5121, 5122, 5123, 5125, 5126};
-// glTF 2.0 section 5.11.4; 0 stands for "tightly packed" in files that exist.
+// glTF 2.0, section 5.11.4. Some files use 0 for "tightly packed".
 constexpr std::size_t kStrideStep = 4, kMaxStride = 252;
 
-/// What no row can say: of the following, tinygltf would refuse all but animations, without saying where.
+/// Checks rules between properties, which no row covers. tinygltf rejects most of these without naming the place.
 void check_across(json& document, Notes& notes) {
     const json none = json::array();
     const auto list = [&](const char* where) -> const json& {

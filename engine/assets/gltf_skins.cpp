@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    /// Without joints if some of them are not in the scene.
+    /// Reads a skin; without joints if some joints are not in the scene.
     Skin skin_of(const json& raw, const std::string& where) {
         Skin skin;
         skin.name = raw.contains("name") && raw["name"].is_string() ? raw["name"].get<std::string>() : "";
@@ -96,7 +96,7 @@ private:
                      std::to_string(skin.joints.size()));
     }
 
-    /// The mesh that this node alone places, or the still one that it shares.
+    /// Returns a mesh that only this node uses, or the rigid copy that nodes share.
     std::int32_t own_mesh(std::int32_t mesh, bool skinned, const std::string& where) {
         const auto at = static_cast<std::size_t>(mesh);
         const bool still = !skinned && scene_.meshes[at].deformer->targets.empty();
@@ -128,7 +128,7 @@ private:
         return std::make_shared<const Deformer>(std::move(deformer));
     }
 
-    /// The node's own, else its mesh's, else 0.
+    /// Returns the node's own weights, otherwise its mesh's, otherwise 0.
     std::vector<float> weights_of(const json& node, const json& mesh, std::size_t targets, const std::string& where) {
         std::vector<float> weights;
         const json& from = node.contains("weights") ? node : mesh;
@@ -149,8 +149,8 @@ private:
     Document& document_;
     const std::vector<std::int32_t>& scene_nodes_;
     SceneData& scene_;
-    std::vector<bool> placed_;         // per glTF mesh: a node has it for itself
-    std::vector<std::int32_t> still_;  // per glTF mesh: its copy that does not bend
+    std::vector<bool> placed_;         // per glTF mesh: a node uses it exclusively
+    std::vector<std::int32_t> still_;  // per glTF mesh: its rigid copy
 };
 
 }  // namespace

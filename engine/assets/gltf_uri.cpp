@@ -21,7 +21,7 @@ int hex_digit(char c) {
     return kNotADigit;
 }
 
-/// Decodes %XX. A '%' without two digits behind it stays as it is, and `broken` says so.
+/// Decodes %XX. A '%' without two digits stays unchanged and sets `broken`.
 std::string percent_decoded(std::string_view text, bool& broken) {
     std::string decoded;
     decoded.reserve(text.size());
@@ -43,7 +43,7 @@ std::string percent_decoded(std::string_view text, bool& broken) {
     return decoded;
 }
 
-/// The same for data, where a broken escape is an error.
+/// Decodes %XX in data, where a broken escape is an error.
 std::string data_decoded(std::string_view text, const std::string& pointer) {
     bool broken = false;
     std::string decoded = percent_decoded(text, broken);
@@ -60,7 +60,7 @@ bool has_scheme(std::string_view uri) {
     return false;
 }
 
-/// Whether ".." leads above where the path begins, at any of its steps, whichever way they are separated.
+/// Returns true if ".." leads above the path's start at any step, with either separator.
 bool leaves_folder(std::string_view path) {
     int depth = 0;
     std::size_t begin = 0;

@@ -6,14 +6,14 @@
 namespace gnomon::assets {
 namespace {
 
-/// A half-edge in the bucket of its smaller vertex.
+/// Half-edge in the bucket of its smaller vertex.
 struct Entry {
     std::uint32_t larger_vertex = 0;
     std::uint32_t half_edge = 0;
 };
 
 struct Buckets {
-    std::vector<std::size_t> begin;  // vertex_count + 1
+    std::vector<std::size_t> begin;  // vertex_count + 1 entries
     std::vector<Entry> entries;
 };
 

@@ -5,7 +5,7 @@
 
 namespace gnomon::assets {
 
-/// The meshes, materials and textures that MeshRef components name. Fixed once handed to a GpuScene.
+/// Meshes, materials and textures that MeshRef components refer to. Fixed once a GpuScene has it.
 struct MeshLibrary {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // Submesh::material indexes this

@@ -7,14 +7,15 @@
 namespace gnomon::assets {
 namespace {
 
-/// Angle at `corner` between the directions to the two others, well conditioned near 0 and pi.
+/// Computes the angle at `corner` between the other two, well conditioned near 0 and pi.
 double angle_at(const glm::dvec3& corner, const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 to_a = a - corner;
     const glm::dvec3 to_b = b - corner;
     return std::atan2(glm::length(glm::cross(to_a, to_b)), glm::dot(to_a, to_b));
 }
 
-/// Faces that face each other cancel to rounding noise: 2^-53 per addition, for up to a thousand faces at a vertex.
+/// Length below which a sum of weighted normals is rounding noise of opposite faces, relative to the sum of weights.
+/// 2^-53 per addition, for up to a thousand faces at a vertex.
 constexpr double kCancelled = 1e-13;
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 namespace gnomon::assets {
 
-/// A tree of boxes around the mesh's triangles, for Mesh::shape. Null without triangles.
+/// Builds a tree of boxes around the mesh's triangles, for Mesh::shape. Null without triangles.
 std::shared_ptr<const math::ShapeTree> shape_of(const Mesh& mesh);
 
 }  // namespace gnomon::assets

@@ -35,7 +35,8 @@ private:
     std::vector<std::uint32_t> parent_;
 };
 
-/// The product of two floats is exact in double, so collinear corners on a common grid give exactly zero.
+/// Returns true if the triangle has area. The product of two floats is exact in double, so that collinear corners on a
+/// common grid give exactly zero.
 bool has_area(const Mesh& mesh, std::size_t first_index) {
     const glm::dvec3 a(mesh.vertices[mesh.indices[first_index]].position_ms);
     const glm::dvec3 b(mesh.vertices[mesh.indices[first_index + 1]].position_ms);
@@ -43,8 +44,8 @@ bool has_area(const Mesh& mesh, std::size_t first_index) {
     return glm::cross(b - a, c - a) != glm::dvec3(0.0);
 }
 
-/// Faces with three different welded vertices, and the triangle of the list that each is. A sliver without area stays:
-/// it closes a gap that only rounding opened.
+/// Faces with three different welded vertices, and their indices in the triangle list. Slivers without area stay: they
+/// close gaps that only rounding opened.
 struct ProperFaces {
     std::vector<WeldedFace> faces;
     std::vector<std::uint32_t> triangles;
@@ -65,16 +66,16 @@ ProperFaces proper_faces(const Mesh& mesh, const std::vector<std::uint32_t>& wel
     return proper;
 }
 
-/// Zero area or repeated vertices.
+/// Counts triangles with zero area or repeated vertices.
 std::uint32_t degenerate_faces(const Mesh& mesh, const ProperFaces& proper) {
     auto count = static_cast<std::uint32_t>(mesh.indices.size() / 3 - proper.faces.size());
     for (const std::uint32_t triangle : proper.triangles) count += has_area(mesh, std::size_t{3} * triangle) ? 0 : 1;
     return count;
 }
 
-/// The cut mesh as OpenMesh connectivity. OpenMesh's add_face refuses what is not manifold and searches around the
-/// vertices of each face, which takes quadratic time at a vertex of many faces; here the pairing is known, nothing is
-/// left to refuse, and linking is linear.
+/// Cut mesh as OpenMesh connectivity. OpenMesh's add_face rejects non-manifold faces and searches around each vertex,
+/// in quadratic time at a vertex of many faces. With the pairing known, nothing is left to reject, and linking is
+/// linear.
 class ManifoldBuilder {
 public:
     ManifoldBuilder(std::size_t face_count, const EdgePairing& pairing)
@@ -89,7 +90,7 @@ public:
     }
 
 private:
-    /// One vertex for each set of corners that manifold edges join around a point: a disc or half a disc.
+    /// Adds a vertex for each set of corners that manifold edges join around a point: a disc or half a disc.
     void add_vertices() {
         DisjointSets corners(handles_.size());
         for (std::uint32_t h = 0; h < handles_.size(); ++h) {
@@ -98,7 +99,7 @@ private:
         }
         vertices_.resize(handles_.size());
         for (std::uint32_t h = 0; h < handles_.size(); ++h) {
-            const std::uint32_t first = corners.find(h);  // the smallest of its set, so it has been seen
+            const std::uint32_t first = corners.find(h);  // the smallest of its set, visited before
             vertices_[h] = first == h ? mesh_.new_vertex() : vertices_[first];
         }
     }
@@ -126,7 +127,8 @@ private:
         }
     }
 
-    /// A half disc has exactly one outgoing boundary half-edge, which OpenMesh wants as the vertex's own.
+    /// Sets the outgoing half-edge of boundary vertices. A half disc has exactly one outgoing boundary half-edge, which
+    /// OpenMesh requires as the vertex's own.
     void link_boundaries() {
         for (std::uint32_t h = 0; h < handles_.size(); ++h) {
             if (pairing_.opposite[h] != kNoHalfEdge) continue;
@@ -143,7 +145,7 @@ private:
     const EdgePairing& pairing_;
     OpenMesh::TriConnectivity mesh_;
     std::vector<HalfedgeHandle> handles_;
-    std::vector<VertexHandle> vertices_;  // per half-edge: where it starts
+    std::vector<VertexHandle> vertices_;  // per half-edge: start vertex
 };
 
 std::uint32_t boundary_edges(const OpenMesh::TriConnectivity& mesh, const EdgePairing& pairing) {
@@ -153,7 +155,7 @@ std::uint32_t boundary_edges(const OpenMesh::TriConnectivity& mesh, const EdgePa
     return count - cuts;
 }
 
-/// Faces in pieces that hang together by edges, non-manifold ones included.
+/// Groups faces into components connected by edges, including non-manifold ones.
 DisjointSets face_pieces(const OpenMesh::TriConnectivity& mesh, const EdgePairing& pairing) {
     DisjointSets faces(mesh.n_faces());
     for (const auto edge : mesh.edges()) {
@@ -165,7 +167,7 @@ DisjointSets face_pieces(const OpenMesh::TriConnectivity& mesh, const EdgePairin
     return faces;
 }
 
-/// Six times the volume that each piece encloses, by its first face; negative where it is wound inward.
+/// Computes six times the enclosed volume of each component, indexed by its first face. Negative if wound inward.
 std::vector<double> volumes(const Mesh& mesh, const std::vector<std::uint32_t>& welded,
                             const std::vector<WeldedFace>& faces, DisjointSets& pieces) {
     std::vector<glm::dvec3> places(welded.size());
@@ -173,7 +175,7 @@ std::vector<double> volumes(const Mesh& mesh, const std::vector<std::uint32_t>& 
     std::vector<double> sums(faces.size(), 0.0);
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
         const std::uint32_t first = pieces.find(f);
-        const glm::dvec3& origin = places[faces[first][0]];  // of the piece itself: nothing large cancels
+        const glm::dvec3& origin = places[faces[first][0]];  // the component's own, so that nothing large cancels
         const glm::dvec3 a = places[faces[f][0]] - origin, b = places[faces[f][1]] - origin;
         sums[first] += glm::dot(a, glm::cross(b, places[faces[f][2]] - origin));
     }

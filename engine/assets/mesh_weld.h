@@ -6,8 +6,8 @@
 
 namespace gnomon::assets {
 
-/// For each vertex the number of its welded vertex: equal for identical position bits (-0 and +0 are the same),
-/// counted from 0 in order of first appearance.
+/// Returns for each vertex the number of its welded vertex, from 0 in order of first appearance. Vertices with bitwise
+/// equal positions share a number (-0 equals +0).
 std::vector<std::uint32_t> weld_by_position(const std::vector<Vertex>& vertices);
 
 }  // namespace gnomon::assets

@@ -6,7 +6,7 @@
 namespace gnomon::assets {
 namespace {
 
-/// Included triangles with three different places, and which of the list each is.
+/// Included triangles with three different positions, and their indices in the list.
 struct Included {
     std::vector<WeldedFace> faces;
     std::vector<std::uint32_t> triangles;
@@ -43,7 +43,7 @@ SurfaceEdges surface_edges(const std::vector<Vertex>& vertices, const std::vecto
             edges.folds.push_back({start_of(h), end_of(h), triangle_of(h), triangle_of(opposite), false});
         }
     }
-    // Of an edge that many triangles share the half-edges are chained: two of them make one link, alone.
+    // Half-edges of a non-manifold edge are chained; two of them form a single link.
     const auto& links = pairing.cut_neighbours;
     for (std::size_t i = 0; i < links.size();) {
         std::size_t end = i + 1;

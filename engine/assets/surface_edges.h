@@ -6,27 +6,28 @@
 
 namespace gnomon::assets {
 
-/// Where a surface may end as a light sees it. Vertices and triangles are those of a mesh's own lists.
+/// Edges at which a surface may end as seen from a light (silhouette edges). Indices refer to the mesh's own lists.
 struct SurfaceEdges {
-    /// Where it ends from everywhere: an edge of one triangle, or of more than two.
+    /// Edge that is a silhouette from everywhere: of one triangle, or of more than two.
     struct Border {
         std::uint32_t a = 0, b = 0;
         bool operator==(const Border&) const = default;
     };
-    /// Between two triangles: it ends there where the light sees the front of one and the back of the other.
+    /// Edge between two triangles: a silhouette where the light sees the front of one and the back of the other.
     struct Fold {
         std::uint32_t a = 0, b = 0;
         std::uint32_t first = 0, second = 0;
-        bool same_way = false;  // both run along it the same way, so that fronts of both are opposite sides of it
+        /// Both triangles run along it in the same direction, so that their fronts are opposite sides of it.
+        bool same_way = false;
         bool operator==(const Fold&) const = default;
     };
     std::vector<Border> borders;
     std::vector<Fold> folds;
 };
 
-/// The edges of those triangles of the list that are `included` (a flag each), by position: vertices of equal bits are
-/// one, -0 and +0 too. A triangle with two corners in one place is left out: what lies beside it meets. One of three
-/// places without area stays, and so closes a gap that only rounding opened.
+/// Finds the edges of the `included` triangles (a flag each). Vertices with bitwise equal positions count as one (-0
+/// equals +0). A triangle with two corners in one place is skipped, so that its neighbours meet. A triangle without
+/// area but with three places stays, because it closes a gap that only rounding opened.
 SurfaceEdges surface_edges(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices,
                            const std::vector<bool>& included);
 

@@ -1,4 +1,4 @@
-// Compiled only where tinygltf is a header without a library (cmake/find_libraries.cmake).
-// TINYGLTF_NO_STB_IMAGE and its like come from the build: they change the header's classes, so all its users share them.
+// Compiled only if tinygltf is a header without a library (cmake/find_libraries.cmake). The build sets
+// TINYGLTF_NO_STB_IMAGE and similar macros, because they change the header's classes and must agree in all its users.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>

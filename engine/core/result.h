@@ -5,9 +5,9 @@
 
 namespace gnomon {
 
-/// Why a load-time operation failed. `message` is one line, fit for a user.
-/// For files: `file` names it, `pointer` is the JSON pointer of the offending value ("" if none),
-/// `rule` is a stable identifier such as "accessor.out_of_range".
+/// Reason why a load-time operation failed. `message` is one line, fit for a user. `file` names the file. `pointer` is
+/// the JSON pointer of the offending value, empty if there is none. `rule` is a stable identifier such as
+/// "accessor.out_of_range".
 struct Error {
     std::string message;
     std::string file = {};
@@ -15,7 +15,7 @@ struct Error {
     std::string rule = {};
 };
 
-/// One line: file, pointer, rule and message, those that are not empty.
+/// Joins file, pointer, rule and message into one line; leaves out empty ones.
 inline std::string to_line(const Error& error) {
     std::string line;
     if (!error.file.empty()) line += error.file + ": ";
@@ -25,7 +25,7 @@ inline std::string to_line(const Error& error) {
     return line;
 }
 
-/// A value or an Error. Load time only: frame code reports through flags instead.
+/// Value or Error. For load time only: frame code reports through flags instead.
 template <class T>
 class Result {
 public:

@@ -8,8 +8,8 @@
 
 namespace gnomon {
 
-/// A number that follows from a sequence of words. Each step is one-to-one in what came before and in the word, and two
-/// multiplications carry each bit over all others: sequences that differ share a number with probability 2^-64.
+/// Hash of a sequence of 64-bit words. Each step is one-to-one in the state and in the word, and two multiplications
+/// mix every bit into all others. Different sequences collide with probability 2^-64.
 class Signature {
 public:
     void add(std::uint64_t word) {
@@ -27,7 +27,7 @@ public:
         }
     }
 
-    /// Of what was added so far; never 0.
+    /// Returns the hash of all words so far; never 0.
     std::uint64_t value() const {
         std::uint64_t v = (value_ ^ value_ >> 31) * kWordFactor;
         v = (v ^ v >> 29) * kStepFactor;
@@ -36,8 +36,8 @@ public:
     }
 
 private:
-    // Odd numbers without pattern: 2^64 over the golden ratio, and digits of pi. The rotation brings the bits that a
-    // multiplication stirred most to where the next one spreads them.
+    // Odd constants without pattern: 2^64 over the golden ratio, and digits of pi. The rotation moves the best mixed
+    // bits to where the next multiplication spreads them.
     static constexpr std::uint64_t kWordFactor = 0x9e3779b97f4a7c15ull, kStepFactor = 0x243f6a8885a308d3ull,
                                    kStepOffset = 0x13198a2e03707345ull;
     static constexpr int kRotation = 29;

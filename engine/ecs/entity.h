@@ -4,15 +4,14 @@
 
 namespace gnomon::ecs {
 
-/// An opaque, versioned entity id. A destroyed id never compares equal to a living one:
-/// its index may be reused, its version is not.
+/// Opaque, versioned entity id. A destroyed id never equals a living one: its index may be reused, its version is not.
 struct Entity {
     std::uint32_t index = 0xffffffffu;
     std::uint32_t version = 0;
     bool operator==(const Entity&) const = default;
 };
 
-/// The id of no entity. Never alive.
+/// Id of no entity. Never alive.
 inline constexpr Entity kNull{};
 
 }  // namespace gnomon::ecs

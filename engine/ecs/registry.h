@@ -10,28 +10,28 @@
 
 #include "engine/ecs/entity.h"
 
-/// A small entity registry: sparse sets, versioned ids, views, and change lists.
+/// Entity registry with sparse sets, versioned ids, views and change lists.
 namespace gnomon::ecs {
 
 enum class ChangeKind : std::uint8_t { added, changed, removed };
 
-/// One entry of a component type's log.
+/// Entry of a component type's log.
 struct Change {
     Entity entity;
     ChangeKind kind = ChangeKind::changed;
     bool operator==(const Change&) const = default;
 };
 
-/// Where a reader stands in a component type's log: one for each reader and type. A default cursor has read nothing.
+/// Position of a reader in a component type's log, one per reader and type. A default cursor has read nothing.
 struct ChangeCursor {
     std::uint64_t next = 0;
 };
 
-/// Of a log the newest entries are kept, as many as there are components of its type, and never fewer than these.
+/// Minimum length of a log. A log keeps the newest entries, as many as there are components of its type or this many.
 inline constexpr std::size_t kLeastKept = 256;
 
-/// What a reader gets: the entries since its cursor, or `complete == false` if it fell so far behind that some are no
-/// longer kept; it must then look at every component afresh, which is no more than what it missed.
+/// Entries since the reader's cursor. `complete` is false if older entries are already dropped. The reader must then
+/// look at every component again, which is no more than it missed.
 struct Changes {
     std::span<const Change> entries;
     bool complete = true;
@@ -44,10 +44,12 @@ public:
     virtual ~StorageBase() = default;
     virtual void erase(Entity e) = 0;
 
-    bool contains(Entity e) const { return e.index < sparse_.size() && sparse_[e.index] != kAbsent && entities_[sparse_[e.index]] == e; }
+    bool contains(Entity e) const {
+        return e.index < sparse_.size() && sparse_[e.index] != kAbsent && entities_[sparse_[e.index]] == e;
+    }
     const std::vector<Entity>& entities() const { return entities_; }
 
-    /// Room grows with the components alone: once they are there, no number of changes allocates.
+    /// Appends an entry. Capacity grows with the number of components only: once they exist, changes do not allocate.
     void log(Entity e, ChangeKind kind) {
         const std::size_t kept = std::max(kLeastKept, entities_.size());
         if (log_.capacity() < 2 * kept) log_.reserve(std::max(2 * kept, 2 * log_.capacity()));
@@ -65,8 +67,8 @@ public:
 
 protected:
     static constexpr std::uint32_t kAbsent = 0xffffffffu;
-    std::vector<std::uint32_t> sparse_;  // entity index -> dense position
-    std::vector<Entity> entities_;       // dense
+    std::vector<std::uint32_t> sparse_;  // dense position by entity index
+    std::vector<Entity> entities_;       // dense, in storage order
 
 private:
     void drop(std::size_t oldest) {
@@ -117,7 +119,7 @@ private:
 };
 
 inline std::uint32_t next_type_number() {
-    static std::uint32_t next = 0;  // numbers component types; not state of any registry
+    static std::uint32_t next = 0;  // numbers component types; no state of any registry
     return next++;
 }
 template <class T>
@@ -128,8 +130,8 @@ std::uint32_t type_number() {
 
 }  // namespace detail
 
-/// Owns entities and their components. Not thread-safe. Component references stay valid until a component of the
-/// same type is added or removed. Entities that are null or dead: programmer error (assert), except where stated.
+/// Owns entities and their components. Not thread-safe. Component references stay valid until a component of the same
+/// type is added or removed. Null or dead entities are a programmer error (assert), except where stated.
 class Registry {
 public:
     Entity create() {
@@ -142,7 +144,7 @@ public:
         return {static_cast<std::uint32_t>(versions_.size()) - 1u, 0};
     }
 
-    /// Removes every component (each logged as removed). A dead entity: nothing happens.
+    /// Removes every component and logs each removal. Does nothing for a dead entity.
     void destroy(Entity e) {
         if (!alive(e)) return;
         for (auto& storage : storages_)
@@ -154,7 +156,7 @@ public:
     bool alive(Entity e) const { return e.index < versions_.size() && versions_[e.index] == e.version; }
     std::size_t alive_count() const { return versions_.size() - free_.size(); }
 
-    /// Adds the component, or replaces it (logged as changed).
+    /// Adds the component, or replaces it and logs a change.
     template <class T>
     T& emplace(Entity e, T value = {}) {
         assert(alive(e));
@@ -167,14 +169,14 @@ public:
         return s && s->contains(e);
     }
 
-    /// nullptr if the entity is dead or has no T. To write, use patch().
+    /// Returns nullptr if the entity is dead or has no T. Use patch() to write.
     template <class T>
     const T* get(Entity e) const {
         const auto* s = find<T>();
         return s && s->contains(e) ? &s->at(e) : nullptr;
     }
 
-    /// Calls edit(T&) and logs a change. False if the entity has no T.
+    /// Calls edit(T&) and logs a change. Returns false if the entity has no T.
     template <class T, class Edit>
     bool patch(Entity e, Edit&& edit) {
         auto& s = storage<T>();
@@ -184,7 +186,7 @@ public:
         return true;
     }
 
-    /// True if the entity had a T.
+    /// Removes the component. Returns true if the entity had one.
     template <class T>
     bool remove(Entity e) {
         auto& s = storage<T>();
@@ -204,21 +206,21 @@ public:
         }
     }
 
-    /// Entities with a T, in storage order (order of addition, disturbed by removal).
+    /// Returns the entities with a T, in storage order: order of addition, disturbed by removal.
     template <class T>
     std::span<const Entity> entities_with() const {
         const auto* s = find<T>();
         return s ? std::span<const Entity>(s->entities()) : std::span<const Entity>{};
     }
 
-    /// Entries of T's log since `cursor`, which moves to the end. The span is valid until the next change of a T. There
-    /// may be any number of readers: none takes anything from another.
+    /// Returns the entries of T's log since `cursor` and moves it to the end. The span is valid until the next change
+    /// of a T. Readers are independent: each has its own cursor.
     template <class T>
     Changes changes(ChangeCursor& cursor) {
         return storage<T>().since(cursor);
     }
 
-    /// Drops all logs: whoever has not read them is told to look afresh. Nobody needs to call it, logs are bounded.
+    /// Drops all logs. Readers that have not caught up get `complete == false`. Optional, because logs are bounded.
     void discard_changes() {
         for (auto& storage : storages_)
             if (storage) storage->discard_log();

@@ -14,8 +14,8 @@
 
 #include "engine/gl/handles.h"
 
-/// GPU work as comparable data. A frame is one CommandList; devices execute or record it.
-/// Every command is a plain value with ==, so a test compares two lists.
+/// GPU work as comparable data. A frame is one CommandList; devices execute or record it. Every command is a plain
+/// value with ==, so that a test compares two lists.
 namespace gnomon::gl {
 
 struct Rect {
@@ -25,7 +25,7 @@ struct Rect {
 
 enum class CullMode : std::uint8_t { none, back, front };
 enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal, less };
-/// alpha: over, its own alpha channel becomes coverage; largest: of each channel the larger value stays.
+/// add: sum. alpha: over, with coverage in its own alpha channel. largest: larger value per channel.
 enum class Blend : std::uint8_t { off, add, alpha, largest };
 
 struct PipelineState {
@@ -39,32 +39,32 @@ struct PipelineState {
     bool operator==(const PipelineState&) const = default;
 };
 
-/// Text of a debug group, held in place: a frame's lists are made anew in every frame, from memory that they have. At most
-/// kMost bytes of UTF-8; what is longer is cut between two characters.
+/// Text of a debug group, stored in place, because a frame's lists are rebuilt every frame without allocating. At most
+/// kMost bytes of UTF-8; longer text is cut between two characters.
 class GroupLabel {
 public:
     static constexpr std::size_t kMost = 63;
 
     GroupLabel() = default;
     template <class Text>
-        requires std::convertible_to<const Text&, std::string_view>
-    GroupLabel(const Text& text) {  // implicit, so that a group is written as BeginGroup{"surfaces"}
+    requires std::convertible_to<const Text&, std::string_view> GroupLabel(
+        const Text& text) {  // implicit, for BeginGroup{"surfaces"}
         append(text, kMost);
     }
-    /// "kind name part"; of those three the name is cut.
+    /// Joins "kind name part"; if too long, the name is cut.
     GroupLabel(std::string_view kind, std::string_view name, std::string_view part);
 
     std::string_view text() const { return {bytes_.data(), size_}; }
     bool operator==(const GroupLabel&) const = default;
 
 private:
-    /// Adds what fits into the first `end` bytes.
+    /// Appends as much as fits into the first `end` bytes.
     void append(std::string_view text, std::size_t end);
     std::array<char, kMost> bytes_{};  // zeros from size_ on
     std::uint8_t size_ = 0;
 };
 
-/// Labels a span of the frame (KHR_debug group). Groups nest and must close.
+/// Labels a span of the frame (KHR_debug group). Groups nest and must be closed.
 struct BeginGroup {
     GroupLabel label;
     bool operator==(const BeginGroup&) const = default;
@@ -73,8 +73,8 @@ struct EndGroup {
     bool operator==(const EndGroup&) const = default;
 };
 
-/// Begins drawing into a target. What shaders write to srgb8_a8 is encoded; what they write to the window is not.
-/// Passes do not nest. clear_depth/clear_colour apply to the viewport's target whole.
+/// Begins drawing into a target. Writes to srgb8_a8 are encoded, writes to the window are not. Passes do not nest.
+/// clear_depth and clear_colour apply to the whole target.
 struct BeginPass {
     TargetHandle target{};
     Rect viewport{};
@@ -85,7 +85,7 @@ struct BeginPass {
     bool operator==(const BeginPass&) const = default;
 };
 struct EndPass {
-    bool wrote_storage = false;  // its shaders wrote to storage buffers, which later commands are to see
+    bool wrote_storage = false;  // its shaders wrote to storage buffers that later commands read
     bool operator==(const EndPass&) const = default;
 };
 
@@ -115,15 +115,15 @@ struct BindStorage {  // whole buffer
     bool operator==(const BindStorage&) const = default;
 };
 
-/// A whole buffer with BufferDesc::texels, read as `uniform usamplerBuffer`: software devices find four numbers at once
-/// in the time that they take for one of a storage buffer. Units are those of BindTexture, which unbinds it.
+/// Binds a whole buffer with BufferDesc::texels as `uniform usamplerBuffer`. A software device fetches four numbers
+/// from it as fast as one from a storage buffer. Shares its units with BindTexture, which unbinds it.
 struct BindTexels {
     std::uint32_t unit = 0;
     BufferHandle buffer{};
     bool operator==(const BindTexels&) const = default;
 };
 
-/// Copies list.bytes[first, first+size) to the buffer at offset. Allowed outside passes only.
+/// Copies list.bytes[first, first + size) to the buffer at offset. Allowed outside passes only.
 struct UpdateBuffer {
     BufferHandle buffer{};
     std::uint64_t offset = 0;
@@ -131,17 +131,19 @@ struct UpdateBuffer {
     bool operator==(const UpdateBuffer&) const = default;
 };
 
-/// Fills size bytes of an updated buffer from offset with 0; both are multiples of 4. Done by the device, in its order:
-/// what shaders add up in a buffer is reset by this. Updates come from the processor, and NVIDIA's driver loses those
-/// of a buffer that shaders write. Allowed outside passes only.
+/// Fills size bytes of an updated buffer from offset with 0; both are multiples of 4. Allowed outside passes only.
+/// Executed on the GPU in command order, to reset sums of shaders. UpdateBuffer cannot do that: NVIDIA's driver loses
+/// updates from the processor to a buffer that shaders write.
 struct ClearBuffer {
     BufferHandle buffer{};
     std::uint64_t offset = 0, size = 0;
     bool operator==(const ClearBuffer&) const = default;
 };
 
-/// Vertex layout "mesh": vertices = {vec3 position, vec3 normal, vec2 uv} (32 bytes), attribute locations 0,1,2;
-/// indices uint32; `draw_items` = uvec2 {instance, first_triangle} per instance, attribute location 3, divisor 1.
+/// Binds the vertex layout "mesh".
+/// - vertices: {vec3 position, vec3 normal, vec2 uv} (32 bytes), attribute locations 0, 1, 2
+/// - indices: uint32
+/// - draw_items: uvec2 {instance, first_triangle} per instance, attribute location 3, divisor 1
 struct BindMeshes {
     BufferHandle vertices{}, indices{}, draw_items{};
     bool operator==(const BindMeshes&) const = default;
@@ -153,7 +155,7 @@ struct DrawMeshes {  // triangles
     bool operator==(const DrawMeshes&) const = default;
 };
 struct DrawTriangle {                 // one full-screen triangle, vertex_count = 3, no attributes
-    std::optional<float> depth = {};  // all of it lies at this depth, in [0,1], whatever its shader says
+    std::optional<float> depth = {};  // depth of the whole triangle, [0, 1]; overrides the shader's
     bool operator==(const DrawTriangle&) const = default;
 };
 struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage buffers
@@ -161,35 +163,35 @@ struct DrawLines {  // vertex_count vertices, no attributes: pulled from storage
     bool operator==(const DrawLines&) const = default;
 };
 
-/// Squares of gl_PointSize pixels, 1 to DeviceInfo::max_point_px, around their vertices, which are pulled from storage
-/// buffers. gl_VertexID runs from first_vertex. A point whose middle lies outside of the clip volume shows nothing.
+/// Draws squares of gl_PointSize pixels (1 to DeviceInfo::max_point_px) around vertices pulled from storage buffers.
+/// gl_VertexID starts at first_vertex. A point with its centre outside the clip volume is dropped.
 struct DrawPoints {
     std::uint32_t first_vertex = 0, vertex_count = 0;
     bool operator==(const DrawPoints&) const = default;
 };
 
-/// Triangles, no attributes: pulled from storage buffers. gl_VertexID runs from first_vertex.
+/// Draws triangles without attributes: pulled from storage buffers. gl_VertexID starts at first_vertex.
 struct DrawPulled {
     std::uint32_t first_vertex = 0, vertex_count = 0;  // vertex_count: whole triangles
     bool operator==(const DrawPulled&) const = default;
 };
 
-/// Runs a compute program over groups_x times groups_y work groups. Allowed outside passes only, and forgets the
-/// pipeline. Later commands see what it wrote to storage buffers.
+/// Runs a compute program over groups_x times groups_y work groups. Allowed outside passes only; resets the pipeline.
+/// Later commands see its writes to storage buffers.
 struct Dispatch {
     ProgramHandle program{};
     std::uint32_t groups_x = 1, groups_y = 1;
     bool operator==(const Dispatch&) const = default;
 };
-/// Copies all of one buffer to another of the same size, outside passes. What a BufferUse::read_back buffer is given so
-/// can be had by Device::read_buffer.
+/// Copies a whole buffer to another of the same size, outside passes. Device::read_buffer reads the copy in a
+/// BufferUse::read_back buffer.
 struct CopyBuffer {
     BufferHandle source{}, destination{};
     bool operator==(const CopyBuffer&) const = default;
 };
 
-/// Copies one layer (of a cube: a face), its first mip, to the same layer of another texture of the same format and
-/// size, outside passes. Stored values are copied as they are, depth as well. `area` of it; if its width is 0, all.
+/// Copies mip 0 of one layer (cube: face) to the same layer of a texture of the same format and size, outside passes.
+/// Values are copied unchanged, including depth. `area`: part to copy; width 0: all.
 struct CopyTexture {
     TextureHandle source{}, destination{};
     std::uint32_t layer = 0;
@@ -201,15 +203,15 @@ struct GenerateMips {
     TextureHandle texture{};
     bool operator==(const GenerateMips&) const = default;
 };
-/// Colour, source -> destination rectangles, nearest; destination {0} is the window. Stored values are copied as they
-/// are: srgb8_a8 reaches a window still encoded, as a display wants it.
+/// Copies colour from a rectangle to another, nearest filter; destination {0} is the window. Values are copied
+/// unchanged: srgb8_a8 reaches the window still encoded, as displays need it.
 struct Blit {
     TargetHandle source{}, destination{};
     Rect from{}, to{};
     bool operator==(const Blit&) const = default;
 };
 
-/// Time of the commands between, reported by Device::take_timings under `id`. Timers do not nest.
+/// Measures the GPU time until EndTimer; Device::take_timings reports it under `id`. Timers do not nest.
 struct BeginTimer {
     std::uint32_t id = 0;
     bool operator==(const BeginTimer&) const = default;
@@ -230,7 +232,7 @@ struct CommandList {
 
     void add(Command c) { commands.push_back(std::move(c)); }
 
-    /// Adds an UpdateBuffer of the object representation of `values`.
+    /// Appends an UpdateBuffer with the object representation of `values`.
     template <class T>
     void update(BufferHandle buffer, std::uint64_t offset, std::span<const T> values) {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -249,7 +251,7 @@ struct CommandList {
     bool operator==(const CommandList&) const = default;
 };
 
-/// One line per command, for test failures and captures.
+/// Formats one line per command, for test failures and captures.
 std::string to_text(const Command& command);
 std::string to_text(const CommandList& list);
 

@@ -31,15 +31,16 @@ enum class Format : std::uint8_t {
     d32f,
     rgba32ui
 };
-/// fixed: contents given at creation, never changed by lists. read_back: written by CopyBuffer alone, for read_buffer.
+/// fixed: contents given at creation, never changed by lists. updated: written by lists. read_back: written by
+/// CopyBuffer only, for read_buffer.
 enum class BufferUse : std::uint8_t { fixed, updated, read_back };
 
-/// Bytes of one texel in `format` as Gnomon accounts them (D24 counts 4).
+/// Returns the bytes of one texel in `format` for accounting (D24 counts 4).
 std::uint32_t texel_bytes(Format format);
-/// Bytes of one texel as it is uploaded and read back: depth formats travel as one float.
+/// Returns the bytes of one texel in uploads and readbacks: depth formats use one float.
 std::uint32_t transfer_bytes(Format format);
 bool is_depth(Format format);
-/// Whether shaders read and write whole numbers; BeginPass::colour is cut to such.
+/// Returns true for formats that shaders read and write as integers. BeginPass::colour is truncated for them.
 bool is_integer(Format format);
 const char* to_text(Format format);
 
@@ -48,15 +49,15 @@ struct TextureDesc {
     TextureKind kind = TextureKind::flat;
     Format format = Format::rgba8;
     std::uint32_t width = 1, height = 1;
-    std::uint32_t layers = 1;  // array layers; cubes have 6 whatever is said here
+    std::uint32_t layers = 1;  // array layers; ignored for cubes, which have 6
     std::uint32_t mips = 1;    // 0: a full chain
     bool operator==(const TextureDesc&) const = default;
 };
-/// 6 for a cube, 1 for a flat texture.
+/// Returns 6 for a cube, 1 for a flat texture.
 std::uint32_t layer_count(const TextureDesc& desc);
-/// Levels, the full chain counted out.
+/// Returns the number of levels, also for a full chain.
 std::uint32_t mip_count(const TextureDesc& desc);
-/// Bytes of all layers and mips.
+/// Returns the bytes of all layers and mips.
 std::uint64_t byte_size(const TextureDesc& desc);
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, border };  // border is 0,0,0,0
@@ -66,39 +67,39 @@ struct SamplerDesc {
     bool mipmaps = false;  // linear between mips
     bool compare = false;  // depth compare, passes where reference >= stored
     Wrap wrap_u = Wrap::clamp, wrap_v = Wrap::clamp;
-    float anisotropy = 1.0f;  // most samples along a footprint's longer side; what the device cannot do it leaves out
+    float anisotropy = 1.0f;  // maximum samples along a footprint's longer side; limited by the device
     bool operator==(const SamplerDesc&) const = default;
 };
 
-/// Of a buffer that is read as texels: four numbers of 32 bits.
+/// Bytes of a texel in a buffer with BufferDesc::texels: four numbers of 32 bits.
 inline constexpr std::uint64_t kTexelBytes = 16;
 
 struct BufferDesc {
     std::string label = {};
     std::uint64_t size = 0;  // > 0
     BufferUse use = BufferUse::updated;
-    bool texels = false;  // may be bound by BindTexels, in texels of kTexelBytes; size: whole ones
+    bool texels = false;  // may be bound by BindTexels, in texels of kTexelBytes; size is a multiple of that
     bool operator==(const BufferDesc&) const = default;
 };
 
-/// Sources are complete GLSL (includes already resolved, #version first).
-/// An empty fragment source makes a program without fragment stage (depth only).
+/// Sources are complete GLSL (includes resolved, #version first). An empty fragment source gives a program without
+/// fragment stage (depth only).
 struct ProgramDesc {
     std::string label = {};
     std::string vertex = {};
     std::string fragment = {};
     std::string geometry = {};  // empty: no geometry stage
-    std::string compute = {};   // not empty: a program for Dispatch, without any other stage
+    std::string compute = {};   // not empty: a program for Dispatch, without other stages
     bool operator==(const ProgramDesc&) const = default;
 };
 
-inline constexpr std::int32_t kAllLayers = -2;  // layered: shaders choose by gl_Layer
+inline constexpr std::int32_t kAllLayers = -2;  // layered: shaders select by gl_Layer
 struct Attachment {
     TextureHandle texture{};
-    std::int32_t layer = -1;  // array layer or cube face 0..5; -1: the whole texture (flat); kAllLayers (array, cube)
+    std::int32_t layer = -1;  // array layer or cube face 0..5; -1: whole flat texture; kAllLayers: array or cube
     bool operator==(const Attachment&) const = default;
 };
-constexpr std::size_t kMaxColourAttachments = 8;  // what OpenGL guarantees
+constexpr std::size_t kMaxColourAttachments = 8;  // guaranteed by OpenGL
 struct TargetDesc {
     std::string label = {};
     std::vector<Attachment> colours = {};
@@ -106,7 +107,7 @@ struct TargetDesc {
     bool operator==(const TargetDesc&) const = default;
 };
 
-/// No device maps memory: uploads and readbacks are copies, so there is no pointer that could be null.
+/// Reason of a failure. Devices never map memory: uploads and readbacks are copies, so that no null pointer can occur.
 enum class Failure : std::uint8_t {
     none,
     out_of_memory,
@@ -118,7 +119,7 @@ enum class Failure : std::uint8_t {
 };
 const char* to_text(Failure failure);
 
-/// A new object, or why there is none. Nothing is left behind by a failed creation.
+/// New object, or the reason why there is none. A failed creation leaves nothing behind.
 template <class H>
 struct Created {
     H handle{};
@@ -129,43 +130,43 @@ struct Created {
 
 struct DeviceInfo {
     std::string name;          // renderer and version
-    bool is_software = false;  // GPU time is then measured by finishing around each timer
+    bool is_software = false;  // GPU time is measured by finishing around each timer
     std::uint32_t max_texture_px = 0;
     std::uint32_t max_cube_px = 0;
     std::uint32_t max_layers = 0;
-    std::uint32_t max_point_px = 1;  // side of the largest square that DrawPoints draws
+    std::uint32_t max_point_px = 1;  // side of the largest square of DrawPoints
     std::uint32_t uniform_alignment = 256;
-    std::uint64_t max_texel_bytes = ~std::uint64_t{0};  // of a buffer with BufferDesc::texels
+    std::uint64_t max_texel_bytes = ~std::uint64_t{0};  // largest buffer with BufferDesc::texels
     bool vertex_layer = false;  // vertex shaders may write gl_Layer (ARB_shader_viewport_layer_array)
 };
 
-/// What there is to read. pending: the device has not got there yet; empty: nothing new was copied.
+/// State of a readback. empty: nothing new was copied. pending: the GPU has not finished.
 enum class Readback : std::uint8_t { empty, pending, done, failed };
 
-/// off: timers cost nothing. finish: each timer is bracketed by a full finish (exact on software devices).
-/// query: GL_TIME_ELAPSED, results arrive some frames later.
+/// off: timers cost nothing. finish: a full finish before and after each timer (exact on software devices). query:
+/// GL_TIME_ELAPSED, results arrive some frames later.
 enum class TimingMode : std::uint8_t { off, finish, query };
 
 struct Timing {
     std::uint32_t id = 0;
-    std::uint64_t submission = 0;  // the how-manieth submit() of the device, from 0
+    std::uint64_t submission = 0;  // number of the submit() call, from 0
     double gpu_us = 0.0;
 };
 
-/// Programs that a device has made since it was: from their sources, failures included, and out of a cache.
+/// Number of programs made since the device exists: compiled from source (including failures), and loaded from a cache.
 struct ProgramCounts {
     std::uint64_t compiled = 0, cached = 0;
     bool operator==(const ProgramCounts&) const = default;
 };
 
-/// What submit() found. A failed submission has drawn what it could; the frame goes on.
+/// Result of submit(). A failed submission executes as much as possible, and the frame goes on.
 struct SubmitResult {
     Failure failure = Failure::none;
     std::uint64_t submission = 0;
 };
 
-/// The only door to the GPU. Creation happens outside submit(); nothing throws.
-/// Implementations: Gl45Device (executor), RecordingDevice (tests), gmock (tests).
+/// Interface to the GPU. Creation happens outside submit(); nothing throws. Implementations: Gl45Device (executor),
+/// RecordingDevice (tests), gmock (tests).
 class Device {
 public:
     virtual ~Device() = default;
@@ -173,17 +174,17 @@ public:
     virtual const DeviceInfo& info() const = 0;
     virtual ProgramCounts program_counts() const = 0;
 
-    /// `pixels`: empty (contents undefined), or tightly packed rows (bottom row first) of mip 0 of every layer; mips
-    /// are then generated.
+    /// Creates a texture. `pixels`: empty (contents undefined), or tightly packed rows (bottom row first) of mip 0 of
+    /// every layer; mips are then generated.
     virtual Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) = 0;
     virtual Created<SamplerHandle> create_sampler(const SamplerDesc& desc) = 0;
-    /// `bytes`: empty, or exactly desc.size bytes. A `fixed` buffer must be given its bytes.
+    /// Creates a buffer. `bytes`: empty, or exactly desc.size bytes; required for a `fixed` buffer.
     virtual Created<BufferHandle> create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) = 0;
     virtual Created<ProgramHandle> create_program(const ProgramDesc& desc) = 0;
-    /// Checks completeness. A target must be destroyed before the textures it names.
+    /// Creates a target and checks completeness. Destroy a target before its textures.
     virtual Created<TargetHandle> create_target(const TargetDesc& desc) = 0;
 
-    /// Destroying {0} does nothing.
+    /// Destroys an object. {0} is ignored.
     virtual void destroy(TextureHandle) = 0;
     virtual void destroy(SamplerHandle) = 0;
     virtual void destroy(BufferHandle) = 0;
@@ -192,19 +193,19 @@ public:
 
     virtual SubmitResult submit(const CommandList& list) = 0;
 
-    /// Reads mip 0 of one layer (face) as tightly packed rows, bottom first, in the texture's own format
-    /// (depth formats: one float per texel). Waits for the GPU. False: wrong size or failed.
+    /// Reads mip 0 of one layer (face) as tightly packed rows, bottom first, in the texture's own format (depth
+    /// formats: one float per texel). Waits for the GPU. Returns false on wrong size or failure.
     virtual bool read_texture(TextureHandle texture, std::uint32_t layer, std::span<std::byte> out) = 0;
 
-    /// Takes what the last CopyBuffer put into a read_back buffer, all of it: `done`, once per copy. Never waits.
-    /// `failed`: lost, wrong size, or no such buffer; `out` is then undefined.
+    /// Reads what the last CopyBuffer wrote to a read_back buffer, as a whole. Never blocks. Returns `done` once per
+    /// copy. `failed`: lost, wrong size or no such buffer; `out` is then undefined.
     virtual Readback read_buffer(BufferHandle buffer, std::span<std::byte> out) = 0;
 
     virtual void set_timing(TimingMode mode) = 0;
-    /// Timings that became available since the last call, oldest first.
+    /// Returns timings that became available since the last call, oldest first.
     virtual std::vector<Timing> take_timings() = 0;
 
-    /// Blocks until all submitted work is done.
+    /// Waits for the GPU to finish all submitted work.
     virtual void finish() = 0;
 };
 

@@ -8,13 +8,13 @@
 namespace gnomon::gl {
 namespace {
 
-/// A limit that glGetInteger64v answers.
+/// Limit that glGetInteger64v reports.
 struct AskedLimit {
     GLenum name;
     DeviceLimit limit;
 };
 
-// What OpenGL 4.5 promises, or less where Gnomon is content with less.
+// Minimum that OpenGL 4.5 guarantees, or less where Gnomon needs less.
 constexpr AskedLimit kAsked[] = {
     {GL_MAX_TEXTURE_SIZE, {"MAX_TEXTURE_SIZE", 0, 16384}},
     {GL_MAX_CUBE_MAP_TEXTURE_SIZE, {"MAX_CUBE_MAP_TEXTURE_SIZE", 0, 16384}},

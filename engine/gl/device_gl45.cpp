@@ -16,7 +16,7 @@ namespace gnomon::gl {
 
 namespace {
 
-constexpr int kNeededVersion = 45;  // as epoxy counts: 10 * major + minor
+constexpr int kNeededVersion = 45;  // in epoxy's format: 10 * major + minor
 
 std::uint32_t get_unsigned(GLenum name) {
     GLint value = 0;
@@ -56,7 +56,7 @@ DeviceInfo read_info() {
     return info;
 }
 
-/// A driver's advice on speed is low, whatever it says itself: nothing is wrong.
+/// Maps OpenGL's severity. A driver's advice on speed is low, because nothing is wrong.
 MessageSeverity severity_of(GLenum type, GLenum severity) {
     if (type == GL_DEBUG_TYPE_PERFORMANCE && severity != GL_DEBUG_SEVERITY_NOTIFICATION) return MessageSeverity::low;
     switch (severity) {
@@ -200,12 +200,12 @@ public:
 private:
     static void on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
                            const void* self) {
-        if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP) return;  // our own labels
+        if (type == GL_DEBUG_TYPE_PUSH_GROUP || type == GL_DEBUG_TYPE_POP_GROUP) return;  // the device's own labels
         static_cast<const Gl45Device*>(self)->sink_(severity_of(type, severity),
                                                     {text, static_cast<std::size_t>(std::max(length, 0))});
     }
 
-    /// Asked before each call that draws or creates; once lost, a context stays so.
+    /// Returns true if the context is lost, which is permanent. Called before each call that draws or creates.
     bool lost() {
         if (!lost_ && robust_) lost_ = glGetGraphicsResetStatus() != GL_NO_ERROR;
         return lost_;

@@ -9,26 +9,26 @@
 
 namespace gnomon::gl {
 
-/// Severity and text of a KHR_debug message; called during the GL call that caused it (synchronous). Advice on speed is
-/// never above low.
+/// Severity of a KHR_debug message; advice on speed is at most low. The sink runs during the GL call that caused the
+/// message (synchronous).
 enum class MessageSeverity : std::uint8_t { notification, low, medium, high };
 using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 
-/// Makes the OpenGL 4.5 executor for the context that is current on this thread. It sets glClipControl and
-/// other fixed state, and owns every object it makes: the destructor deletes them (context must be current).
-/// `program_cache`: a folder where linked programs are kept from run to run (program_cache.h); empty: nowhere.
-/// Error if the context is below 4.5 core (rule "gl.version").
+/// Creates the OpenGL 4.5 executor for the context that is current on this thread. Sets glClipControl and other fixed
+/// state. Owns every object that it creates; the destructor deletes them (context must be current). `program_cache`:
+/// folder for linked programs across runs (program_cache.h); empty: none. Error if the context is below 4.5 core (rule
+/// "gl.version").
 Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, std::filesystem::path program_cache = {});
 
-/// OpenGL's own name of a texture, sampler or buffer, for draw calls that are not Gnomon's. 0 if there is none. The
-/// object stays the device's: it may be replaced or deleted in any later frame.
+/// Returns OpenGL's own name of a texture, sampler or buffer, for draw calls outside Gnomon; 0 if it does not exist.
+/// The device keeps ownership, and may replace or delete the object in any later frame.
 unsigned gl_name(const Device& gl45_device, TextureHandle texture);
 unsigned gl_name(const Device& gl45_device, SamplerHandle sampler);
 unsigned gl_name(const Device& gl45_device, BufferHandle buffer);
-/// The same of the texture by which a buffer with BufferDesc::texels is read.
+/// Returns the name of the texture that reads a buffer with BufferDesc::texels.
 unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 
-/// GL objects this device currently owns (leak checks).
+/// Counts the GL objects that this device owns (leak checks).
 std::size_t live_objects(const Device& gl45_device);
 
 }  // namespace gnomon::gl

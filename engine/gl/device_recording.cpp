@@ -11,7 +11,7 @@ namespace {
 
 using Kind = ResourceCall::Kind;
 
-constexpr std::uint32_t kRecordingMaxPx = 16384;  // what llvmpipe offers
+constexpr std::uint32_t kRecordingMaxPx = 16384;  // as llvmpipe
 constexpr std::uint32_t kRecordingMaxLayers = 2048;
 constexpr std::uint32_t kRecordingMaxPoint_px = 64;
 constexpr std::uint32_t kRecordingAlignment = 256;

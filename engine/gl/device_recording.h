@@ -11,7 +11,7 @@
 
 namespace gnomon::gl {
 
-/// What the recording device found wrong with a call. Tests assert which.
+/// Kind of misuse that the recording device found. Tests assert which.
 enum class Misuse : std::uint8_t {
     unknown_handle,  // never created, or already destroyed; {0} where an object is needed
     draw_outside_pass,
@@ -23,23 +23,23 @@ enum class Misuse : std::uint8_t {
     draw_without_pipeline,
     draw_without_meshes,
     draw_out_of_range,  // indices, vertices or items beyond the buffer
-    wrong_program,      // a compute program draws, or another one is dispatched
+    wrong_program,      // a compute program draws, or a drawing program is dispatched
     dispatch_inside_pass,
     dispatch_of_nothing,  // no work groups
     copy_inside_pass,
-    copy_mismatch,         // sizes or formats differ, onto itself, no such layer, or into a fixed buffer
-    read_of_other_buffer,  // not BufferUse::read_back, or of another size than asked for
+    copy_mismatch,         // different sizes or formats, source is destination, no such layer, or a fixed buffer
+    read_of_other_buffer,  // not BufferUse::read_back, or a wrong size
     update_inside_pass,
     update_out_of_range,
-    update_of_fixed_buffer,  // or of one that is written by copies alone
-    buffer_without_texels,   // and bound as such
+    update_of_fixed_buffer,  // or of a read_back buffer, which only copies may write
+    buffer_without_texels,   // bound as texels
     uniform_misaligned,
     uniform_out_of_range,
-    viewport_out_of_target,    // or blit rectangle out of it; a scissor of negative size
+    viewport_out_of_target,    // also blit rectangles; a scissor of negative size
     incomplete_target,         // no attachments, a wrong layer, colour given as depth or depth as colour
-    feedback_loop,             // a texture that the pass draws into is bound, mipped or blitted meanwhile
-    destroyed_while_attached,  // texture destroyed before a target naming it
-    bad_description,           // zero size, non-square cube, over the limit, wrong amount of bytes
+    feedback_loop,             // the pass draws into a texture that is bound, mipped or blitted meanwhile
+    destroyed_while_attached,  // a target still names the texture
+    bad_description,           // zero size, non-square cube, beyond a limit, wrong number of bytes
     leak                       // reported by check_leaks()
 };
 const char* to_text(Misuse misuse);
@@ -49,7 +49,7 @@ struct Finding {
     std::string detail;
 };
 
-/// One resource call, in order of arrival.
+/// Resource call, in order of arrival.
 struct ResourceCall {
     enum class Kind : std::uint8_t {
         create_texture,
@@ -66,19 +66,19 @@ struct ResourceCall {
         read_buffer
     };
     Kind kind;
-    std::uint32_t id = 0;  // of the object; submission number for submit
+    std::uint32_t id = 0;  // id of the object; submit: number of the submission
     std::string label;
     std::uint64_t bytes = 0;
     bool failed = false;
     bool operator==(const ResourceCall&) const = default;
 };
 
-/// What a recording device holds, by id.
+/// Object of a recording device, by id.
 struct RecordedBuffer {
     BufferDesc desc;
     std::vector<std::byte> bytes;
-    bool unread = false;          // read_back: copied into since the last read
-    std::uint64_t copied_at = 0;  // number of the submission that did
+    bool unread = false;          // read_back: has a copy since the last read
+    std::uint64_t copied_at = 0;  // number of that copy's submission
 };
 struct RecordedObjects {
     std::map<std::uint32_t, TextureDesc> textures;
@@ -88,39 +88,38 @@ struct RecordedObjects {
     std::map<std::uint32_t, TargetDesc> targets;
 };
 
-/// Walks the list as a device would: appends what is wrong with it to `findings`, applies its buffer updates and copies
-/// to `objects`, and returns the ids of its timers in order. `submission` is its number.
+/// Walks the list like a device. Appends misuse to `findings`, applies buffer updates and copies to `objects`. Returns
+/// the ids of the list's timers in order. `submission` is the list's number.
 std::vector<std::uint32_t> check_list(const CommandList& list, std::uint64_t submission, const DeviceInfo& info,
                                       RecordedObjects& objects, std::vector<Finding>& findings);
 
-/// A device without a GPU: hands out fake handles, keeps every list, validates lifetimes and use,
-/// counts live objects and bytes, and can fail the nth resource call.
+/// Device without a GPU. Hands out fake handles, keeps every list, validates lifetimes and use, counts live objects and
+/// bytes. Can fail the nth resource call.
 class RecordingDevice final : public Device {
 public:
     explicit RecordingDevice(DeviceInfo info = default_info());
     static DeviceInfo default_info();  // "recording", limits as llvmpipe: 16384 px, 2048 layers
 
-    /// Fails the call whose number (counted over all create_*, submit and read_buffer calls from construction, first is
-    /// 0) is `index`.
-    /// A call that fails by context_lost loses the context: every later one fails alike, for good.
+    /// Makes call number `index` fail. Numbers count all create_*, submit and read_buffer calls since construction,
+    /// from 0. A call that fails with context_lost loses the context: all later calls fail likewise.
     void fail_call(std::uint64_t index, Failure failure);
-    /// Fails that call and every later one until stop_failing(); without `submissions`, all but creations succeed.
+    /// Makes that call and all later ones fail until stop_failing(). If `submissions` is false, only creations fail.
     void fail_from(std::uint64_t index, Failure failure, bool submissions);
-    /// Fails every create_texture, create_buffer, create_target and create_program whose label contains `text`.
+    /// Makes every create_texture, create_buffer, create_target and create_program fail if its label contains `text`.
     void fail_label(std::string text, Failure failure);
     void stop_failing();
     std::uint64_t calls() const;  // create_*, submit and read_buffer calls so far
 
-    /// What the GPU would have written: the contents that read_buffer gives of buffers whose label contains `text`,
-    /// cut or filled with zeros to their size. Without a script they are what was copied.
+    /// Replaces the GPU's output: contents that read_buffer returns for buffers with `text` in their label. Cut or
+    /// padded with zeros to the buffer's size. Without a script read_buffer returns what was copied.
     void script_readback(std::string text, std::vector<std::byte> contents);
-    /// Copies are `pending` for so many submissions after their own; 0 at first. finish() ends the wait.
+    /// Keeps copies `pending` for this number of submissions after their own (default 0). finish() completes them.
     void delay_readbacks(std::uint64_t submissions);
 
     const std::vector<ResourceCall>& resource_calls() const;
     const std::vector<CommandList>& submissions() const;
-    const std::vector<Finding>& findings() const;  // misuse so far; empty is right
-    void forget();                                 // drops kept lists, calls, and findings, not live objects
+    const std::vector<Finding>& findings() const;  // misuse found; empty is right
+    void forget();                                 // drops kept lists, calls and findings, not live objects
 
     std::size_t live_count() const;
     std::uint64_t live_bytes() const;                 // textures and buffers
@@ -149,7 +148,7 @@ public:
     bool read_texture(TextureHandle, std::uint32_t layer, std::span<std::byte> out) override;  // zeros
     Readback read_buffer(BufferHandle, std::span<std::byte> out) override;
     void set_timing(TimingMode) override;
-    std::vector<Timing> take_timings() override;  // 0 us for each timer when timing is on
+    std::vector<Timing> take_timings() override;  // 0 us per timer if timing is on
     void finish() override;
 
 private:
@@ -167,7 +166,7 @@ private:
 
     DeviceInfo info_;
     RecordedObjects objects_;
-    std::uint32_t next_id_ = 1;  // one row of ids for all kinds: a handle cast to another kind is unknown
+    std::uint32_t next_id_ = 1;  // one sequence for all kinds: a handle cast to another kind is unknown
     std::uint64_t calls_ = 0;
     std::uint64_t submitted_ = 0;
     std::uint64_t compiled_ = 0;
@@ -181,7 +180,7 @@ private:
     bool lost_ = false;
     std::vector<std::pair<std::string, Failure>> failing_labels_;
     std::vector<std::pair<std::string, std::vector<std::byte>>> scripts_;
-    std::uint64_t readback_delay_ = 0, finished_ = 0;  // submissions
+    std::uint64_t readback_delay_ = 0, finished_ = 0;  // numbers of submissions
     std::vector<ResourceCall> log_;
     std::vector<CommandList> lists_;
     std::vector<Finding> findings_;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr GLsizei kVertexBytes = 8 * sizeof(float), kItemBytes = 2 * sizeof(std::uint32_t);
 
-/// Everything that decides what a draw does and that lists do not set: other users of the context may have
-/// changed it since the last list.
+/// Resets all state that affects draws and that lists do not set. Other users of the context may have changed it since
+/// the last list.
 void reset_state(const GlFixtures& fixtures) {
     for (const GLenum capability : {GL_SCISSOR_TEST,
                                     GL_STENCIL_TEST,
@@ -76,7 +76,7 @@ void apply(const PipelineState& state, GLuint program) {
     set_enabled(GL_CULL_FACE, state.cull != CullMode::none);
     glCullFace(state.cull == CullMode::front ? GL_FRONT : GL_BACK);
     glFrontFace(state.front_is_clockwise ? GL_CW : GL_CCW);
-    // OpenGL writes depth only while it tests it.
+    // OpenGL writes depth only with the depth test enabled.
     set_enabled(GL_DEPTH_TEST, state.depth_test != DepthTest::off || state.depth_write);
     glDepthFunc(gl_depth_test(state.depth_test));
     glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
@@ -88,7 +88,7 @@ void apply(const PipelineState& state, GLuint program) {
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/// One operator() per command; state of one list.
+/// Executes a list, one operator() per command.
 class ListExecutor {
 public:
     ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects,
@@ -106,7 +106,7 @@ public:
         if (!timers_.abandon() || open_groups_ != 0 || in_pass_) note(Failure::invalid_value);
         for (; open_groups_ > 0; --open_groups_) pop_group();
         reset_state(fixtures_);
-        // A vertex array keeps deleted buffers alive.
+        // Rebound, because a vertex array keeps deleted buffers alive.
         glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kVertexSlot, 0, 0, kVertexBytes);
         glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kItemSlot, 0, 0, kItemBytes);
         glVertexArrayElementBuffer(fixtures_.mesh_layout, 0);
@@ -229,7 +229,7 @@ public:
             !in_range(c.first_item, c.item_count, items_->desc.size / kItemBytes)) {
             return note(Failure::invalid_value);
         }
-        // OpenGL takes the offset into the index buffer in a pointer.
+        // OpenGL takes the offset into the index buffer as a pointer.
         const auto bytes = static_cast<std::uintptr_t>(c.first_index) * sizeof(GLuint);
         const auto* offset = reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
         glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(c.index_count),
@@ -324,7 +324,8 @@ private:
         if (open_groups_ <= fixtures_.group_depth) glPopDebugGroup();
     }
 
-    /// False, and noted: unknown, or the window of a context that has none. The window gives a null `target`.
+    /// Finds the target. Returns false and notes the failure if it is unknown, or is the window in a context without
+    /// one. The window gives a null `target`.
     bool usable(TargetHandle handle, const GlTarget*& target) {
         if (handle) {
             target = find_object(objects_.targets, handle.id);
@@ -343,7 +344,7 @@ private:
     void clear(const BeginPass& c, const GlTarget& target) {
         in_target_ = static_cast<bool>(c.target);
         if (c.clear_depth) {
-            glDepthMask(GL_TRUE);  // clears obey the mask of the pipeline before
+            glDepthMask(GL_TRUE);  // clears obey the previous pipeline's mask
             glClearBufferfv(GL_DEPTH, 0, &c.depth);
             if (pipeline_) glDepthMask(pipeline_->depth_write ? GL_TRUE : GL_FALSE);
         }
@@ -360,7 +361,7 @@ private:
     }
     bool can_draw(GLuint layout) {
         if (!in_pass_ || !pipeline_) note(Failure::invalid_value);
-        if (!drawable_ || !pipeline_) return false;  // why the pass cannot be drawn into has been noted
+        if (!drawable_ || !pipeline_) return false;  // the reason has been noted before
         glBindVertexArray(layout);
         return true;
     }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr GLuint kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kItemAttribute = 3;
 constexpr GLuint kNormalOffset = 3 * sizeof(float), kUvOffset = 6 * sizeof(float);
-constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // cleared before each list: what lists may use
+constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // available to lists; cleared before each
 
 GLint get_integer(GLenum name) {
     GLint value = 0;

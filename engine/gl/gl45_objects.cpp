@@ -10,7 +10,7 @@ namespace gnomon::gl {
 
 namespace {
 
-constexpr int kMaxErrors = 32;  // a lost context may report errors for ever
+constexpr int kMaxErrors = 32;  // a lost context may report errors forever
 
 template <class Object>
 Made<Object> failed(Failure failure, const std::string& label) {
@@ -31,7 +31,7 @@ GLint gl_wrap(Wrap wrap) {
     return GL_NONE;
 }
 
-/// Without a sampler a texture is read exactly: nearest, clamped.
+/// Sets exact reads for textures without a sampler: nearest, clamped.
 void set_plain_sampling(GLuint name) {
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -212,7 +212,7 @@ Made<GLuint> make_sampler(const SamplerDesc& desc) {
 
 namespace {
 
-/// Of the context: how large a buffer it can read as texels.
+/// Returns the context's largest buffer that can be read as texels.
 std::uint64_t most_texel_bytes() {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
@@ -241,7 +241,7 @@ Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> by
     drop_gl_errors();
     GlBuffer buffer{0, desc};
     glCreateBuffers(1, &buffer.name);
-    // What is read back lies where the processor reads it without asking the device.
+    // A readback buffer lies in client memory, where the processor reads it without the device.
     const GLbitfield flags = desc.use == BufferUse::updated     ? GL_DYNAMIC_STORAGE_BIT
                              : desc.use == BufferUse::read_back ? GL_CLIENT_STORAGE_BIT
                                                                 : 0;
@@ -249,7 +249,7 @@ Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> by
                          flags);
     Failure failure = take_gl_error();
     if (failure == Failure::none) {
-        // Undefined contents would make pictures differ from run to run.
+        // Cleared, because undefined contents would make pictures differ between runs.
         if (bytes.empty()) glClearNamedBufferData(buffer.name, GL_R8, GL_RED, GL_UNSIGNED_BYTE, nullptr);
         set_gl_label(GL_BUFFER, buffer.name, desc.label);
         failure = take_gl_error();

@@ -6,7 +6,7 @@
 
 #include "engine/gl/device.h"
 
-/// The OpenGL objects behind handles, and how they are made. Private to the executor.
+/// OpenGL objects behind handles, and functions that create them. Private to the executor.
 namespace gnomon::gl {
 
 struct GlTexture {
@@ -16,11 +16,11 @@ struct GlTexture {
 struct GlBuffer {
     GLuint name = 0;
     BufferDesc desc;
-    GLuint texels = 0;  // the buffer as a texture; 0: without BufferDesc::texels
+    GLuint texels = 0;  // texture view of the buffer; 0: without BufferDesc::texels
 };
 struct GlTarget {
     GLuint name = 0;
-    std::uint32_t width = 0, height = 0;  // what all attachments share
+    std::uint32_t width = 0, height = 0;  // common area of all attachments
     std::size_t colours = 0;
     std::uint32_t integer_colours = 0;  // a bit per colour attachment
 };
@@ -37,22 +37,22 @@ struct GlObjects {
     }
 };
 
-/// The value stored under `id`, or nullptr.
+/// Returns the value stored under `id`, or nullptr.
 template <class Value>
 const Value* find_object(const std::unordered_map<std::uint32_t, Value>& map, std::uint32_t id) {
     const auto at = map.find(id);
     return at == map.end() ? nullptr : &at->second;
 }
 
-/// How a Format is stored and how its texels travel.
+/// OpenGL's formats to store a Format and to transfer its texels.
 struct GlFormat {
     GLenum internal = GL_NONE, layout = GL_NONE, type = GL_NONE;
 };
 GlFormat gl_format(Format format);
-/// What OpenGL calls textures of that kind.
+/// Returns OpenGL's name for the kind of texture.
 GLenum gl_kind(TextureKind kind);
 
-/// A new OpenGL object and what it is, or why there is none; then nothing is left behind.
+/// New OpenGL object, or the reason why there is none. A failure leaves nothing behind.
 template <class Object>
 struct Made {
     Object object{};
@@ -65,13 +65,13 @@ Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> by
 void delete_buffer(const GlBuffer& buffer);
 Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects);
 
-/// Forgets errors that other users of the context left behind.
+/// Discards errors that other users of the context left behind.
 void drop_gl_errors();
-/// The first error since the last call, as a Failure.
+/// Returns the first error since the last call, as a Failure.
 Failure take_gl_error();
-/// Rows are tightly packed and no pixel buffer is bound, whatever other users of the context have set.
+/// Sets tightly packed rows and no pixel buffer, because other users of the context may have changed that.
 void reset_pixel_transfer();
-/// Names an object for captures; cut to what the driver takes.
+/// Names an object for captures; cut to the driver's limit.
 void set_gl_label(GLenum kind, GLuint name, const std::string& label);
 
 }  // namespace gnomon::gl

@@ -43,7 +43,7 @@ std::string link_log(GLuint program) {
     return log;
 }
 
-/// `retrievable`: its binary will be asked for.
+/// Links a program. `retrievable`: its binary will be read.
 Made<GLuint> link(const ProgramDesc& desc, bool retrievable) {
     drop_gl_errors();
     struct Source {
@@ -93,7 +93,7 @@ std::string text_of(GLenum name) {
     return text == nullptr ? std::string{} : reinterpret_cast<const char*>(text);
 }
 
-/// What binaries depend on beside the sources.
+/// Returns what binaries depend on besides the sources.
 std::string driver_identity() {
     std::string text;
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION, GL_SHADING_LANGUAGE_VERSION})
@@ -115,7 +115,7 @@ GlPrograms::GlPrograms(std::filesystem::path cache_folder)
     : formats_(binary_formats()),
       cache_(formats_.empty() ? std::filesystem::path{} : std::move(cache_folder), driver_identity()) {}
 
-/// 0: it has none that the driver takes. What the driver refuses is forgotten.
+/// Loads a program from the cache. Returns 0 if there is none that the driver accepts; a rejected one is deleted.
 GLuint GlPrograms::from_cache(const ProgramDesc& desc) const {
     const std::optional<ProgramCache::Binary> found = cache_.find(desc);
     if (!found) return 0;

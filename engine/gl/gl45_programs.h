@@ -7,10 +7,10 @@
 
 namespace gnomon::gl {
 
-/// Makes programs: out of a cache if it has what this driver takes, else from their sources. Private to the executor.
+/// Makes programs from a cache if it has a binary for this driver, otherwise from sources. Private to the executor.
 class GlPrograms {
 public:
-    /// `cache_folder` empty: always from their sources. Asks the driver, so that a context must be current.
+    /// Opens the cache; empty `cache_folder`: none. Queries the driver, so that a context must be current.
     explicit GlPrograms(std::filesystem::path cache_folder);
 
     Made<GLuint> make(const ProgramDesc& desc);
@@ -20,7 +20,7 @@ private:
     GLuint from_cache(const ProgramDesc& desc) const;
     void keep(const ProgramDesc& desc, GLuint program) const;
 
-    std::vector<GLint> formats_;  // of binaries that the driver takes
+    std::vector<GLint> formats_;  // binary formats of the driver
     ProgramCache cache_;
     ProgramCounts counts_;
 };

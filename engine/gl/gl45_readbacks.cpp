@@ -14,7 +14,7 @@ void GlReadbacks::expect(std::uint32_t id) {
 Readback GlReadbacks::poll(std::uint32_t id) {
     const auto at = fences_.find(id);
     if (at == fences_.end()) return Readback::empty;
-    // A fence that could not be made is null: asking for it fails, too. Without the flush it might never be reached.
+    // A null fence (creation failed) fails here, too. Without the flush flag the GPU might never reach the fence.
     const GLenum state = glClientWaitSync(at->second, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
     if (state == GL_TIMEOUT_EXPIRED) return Readback::pending;
     forget(id);

@@ -7,8 +7,7 @@
 
 namespace gnomon::gl {
 
-/// Knows whether the copies into read_back buffers have been carried out, without waiting for them. Private to the
-/// executor.
+/// Tracks copies into read_back buffers without blocking. Private to the executor.
 class GlReadbacks {
 public:
     GlReadbacks() = default;
@@ -16,9 +15,9 @@ public:
     GlReadbacks& operator=(const GlReadbacks&) = delete;
     ~GlReadbacks();
 
-    /// All commands so far, a copy into the buffer of this id the last of them, are to be done before it is read.
+    /// Starts tracking a copy into the buffer `id`, which must be the last command so far.
     void expect(std::uint32_t id);
-    /// Says `done` and `failed` once.
+    /// Returns the state of the copy; `done` and `failed` only once.
     Readback poll(std::uint32_t id);
     void forget(std::uint32_t id);
 

@@ -10,7 +10,7 @@
 
 namespace gnomon::gl {
 
-/// Times spans of GPU work as the mode says. Private to the executor.
+/// Times spans of GPU work as the mode requires. Private to the executor.
 class GlTimers {
 public:
     GlTimers() = default;
@@ -19,10 +19,11 @@ public:
     ~GlTimers();
 
     void set_mode(TimingMode mode) { mode_ = mode; }
-    /// False, and nothing is timed: a timer already runs, or another one than `id`.
+    /// Starts a timer, or ends timer `id`. Returns false and does nothing if a timer runs already, or `id` does not
+    /// run.
     bool begin(std::uint32_t id, std::uint64_t submission);
     bool end(std::uint32_t id);
-    /// Ends a timer that a list left running; its time is dropped. False: one ran.
+    /// Ends a timer that a list left running and drops its time. Returns false if one ran.
     bool abandon();
     std::vector<Timing> take();
 

@@ -3,7 +3,7 @@
 
 namespace gnomon::gl {
 
-/// Typed names of device objects. 0 is "none". An id is never reused by a device.
+/// Typed id of a device object. 0 is "none". A device never reuses an id.
 template <class Tag>
 struct Handle {
     std::uint32_t id = 0;
@@ -15,6 +15,6 @@ using TextureHandle = Handle<struct TextureTag>;
 using SamplerHandle = Handle<struct SamplerTag>;
 using BufferHandle = Handle<struct BufferTag>;
 using ProgramHandle = Handle<struct ProgramTag>;
-using TargetHandle = Handle<struct TargetTag>;  // a framebuffer; {0} is the window's
+using TargetHandle = Handle<struct TargetTag>;  // framebuffer; {0} is the window's
 
 }  // namespace gnomon::gl

@@ -16,9 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<char, 8> kMagic = {'g', 'n', 'o', 'm', 'o', 'n', 'P', '1'};
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;  // of a file: more is no program's
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 28;  // maximum file size; no program is larger
 
-/// FNV-1a, 64 bit (Fowler, Noll, Vo).
+/// Computes the FNV-1a hash, 64 bit (Fowler, Noll, Vo).
 std::uint64_t hash_of(std::span<const std::byte> bytes) {
     std::uint64_t hash = 0xcbf29ce484222325ull;
     for (const std::byte b : bytes) hash = (hash ^ static_cast<std::uint64_t>(b)) * 0x100000001b3ull;
@@ -32,10 +32,10 @@ std::string hexadecimal(std::uint64_t number) {
     return text;
 }
 
-/// How a file begins. Then follow the identity and the binary, and nothing else.
+/// Beginning of a file. The identity and the binary follow, and nothing else.
 struct Header {
     std::array<char, 8> magic = kMagic;
-    std::uint64_t checksum = 0;  // of all that follows it
+    std::uint64_t checksum = 0;  // covers everything after it
     std::uint64_t identity_bytes = 0, binary_bytes = 0;
     std::uint64_t format = 0;
 };
@@ -57,7 +57,7 @@ std::vector<std::byte> file_bytes(const std::string& identity, const ProgramCach
     return bytes;
 }
 
-/// Empty: there is no such file, or it is too large, or no file at all.
+/// Reads a file. Returns nothing if it does not exist, is too large, or is no regular file.
 std::vector<std::byte> read(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error) || error) return {};
@@ -74,7 +74,7 @@ std::vector<std::byte> read(const fs::path& file) {
 ProgramCache::ProgramCache(fs::path folder, std::string driver)
     : folder_(std::move(folder)), driver_(std::move(driver)) {}
 
-/// Text from which no two different programs have the same.
+/// Returns a text that is unique to the program.
 std::string ProgramCache::identity(const ProgramDesc& desc) const {
     std::string text;
     for (const std::string* part : {&driver_, &desc.vertex, &desc.fragment, &desc.geometry, &desc.compute})
@@ -111,7 +111,7 @@ bool ProgramCache::keep(const ProgramDesc& desc, const Binary& binary) const {
     if (bytes.size() > kMostBytes) return false;
     std::error_code error;
     fs::create_directories(folder_, error);
-    // Written under a name of its own, then renamed: whoever looks finds the whole file or none.
+    // Written under a unique name, then renamed, so that other processes find the whole file or none.
     const fs::path file = file_of(made_from);
     std::random_device random;
     const fs::path part = file.string() + '.' + hexadecimal(std::uint64_t{random()} << 32 | random()) + ".part";

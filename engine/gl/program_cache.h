@@ -10,11 +10,11 @@
 
 namespace gnomon::gl {
 
-/// Linked programs, kept in a folder from run to run, a file each. Knows nothing of OpenGL: what a driver gave is given
-/// back as it was. A file is found by the hash of what its program was made from, and holds all of that: another
-/// program, driver or version is told apart whatever its hash. A file that was cut, changed or written by others counts
-/// as none. Several processes may share a folder: files appear whole. Nothing throws; where the folder cannot be read
-/// or written nothing is kept. Files are never deleted for age: the folder may be emptied at any time.
+/// Folder of linked programs that persists across runs, one file each. Independent of OpenGL: returns a driver's binary
+/// unchanged. A file is found by the hash of its program's identity, and stores that identity as well. Programs,
+/// drivers and versions with equal hashes are thus never confused. Damaged or foreign files are ignored. Several
+/// processes may share a folder, because files appear as a whole. Nothing throws; if the folder cannot be read or
+/// written, nothing is cached. Files do not expire: the folder may be emptied at any time.
 class ProgramCache {
 public:
     struct Binary {
@@ -23,15 +23,16 @@ public:
         bool operator==(const Binary&) const = default;
     };
 
-    /// `folder` is made when something is first kept; empty: nothing is. `driver`: whatever its binaries depend on.
+    /// Sets the folder, which is created with the first file; empty: the cache is off. `driver`: text of what binaries
+    /// depend on.
     ProgramCache(std::filesystem::path folder, std::string driver);
 
     bool is_on() const { return !folder_.empty(); }
-    /// Of the program of these sources; its label does not matter.
+    /// Finds the program with these sources; its label is ignored.
     std::optional<Binary> find(const ProgramDesc& desc) const;
-    /// False: it was not kept.
+    /// Stores a binary. Returns false on failure.
     bool keep(const ProgramDesc& desc, const Binary& binary) const;
-    /// To be called when the driver does not take what was found.
+    /// Deletes an entry that the driver rejected.
     void forget(const ProgramDesc& desc) const;
 
 private:

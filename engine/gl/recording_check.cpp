@@ -8,7 +8,7 @@ namespace gnomon::gl {
 
 namespace {
 
-constexpr std::uint64_t kVertexBytes = 32;  // the "mesh" layout of BindMeshes
+constexpr std::uint64_t kVertexBytes = 32;  // layout "mesh" of BindMeshes
 constexpr std::uint64_t kIndexBytes = sizeof(std::uint32_t);
 constexpr std::uint64_t kItemBytes = 2 * sizeof(std::uint32_t);
 
@@ -16,7 +16,7 @@ struct Size {
     std::uint32_t width = 0, height = 0;
 };
 
-/// State of a list while it is walked, one operator() per command.
+/// State while walking a list, with one operator() per command.
 class ListChecker {
 public:
     ListChecker(const CommandList& list, std::uint64_t submission, const DeviceInfo& info, RecordedObjects& objects,
@@ -212,7 +212,7 @@ private:
         return !target || known(objects_.targets, target.id, "target");  // {0} is the window
     }
 
-    /// The area all attachments share. A texture destroyed under its target was already found.
+    /// Returns the common area of all attachments. A texture destroyed before its target is already reported.
     Size size_of(TargetHandle handle) const {
         const TargetDesc& target = objects_.targets.at(handle.id);
         Size size{std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()};
@@ -226,9 +226,9 @@ private:
         return size;
     }
     void check_rect(TargetHandle target, const Rect& rect) {
-        if (target && objects_.targets.count(target.id) == 0) return;  // already found unknown
+        if (target && objects_.targets.count(target.id) == 0) return;  // unknown target is already reported
         constexpr std::uint32_t any = std::numeric_limits<std::int32_t>::max();
-        const Size size = target ? size_of(target) : Size{any, any};  // the window's size is not known here
+        const Size size = target ? size_of(target) : Size{any, any};  // the window's size is unknown here
         if (!in_target(rect, size.width, size.height)) find(Misuse::viewport_out_of_target, "rectangle");
     }
     bool computes(ProgramHandle program) const { return !objects_.programs.at(program.id).compute.empty(); }
@@ -240,7 +240,7 @@ private:
         const auto names = [texture](const Attachment& a) { return a.texture == texture; };
         return names(at->second.depth) || std::any_of(at->second.colours.begin(), at->second.colours.end(), names);
     }
-    /// What a pass reads it may not write; its depth may be tested and read meanwhile.
+    /// Returns true if the current pass writes the texture. Its depth may be tested and read in the same pass.
     bool written(TargetHandle handle, TextureHandle texture) const {
         const auto at = objects_.targets.find(handle.id);
         if (at == objects_.targets.end() || writes_depth_ || at->second.depth.texture != texture)

@@ -21,7 +21,7 @@ bool take(std::string_view& text, std::string_view word) {
     return true;
 }
 
-/// The path named by a line  #include "path" , nothing for any other line.
+/// Returns the path in a line  #include "path" ; nothing for other lines.
 std::optional<std::string_view> included_path(std::string_view line) {
     line = without_leading_blanks(line);
     if (!take(line, "#")) return std::nullopt;
@@ -82,12 +82,16 @@ private:
         return from.empty() ? std::string{} : " (included at line " + std::to_string(line) + ")";
     }
     static Error missing(std::string_view path, std::string_view from, std::size_t line) {
-        return {
-            std::string{"no shader file \""}.append(path).append("\"") + where(from, line), std::string{from}, {}, "shader.missing"};
+        return {std::string{"no shader file \""}.append(path).append("\"") + where(from, line),
+                std::string{from},
+                {},
+                "shader.missing"};
     }
     static Error cycle(std::string_view path, std::string_view from, std::size_t line) {
-        return {
-            std::string{"\""}.append(path).append("\" includes itself") + where(from, line), std::string{from}, {}, "shader.cycle"};
+        return {std::string{"\""}.append(path).append("\" includes itself") + where(from, line),
+                std::string{from},
+                {},
+                "shader.cycle"};
     }
 
     std::span<const ShaderFile> files_;

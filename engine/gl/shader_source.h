@@ -8,16 +8,16 @@
 
 namespace gnomon::gl {
 
-/// One GLSL file, embedded at build time. `path` is relative to shaders/, e.g. "shadow/filters/pcf/hard.glsl".
+/// GLSL file, embedded at build time. `path` is relative to shaders/, e.g. "shadow/filters/pcf/hard.glsl".
 struct ShaderFile {
     std::string_view path;
     std::string_view text;
 };
 
-/// Expands `path`: prepends "#version 450 core", then one #define per entry of `defines` ("NAME value"),
-/// and replaces each line  #include "x.glsl"  by that file, once per expansion, with #line directives whose second
-/// number is the file's index in `files`. Includes are expanded whatever #if they stand under.
-/// Errors: missing file, include cycle (rules "shader.missing", "shader.cycle").
+/// Expands `path`. Prepends "#version 450 core", then one #define per entry of `defines` ("NAME value"). Replaces each
+/// line  #include "x.glsl"  by that file, once per expansion, even inside an inactive #if. Adds #line directives; their
+/// second number is the file's index in `files`. Errors: missing file, include cycle (rules "shader.missing",
+/// "shader.cycle").
 Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string_view path,
                                   std::span<const std::string> defines);
 

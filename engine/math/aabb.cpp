@@ -8,7 +8,7 @@ namespace {
 
 bool has_nan(const glm::dvec3& v) { return std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z); }
 
-// 0 * infinity is 0 here: an axis that a transform does not read must not turn its result into NaN.
+// Multiplies with 0 * infinity = 0: an axis that a transform ignores must not turn its result into NaN.
 double product(double factor, double value) { return factor == 0.0 ? 0.0 : factor * value; }
 
 }  // namespace
@@ -47,7 +47,7 @@ Aabb transformed(const Aabb& b, const glm::dmat3& basis, const glm::dvec3& trans
         for (int column = 0; column < 3; ++column) {
             const double at_min = product(basis[column][row], b.min[column]);
             const double at_max = product(basis[column][row], b.max[column]);
-            // Written so that a NaN in the basis reaches the result, which then counts as empty.
+            // A NaN in the basis must reach the result, which then counts as empty; std::min would lose it.
             out.min[row] += at_max < at_min ? at_max : at_min;
             out.max[row] += at_max < at_min ? at_min : at_max;
         }

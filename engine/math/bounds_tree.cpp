@@ -7,14 +7,14 @@
 namespace gnomon::math {
 namespace {
 
-/// Slots in a leaf. Measured with ./gnomon bench culling: 4 to 8 differ by less than the noise, 1 and 16 lose.
+/// Number of slots in a leaf. Sizes 4 to 8 cost the same within noise, 1 and 16 cost more (./gnomon bench culling).
 constexpr std::uint32_t kLeafSlots = 4;
 constexpr std::uint32_t kNone = 0xffffffffu;
-/// The tree is built again when its nodes have grown this much on average, each counted at most kMostGrowth times, so
-/// that one item flying off does not decide.
+/// Growth at which the tree is rebuilt: mean over all nodes of their extent relative to the built one. Each node counts
+/// at most kMostGrowth, so that one outlier does not decide.
 constexpr double kLooseGrowth = 2.0, kMostGrowth = 16.0;
 
-/// Sum of the sides; 0 if empty.
+/// Computes the sum of the sides; 0 if empty.
 double extent(const Aabb& box) {
     return is_empty(box) ? 0.0 : (box.max.x - box.min.x) + (box.max.y - box.min.y) + (box.max.z - box.min.z);
 }
@@ -42,8 +42,8 @@ void BoundsTree::build_from_scratch() {
     growth_ = static_cast<double>(nodes_.size());
 }
 
-/// Splits at the middle item along the longest side of the box of all centres. Items are told apart by their number
-/// where centres are equal, so that one order only is right, whatever nth_element does within the halves.
+/// Splits at the middle item along the longest side of the box of all centres. Equal centres are ordered by item
+/// number. The order is then unique, and does not depend on how nth_element arranges the halves.
 void BoundsTree::make_node(std::uint32_t first_slot, std::uint32_t end_slot, std::uint32_t parent) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
     nodes_.push_back({{}, first_slot, end_slot, 0, parent});
@@ -87,7 +87,7 @@ Aabb BoundsTree::box_around(std::uint32_t n) const {
     return merged(nodes_[n + 1].box, nodes_[nodes_[n + 1].next].box);
 }
 
-/// True if the node's box has changed.
+/// Updates a node's box. Returns true if it changed.
 bool BoundsTree::refit_node(std::uint32_t n) {
     const Aabb box = box_around(n);
     Node& node = nodes_[n];

@@ -8,13 +8,13 @@
 
 namespace gnomon::math {
 
-/// Boxes of numbered items in a binary tree, to find those that touch a volume without looking at all of them.
-/// What is found never depends on the tree's shape, only its cost does. Moving items keeps the shape and refits the
-/// boxes; when that has made the tree loose, it is built again. Storage is kept, so that nothing is allocated once as
-/// many items have been held before.
+/// Binary tree over the boxes of numbered items, for finding all items that touch a volume. Results never depend on the
+/// tree's shape, only the cost does. Moving items keeps the shape and refits the boxes; a tree that became loose is
+/// rebuilt. Storage is reused: a tree allocates only when its item count exceeds all earlier ones.
 class BoundsTree {
 public:
-    /// Item i, below count, has box_of(i). Equal input gives an equal tree. O(n log n). An empty box is never found.
+    /// Builds the tree: item i below `count` has box_of(i). Equal input gives an equal tree. O(n log n). Items with an
+    /// empty box are never found.
     template <class BoxOf>
     void build(std::uint32_t count, BoxOf&& box_of) {
         scratch_.clear();
@@ -22,18 +22,18 @@ public:
         build_from_scratch();
     }
 
-    /// Item i < size() now has another box. Takes effect with refit().
+    /// Replaces the box of item i < size(). Takes effect with refit().
     void move(std::uint32_t item, const Aabb& box);
-    /// Costs nothing if nothing moved; else the depth of the tree for each moved item, at most once over the tree.
+    /// Applies moves. Costs nothing without moves; otherwise the depth of the tree per moved item, at most the whole
+    /// tree once.
     void refit();
 
     std::size_t size() const { return items_.size(); }
-    /// Around all boxes; empty without any.
+    /// Returns the box around all items; empty without any.
     Aabb box() const { return nodes_.empty() ? Aabb{} : nodes_.front().box; }
 
-    /// Calls visit(item) for each item whose box does not lie outside, in no particular order.
-    /// classify(box) -> Overlap; it must not say `outside` of a box of which it says otherwise for a part, nor `inside`
-    /// of one of which it says otherwise for a part.
+    /// Calls visit(item) for each item with a box that is not `outside`, in no particular order. classify(box) ->
+    /// Overlap must be consistent: parts of an `outside` box are outside, parts of an `inside` box inside.
     template <class Classify, class Visit>
     void visit(Classify&& classify, Visit&& visit) const {
         for (std::uint32_t n = 0; n < nodes_.size();) {
@@ -51,8 +51,8 @@ public:
         }
     }
 
-    /// The lowest value of any item; infinite without one. rank(box) -> double, no more than the value of any item in
-    /// the box; value(item, lowest) -> double, or `lowest` where the item's is none the lower.
+    /// Returns the lowest value of any item; infinity without items. rank(box) -> double is a lower bound for all items
+    /// in the box. value(item, lowest) -> double is the item's value, or `lowest` where that is not larger.
     template <class Rank, class Value>
     double lowest(Rank&& rank, Value&& value) const {
         constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -70,8 +70,7 @@ public:
     }
 
 private:
-    /// In the order of a walk that takes the first child first: it follows its parent, and `next` is the node after all
-    /// that is below.
+    /// Node in preorder, first child first. `next` is the first node after its subtree.
     struct Node {
         Aabb box;
         std::uint32_t first_slot, end_slot, next, parent;
@@ -82,14 +81,14 @@ private:
     bool refit_node(std::uint32_t node);
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> items_;    // by slot: places of the items in the order of the leaves
+    std::vector<std::uint32_t> items_;    // items in the order of the leaves, by slot
     std::vector<Aabb> boxes_;             // by slot
     std::vector<std::uint32_t> slot_of_;  // by item
-    std::vector<std::uint32_t> leaf_of_;  // by slot: the node
+    std::vector<std::uint32_t> leaf_of_;  // leaf node by slot
     std::vector<double> built_extent_;    // by node
     std::vector<std::uint32_t> moved_;    // slots since the last refit
-    std::vector<Aabb> scratch_;           // by item, while building
-    double growth_ = 0.0;                 // over all nodes: extent against the built one
+    std::vector<Aabb> scratch_;           // by item, used while building
+    double growth_ = 0.0;                 // sum over all nodes of extent relative to the built one
 };
 
 }  // namespace gnomon::math

@@ -7,7 +7,7 @@
 namespace gnomon::math {
 namespace {
 
-/// Of coordinates of this size, differences are wrong by a few of their last bits: the same bound as in frustum.cpp.
+/// Bounds the rounding of differences between coordinates of this size: the same bound as in frustum.cpp.
 double rounding(const glm::dvec3& p, const Aabb& box) {
     const glm::dvec3 largest = glm::max(glm::abs(p), glm::max(glm::abs(box.min), glm::abs(box.max)));
     return 0x1p-48 * (largest.x + largest.y + largest.z);

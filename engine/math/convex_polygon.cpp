@@ -10,17 +10,17 @@
 namespace gnomon::math {
 namespace {
 
-/// Twice the area of the triangle, positive if it turns left.
+/// Computes twice the signed area of the triangle, positive if it turns left.
 double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// From here on it is cheaper to look for the outermost points first than to sort all.
+/// From this number of points on, finding the outermost points first is cheaper than sorting all.
 constexpr std::size_t kManyPoints = 64;
 
 /// Moves the points that are not clearly inside the octagon to the front and returns them.
 std::span<glm::dvec2> outer_points(std::span<glm::dvec2> points) {
-    // Outermost toward low x, low x + y, low y, low y - x, and the opposite of each.
+    // Outermost toward low x, low x + y, low y, low y - x, and their opposites.
     std::array<glm::dvec2, 8> outermost;
     std::array<double, 4> low, high;
     outermost.fill(points.front());
@@ -33,7 +33,7 @@ std::span<glm::dvec2> outer_points(std::span<glm::dvec2> points) {
             if (at[i] > high[i]) high[i] = at[i], outermost[i + 4] = p;
         }
     }
-    // Half-planes dot(normal, p) > least, so narrow that rounding cannot take a point of the rim for an inner one.
+    // Half-planes dot(normal, p) > least, tightened so that rounding cannot make a point on the rim an inner one.
     constexpr double kRounding = 0x1p-50;
     std::array<glm::dvec3, 8> inside;  // normal, least
     std::size_t count = 0;
@@ -49,7 +49,7 @@ std::span<glm::dvec2> outer_points(std::span<glm::dvec2> points) {
         return false;
     };
     const auto kept = std::partition(points.begin(), points.end(), outside) - points.begin();
-    return points.first(std::max<std::size_t>(static_cast<std::size_t>(kept), 1));  // none where all are one point
+    return points.first(std::max<std::size_t>(static_cast<std::size_t>(kept), 1));  // none where all points are equal
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ void drop_flat_corners(double tolerance, std::vector<glm::dvec2>& polygon, std::
     if (polygon.size() < 2) return;
     const glm::dvec2 first = polygon.front();
     const auto squared = [](const glm::dvec2& v) { return glm::dot(v, v); };
-    // The corner farthest from any point is one that rounding cannot have made.
+    // The corner farthest from any given point is never a product of rounding.
     const auto start = std::max_element(polygon.begin(), polygon.end(), [&](const glm::dvec2& a, const glm::dvec2& b) {
         return squared(a - first) < squared(b - first);
     });
@@ -87,7 +87,7 @@ void drop_flat_corners(double tolerance, std::vector<glm::dvec2>& polygon, std::
         const double at = length_squared > 0.0 ? std::clamp(glm::dot(p - from, along) / length_squared, 0.0, 1.0) : 0.0;
         return squared(p - from - at * along) <= tolerance * tolerance;
     };
-    std::size_t kept = 0;  // of scratch, the last one
+    std::size_t kept = 0;  // index in scratch of the last corner kept
     for (std::size_t i = 1; i < scratch.size(); ++i) {
         const glm::dvec2& next = scratch[(i + 1) % scratch.size()];
         bool all_flat = true;

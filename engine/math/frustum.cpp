@@ -8,8 +8,8 @@
 namespace gnomon::math {
 namespace {
 
-// Rounding of dot(normal, p) + offset is at most 4 units in the last place (2^-53) of the sum of its terms' sizes;
-// a point found as the crossing of two well-conditioned planes adds a few more. 16 units cover both.
+// Rounding of dot(normal, p) + offset relative to the sum of its terms' sizes. The evaluation takes at most 4 units in
+// the last place (2^-53). A point at the crossing of two well-conditioned planes adds a few; 16 units cover both.
 // Tested by ClipBox.FlatBoxOnAFrustumPlaneKeepsItsCorners and the property tests beside it.
 constexpr double kRounding = 0x1p-48;
 
@@ -19,7 +19,7 @@ Plane plane_through(const glm::dvec3& normal, const glm::dvec3& point, double in
     return {normal, -glm::dot(normal, point) - inset};
 }
 
-/// Largest size of dot(normal, p) + offset over the box, the unit of the rounding error of it.
+/// Bounds the terms of dot(normal, p) + offset over the box: the unit of their rounding error.
 double magnitude(const Plane& plane, const glm::dvec3& farthest_abs) {
     return glm::dot(glm::abs(plane.normal), farthest_abs) + std::abs(plane.offset);
 }
@@ -29,7 +29,7 @@ struct Segment {
     glm::dvec3 b;
 };
 
-/// The planes that cut the box, relative to its centre, with how far outside still counts as on the plane.
+/// Planes that cut the box, relative to its centre, each with the distance outside that still counts as on it.
 struct Clipper {
     struct Slab {
         Plane plane;
@@ -48,7 +48,7 @@ struct Clipper {
         return true;
     }
 
-    /// The part of the segment inside all planes. An end within tolerance stays where it is, bit for bit.
+    /// Returns the part of the segment inside all planes. An end within tolerance stays unchanged, bit for bit.
     std::optional<Segment> clipped(Segment s) const {
         for (std::uint32_t i = 0; i < count; ++i) {
             const auto& [plane, tolerance] = slabs[i];
@@ -65,7 +65,7 @@ struct Clipper {
         return s;
     }
 
-    /// The part inside the box of the line where planes i and j meet.
+    /// Returns the part inside the box of the line where planes i and j meet.
     std::optional<Segment> edge_in_box(std::uint32_t i, std::uint32_t j) const {
         const Plane& p = slabs[i].plane;
         const Plane& q = slabs[j].plane;
@@ -93,7 +93,7 @@ struct Clipper {
     }
 };
 
-/// Nothing if a plane has the whole box outside, or a number is not finite.
+/// Returns nothing if the whole box is outside a plane, or a number is not finite.
 std::optional<Clipper> make_clipper(std::span<const Plane> planes, const Aabb& box) {
     Clipper c;
     c.centre = math::centre(box);
@@ -116,7 +116,7 @@ std::optional<Clipper> make_clipper(std::span<const Plane> planes, const Aabb& b
 }  // namespace
 
 glm::dmat3 basis_from_back(const glm::dvec3& back) {
-    // Scaled first: squares of very small or very large numbers would leave the range of double.
+    // Scaled first, because squares of very small or very large numbers leave the range of double.
     const glm::dvec3 scaled = back / std::max({std::abs(back.x), std::abs(back.y), std::abs(back.z)});
     const glm::dvec3 n = scaled / std::sqrt(glm::dot(scaled, scaled));
     const double sign = std::copysign(1.0, n.z);
@@ -166,7 +166,7 @@ Overlap overlap(std::span<const Plane> planes, const Aabb& box) {
         const glm::dvec3 at_min = plane.normal * box.min, at_max = plane.normal * box.max;
         const glm::dvec3 highest = glm::max(at_min, at_max), lowest = glm::min(at_min, at_max);
         const double tolerance = kRounding * magnitude(plane, farthest_abs);
-        // NaN (an infinite box, a broken plane) decides nothing, so the box stays.
+        // NaN (an infinite box, a broken plane) decides nothing: the box stays.
         if (highest.x + highest.y + highest.z + plane.offset < -tolerance) return Overlap::outside;
         if (!(lowest.x + lowest.y + lowest.z + plane.offset >= -tolerance)) result = Overlap::partial;
     }
@@ -175,9 +175,9 @@ Overlap overlap(std::span<const Plane> planes, const Aabb& box) {
 
 bool may_overlap(const Frustum& f, const Aabb& box) { return overlap(planes_of(f), box) != Overlap::outside; }
 
-// A vertex of box ∩ frustum is where three planes meet: three of the box (a corner), two of the box and one of the
-// frustum or three and two the other way round (an edge of one crossing a face of the other), or three of the frustum
-// (its corner, an end of its edges). So the corners and the clipped edges of both are all there is.
+// A vertex of box ∩ frustum is where three planes meet. Three planes of the box: a corner. Two of one and one of the
+// other: an edge crosses a face. Three planes of the frustum: its corner, an end of its edges. Hence the corners and
+// clipped edges of both are complete.
 std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector<glm::dvec3>& out) {
     if (is_empty(box) || !math::is_finite(box)) return 0;
     const std::optional<Clipper> clipper = make_clipper(planes, box);
@@ -214,7 +214,7 @@ std::size_t clip_box(std::span<const Plane> planes, const Aabb& box, std::vector
 }
 
 Aabb clipped_bounds(std::span<const Plane> planes, const Aabb& box) {
-    constexpr int kRounds = 3;  // what one plane takes from one axis lets another take from the next
+    constexpr int kRounds = 3;  // a cut along one axis can allow a cut along the next
     Aabb left = box;
     for (int round = 0; round < kRounds; ++round) {
         for (const Plane& plane : planes) {

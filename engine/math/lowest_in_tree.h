@@ -7,17 +7,18 @@
 
 namespace gnomon::math {
 
-/// The lowest value in a binary tree that halves what it holds, fewer than 2^32 things; node 0 is its root. Branch and
-/// bound, the more promising half first.
-/// rank(node) -> double, no more than any value below the node; children(node) -> optional pair of nodes, none at a
-/// leaf; value(leaf, lowest) -> double, the leaf's lowest, or `lowest` where that is none the higher.
+/// Finds the lowest value in a binary tree of fewer than 2^32 items, node 0 being its root. Branch and bound, more
+/// promising half first. Returns `no_more_than` if no value is lower.
+/// - rank(node) -> double: lower bound for all values below the node.
+/// - children(node) -> optional pair of nodes: nothing at a leaf.
+/// - value(leaf, lowest) -> double: the leaf's lowest value, or `lowest` where that is not larger.
 template <class Rank, class Children, class Value>
 double lowest_in_tree(double no_more_than, Rank&& rank, Children&& children, Value&& value) {
     struct Waiting {
         std::uint32_t node;
         double rank;
     };
-    // Halving 2^32 things leaves one after 32 steps, each of which lets one other half wait.
+    // Halving 2^32 items leaves one after 32 steps; each step leaves at most one half to visit later.
     std::array<Waiting, 33> waiting;
     std::size_t count = 0;
     double lowest = no_more_than;

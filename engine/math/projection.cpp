@@ -19,7 +19,7 @@ glm::dmat4 reversed_perspective(double left, double right, double bottom, double
     glm::dmat4 clip_from_view(0.0);
     clip_from_view[0][0] = 2.0 / (right - left);
     clip_from_view[1][1] = 2.0 / (top - bottom);
-    // Both depth terms reach their limit (0 and near) at an infinite far plane without a branch.
+    // Both depth terms reach their limits (0 and near) at an infinite far plane without a branch.
     clip_from_view[2] = {(right + left) / (right - left), (top + bottom) / (top - bottom), near_m / (far_m - near_m),
                          -1.0};
     clip_from_view[3][2] = near_m / (1.0 - near_m / far_m);

@@ -11,12 +11,12 @@
 namespace gnomon::math {
 namespace {
 
-/// A leaf holds several parts where they lie close together. A wall and a floor do not, and the room between them is
-/// empty. Measured on Sponza: docs/architecture.md, "Sets".
+/// Maximum number of parts in a leaf, if they lie close together. Distant parts (a wall and a floor) are split, because
+/// the room between them is empty. Measured on Sponza: docs/architecture.md, "Sets".
 constexpr std::size_t kLeafParts = 8;
-constexpr float kLeafShare = 1.0f / 64.0f;  // of the shape's extent
-/// Eight units in the last place of a float: the basis that a GPU multiplies by, three products, their sums and the
-/// subtraction of the anchor round by one each, and one is to spare. Rounding here, in double, is nothing beside it.
+constexpr float kLeafShare = 1.0f / 64.0f;  // largest leaf with several parts, relative to the shape
+/// Rounding of a GPU's float coordinates: eight units in the last place. The basis, three products, their sums and the
+/// subtraction of the anchor take seven. Rounding in double here is negligible beside it.
 constexpr double kFloatRounding = 0x1p-21;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -26,7 +26,7 @@ double rounding_in(const Aabb& box, const Ramp& ramp) {
     return kFloatRounding * (glm::dot(glm::abs(ramp.gradient), farthest_abs) + std::abs(ramp.offset));
 }
 
-/// The highest value of dot(gradient, p) + offset in boxes: at which end of each axis it lies is known beforehand.
+/// Maximum of dot(gradient, p) + offset over boxes. The gradient's signs fix which corner has it.
 struct Highest {
     glm::dvec3 gradient{0.0};
     double offset = 0.0;
@@ -40,7 +40,7 @@ struct Highest {
     }
 };
 
-/// lowest_corner() of many boxes in a common one, whose rounding counts for all.
+/// lowest_corner() for many boxes within a common one, with one bound on rounding for all.
 class Ranking {
 public:
     Ranking(const Aabb& all, const Ramp& ramp, std::span<const Plane> planes)
@@ -61,8 +61,8 @@ public:
             if (planes_[i].in(ends) < 0.0) return kInfinity;
         return -fall_.in(ends);
     }
-    /// From now on only what is lower counts: all that is inside the planes lies in a smaller box. Beside the apex of a
-    /// pyramid that excludes far more than the planes do, one by one.
+    /// Restricts the search to values below `lowest`, and thus to a smaller region inside the planes. Near the apex of
+    /// a pyramid that excludes far more than testing the planes one by one.
     void narrow(double lowest, std::vector<glm::dvec3>& scratch) {
         if (lowest == narrowed_to_) return;
         narrowed_to_ = lowest;

@@ -33,8 +33,8 @@ bool software_wanted() {
     return value != nullptr && (std::strcmp(value, "1") == 0 || std::strcmp(value, "true") == 0);
 }
 
-/// Displays of hardware devices. Mesa's surfaceless platform would answer first where a vendor driver sits beside
-/// it, and would draw on the processor although there is a GPU.
+/// Adds the displays of hardware devices. They go first: beside a vendor driver, Mesa's surfaceless platform would
+/// render on the processor although there is a GPU.
 void add_hardware_displays(const char* client_extensions, std::vector<EGLDisplay>& displays) {
     if (software_wanted() || !has_word(client_extensions, "EGL_EXT_platform_device")) return;
     const auto query_devices = function_named<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
@@ -50,7 +50,7 @@ void add_hardware_displays(const char* client_extensions, std::vector<EGLDisplay
     }
 }
 
-/// In order of preference.
+/// Returns displays to try, best first.
 std::vector<EGLDisplay> candidate_displays() {
     const char* client_extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     std::vector<EGLDisplay> displays;
@@ -76,8 +76,8 @@ EGLContext create_context(EGLDisplay display, EGLConfig config, bool debug, bool
     return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 
-/// The display stays initialised for the life of the process: it is one per driver, and terminating it would end
-/// every other context on it.
+/// Context with its surface. The display stays initialised for the life of the process. There is one per driver, and
+/// terminating it would end every other context on it.
 class EglContext final : public Context {
 public:
     EglContext(EGLDisplay display, EGLContext context, EGLSurface surface)
@@ -85,7 +85,7 @@ public:
     EglContext(const EglContext&) = delete;
     EglContext& operator=(const EglContext&) = delete;
     ~EglContext() override {
-        if (eglGetCurrentContext() == context_) {  // another one may have been made since
+        if (eglGetCurrentContext() == context_) {  // another context may have become current since
             eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         }
         if (surface_ != EGL_NO_SURFACE) eglDestroySurface(display_, surface_);
@@ -98,7 +98,7 @@ private:
     EGLSurface surface_;
 };
 
-/// A context on this display, or nullptr.
+/// Creates a context on this display. Returns nullptr if that fails.
 std::unique_ptr<Context> context_on(EGLDisplay display, bool debug) {
     const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
     const std::array<EGLint, 5> wanted = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,

@@ -68,7 +68,7 @@ constexpr std::array kPadButtons = {PadButtonName{GLFW_GAMEPAD_BUTTON_A, PadButt
                                     PadButtonName{GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, PadButton::right}};
 static_assert(kMaxGamepads == GLFW_JOYSTICK_LAST + 1);
 
-/// Not present: nothing is plugged in there, or nothing that GLFW knows the layout of.
+/// Reads the gamepad in a slot. `present` is false if the slot is empty or GLFW has no layout for the device.
 Gamepad read_gamepad(int slot) {
     Gamepad pad;
     GLFWgamepadstate state;
@@ -85,7 +85,7 @@ Gamepad read_gamepad(int slot) {
     return pad;
 }
 
-/// What GLFW says about the last call that failed, on one line.
+/// Describes the last failed GLFW call on one line.
 Error glfw_error(std::string what, std::string rule) {
     const char* description = nullptr;
     if (glfwGetError(&description) != GLFW_NO_ERROR && description != nullptr) what += std::string{": "} + description;
@@ -128,7 +128,7 @@ public:
     void capture_mouse(bool on) override {
         glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
         if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, on);
-        // The cursor jumps when its mode changes: that is not a movement of the mouse.
+        // The cursor jumps when its mode changes, which is no movement of the mouse.
         glfwGetCursorPos(window_, &input_.mouse_x, &input_.mouse_y);
     }
     void set_title(std::string_view title) override { glfwSetWindowTitle(window_, std::string{title}.c_str()); }
@@ -183,13 +183,13 @@ GLFWwindow* create_window(std::uint32_t width, std::uint32_t height, const std::
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, debug ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, robust);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // scenes are drawn into textures, the window only shows them
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // no depth: scenes are drawn into textures, the window only shows them
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     return glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
 }
 
-/// Leaves Wayland out where no variable names a socket of it: GLFW 3.4 would try it last, and its client library
-/// prints a line of its own when that fails.
+/// Hints against Wayland if the environment names no Wayland socket. GLFW 3.4 would try it last, and its client library
+/// prints an error line then.
 void choose_window_system() {
 #ifdef GLFW_PLATFORM
     constexpr std::array kWaylandNames{"WAYLAND_DISPLAY", "WAYLAND_SOCKET", "XDG_RUNTIME_DIR"};

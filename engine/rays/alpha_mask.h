@@ -6,10 +6,10 @@
 
 namespace gnomon::rays {
 
-/// Whether a masked material is there at a point of a triangle, at the texture's finest level, as the picture has it:
-/// alpha of colour, texture and vertices' colours at least the cutoff, filtered and wrapped as the texture says. True
-/// of opaque ones, and where texture coordinates are not finite the texture counts as 1. `weights`: of the three
-/// corners.
+/// Returns true if a masked material is present at a point of a triangle, as the picture shows it. That is where the
+/// product of colour, texture and vertex colour has an alpha of at least the cutoff. The texture is read at its finest
+/// level, with its own filter and wrapping. Opaque materials are always present. Texture coordinates that are not
+/// finite read 1. `weights`: barycentric, of the three corners.
 bool is_there(const assets::MeshLibrary& library, const assets::Mesh& mesh, std::uint32_t triangle,
               std::uint32_t material, const glm::dvec3& weights);
 

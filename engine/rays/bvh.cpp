@@ -8,10 +8,10 @@ namespace gnomon::rays {
 namespace {
 
 constexpr int kBins = 16;
-/// What one more inner node costs a walk, in tests of a triangle. On Sponza 1 to 4 differ by less than the noise of
-/// ./gnomon bench queries; 3 takes a quarter less memory than 1.
+/// Cost of an inner node, in triangle tests. Costs from 1 to 4 differ by less than noise on Sponza (./gnomon bench
+/// queries); 3 needs a quarter less memory than 1.
 constexpr double kNodeCost = 3.0;
-/// Below this depth halves are equal.
+/// Depth from which nodes are cut into equal halves.
 constexpr int kMostUneven = static_cast<int>(kMostDepth) - 28;
 
 struct Part {
@@ -33,13 +33,13 @@ struct Bin {
     std::uint32_t count = 0;
 };
 
-/// Where parts are cut in two: those whose centres lie in bins up to `last`.
+/// Cut of a node in two: centres in bins up to `last` go to one side.
 struct Cut {
     int axis = -1, last = 0;
     double cost = 0.0;
 };
 
-/// Bin of a centre along one axis; monotonic.
+/// Maps a centre's coordinate along one axis to its bin; monotonic.
 struct Binning {
     float from = 0.0f, per_m = 0.0f;
     int operator()(float at) const { return std::clamp(static_cast<int>((at - from) * per_m), 0, kBins - 1); }
@@ -89,7 +89,7 @@ private:
         return {centres.min[axis], std::isfinite(per_m) && std::isfinite(size) ? per_m : 0.0f};
     }
 
-    /// Lowest sum of area times count of both sides; no axis where all centres fall into one bin.
+    /// Finds the cut with the lowest sum of area times count over both sides. No axis if all centres fall into one bin.
     Cut best_cut(std::uint32_t first, std::uint32_t end, const Box& centres) const {
         std::array<std::array<Bin, kBins>, 3> bins{};
         const std::array<Binning, 3> bin_of{binning(centres, 0), binning(centres, 1), binning(centres, 2)};
@@ -108,7 +108,7 @@ private:
     }
 
     static void sweep(const std::array<Bin, kBins>& bins, int axis, Cut& best) {
-        std::array<double, kBins> above{};  // cost of all bins from here on
+        std::array<double, kBins> above{};  // cost of all bins from this one up
         Bin side;
         for (std::size_t b = kBins - 1; b > 0; --b) {
             grow(side.box, bins[b].box);

@@ -7,17 +7,17 @@
 
 #include "engine/rays/ray_packet.h"
 
-/// Four lanes at a time, as every compiler for this project can: what a loop over lanes should become and, once it
-/// holds a choice, does not.
+/// Vectors of four lanes, in a form that GCC and clang both accept. Compilers vectorise a plain loop over lanes only
+/// while it has no branch.
 namespace gnomon::rays {
 
 static_assert(kVectorLanes == 4);
-/// Vectors that hold any of the lanes.
+/// Returns the number of vectors up to the last of the lanes.
 inline std::size_t vectors_of(Lanes lanes) {
     return (static_cast<std::size_t>(std::bit_width(lanes)) + kVectorLanes - 1) / kVectorLanes;
 }
 using FloatVector = float __attribute__((vector_size(16)));
-using LaneVector = std::int32_t __attribute__((vector_size(16)));  // all bits of a lane, or none
+using LaneVector = std::int32_t __attribute__((vector_size(16)));  // all bits of a lane set, or none
 
 inline FloatVector load(const PerLane<float>& lanes, std::size_t vector) {
     FloatVector loaded;
@@ -35,7 +35,7 @@ inline bool any(LaneVector marked) {
     return (halves[0] | halves[1]) != 0;
 }
 
-/// Those of the lanes of a vector that are marked.
+/// Returns the marked lanes of a vector as bits.
 inline Lanes lanes_of(LaneVector marked, std::size_t vector) {
     const LaneVector bits = marked & LaneVector{1, 2, 4, 8};
     return static_cast<Lanes>(bits[0] | bits[1] | bits[2] | bits[3]) << (vector * kVectorLanes);

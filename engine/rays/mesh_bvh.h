@@ -11,33 +11,34 @@ namespace gnomon::rays {
 
 inline constexpr std::uint32_t kOpaque = 0xffffffffu;
 
-/// 48 bytes; three vec4 with an unsigned in each w.
+/// Triangle of a tree; 48 bytes, in a shader three vec4 with an unsigned in each w.
 struct BvhTriangle {
     glm::vec3 a{0.0f};
-    std::uint32_t triangle = 0;  // of the mesh: its corners are indices[3 * triangle] and the next two
+    std::uint32_t triangle = 0;  // index in the mesh: its corners are indices[3 * triangle] and the next two
     glm::vec3 b{0.0f};
-    std::uint32_t mask = kOpaque;  // the material whose alpha decides, if it is masked
+    std::uint32_t mask = kOpaque;  // masked material with the alpha to test; kOpaque: none
     glm::vec3 c{0.0f};
     std::uint32_t spare = 0;
 };
 static_assert(sizeof(BvhTriangle) == 48);
 
-/// The triangles of a mesh that block light, in its own space, in a tree. Blended ones do not, nor do those of a mesh
-/// at rest that are not finite. A bent mesh's are where its vertices are, rounded to float once, as the GPU has them.
+/// Tree over the triangles of a mesh that block light, in mesh space. Excludes blended triangles, and those of a rigid
+/// mesh with a corner that is not finite. A deformed mesh's triangles follow its vertices, rounded to float once, as on
+/// the GPU.
 class MeshBvh {
 public:
     MeshBvh() = default;
-    /// `vertices`: of the mesh where they are now, as assets::deform() has them; or the mesh's own.
+    /// Builds the tree. `vertices`: current ones from assets::deform(), or the mesh's own.
     MeshBvh(const assets::Mesh& mesh, std::span<const assets::Vertex> vertices,
             const std::vector<assets::Material>& materials);
 
-    /// The vertices are elsewhere. Boxes are refitted; where that has made a walk kLooseGrowth times as long as it was
-    /// when the tree was built, it is built anew.
+    /// Moves the triangles to the new vertices and refits the boxes. Rebuilds the tree if walks cost kLooseGrowth times
+    /// as much as when it was built.
     void move(const assets::Mesh& mesh, std::span<const assets::Vertex> vertices);
 
     std::span<const BvhNode> nodes() const { return nodes_; }
     std::span<const BvhTriangle> triangles() const { return triangles_; }  // by slot
-    /// Around all; empty without a finite triangle.
+    /// Returns the box around all triangles; empty without a finite triangle.
     Box box() const { return nodes_.empty() ? Box{} : Box{nodes_[0].min, nodes_[0].max}; }
     BvhCost cost() const { return cost_of(nodes_); }
     std::size_t bytes() const {

@@ -2,21 +2,21 @@
 #include "engine/rays/mesh_bvh.h"
 #include "engine/rays/ray_packet.h"
 
-/// What each of many rays meets first: the walk through a mesh's tree, nearer children first.
+/// Nearest hit of each of many rays: a walk through a mesh's tree, nearer children first.
 namespace gnomon::rays {
 
-/// Decides in double what a ray meets, and keeps the nearest.
+/// Decides in double what a ray hits, and keeps the nearest hit.
 class NearestTest {
 public:
-    /// Whether the ray meets the triangle, nearer than all before; then `t` is where.
+    /// Returns true if the ray hits the triangle nearer than all before; sets `t` to the place.
     virtual bool is_nearer(std::size_t ray, const BvhTriangle& triangle, double& t) = 0;
 
 protected:
     ~NearestTest() = default;
 };
 
-/// Asks `exact` of every triangle that may be the first that a ray of the packet meets. What it says nearer shortens
-/// the segments. Equally near triangles are all asked.
+/// Calls `exact` for every triangle that may be the nearest of a ray in the packet. Each nearer hit shortens its
+/// segment. Equally near triangles are all tested.
 void ask_nearest(const MeshBvh& tree, SegmentPacket& segments, NearestTest& exact);
 
 }  // namespace gnomon::rays

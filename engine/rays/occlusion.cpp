@@ -8,24 +8,25 @@
 namespace gnomon::rays {
 namespace {
 
-/// A slab's bounds of t, at most 1, round by three units each (ray_packet.cpp): 2^-20 is more than both.
+/// Slack of a slab's bounds of t. Both bounds are at most 1 and round by three units each (ray_packet.cpp); 2^-20
+/// exceeds the sum.
 constexpr float kSlabSlack = 0x1p-20f;
 
 float sum_of(const glm::vec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
-/// Bounds of rounding, all in units of SegmentPacket::rounding (r), which is at least 2^-24 of the largest coordinate
-/// M, with D the largest component of `along` (off by r D / M), E the longest side's in the triangle (exact but for one
-/// rounding), s = a - from (off by 3 r, at most 2 M):
-///   cross(along, s)  at most 4 D M, off by 18 r D: 6 for s, 4 for along, 8 for its own products and difference
-///   its product with a side  off by 3 * 18 + 12 for the side + 36 for products and sums = 102 r D E
-///   dot(along, normal)  the normal is at most 2 E^2 <= 4 M E, off by 8 units: 3 * 16 + 12 + 36 = 96 r D E
-///   their difference, two sums more  102 + 102 + 96 + 72 = 372 r D E
-///   dot(s, normal)  3 * (2 * 3 + 2 * 8) + 18 + 18 = 102 r E^2, of terms of at most 4 M E^2
+/// Bounds of rounding, in units of SegmentPacket::rounding (r), at least 2^-24 of the largest coordinate M. D: largest
+/// component of `along`, off by r D / M. E: largest component of the triangle's sides, exact up to one rounding.
+/// s: the difference `a - from`, off by 3 r, at most 2 M.
+/// - cross(along, s): at most 4 D M, off by 18 r D (6 for s, 4 for along, 8 for its products and difference)
+/// - its product with a side: off by 3 * 18 + 12 for the side + 36 for products and sums = 102 r D E
+/// - dot(along, normal): normal at most 2 E^2 <= 4 M E, off by 8 units: 3 * 16 + 12 + 36 = 96 r D E
+/// - their difference, two more sums: 102 + 102 + 96 + 72 = 372 r D E
+/// - dot(s, normal): 3 * (2 * 3 + 2 * 8) + 18 + 18 = 102 r E^2, of terms of at most 4 M E^2
 constexpr float kSideUnits = 400.0f, kDistanceUnits = 128.0f;
-/// Products that underflow are off by less than this, as coordinates of at least 1e-9 have it.
+/// Bound on the error of products that underflow, for coordinates of at least 1e-9.
 constexpr float kUnderflow = 0x1p-120f;
 
-/// Of the lanes of a vector, those near the widened box.
+/// Returns the lanes of a vector with segments near the widened box.
 LaneVector near_widened(const SegmentPacket& segments, std::size_t v, const glm::vec3& low, const glm::vec3& high) {
     const FloatVector from_x = load(segments.from[0], v), inverse_x = load(segments.inverse[0], v);
     const FloatVector from_y = load(segments.from[1], v), inverse_y = load(segments.inverse[1], v);
@@ -60,7 +61,7 @@ Verdict judge(const SegmentPacket& segments, const BvhTriangle& triangle) {
     const glm::vec3 ab = triangle.b - triangle.a, ac = triangle.c - triangle.a;
     const glm::vec3 normal(ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z, ab.x * ac.y - ab.y * ac.x);
     const float side = std::fmax(sum_of(ab), sum_of(ac));
-    const float side_error = kSideUnits * segments.rounding * side;  // times the lane's size
+    const float side_error = kSideUnits * segments.rounding * side;  // relative to the lane's size
     const float distance_error = kDistanceUnits * segments.rounding * side * side + kUnderflow;
     Verdict verdict;
     for (std::size_t v = 0; v < vectors_of(segments.lanes); ++v) {
@@ -80,7 +81,7 @@ Verdict judge(const SegmentPacket& segments, const BvhTriangle& triangle) {
         if (!any(open)) continue;
         const FloatVector distance = sx * normal.x + sy * normal.y + sz * normal.z;
         const FloatVector way = slope < 0.0f ? -distance : distance, whole = absolute(slope);
-        const LaneVector through = (least > error) | (most < -error);  // then the slope's sign is known, too
+        const LaneVector through = (least > error) | (most < -error);  // the slope's sign is certain, too
         const LaneVector between = (way > distance_error) & (way < whole - distance_error - error);
         const LaneVector apart = (way < -distance_error) | (way > whole + distance_error + error);
         const LaneVector hit = open & through & between;

@@ -5,20 +5,20 @@
 #include "engine/rays/mesh_bvh.h"
 #include "engine/rays/ray_packet.h"
 
-/// Which of many rays something blocks: the walk through a mesh's tree.
+/// Occlusion of many rays: a walk through a mesh's tree.
 namespace gnomon::rays {
 
-/// Lanes whose segments come near the box; never leaves one out that meets it.
+/// Returns the lanes with segments near the box. Conservative: includes every segment that hits it.
 Lanes near_box(const SegmentPacket& segments, const glm::vec3& min, const glm::vec3& max);
 
-/// What float can say about segments and a triangle. Lanes in neither miss it for sure.
+/// Result of float arithmetic for segments against a triangle. Lanes in neither set miss it for certain.
 struct Verdict {
-    Lanes hit = 0;     // for sure, and not where it begins or ends
-    Lanes unsure = 0;  // too near to an edge or an end: double has to decide
+    Lanes hit = 0;     // certain, and not at the segment's ends
+    Lanes unsure = 0;  // too close to an edge or an end: decided in double
 };
 Verdict judge(const SegmentPacket& segments, const BvhTriangle& triangle);
 
-/// Decides what float leaves open, and what an alpha mask decides.
+/// Decides the cases that float leaves open, and alpha masks.
 class ExactTest {
 public:
     virtual bool blocks(std::size_t ray, const BvhTriangle& triangle) = 0;
@@ -27,8 +27,8 @@ protected:
     ~ExactTest() = default;
 };
 
-/// Rays of the packet that some triangle blocks, a bit each; their lanes are dropped from `segments`. The answer is
-/// that of `exact` for every triangle.
+/// Returns the rays of the packet that a triangle blocks, a bit each, and drops their lanes from `segments`. The result
+/// equals that of calling `exact` for every triangle.
 Lanes blocked_rays(const MeshBvh& tree, SegmentPacket& segments, ExactTest& exact);
 
 }  // namespace gnomon::rays

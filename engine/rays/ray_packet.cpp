@@ -12,21 +12,22 @@ namespace {
 
 constexpr double kFloatUnit = 0x1p-24, kDoubleUnit = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rays are cut where they enter and leave the box, widened by this share of its longest side: the cuts then lie so far
-/// from all triangles that float can tell.
+/// Share of its longest side by which a box is widened. Rays are cut where they enter and leave the widened box. The
+/// cuts then lie so far from all triangles that float can decide.
 constexpr double kWider = 1.0 / 64.0;
-/// Between these sizes products of three coordinates are normal floats.
+/// Range of sizes for which products of three coordinates are normal floats.
 constexpr double kLeastSize = 1e-9, kMostSize = 1e9;
-/// A component of `along` below this share of the coordinates moves no point of [0, 1] by more than the slack holds,
-/// and its inverse is finite.
+/// Minimum component of `along`, relative to the coordinates. A smaller one moves no point of [0, 1] beyond the slack;
+/// a larger one has a finite inverse.
 constexpr float kLeastAlong = 0x1p-30f;
-/// from and along round once each, by 1 and 2 units of the largest coordinate; a slab's distance by three units of no
-/// more than thrice that. 16 is above their sum.
+/// Units by which a box is widened. `from` and `along` round by 1 and 2 units of the largest coordinate. A slab's
+/// distance rounds by three units of at most three times that. 16 exceeds their sum.
 constexpr double kBoxUnits = 16.0;
-/// Of an inverse basis times a vector, in units of its condition: the inverse's entries, the products, their sums.
+/// Rounding of an inverse basis times a vector, in units of its condition: the inverse's entries, the products, their
+/// sums.
 constexpr double kInverseUnits = 64.0;
 
-/// A share of a segment rounds to float by 2^-24, and is never cut to nothing.
+/// Slack for a share of a segment that rounds to float (2^-24), so that no segment is cut to nothing.
 constexpr double kShareSlack = 0x1p-20;
 
 double norm(const glm::dmat3& m) {
@@ -36,7 +37,7 @@ double norm(const glm::dmat3& m) {
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// In which part of t a ray is in the box. Comparisons are such that a NaN, from a ray along a face, cuts nothing.
+/// Range of t for which a ray is in the box. A NaN, from a ray along a face, cuts nothing.
 struct Cut {
     double first, last;
     Cut(const FramedRays& rays, std::size_t ray, const glm::dvec3& low, const glm::dvec3& high)
@@ -69,7 +70,7 @@ void put(const FramedRays& rays, const Cut& cut, std::size_t ray, float least, S
     segments.length[lane] = cut.last - cut.first;
 }
 
-/// What float knows nothing of, or nothing at all: any numbers.
+/// Fills a lane that has no segment, or a segment beyond float, with arbitrary numbers.
 void put_unknown(SegmentPacket& segments, std::size_t lane) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         segments.from[axis][lane] = 0.0f;

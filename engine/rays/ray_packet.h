@@ -7,7 +7,7 @@
 
 #include "engine/rays/bvh.h"
 
-/// Rays sixteen at a time: those near each other share the way through a tree.
+/// Rays in packets of sixteen: neighbouring rays share the walk through a tree.
 namespace gnomon::rays {
 
 inline constexpr std::size_t kLanes = 16, kVectorLanes = 4;
@@ -17,55 +17,55 @@ inline constexpr Lanes kAllLanes = (1u << kLanes) - 1u;
 template <class Number>
 using PerLane = std::array<Number, kLanes>;
 
-/// from + t * along for t in (first, last). In double, in the world; all finite but `last`, which is infinite for rays
-/// without an end.
+/// Rays from + t * along for t in (first, last), in double, in world space. All numbers are finite except `last`:
+/// infinite for rays without an end.
 struct RayPacket {
     PerLane<glm::dvec3> from{}, along{};
-    PerLane<double> first{};  // at least 0
+    PerLane<double> first{};  // >= 0
     double last = 1.0;
-    std::size_t count = 0;  // the other lanes are none
+    std::size_t count = 0;  // lanes from `count` on are unused
     Lanes lanes() const { return (1u << count) - 1u; }
 };
 
-/// p_ws = basis * p + origin.
+/// Frame of reference: p_ws = basis * p + origin.
 struct Frame {
     glm::dmat3 basis{1.0};
     glm::dvec3 origin_ws_m{0.0};
     bool operator==(const Frame&) const = default;
 };
 
-/// The rays of a packet in a frame's space, in double.
+/// Rays of a packet in a frame's space, in double.
 struct FramedRays {
     std::array<PerLane<double>, 3> from, along, inverse;  // inverse: 1 / along
     PerLane<double> first;
     double last = 1.0;
-    double largest = 0.0;   // coordinate of where rays begin
+    double largest = 0.0;   // largest coordinate of the rays' origins
     double rounding = 0.0;  // relative to `largest`, of all coordinates; not finite if the frame has no inverse
-    Lanes rays = 0;         // those that are here
+    Lanes rays = 0;         // rays present, a bit each
 };
 
 FramedRays in_frame(const RayPacket& rays, Lanes wanted, const Frame& frame);
 
-/// The parts of rays that lie near a box, in its space and in float: from + t * along, t in [0, 1]. How far these can
-/// be from the rays in double, and whatever is computed of them, is bounded (ray_packet.cpp): what a walk says of them
-/// for sure holds for the rays. They fill the first lanes, so that a few cost less than many.
+/// Segments of rays near a box, in its space and in float: from + t * along, t in [0, 1]. Their distance from the rays
+/// in double, and all rounding, is bounded (ray_packet.cpp). What a walk decides for certain about a segment thus holds
+/// for its ray. Segments fill the first lanes, so that few cost less than many.
 struct SegmentPacket {
     alignas(64) std::array<PerLane<float>, 3> from, along, inverse;
-    alignas(64) PerLane<float> last;  // 1, or less once it is shortened; below 0: the lane is none
+    alignas(64) PerLane<float> last;  // 1, or less once shortened; < 0: unused lane
     alignas(64) PerLane<float> size;  // largest component of along
-    PerLane<std::uint8_t> ray;        // which of the packet's each lane holds
-    PerLane<double> begin, length;    // the ray's own t where a lane's is 0, and from there to 1; length 0: not known
-    float box_slack = 0.0f;           // by which boxes are widened; infinite: float knows nothing
-    float rounding = 0.0f;            // of coordinates; infinite as well
+    PerLane<std::uint8_t> ray;        // index of the lane's ray in the packet
+    PerLane<double> begin, length;    // the ray's own t at a lane's 0, and from there to its 1; length 0: unknown
+    float box_slack = 0.0f;           // boxes are widened by this; infinite: float decides nothing
+    float rounding = 0.0f;            // rounding of coordinates; infinite: float decides nothing
     Lanes lanes = 0;
 
     void drop(Lanes dropped);
-    /// What lies beyond `t` of the lane's ray is of no interest any more: boxes there are no longer near.
+    /// Shortens the lane's segment to `t` of its ray: boxes beyond are then not near.
     void shorten(std::size_t lane, double t);
     Lanes rays_of(Lanes of) const;  // a bit per ray of the packet
 };
 
-/// The `wanted` rays near the box, which is of the rays' space; others are left out.
+/// Cuts the `wanted` rays to the box, which is in the rays' space; drops rays that are not near it.
 void cut_to(const Box& box, const FramedRays& rays, Lanes wanted, SegmentPacket& segments);
 
 }  // namespace gnomon::rays

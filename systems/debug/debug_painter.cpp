@@ -8,7 +8,7 @@
 namespace gnomon::debug {
 namespace {
 
-/// The part of `area` that lies in a picture of `size_px`; all of it if `area` has no width.
+/// Clips `area` to a picture of `size_px`; returns the whole picture if `area` has no width.
 gl::Rect within(const gl::Rect& area, glm::uvec2 size_px) {
     const glm::ivec2 size(size_px);
     if (area.width <= 0) return {0, 0, size.x, size.y};
@@ -95,7 +95,7 @@ void DebugPainter::record(const Request& request, const Subject& subject, gl::Co
     if (area.width <= 0 || area.height <= 0) return;
     std::optional<Drawing> drawing = row.draw({subject.scene, subject.frame, request, area, subject.fitted});
     if (!drawing) return;
-    // The list is cut back if the device has not all it takes.
+    // The list is truncated again if the device lacks something.
     const std::size_t commands = list.commands.size(), bytes = list.bytes.size();
     list.add(gl::BeginGroup{"debug " + std::string(row.name)});
     const bool drawn = record_medium(*drawing, row, area, subject, list);

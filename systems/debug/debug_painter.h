@@ -14,7 +14,7 @@ class LightingSystem;
 
 namespace gnomon::debug {
 
-/// Draws debug views. Makes its device objects when the first is asked for, and owns them.
+/// Draws debug views. Makes its device objects with the first request, and owns them.
 class DebugPainter {
 public:
     explicit DebugPainter(gl::Device& device)
@@ -23,20 +23,20 @@ public:
     DebugPainter(const DebugPainter&) = delete;
     DebugPainter& operator=(const DebugPainter&) = delete;
 
-    /// What there is to look at, and the picture to draw over.
+    /// Inputs of a view, and the picture to draw over.
     struct Subject {
         const SceneSnapshot& scene;
         const shadow::ShadowFrame& frame;
         const GpuScene& gpu;
         lighting::LightingSystem& picture;
-        const ConsumerItem* fitted = nullptr;  // the camera that shadows are fitted to, where it is not the picture's
+        const ConsumerItem* fitted = nullptr;  // camera that shadows are fitted to, if it is not the picture's
     };
 
-    /// Records the requested view over the picture, and keeps its labels. Records nothing, and has no labels, without a
-    /// view or if the device cannot make what it takes.
+    /// Records the requested view over the picture, and stores its labels. Records nothing without a view, or if the
+    /// device cannot make its objects.
     void record(const Request& request, const Subject& subject, gl::CommandList& list);
 
-    /// Of the last record().
+    /// Returns the labels of the last record().
     const std::vector<Label>& labels() const { return labels_; }
 
 private:
@@ -58,7 +58,7 @@ private:
     gl::SamplerHandle raw_{};
     std::vector<Program> programs_;
     std::vector<Label> labels_;
-    std::uint64_t records_ = 0;  // the clock of the retries
+    std::uint64_t records_ = 0;  // clock of the retries
 };
 
 }  // namespace gnomon::debug

@@ -5,7 +5,7 @@
 #include "systems/debug/depth_tiles.h"
 #include "systems/debug/words.h"
 
-/// The debug view "depth": the maps of one light, side by side, the faces of a cube unfolded.
+/// Debug view "depth": the maps of one light side by side; a cube's faces unfolded.
 namespace gnomon::debug {
 namespace {
 

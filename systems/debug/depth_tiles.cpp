@@ -6,7 +6,7 @@
 namespace gnomon::debug {
 namespace {
 
-/// A face in the cross: its column and row from the lower left, and the cube's axes in its picture.
+/// Face in the cross: its column and row from the lower left, and the cube's axes in its picture.
 struct Unfolded {
     int column, row;
     glm::vec3 right, up, forward;
@@ -29,7 +29,7 @@ Grid grid_of(int columns, int rows, const gl::Rect& area) {
     return {columns, rows, std::min(area.width / columns, area.height / rows)};
 }
 
-/// The number of columns that makes `count` squares largest.
+/// Finds the number of columns that makes `count` squares largest.
 Grid largest_grid(int count, const gl::Rect& area) {
     Grid best = grid_of(count, 1, area);
     for (int columns = 1; columns < count; ++columns) {

@@ -6,7 +6,7 @@
 #include "systems/debug/words.h"
 #include "systems/extract/volumes.h"
 
-/// The debug view "frusta": what the maps of one light, or of all, hold, as frames in the world.
+/// Debug view "frusta": volumes of the maps of one light or all, as frames in the world.
 namespace gnomon::debug {
 namespace {
 
@@ -27,7 +27,7 @@ void add_light(const ViewInput& input, std::uint32_t light, LineDrawing& lines, 
     }
 }
 
-/// The frozen camera's view, as far as its farthest receiver.
+/// Adds the frozen camera's view, up to its farthest receiver.
 void add_camera(const ViewInput& input, const ConsumerItem& camera, LineDrawing& lines, Legend& legend) {
     double far_m = camera.near_m;
     for (const glm::dvec3& point : input.frame.sets.receiver_points_ws)

@@ -3,7 +3,7 @@
 #include "systems/debug/lines.h"
 #include "systems/debug/words.h"
 
-/// The debug view "sets": boxes of what a light's shadows may fall on, and of what may cast them.
+/// Debug view "sets": boxes of a light's receivers and casters.
 namespace gnomon::debug {
 namespace {
 

@@ -3,15 +3,15 @@
 #include "systems/debug/shown_scale.h"
 #include "systems/debug/words.h"
 
-/// The debug views of what a light's lookups do at each pixel: "cascades", "texels", "bias" and "penumbra".
+/// Debug views of a light's lookups at each pixel: "cascades", "texels", "bias" and "penumbra".
 namespace gnomon::debug {
 namespace {
 
 constexpr std::size_t kStops = 7;
-/// Seven samples of the colour map "turbo" (Mikhailov 2019): neighbours are told apart at a glance.
+/// Seven samples of the colour map "turbo" (Mikhailov 2019), easy to distinguish from their neighbours.
 constexpr std::array<std::array<int, 3>, kStops> kRamp{
     {{48, 18, 59}, {70, 134, 251}, {27, 229, 181}, {164, 252, 60}, {251, 185, 56}, {227, 68, 10}, {122, 4, 3}}};
-using Lengths = std::array<double, kStops>;  // metres, rising
+using Lengths = std::array<double, kStops>;  // metres, increasing
 
 std::string map_text(const shadow::ShadowView& view) {
     std::string text = map_name(view);
@@ -20,7 +20,7 @@ std::string map_text(const shadow::ShadowView& view) {
     return text + ", texels up to " + length_text(view.error.texel_m);
 }
 
-/// A light's lookups in `scale`'s colours, with a title; `each`: what else to say, if the light has a map.
+/// Draws a light's lookups in `scale`'s colours, with a title. `each` adds legend entries if the light has a map.
 template <class Each>
 std::optional<Drawing> drawing(const ViewInput& input, const char* title, ShownScale scale, const Each& each) {
     const auto light = requested_light(input);

@@ -5,38 +5,40 @@
 
 #include "systems/debug/debug_view.h"
 
-/// What debug views say, and the colours that they say it in.
+/// Words and colours of debug views.
 namespace gnomon::debug {
 
-inline constexpr std::int32_t kLine_px = 20;  // a line of text and air around it
+inline constexpr std::int32_t kLine_px = 20;  // height of a text line with spacing
 
-/// Eight colours that colour-blind people tell apart too (Okabe and Ito 2008), sRGB; one per map of a light.
+/// Returns one of eight colours that colour-blind people can distinguish (Okabe and Ito 2008), sRGB; one per map of a
+/// light.
 glm::vec3 map_colour(std::uint32_t layer);
 
-/// "face +X", or "map 2".
+/// Names a map: "face +X" or "map 2".
 std::string map_name(const shadow::ShadowView& view);
 
-/// "0.25 m", with three digits and the unit that suits it.
+/// Formats a length with three digits and a suitable unit: "0.25 m".
 std::string length_text(double length_m);
 
-/// Index of the light that was asked for; empty: there is none of that name.
+/// Returns the index of the requested light; empty if there is none of that name.
 std::optional<std::uint32_t> requested_light(const ViewInput& input);
 
-/// The camera of the picture that is drawn over.
+/// Returns the camera of the underlying picture.
 inline const ConsumerItem& camera_of(const ViewInput& input) {
     return input.scene.consumers[input.frame.inputs.front().consumer];
 }
 
-/// "no map: not_seen": why the light has none.
+/// Formats the reason why the light has no map: "no map: not_seen".
 std::string no_map(const shadow::ShadowFrame& frame, std::uint32_t light);
 
-/// "map 2: 0.25 ... 15.5 m": what depths it holds. An orthographic map has no eye: they count from its near plane.
+/// Formats the depth range of a map: "map 2: 0.25 ... 15.5 m". An orthographic map has no eye, so that its depths count
+/// from its near plane.
 std::string range_text(const shadow::ShadowView& view);
 
-/// Indices of the views of `light` that have a map and were asked for, in the frame's order.
+/// Returns the indices of the requested views of `light` that have a map, in the frame's order.
 std::vector<std::size_t> requested_views(const ViewInput& input, std::uint32_t light);
 
-/// Lines of text from the upper left corner of `area` down.
+/// Lines of text downward from the upper left corner of `area`.
 class Legend {
 public:
     explicit Legend(const gl::Rect& area) : next_px_(area.x, area.y + area.height) {}

@@ -10,8 +10,8 @@
 namespace gnomon {
 namespace {
 
-/// Files give ratios as floats, off by 6e-8 after one division. Up to this, a frame is as wide as the picture: it hides
-/// less than 1/60 px of 16 384 (ExtractTest, TheFrameThatACameraWasGivenIsSeenWhole).
+/// Growth up to which a frame counts as wide as the picture. Files store ratios as floats, off by 6e-8 after one
+/// division. The tolerance hides less than 1/60 px of 16 384 (ExtractTest, TheFrameThatACameraWasGivenIsSeenWhole).
 constexpr double kAspectRounding = 1.0e-6;
 
 bool is_flat(const Camera& camera) { return camera.projection == CameraProjection::orthographic; }

@@ -5,17 +5,17 @@
 
 namespace gnomon {
 
-/// The camera's height in the consumer's picture: its own, grown where the frame it was given would be wider than that.
+/// Sets the consumer's vertical extent: the camera's own, or larger if its frame is wider than the picture.
 void fit_frame(const Camera& camera, ConsumerItem& consumer);
 
-/// Where the consumer stands, where it looks, and how far. A flat view that begins behind its camera is the same from
-/// there on back: it is moved to where it begins, so that no distance is negative.
+/// Sets the consumer's position, orientation and range. An orthographic view that starts behind its camera is moved
+/// back to its start, so that no distance is negative.
 void place_camera(const Camera& camera, const WorldTransform& world, ConsumerItem& consumer);
 
-/// As place_camera() leaves them.
+/// Sets the range alone, with the same rule.
 void set_range(const Camera& camera, ConsumerItem& consumer);
 
-/// Direction only: a light's or camera's scale and shear do not count. Columns right, up, back; orthonormal.
+/// Extracts the orientation of a light or camera: columns right, up, back; orthonormal. Scale and shear are ignored.
 glm::dmat3 orientation(const glm::dmat3& basis);
 
 }  // namespace gnomon

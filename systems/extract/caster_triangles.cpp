@@ -5,7 +5,7 @@
 namespace gnomon {
 namespace {
 
-/// The material of each triangle of the mesh; null: no submesh draws it.
+/// Returns the material of each triangle of the mesh; kNone if no submesh draws it.
 std::vector<std::uint32_t> materials_of(const assets::Mesh& mesh) {
     std::vector<std::uint32_t> materials(mesh.indices.size() / 3, static_cast<std::uint32_t>(assets::kNone));
     for (const assets::Submesh& s : mesh.submeshes)

@@ -8,16 +8,16 @@
 
 namespace gnomon {
 
-/// In place of the first neighbour of a masked triangle, which has none; the others are then words of the masks: its
-/// RayMask, and its texture coordinates.
+/// Mark of a masked triangle, stored as its first neighbour. Its other two neighbours are words of the masks: the
+/// RayMask, and the texture coordinates.
 inline constexpr std::uint32_t kMaskedTriangle = 0xFFFFFFFEU;
 
-/// What shaders/shadow/filters/triangles/triangle_buffer.glsl reads, a texel for each corner: it in model space, and
-/// what lies beyond the edge that starts there.
+/// Record of a triangle, as shaders/shadow/filters/triangles/triangle_buffer.glsl reads it. A texel per corner:
+/// position in model space, and the neighbour across the edge that starts there.
 struct CasterTriangle {
     struct Corner {
         glm::vec3 position_ms{0.0f};
-        std::uint32_t across = assets::kNoNeighbour;  // a triangle of the common index buffer; see kMaskedTriangle
+        std::uint32_t across = assets::kNoNeighbour;  // triangle in the common index buffer; see kMaskedTriangle
     };
     Corner corners[3];
     bool masked() const { return corners[0].across == kMaskedTriangle; }
@@ -26,10 +26,10 @@ static_assert(sizeof(CasterTriangle) == 48);
 
 struct CasterTriangleList {
     std::vector<CasterTriangle> triangles;  // in the order of the common index buffer
-    std::vector<std::uint32_t> masks;       // RayMasks::words(); empty: none of them is masked
+    std::vector<std::uint32_t> masks;       // RayMasks::words(); empty: no triangle is masked
 };
 
-/// All triangles of a library at rest. Neighbours are of the same mesh and opaque both.
+/// Collects all triangles of a library at rest. Neighbours belong to the same mesh; both are opaque.
 CasterTriangleList caster_triangles_of(const assets::MeshLibrary& library);
 
 }  // namespace gnomon

@@ -33,7 +33,7 @@ DropReason drop_reason(TransformFault fault) {
     return DropReason::non_finite_transform;
 }
 
-/// Where joints place the mesh, its own transform does not count.
+/// Places an instance by its joints; its own transform is ignored. Returns false if it is unusable.
 bool place_bent(InstanceItem& item, const PoseItem& pose) {
     item.basis = glm::dmat3(1.0);
     item.translation_ws_m = pose.origin_ws_m;
@@ -56,7 +56,7 @@ bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& 
 
 enum class Marks : std::uint8_t { same, changed, recorded };
 
-/// What it shows and casts, without where. `recorded`: the device's record of it says something else now.
+/// Updates what an instance shows and casts, without its place. `recorded`: its record on the device changed, too.
 Marks put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceItem& item) {
     const InstanceItem was = item;
     const ShadowCaster* caster = registry.get<ShadowCaster>(item.entity);
@@ -76,7 +76,7 @@ void sort_by_entity(std::vector<Item>& items) {
     std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.entity.index < b.entity.index; });
 }
 
-/// None at all where no mesh has one: then nobody looks for any.
+/// Lists the shapes of rigid meshes. The list is empty if no mesh has one, so that users can skip it.
 void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     snapshot.shapes.clear();
     const auto has_shape = [](const assets::Mesh& mesh) { return mesh.shape != nullptr && !mesh.deformer; };
@@ -84,7 +84,7 @@ void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(has_shape(mesh) ? mesh.shape : nullptr);
 }
 
-/// Orthographic cameras look no farther than there is something to see.
+/// Limits the range of orthographic cameras to the visible scene.
 void narrow_flat_views(const ecs::Registry& registry, std::vector<glm::dvec3>& scratch, SceneSnapshot& snapshot) {
     for (ConsumerItem& consumer : snapshot.consumers) {
         if (consumer.projection != CameraProjection::orthographic) continue;
@@ -98,8 +98,8 @@ void narrow_flat_views(const ecs::Registry& registry, std::vector<glm::dvec3>& s
 
 }  // namespace
 
-/// Appends the entities whose T was written to `written`, and those that got or lost one to `came_or_went`. True if one
-/// of them has no such list, or if some were not told: then all are to be looked at.
+/// Appends entities with a changed T to `written`, and entities that gained or lost a T to `came_or_went`. Returns true
+/// if all entities must be checked: a list is missing (null), or the log was incomplete.
 template <class T>
 bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor, std::vector<ecs::Entity>* written,
                              std::vector<ecs::Entity>* came_or_went) {
@@ -115,7 +115,7 @@ bool Extractor::read_changes(ecs::Registry& registry, ecs::ChangeCursor& cursor,
     return all;
 }
 
-/// What is left to look at, beside the entities that it lists.
+/// Reads all logs. Returns the lists that the logs cannot update entity by entity.
 Extractor::Lists Extractor::read_all(ecs::Registry& registry) {
     for (std::vector<ecs::Entity>* list : {&moved_, &shown_, &edited_, &named_}) list->clear();
     Lists anew;
@@ -192,7 +192,7 @@ void Extractor::list_instances(const ecs::Registry& registry, const assets::Mesh
     }
     assign_slots(snapshot);
     bent_.clear();
-    // Whoever is exactly as before keeps its version, so that its light's maps hold.
+    // An unchanged instance keeps its version, so that maps that show it stay valid.
     std::size_t old = 0;
     for (std::uint32_t i = 0; i < snapshot.instances.size(); ++i) {
         InstanceItem& item = snapshot.instances[i];
@@ -206,14 +206,14 @@ void Extractor::list_instances(const ecs::Registry& registry, const assets::Mesh
         item.version = placed ? was->version : snapshot.version;
         const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers &&
                           was->casts == item.casts && was->cast_layers == item.cast_layers;
-        // One that touch_moved() had already moved when it gave up equals itself, but is not on the device.
+        // An instance that touch_moved() already moved before it failed equals itself, but is not on the device.
         if (!same || was->version == snapshot.version) snapshot.changed_instances.push_back(i);
     }
     snapshot.list_version = snapshot.version;
     build_tree(snapshot);
 }
 
-/// Lights, cameras and what is dropped, whose cost does not grow with the instances.
+/// Lists lights, cameras and dropped entities. The cost does not grow with the instances.
 void Extractor::list_views(const ecs::Registry& registry, const TransformReport& transforms, SceneSnapshot& snapshot) {
     views_.list(registry, viewport_px_, snapshot);
     snapshot.dropped = unusable_;
@@ -228,8 +228,8 @@ std::uint32_t Extractor::listed_at(ecs::Entity e) const {
     return e.index < instance_of_.size() ? instance_of_[e.index] : kNone;
 }
 
-/// Whether one of those whose components were written is an instance now and was none, or the other way about: a mesh
-/// scaled to nothing, or back to something, or another mesh.
+/// Returns true if a written entity became an instance or stopped being one. Reasons: scaled to nothing or back, or
+/// another mesh.
 bool Extractor::any_came_or_went(const ecs::Registry& registry, const SceneSnapshot& snapshot) const {
     const auto scaled = [&](ecs::Entity e) {
         const WorldTransform* world = registry.get<WorldTransform>(e);
@@ -245,7 +245,7 @@ bool Extractor::any_came_or_went(const ecs::Registry& registry, const SceneSnaps
     return std::any_of(moved_.begin(), moved_.end(), scaled) || std::any_of(shown_.begin(), shown_.end(), exchanged);
 }
 
-/// Instances that are bent otherwise than in the last frame. False if one cannot be used any more.
+/// Updates instances with a changed pose. Returns false if one became unusable.
 bool Extractor::touch_bent(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     for (const std::uint32_t i : bent_) {
         InstanceItem& item = snapshot.instances[i];
@@ -259,7 +259,7 @@ bool Extractor::touch_bent(const assets::MeshLibrary& library, SceneSnapshot& sn
     return true;
 }
 
-/// Instances whose WorldTransform alone changed, updated in place. False if one cannot be used any more.
+/// Updates instances with a changed WorldTransform in place. Returns false if one became unusable.
 bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLibrary& library,
                             SceneSnapshot& snapshot) {
     for (const ecs::Entity e : moved_) {
@@ -268,7 +268,7 @@ bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLib
         if (!world || i == kNone) continue;
         InstanceItem& item = snapshot.instances[i];
         const PoseItem* pose = pose_of(snapshot, item.mesh);
-        if (pose && pose->skinned) continue;  // touch_bent() has seen to it
+        if (pose && pose->skinned) continue;  // touch_bent() updates these
         if (!place(item, *world, library.meshes[item.mesh], pose)) return false;
         if (item.version != snapshot.version) snapshot.changed_instances.push_back(i);
         item.version = snapshot.version;
@@ -276,7 +276,8 @@ bool Extractor::touch_moved(const ecs::Registry& registry, const assets::MeshLib
     return true;
 }
 
-/// Instances that show or cast otherwise. Who keeps lists of casters, or of what is seen, makes them anew.
+/// Updates what written instances show or cast. A new list_version makes users rebuild their lists of casters and
+/// visible instances.
 bool Extractor::touch_shown(const ecs::Registry& registry, SceneSnapshot& snapshot) {
     bool any = false;
     for (const ecs::Entity e : shown_) {
@@ -291,7 +292,7 @@ bool Extractor::touch_shown(const ecs::Registry& registry, SceneSnapshot& snapsh
     return any;
 }
 
-/// Lights and cameras that moved, or whose own components were written.
+/// Updates lights and cameras that moved or were written.
 LightsAndCameras::Effect Extractor::touch_views(const ecs::Registry& registry, SceneSnapshot& snapshot) {
     using Effect = LightsAndCameras::Effect;
     Effect effect = Effect::none;
@@ -300,7 +301,7 @@ LightsAndCameras::Effect Extractor::touch_views(const ecs::Registry& registry, S
     return std::max(effect, views_.rename(registry, named_, snapshot));
 }
 
-/// All that was written, in place, as snapshot.version. What cannot be is left to make anew.
+/// Applies all written entities in place, as snapshot.version. Returns the lists to rebuild instead.
 Extractor::Touched Extractor::touch(const ecs::Registry& registry, const assets::MeshLibrary& library,
                                     SceneSnapshot& snapshot) {
     constexpr Touched kAllAnew{true, {true, true}};
@@ -337,7 +338,7 @@ void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& libra
             anew.instances |= touched.leaves.instances;
             anew.views |= touched.leaves.views;
         }
-        if (!changed) --snapshot.version;  // written, to what it was
+        if (!changed) --snapshot.version;  // written with an equal value
     }
     if (changed) {
         started_ = true;

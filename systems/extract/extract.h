@@ -12,13 +12,13 @@
 
 namespace gnomon {
 
-/// The only reader of the registry between the transform system and the picture: applies its change lists to a
-/// SceneSnapshot. To use another ECS, fill the snapshot yourself and leave this out.
+/// Applies the registry's change lists to a SceneSnapshot. It is the only reader of the registry between the transform
+/// system and the picture. For another ECS, fill the snapshot yourself and leave this class out.
 class Extractor {
 public:
-    /// `viewport_px`: size of the picture, both > 0. Meshes are named by their index in `library`.
-    /// Cost is proportional to what changed: what was written is updated in place, instances that came or went make all
-    /// lists anew, lights and cameras their own; an unchanged scene costs nothing.
+    /// Updates the snapshot. `viewport_px`: size of the picture, both > 0. Meshes are indices in `library`. The cost is
+    /// proportional to the changes: written components are updated in place. Added or removed instances rebuild all
+    /// lists, lights and cameras only their own. An unchanged scene costs nothing.
     void update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
                 glm::uvec2 viewport_px, SceneSnapshot& snapshot);
 
@@ -26,7 +26,7 @@ private:
     struct Cursors {
         ecs::ChangeCursor world, mesh, caster, light, shadow, camera, name, skin, weights;
     };
-    /// Which lists are to be made anew.
+    /// Lists to rebuild.
     struct Lists {
         bool instances = false, views = false;  // views: lights and cameras
     };
@@ -54,9 +54,9 @@ private:
     Cursors cursors_;
     PoseExtractor poses_;
     LightsAndCameras views_;
-    std::vector<std::uint32_t> bent_;  // indices into snapshot.instances: those with a pose
-    /// Since the last frame, maybe repeated: placed or bent otherwise; showing or casting otherwise; lights and cameras
-    /// that were written; named otherwise.
+    std::vector<std::uint32_t> bent_;  // instances with a pose: indices into snapshot.instances
+    /// Changes since the last frame, possibly repeated: place or pose; visibility or casting; lights and cameras;
+    /// names.
     std::vector<ecs::Entity> moved_, shown_, edited_, named_;
     std::vector<std::uint32_t> instance_of_;      // entity index -> index into snapshot.instances, kNone
     std::vector<ecs::Entity> slot_owner_;         // gpu_slot -> entity

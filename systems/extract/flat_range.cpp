@@ -10,9 +10,9 @@ namespace gnomon {
 namespace {
 
 constexpr double kLeastSteps = 8.0;
-constexpr double kRounding = 1.0 / 4096.0;  // of the range: clipping in float takes nothing away
+constexpr double kRounding = 1.0 / 4096.0;  // relative to the range; covers clipping in float
 
-/// The least distance along `way` from the camera of anything in its view; infinite without any.
+/// Returns the least distance along `way` from the camera to anything in its view; infinity without any.
 double nearest_m(const SceneSnapshot& scene, const ConsumerItem& camera, const glm::dvec3& way,
                  std::vector<glm::dvec3>& corners_ws_m) {
     const math::Frustum seen = consumer_frustum(camera);
@@ -42,7 +42,7 @@ ViewRange flat_range(const SceneSnapshot& scene, const ConsumerItem& camera, std
     const double least_m = nearest_m(scene, camera, -back, corners_ws_m);
     const double most_m = -nearest_m(scene, camera, back, corners_ws_m);
     if (!(least_m <= most_m)) return {camera.near_m, camera.far_m};
-    // What stands across the view has no extent along it, but one as the camera shows it.
+    // A surface perpendicular to the view has no extent along it; the view's height stands for the scale.
     const double extent_m = std::max(most_m - least_m, camera.half_height_m);
     const double step_m = std::exp2(std::floor(std::log2(extent_m / kLeastSteps)));
     const double rounding_m = kRounding * extent_m;

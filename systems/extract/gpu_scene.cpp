@@ -22,7 +22,7 @@ std::vector<glm::vec4> plane_normals(const assets::MeshLibrary& library) {
     return normals;
 }
 
-/// A colour for each vertex of the library; none if no mesh has colours.
+/// Returns a colour per vertex of the library; empty if no mesh has colours.
 std::vector<glm::vec4> vertex_colours(const assets::MeshLibrary& library) {
     std::vector<glm::vec4> colours;
     const bool any = std::any_of(library.meshes.begin(), library.meshes.end(),
@@ -50,7 +50,7 @@ gl::Wrap wrap(assets::TextureWrap w) {
 
 MaterialRecord material_record(const assets::Material& m) {
     MaterialRecord r{};
-    // Whoever fills a library by hand may give anything; what is no number is none of it.
+    // A library filled in by hand may contain any value; NaN and negative values become 0.
     const auto within = [](float value, float most) { return value > 0.0f ? std::min(value, most) : 0.0f; };
     constexpr float kMost = 1.0e30f;
     for (int i = 0; i < 4; ++i) r.base_colour[i] = within(m.base_colour[i], kMost);
@@ -82,19 +82,19 @@ InstanceRecord instance_record(const InstanceItem& item) {
 template <class T>
 gl::Created<gl::BufferHandle> filled_buffer(gl::Device& device, const char* label, const std::vector<T>& values,
                                             gl::BufferUse use = gl::BufferUse::fixed, bool texels = false) {
-    static const T kNothing{};  // a buffer must have a size; an empty library draws nothing from it
+    static const T kNothing{};  // a buffer must have a size; nothing of an empty library is drawn from it
     const auto bytes = values.empty() ? std::as_bytes(std::span(&kNothing, 1)) : std::as_bytes(std::span(values));
     return device.create_buffer({label, bytes.size(), use, texels}, bytes);
 }
 
-/// What holds shapes is written again only where some bend.
+/// Returns the use of buffers with shapes: they change only if some mesh is deformable.
 gl::BufferUse shape_use(const assets::MeshLibrary& library) {
     const bool bends = std::any_of(library.meshes.begin(), library.meshes.end(),
                                    [](const assets::Mesh& mesh) { return mesh.deformer != nullptr; });
     return bends ? gl::BufferUse::updated : gl::BufferUse::fixed;
 }
 
-/// What float took from a unit normal: half a unit of 2^-24 at most, along each axis.
+/// Packs the residual of a unit normal rounded to float: at most half a unit of 2^-24 along each axis.
 float packed_residual(const glm::dvec3& exact, const glm::vec3& rounded) {
     constexpr int kBits = 10, kMost = (1 << (kBits - 1)) - 1;
     constexpr double kStep = 0x1p-25 / kMost;
@@ -125,7 +125,7 @@ void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<co
 
 float most_reflected(const assets::Material& material) {
     if (material.unlit) return 0.0f;
-    constexpr float kLeastAlpha = 1.0e-3f;  // as brdf.glsl has it
+    constexpr float kLeastAlpha = 1.0e-3f;  // as in brdf.glsl
     const float alpha = std::max(material.roughness * material.roughness, kLeastAlpha);
     const float colour = std::max({material.base_colour.r, material.base_colour.g, material.base_colour.b});
     const float diffuse = std::max(colour * (1.0f - material.metallic), 0.0f) / glm::pi<float>();
@@ -313,7 +313,7 @@ void GpuScene::forget_uploads() {
     for (Bent& bent : bent_) bent.version = kUnknown;
 }
 
-/// The mesh as `bent` has it, in the library's triangle records.
+/// Writes the mesh's bent corners into the library's triangle records.
 void GpuScene::put_corners(const Bent& bent) {
     const std::vector<std::uint32_t>& indices = library_->meshes[bent.mesh].indices;
     CasterTriangle* first = triangle_records_.data() + meshes_[bent.mesh].first_index / 3;
@@ -373,7 +373,7 @@ void GpuScene::update_instances(const SceneSnapshot& snapshot, gl::CommandList& 
         list.update(instances_, 0, std::span<const InstanceRecord>(records_).first(held));
         upload_all_ = false;
     } else {
-        // They come by rising slot; each run of neighbours is one copy.
+        // Sorted by slot; each run of neighbours is one copy.
         const auto& changed = snapshot.changed_instances;
         const auto slot = [&](std::size_t i) { return snapshot.instances[changed[i]].gpu_slot; };
         for (std::size_t first = 0; first < changed.size();) {

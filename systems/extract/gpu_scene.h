@@ -14,15 +14,15 @@
 
 namespace gnomon {
 
-/// Matches InstanceRecord in shaders/common/instances.glsl. 64 bytes.
-/// w components hold the high part of the translation; `low` its low part and the layers it receives shadows of.
+/// Instance on the device; matches InstanceRecord in shaders/common/instances.glsl. 64 bytes. w components hold the
+/// high part of the translation. `low_layers`: its low part, and the layers that may shadow the instance.
 struct InstanceRecord {
     float basis_x_high_x[4], basis_y_high_y[4], basis_z_high_z[4];
     float low_layers[4];
 };
 static_assert(sizeof(InstanceRecord) == 64);
 
-/// Matches MaterialBlock in shaders/common/material.glsl (std140).
+/// Material on the device; matches MaterialBlock in shaders/common/material.glsl (std140).
 struct MaterialRecord {
     float base_colour[4];
     float emissive[4];                        // rgb; 1: unlit
@@ -31,55 +31,55 @@ struct MaterialRecord {
 };
 static_assert(sizeof(MaterialRecord) == 48);
 
-/// What the surfaces' geometric normals come from: of each triangle of `indices`, zero where it has no area. In double:
-/// the cross product of float edges is exact enough that the normal is right to float rounding. The bits of w say what
-/// that rounded away, to 2^-35 along each axis: three signed whole numbers of 10 bits, x lowest, of which 511 are
-/// 2^-25 (plane_normal() in shaders/lighting/gbuffer/surface_position_f64.glsl).
+/// Appends the geometric normal of each triangle of `indices`; zero without area. Computed in double: the cross product
+/// of float edges is exact enough for a normal right to float rounding. w holds the residual of that rounding, to 2^-35
+/// along each axis. It packs three signed integers of 10 bits, x lowest, in units of 2^-25 / 511 (plane_normal() in
+/// shaders/lighting/gbuffer/surface_position_f64.glsl).
 void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<const std::uint32_t> indices,
                           std::vector<glm::vec4>& normals);
 
-/// Bound of shaders/lighting/lights/brdf.glsl over all directions, its cosine included, per unit of light: Lambert's
-/// term, and GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
+/// Bounds shaders/lighting/lights/brdf.glsl times its cosine over all directions, per unit of light. Lambert's term,
+/// and GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
 float most_reflected(const assets::Material& material);
 
-/// Texture units of shaders/common/instance_buffer.glsl and shaders/lighting/gbuffer/triangle_normals.glsl: above all
-/// that maps and rays use.
+/// Texture units of shaders/common/instance_buffer.glsl and shaders/lighting/gbuffer/triangle_normals.glsl, above all
+/// units for maps and rays.
 inline constexpr std::uint32_t kInstanceUnit = 14, kTriangleNormalUnit = 15;
-/// Of shaders/common/vertex_colour.glsl: one that passes over meshes leave free.
+/// Texture unit of shaders/common/vertex_colour.glsl, unused by passes over meshes.
 inline constexpr std::uint32_t kColourUnit = 3;
 
-/// Meshes, materials, textures and instance records on the device. Owns what it makes.
+/// Meshes, materials, textures and instance records on the device. Owns its objects.
 class GpuScene {
 public:
-    /// `library` must outlive the scene: what only some lights ask for is made of it later. Error (rule "gpu.scene") if
-    /// the device cannot hold the library; nothing is left behind then.
+    /// Uploads the library. `library` must outlive the scene, because some buffers are built only when a light needs
+    /// them. Error (rule "gpu.scene") if the device has no room; nothing is left behind then.
     static Result<GpuScene> create(gl::Device& device, const assets::MeshLibrary& library);
     GpuScene(GpuScene&&) noexcept;
     GpuScene& operator=(GpuScene&&) noexcept;
     ~GpuScene();
 
-    /// Records the upload of changed instance records, and of meshes whose pose changed: each is bent once, whoever
-    /// draws it how often; grows the instance buffer when needed.
-    /// False if it could not grow: instances beyond its size must not be drawn (see capacity()).
+    /// Records the upload of changed instance records, and of meshes with a changed pose. Each mesh is deformed once
+    /// per change. Grows the instance buffer when needed. Returns false if it could not grow: instances from capacity()
+    /// on must not be drawn.
     bool update(const SceneSnapshot& snapshot, gl::CommandList& list);
     std::uint32_t capacity() const { return instance_capacity_; }
-    /// To be called when a submission failed: what it was to upload is uploaded again by the next update().
+    /// Makes the next update() repeat the last upload. Call it after a failed submission.
     void forget_uploads();
-    /// How many meshes the last update() bent.
+    /// Returns the number of meshes deformed by the last update().
     std::uint32_t bent_meshes() const { return bent_meshes_; }
 
-    /// Makes caster_triangles() and caster_masks() where there are none; to be called each frame that a light reads
-    /// them. False: the device has no room, which is asked again after Retry::kFrames such frames.
+    /// Creates caster_triangles() and caster_masks() if missing. Call it in each frame with a light that reads them.
+    /// Returns false without room on the device; retries after Retry::kFrames such frames.
     bool provide_caster_triangles();
 
     struct MeshRange {
         std::int32_t base_vertex = 0;
-        std::uint32_t first_index = 0;  // of the mesh in the common index buffer
+        std::uint32_t first_index = 0;  // start of the mesh in the common index buffer
         std::uint32_t first_submesh = 0, submesh_count = 0;
         std::uint64_t triangles = 0;
-        float most_reflected = 0.0f;  // of what falls on it, toward any viewer (most_reflected())
-        bool solid = false;  // closed and wound outward, all of it opaque and single-sided: no ray from outside meets a
-                             // back face first
+        float most_reflected = 0.0f;  // maximum share of incident light toward any viewer (most_reflected())
+        bool solid = false;  // closed, wound outward, opaque and single-sided throughout: a ray from outside never hits
+                             // a back face first
     };
     struct SubmeshRange {
         std::uint32_t first_index = 0, index_count = 0;
@@ -97,39 +97,39 @@ public:
     const MeshRange& mesh(std::uint32_t index) const { return meshes_[index]; }
     const SubmeshRange& submesh(std::uint32_t index) const { return submeshes_[index]; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
-    bool any_unlit() const { return any_unlit_; }           // of the materials
-    float most_emissive() const { return most_emissive_; }  // of the lit materials, in any colour
+    bool any_unlit() const { return any_unlit_; }           // any material is unlit
+    float most_emissive() const { return most_emissive_; }  // maximum over lit materials and channels
     const assets::MeshLibrary& library() const { return *library_; }
     std::size_t mesh_count() const { return meshes_.size(); }
-    /// A mesh's own lists, bent as the device has them once the recorded uploads are done.
+    /// Mesh's own lists, in the pose of the device after the recorded uploads.
     struct MeshShape {
         const std::vector<assets::Vertex>* vertices = nullptr;
         const std::vector<std::uint32_t>* indices = nullptr;
-        std::uint64_t version = 0;  // of the pose; 0: at rest
+        std::uint64_t version = 0;  // pose version; 0: at rest
     };
     MeshShape shape(std::uint32_t mesh) const;
 
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }
-    /// vec4 per vertex, white where a mesh has no colours, to be read as texels at kColourUnit by programs compiled
-    /// with COLOURED. {0}: no mesh has any.
+    /// Returns a buffer of vec4 per vertex, white for meshes without colours; {0}: no mesh has colours. Read as texels
+    /// at kColourUnit by programs compiled with COLOURED.
     gl::BufferHandle colours() const { return colours_; }
-    /// InstanceRecord per slot, to be read as texels at kInstanceUnit.
+    /// Returns an InstanceRecord per slot, read as texels at kInstanceUnit.
     gl::BufferHandle instances() const { return instances_; }
-    /// vec4 per triangle of `indices`, in model space, to be read as texels at kTriangleNormalUnit.
+    /// Returns a vec4 per triangle of `indices`, in model space, read as texels at kTriangleNormalUnit.
     gl::BufferHandle triangle_normals() const { return triangle_normals_; }
-    /// CasterTriangle per triangle of `indices`, to be read as texels; {0} until provided.
+    /// Returns a CasterTriangle per triangle of `indices`, read as texels; {0} until provided.
     gl::BufferHandle caster_triangles() const { return caster_triangles_; }
-    /// The masks of those that are masked, as shaders/ray_tracing/alpha_mask.glsl reads them; {0}: none is, or not
+    /// Returns the masks of masked triangles for shaders/ray_tracing/alpha_mask.glsl; {0}: none is masked, or not
     /// provided.
     gl::BufferHandle caster_masks() const { return caster_masks_; }
     gl::BufferHandle material_uniforms() const { return material_uniforms_; }
 
 private:
-    /// A mesh that bends, as the device has it.
+    /// Deformable mesh in its pose on the device.
     struct Bent {
         std::uint32_t mesh = 0;
-        std::uint64_t version = 0;  // of the pose; 0: at rest; kUnknown: what the device has is not known
+        std::uint64_t version = 0;  // pose version; 0: at rest; kUnknown: contents of the device are unknown
         std::vector<assets::Vertex> vertices;
     };
     static constexpr std::uint64_t kUnknown = ~std::uint64_t{0};
@@ -146,8 +146,8 @@ private:
     float most_emissive_ = 0.0f;
     gl::BufferHandle vertices_{}, indices_{}, instances_{}, triangle_normals_{}, material_uniforms_{};
     gl::BufferHandle caster_triangles_{}, caster_masks_{}, colours_{};
-    std::vector<Bent> bent_;                        // by rising mesh: all of the library that have a deformer
-    std::vector<CasterTriangle> triangle_records_;  // of the whole library, if it has such meshes and they are provided
+    std::vector<Bent> bent_;                        // all deformable meshes, sorted by mesh
+    std::vector<CasterTriangle> triangle_records_;  // whole library, if it has deformable meshes and they are provided
     std::vector<glm::vec4> normal_scratch_;
     std::uint32_t bent_meshes_ = 0;
     Retry triangles_retry_;

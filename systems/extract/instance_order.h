@@ -6,8 +6,8 @@
 
 namespace gnomon {
 
-/// Calls run(mesh, first, count) for each longest run of equal meshes in `items` (indices into scene.instances).
-/// Sort by mesh first to get one run, hence one instanced draw, per mesh.
+/// Calls run(mesh, first, count) for each longest run of equal meshes in `items` (indices into scene.instances). Items
+/// sorted by mesh give one run, hence one instanced draw, per mesh.
 template <class Run>
 void for_each_mesh_run(const SceneSnapshot& scene, std::span<const std::uint32_t> items, Run&& run) {
     std::uint32_t first = 0;

@@ -18,7 +18,7 @@ bool usable(const Light& light) {
     const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
                          light.range_m >= 0.0f && light.colour.r >= 0.0f && light.colour.g >= 0.0f &&
                          light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
-    // Shaders multiply them in float: infinite light is no number where nothing of it arrives.
+    // Shaders multiply both in float: an infinite product becomes NaN where no light arrives.
     if (!numbers || !std::isfinite(light.intensity * (light.colour.r + light.colour.g + light.colour.b))) return false;
     return light.kind != LightKind::spot ||
            (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
@@ -33,7 +33,7 @@ bool usable(const Camera& camera) {
     return camera.near_m > 0.0 && camera.fov_y_rad > 0.0 && camera.fov_y_rad < glm::pi<double>();
 }
 
-/// Writes a field; true if it held anything else, NaN included.
+/// Writes a field. Returns true if its value changed, NaN included.
 template <class T>
 bool put(T& field, const T& value) {
     const bool same = field == value;
@@ -41,7 +41,7 @@ bool put(T& field, const T& value) {
     return !same;
 }
 
-/// Writes all but the name; versions are those of the snapshot where anything differs. True if so.
+/// Writes all but the name. Sets versions to `version` if anything differs and returns true.
 bool put_light(const ecs::Registry& registry, const Light& light, const WorldTransform& world, std::uint64_t version,
                LightItem& item) {
     const LightShadow* shadow = registry.get<LightShadow>(item.entity);
@@ -60,7 +60,7 @@ bool put_light(const ecs::Registry& registry, const Light& light, const WorldTra
     return shape || any;
 }
 
-/// Writes all but name and viewport. An orthographic camera's range is narrowed later.
+/// Writes all but name and viewport. Returns true if anything differs. An orthographic camera's range is limited later.
 bool put_camera(const Camera& camera, const WorldTransform& world, ConsumerItem& item) {
     ConsumerItem now;
     now.projection = camera.projection;
@@ -77,7 +77,7 @@ bool put_camera(const Camera& camera, const WorldTransform& world, ConsumerItem&
     return any;
 }
 
-/// Both lists are in the order of entity indices.
+/// Finds an entity's item. Both lists are sorted by entity index.
 template <class Item>
 Item* find(std::vector<Item>& items, ecs::Entity entity) {
     const auto at = std::lower_bound(items.begin(), items.end(), entity.index,
@@ -108,7 +108,7 @@ Effect touch_camera(const ecs::Registry& registry, ecs::Entity entity, const Wor
     return item && put_camera(*camera, *world, *item) ? Effect::changed : Effect::none;
 }
 
-/// What list() made of the lights of an earlier snapshot.
+/// Restores the versions of lights that equal those of the snapshot before list().
 void keep_versions(std::vector<LightItem>& before, const ecs::Registry& registry, std::uint64_t version,
                    std::vector<LightItem>& lights) {
     for (LightItem& light : lights) {

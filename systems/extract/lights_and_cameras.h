@@ -9,26 +9,27 @@
 
 namespace gnomon {
 
-/// Fills SceneSnapshot::lights and ::consumers, and keeps them up to date one by one. Neither looks at an instance.
+/// Fills SceneSnapshot::lights and ::consumers and updates them entity by entity. The cost is independent of instances.
 class LightsAndCameras {
 public:
-    /// Makes both lists anew: some came or went. A light that is as it was keeps its versions, others get
+    /// Rebuilds both lists after additions or removals. An unchanged light keeps its versions; others get
     /// `snapshot.version`.
     void list(const ecs::Registry& registry, glm::uvec2 viewport_px, SceneSnapshot& snapshot);
 
     enum class Effect : std::uint8_t {
-        none,     // all is as it was
-        changed,  // in place
-        listing   // it came or went: list() is to be called
+        none,     // nothing changed
+        changed,  // updated in place
+        listing   // added or removed: call list()
     };
-    /// After a Light, LightShadow, Camera or WorldTransform of this entity was written or removed. Costs no more than
-    /// finding it among the lights and cameras.
+    /// Updates an entity after a Light, LightShadow, Camera or WorldTransform was written or removed. Costs no more
+    /// than finding it among lights and cameras.
     Effect touch(const ecs::Registry& registry, ecs::Entity entity, SceneSnapshot& snapshot) const;
 
-    /// After a Name of any of these was written or removed. Names are unique, so that one may change others.
+    /// Updates names after a Name of these was written or removed. Names are made unique, so that one may change
+    /// others.
     Effect rename(const ecs::Registry& registry, std::span<const ecs::Entity> named, SceneSnapshot& snapshot) const;
 
-    /// Entities that list() found and that cannot be used.
+    /// Returns the unusable entities that list() found.
     std::span<const DroppedEntity> unusable() const { return unusable_; }
 
 private:

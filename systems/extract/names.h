@@ -7,10 +7,10 @@
 
 namespace gnomon {
 
-/// As reports name it: by its Name, or "entity" and its index.
+/// Returns the entity's name in reports: its Name, or "entity" and its index.
 std::string name_of(const ecs::Registry& registry, ecs::Entity e);
 
-/// Reports and files name lights: a repeated name gets .1, .2, …
+/// Makes names unique, because reports and files refer to lights by name: a repeated name gets .1, .2, …
 void make_names_unique(std::vector<LightItem>& lights);
 
 }  // namespace gnomon

@@ -11,14 +11,14 @@
 namespace gnomon {
 namespace {
 
-/// a * b, where the last row of both is 0 0 0 1.
+/// Computes a * b, where the last row of both is 0 0 0 1.
 glm::dmat4x3 product(const glm::dmat4x3& a, const glm::dmat4x3& b) {
     const glm::dmat3 basis(a[0], a[1], a[2]);
     return {basis * b[0], basis * b[1], basis * b[2], basis * b[3] + a[3]};
 }
 
-/// The joints' matrices, relative to the first joint's place: so the bent mesh is exact wherever in the world it
-/// stands.
+/// Fills in the joints' matrices, relative to the first joint's place. The deformed mesh is thus exact anywhere in the
+/// world.
 void take_joints(const ecs::Registry& registry, const Skin& skin, PoseItem& pose) {
     const auto placed = [&](std::size_t j) { return registry.get<WorldTransform>(skin.joints[j]); };
     const WorldTransform* first = skin.joints.empty() ? nullptr : placed(0);
@@ -35,14 +35,14 @@ bool same_shape(const PoseItem& a, const PoseItem& b) {
     return a.skinned == b.skinned && a.joints == b.joints && a.weights == b.weights;
 }
 
-/// How far any vertex moved from one to the other. Infinite where the mesh follows joints in one of them alone.
+/// Bounds how far any vertex moved between two poses. Infinite if only one pose has joints.
 double bend_m(const assets::Mesh& mesh, const PoseItem& before, const PoseItem& after) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const bool alike = before.skinned == after.skinned && before.joints.size() == after.joints.size();
     return alike ? assets::farthest_bend_m(mesh, before.pose(), after.pose()) : kInfinity;
 }
 
-/// What the entity's components make of the mesh.
+/// Fills in the mesh's pose from the entity's components.
 void take_pose(const ecs::Registry& registry, ecs::Entity entity, const assets::Mesh& mesh, PoseItem& pose) {
     const Skin* skin = registry.get<Skin>(entity);
     const MorphWeights* morph = registry.get<MorphWeights>(entity);

@@ -11,17 +11,18 @@
 
 namespace gnomon {
 
-/// Fills SceneSnapshot::poses from Skin and MorphWeights components. A world without meshes that bend costs nothing.
+/// Fills SceneSnapshot::poses from Skin and MorphWeights components. Costs nothing in a world without deformable
+/// meshes.
 class PoseExtractor {
 public:
-    /// Finds who bends which mesh. To be called when entities or components came or went; poses that are as they were
-    /// keep their versions, others get `snapshot.version`.
+    /// Finds the entity that poses each mesh. Call it when entities or components were added or removed. Unchanged
+    /// poses keep their versions, others get `snapshot.version`.
     void list(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
-    /// Whether any pose may change when these entities move.
+    /// Returns true if any pose may change when these entities move.
     bool follows(std::span<const ecs::Entity> moved) const;
 
-    /// Takes the poses anew; those that differ get `snapshot.version`.
+    /// Recomputes the poses; changed ones get `snapshot.version`.
     void update(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
 
 private:
@@ -29,8 +30,8 @@ private:
         ecs::Entity entity;
         std::uint32_t mesh = 0;
     };
-    std::vector<Source> sources_;           // by rising mesh, one each
-    std::vector<std::uint8_t> moves_pose_;  // by entity index: a joint, or one with MorphWeights
+    std::vector<Source> sources_;           // sorted by mesh, at most one per mesh
+    std::vector<std::uint8_t> moves_pose_;  // by entity index: is a joint, or has MorphWeights
     PoseItem scratch_;
 };
 

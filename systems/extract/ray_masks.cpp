@@ -19,7 +19,7 @@ float mean_chord_texel(const assets::Texture& texture, float alpha, float cutoff
         const std::size_t i = std::size_t{y} * texture.width + x;
         return alpha * static_cast<float>(texture.rgba[4 * i + 3]) / 255.0f >= cutoff;
     };
-    std::uint64_t left = 0, begins = 0;  // of a run along a row, of one along a column
+    std::uint64_t left = 0, begins = 0;  // remaining texels; starts of runs along rows and columns
     for (std::uint32_t y = 0; y < texture.height; ++y)
         for (std::uint32_t x = 0; x < texture.width; ++x) {
             if (!is_left(x, y)) continue;
@@ -64,7 +64,7 @@ std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
     return places[index];
 }
 
-/// kUnset, which is what shaders know as no texture, of one that holds too little.
+/// Returns the first word of a texture's texels. kUnset, which shaders read as no texture, if its data are incomplete.
 std::uint32_t RayMasks::texels_of(std::int32_t index) {
     textures_.resize(library_->textures.size(), kUnset);
     std::uint32_t& first = textures_[static_cast<std::size_t>(index)];

@@ -7,33 +7,32 @@
 
 namespace gnomon {
 
-/// Matches RayMask in shaders/ray_tracing/alpha_mask.glsl: nine words of its buffer.
+/// Masked material for rays; matches RayMask in shaders/ray_tracing/alpha_mask.glsl: nine words of its buffer.
 struct RayMask {
     float cutoff = 0.0f, alpha = 1.0f;
-    std::uint32_t texels = ~0u;  // word of the first, four to a word; ~0: alpha alone decides
+    std::uint32_t texels = ~0u;  // first word of its texels, four to a word; ~0: alpha alone decides
     std::uint32_t width = 0, height = 0;
     std::uint32_t wrap_u = 0, wrap_v = 0;  // assets::TextureWrap
-    std::uint32_t linear = 0;  // bit 0: filtered; bit 1: triangles have their corners' alpha behind their coordinates
-    float chord_texel = 0.0f;  // mean_chord_texel(); infinite where alpha alone decides
+    std::uint32_t linear = 0;  // bit 0: filtered; bit 1: triangles store their corners' alpha after the coordinates
+    float chord_texel = 0.0f;  // mean_chord_texel(); infinite if alpha alone decides
 };
 static_assert(sizeof(RayMask) == 36);
 
-/// How wide what a mask leaves is on the average: texels from edge to edge along rows and columns, the texture
-/// repeated; 0 where it leaves nothing, infinite where it cuts nothing. By texels, whose alpha times `alpha` is at
-/// least `cutoff`.
+/// Computes the mean width of what a mask leaves: texels from edge to edge along rows and columns, texture repeated. 0
+/// if it leaves nothing, infinite if it cuts nothing. A texel is left if its alpha times `alpha` is at least `cutoff`.
 float mean_chord_texel(const assets::Texture& texture, float alpha, float cutoff);
 
-/// What shaders need of masked materials, as words of one buffer: a RayMask per material in use, texture coordinates of
-/// the triangles of meshes that have any, and the textures' alpha at their finest level, a byte a texel.
+/// Masked materials for shaders, as words of one buffer. Contents: a RayMask per material in use, texture coordinates
+/// of its meshes' triangles, and the textures' alpha at their finest level, a byte per texel.
 class RayMasks {
 public:
     explicit RayMasks(const assets::MeshLibrary& library) : library_(&library) {}
 
-    /// Words of a masked triangle: of its material's RayMask, and of its texture coordinates.
+    /// Word indices of a masked triangle: its material's RayMask, and its texture coordinates.
     struct Place {
         std::uint32_t mask = 0, uvs = 0;
     };
-    /// Of a triangle of a mesh, which has that material. Adds what is not there yet.
+    /// Returns the place of a triangle's mask for a mesh and material; adds what is missing.
     Place place(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t material);
 
     std::span<const std::uint32_t> words() const { return words_; }
@@ -46,8 +45,8 @@ private:
 
     const assets::MeshLibrary* library_;
     std::vector<std::uint32_t> words_;
-    std::vector<std::uint32_t> materials_, textures_, uvs_;  // first word of each material's, texture's, mesh's; kUnset
-    std::vector<std::uint32_t> coloured_;                    // as materials_, on meshes with colours
+    std::vector<std::uint32_t> materials_, textures_, uvs_;  // first word per material, texture and mesh; kUnset
+    std::vector<std::uint32_t> coloured_;                    // like materials_, for meshes with colours
 };
 
 }  // namespace gnomon

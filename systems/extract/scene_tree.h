@@ -6,20 +6,19 @@
 
 namespace gnomon {
 
-/// Makes scene.tree anew from the bounds of all instances: after any was added, removed or put elsewhere in the list.
+/// Rebuilds scene.tree from the bounds of all instances. Needed after one was added, removed or reordered.
 void build_tree(SceneSnapshot& scene);
 
-/// Refits scene.tree to the instances that scene.changed_instances names, and takes it to the scene's version. Costs
-/// nothing where that is empty.
+/// Refits scene.tree to scene.changed_instances and sets its version to the scene's. Costs nothing without changes.
 void refit_tree(SceneSnapshot& scene);
 
-/// Whether scene.tree is of this version of the scene; else whoever searches looks at every instance, to the same
-/// effect.
+/// Returns true if scene.tree has the scene's version. Otherwise searches visit every instance, with the same result.
 inline bool has_tree(const SceneSnapshot& scene) {
     return scene.tree_version == scene.version && scene.tree.size() == scene.instances.size();
 }
 
-/// Calls visit(i) for each instance whose bounds do not lie outside; classify as in BoundsTree::visit. In no order.
+/// Calls visit(i) for each instance with bounds that are not outside, in no particular order; classify as in
+/// BoundsTree::visit.
 template <class Classify, class Visit>
 void visit_instances(const SceneSnapshot& scene, Classify&& classify, Visit&& visit) {
     if (has_tree(scene)) {
@@ -30,7 +29,7 @@ void visit_instances(const SceneSnapshot& scene, Classify&& classify, Visit&& vi
         if (classify(scene.instances[i].bounds_ws) != math::Overlap::outside) visit(i);
 }
 
-/// The lowest value of any instance, infinite without one; rank and value as in BoundsTree::lowest.
+/// Returns the lowest value of any instance; infinity without one. rank and value as in BoundsTree::lowest.
 template <class Rank, class Value>
 double lowest_of_instances(const SceneSnapshot& scene, Rank&& rank, Value&& value) {
     if (has_tree(scene)) return scene.tree.lowest(rank, value);

@@ -18,11 +18,11 @@
 #include "engine/math/shape_tree.h"
 #include "systems/extract/sampled_depths.h"
 
-/// Struct 1 of the frame: everything later stages know of the world, in world-space double.
-/// Fill it from another ECS and the rest of Gnomon works unchanged.
+/// Struct 1 of the frame: all that later stages know of the world, in world space, in double. Filled from another ECS
+/// it makes the rest of Gnomon work unchanged.
 namespace gnomon {
 
-/// A camera that wants shadows in its picture.
+/// Camera with shadows in its picture.
 struct ConsumerItem {
     ecs::Entity entity = {};
     std::string name = {};
@@ -32,7 +32,8 @@ struct ConsumerItem {
     double fov_y_rad = 0.9;
     double half_height_m = 5.0;
     double near_m = 0.05;
-    double far_m = 1.0e9;  // may be infinite for perspective; else depths are spread over all of it (flat_range.h)
+    /// May be infinite for perspective; orthographic depths are spread over the whole range (flat_range.h).
+    double far_m = 1.0e9;
     glm::uvec2 viewport_px{1280, 720};
     bool operator==(const ConsumerItem&) const = default;
 };
@@ -47,29 +48,29 @@ struct LightItem {
     float intensity = 0.0f;
     double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    bool has_shadow = false;  // a LightShadow component exists
+    bool has_shadow = false;  // the entity has a LightShadow
     LightShadow shadow = {};
-    std::uint64_t version = 0;        // grows whenever any of the above changed
-    std::uint64_t shape_version = 0;  // grows whenever any but name, colour and intensity did: what shadows follow from
+    std::uint64_t version = 0;        // grows with every change of a field above
+    std::uint64_t shape_version = 0;  // likewise, but not for name, colour and intensity: covers what shadows depend on
 };
 
-/// How a mesh that bends (assets::Mesh::deformer) is bent in this frame, by its deformer's joints and targets.
+/// Pose of a deformable mesh (assets::Mesh::deformer) in this frame.
 struct PoseItem {
     std::uint32_t mesh = 0;
-    bool skinned = false;  // instances then stand at origin_ws_m, unturned: joints alone place them
+    bool skinned = false;  // joints alone place its instances, which then stand at origin_ws_m without rotation
     glm::dvec3 origin_ws_m{0.0};
-    std::vector<glm::dmat4x3> joints = {};  // from the mesh at rest to the space of its instances
-    std::vector<float> weights = {};        // per target
-    math::Aabb bounds_ms = {};              // holds every bent vertex
+    std::vector<glm::dmat4x3> joints = {};  // from mesh space at rest to the space of its instances
+    std::vector<float> weights = {};        // one per target
+    math::Aabb bounds_ms = {};              // contains every vertex in the pose
     assets::Mirroring mirroring = assets::Mirroring::none;
-    std::uint64_t version = 0;  // grows whenever joints or weights changed
-    std::uint64_t since = 0;    // the version in which the mesh first had a pose
-    double bent_m = 0.0;  // sum, over all its versions, of the most that each moved any vertex by, in the space of
-                          // its instances: between two of them none moved by more than the difference
+    std::uint64_t version = 0;  // grows when joints or weights change
+    std::uint64_t since = 0;    // version at which the mesh first had a pose
+    double bent_m = 0.0;  // sum over all versions of the largest movement of a vertex, in the instances' space. The
+                          // difference between two versions bounds the movement between them
     assets::MeshPose pose() const { return {joints, weights}; }
 };
 
-/// One placed mesh.
+/// Placed mesh.
 struct InstanceItem {
     ecs::Entity entity = {};
     std::uint32_t mesh = 0;
@@ -83,12 +84,11 @@ struct InstanceItem {
     ShadowLayers receive_layers = kAllShadowLayers;
     bool visible = true;
     bool mirrored = false;  // negative determinant
-    bool folded = false;    // its pose mirrors some of it, not all: no side of it is known to be outside
-    std::uint64_t version =
-        0;  // grows whenever mesh, placement or pose changed: what maps show of it. It need not for the rest
+    bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
+    std::uint64_t version = 0;  // grows when mesh, place or pose changes, which maps depend on
 };
 
-/// Whether it stands in the light's way at all, and whether that light's shadows fall on it.
+/// Returns true if the instance casts under this light (first function), or receives its shadows (second).
 inline bool casts_under(const LightItem& light, const InstanceItem& item) {
     return item.casts && (light.shadow.layers & item.cast_layers) != 0;
 }
@@ -105,46 +105,47 @@ enum class DropReason : std::uint8_t {
     zero_scale,
     absurd_light,
     absurd_camera,
-    instances_full,  // the device holds no record of it: not drawn, and lights whose caster it is are lit
+    instances_full,  // the device has no record for it: neither drawn nor casting
 };
 const char* reason_code(DropReason reason);
 
 struct SceneSnapshot;
-/// How the mesh is bent; null: as it is at rest.
+/// Returns the mesh's pose; null: at rest.
 const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh);
 
-/// An entity that could not be used this frame, and why. The others are unaffected.
+/// Entity that was unusable in this frame, and the reason. Others are unaffected.
 struct DroppedEntity {
     ecs::Entity entity = {};
     std::string name = {};
     DropReason reason = DropReason::non_finite_transform;
 };
 
-/// Persists over frames; extraction applies only what changed.
-/// Orders are those of entity indices, so that the same world gives the same snapshot.
+/// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give
+/// equal snapshots.
 struct SceneSnapshot {
     std::vector<ConsumerItem> consumers;
-    std::vector<ConsumerItem> pictures;  // cameras that draw, where they are not those that shadows are fitted to;
-                                         // empty: the consumers
+    /// Cameras that draw, if shadows are fitted to other cameras; empty: the consumers draw.
+    std::vector<ConsumerItem> pictures;
     std::vector<LightItem> lights;
     std::vector<InstanceItem> instances;
-    std::vector<PoseItem> poses;  // by rising mesh, at most one for each: all instances of a mesh are bent alike
+    std::vector<PoseItem> poses;  // sorted by mesh, at most one per mesh: all instances of a mesh share a pose
     std::vector<DroppedEntity> dropped;
-    std::vector<std::uint32_t> changed_instances;  // indices of those to upload this frame, by rising gpu_slot
+    std::vector<std::uint32_t> changed_instances;  // instances to upload in this frame, sorted by gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
-    std::uint64_t version = 0;                     // grows whenever anything changed, by 1 if changed_instances are all
-                                                   // whose version grew with it; 0: nobody counts, all is new always
-    std::uint64_t list_version = 0;  // the version since which an index means the same instance, that is seen and casts
-                                     // as it did; 0: not known
-    math::BoundsTree tree;           // over the instances' bounds, by systems/extract/scene_tree.h; may be left out
-    /// By mesh: boxes around its triangles, in its own space, as assets::Mesh::shape has them. Null, or none at all:
-    /// the instances' bounds stand for it, as they must where a mesh changes.
+    std::uint64_t version = 0;  // grows with every change; by 1 if changed_instances has all instances with a new
+                                // version. 0: changes are not counted, and everything is always new
+    /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:
+    /// unknown.
+    std::uint64_t list_version = 0;
+    math::BoundsTree tree;  // over the instances' bounds, built by systems/extract/scene_tree.h; optional
+    /// Boxes around each mesh's triangles, in mesh space (assets::Mesh::shape), by mesh. Null or missing: the
+    /// instances' bounds are used, as they must be for deformable meshes.
     std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
-    SampledDepths sampled_depths;  // measured, not extracted: by systems/lighting/depth_sampler.h; may be left out
-    /// By what the picture's radiance is multiplied before the tone curve, where that is known: lights are then left
-    /// out of shadowing whose shadows nobody could see (systems/shadow/culling/contribution_culling.h). Empty: none is.
+    SampledDepths sampled_depths;  // measured by systems/lighting/depth_sampler.h, not extracted; optional
+    /// Factor of the picture's radiance before the tone curve, if known. Lights with invisible shadows are then culled
+    /// (systems/shadow/culling/contribution_culling.h). Empty: no light is.
     std::optional<double> exposure = {};
-    std::uint64_t tree_version = 0;  // the version it is of; of another one it is not used
+    std::uint64_t tree_version = 0;  // version of the tree; unused if it differs from `version`
 };
 
 }  // namespace gnomon

@@ -11,7 +11,7 @@
 namespace gnomon::lighting {
 namespace {
 
-/// The lower one of an even number; reorders the values, of which there must be some.
+/// Returns the median, the lower one for an even count. Reorders the values, at least one.
 double median(std::vector<double>& values) {
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>((values.size() - 1) / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -44,8 +44,8 @@ const Midst& MidstFinder::find(const SceneSnapshot& scene) {
 SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
     // A clear sky gives about a tenth of the sun's light, bluish.
     constexpr float kSkyShare = 0.1f;
-    // Of what local lights send out, what meets the scene: walls around its midst, as far away as it reaches and the
-    // light stands from it, that reflect 30 % and spread that over their sphere.
+    // Share of local lights' flux that returns from the scene. Walls around its midst reflect 30 % of what hits them
+    // and spread it over their sphere. Their distance combines the scene's reach and the light's distance.
     constexpr double kReflected = 0.3;
     SceneLight sum;
     glm::dvec3 bounce_lux(0.0);
@@ -59,7 +59,7 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
         }
         const glm::dvec3 away_m = light.position_ws_m - midst.middle_ws_m;
         const double room_m2 = midst.reach_m * midst.reach_m + glm::dot(away_m, away_m);
-        if (!(room_m2 > 0.0)) continue;  // nothing is there to be lit
+        if (!(room_m2 > 0.0)) continue;  // nothing to light
         const double cone_share =
             light.kind == LightKind::spot ? 0.5 * (1.0 - std::cos(static_cast<double>(light.outer_cone_rad))) : 1.0;
         sum.lamps_lux += strongest / room_m2;
@@ -70,7 +70,7 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
 }
 
 AmbientRecord ambient_for(const SceneLight& light, float per_radiance) {
-    constexpr float kGroundShare = 0.2f;  // of the sky's light, that the ground returns
+    constexpr float kGroundShare = 0.2f;  // share of the sky's light that the ground returns
     const auto finite = [&](const glm::vec3& lux) {
         return glm::vec4(glm::min(lux * per_radiance, glm::vec3(kMostInPicture)), 0.0f);
     };

@@ -7,19 +7,18 @@
 
 namespace gnomon::lighting {
 
-/// Matches AmbientBlock in shaders/lighting/lights/ambient.glsl (std140).
+/// Uniform block; matches AmbientBlock in shaders/lighting/lights/ambient.glsl (std140).
 struct AmbientRecord {
     glm::vec4 sky_lux{0.0f}, ground_lux{0.0f};
 };
 
-/// Where half of what stands in a scene stands: as many instances reach beyond it as do not, so that no ground, however
-/// wide, is the scene's size.
+/// Place and size of a scene: medians over its instances. A ground of any width thus does not define the scene's size.
 struct Midst {
     glm::dvec3 middle_ws_m{0.0};
-    double reach_m = 0.0;  // 0: nothing stands there
+    double reach_m = 0.0;  // 0: empty scene
 };
 
-/// Finds the midst of a scene; keeps it while the scene stays as it is.
+/// Finds the midst of a scene; caches it while the scene does not change.
 class MidstFinder {
 public:
     const Midst& find(const SceneSnapshot& scene);
@@ -28,21 +27,21 @@ private:
     double middle_of(const SceneSnapshot& scene, int axis);
 
     Midst midst_;
-    std::uint64_t version_ = 0;  // of the scene; 0: none
+    std::uint64_t version_ = 0;  // version of the scene; 0: none
     std::vector<double> scratch_;
 };
 
-/// What falls on a scene, by its lights: the basis of its ambient light, and of how bright its picture will be.
+/// Incident light of a scene: basis of its ambient light and of its picture's brightness.
 struct SceneLight {
-    double suns_lux = 0.0;   // of all suns, in their strongest colour
-    double lamps_lux = 0.0;  // of all spots and points, at the scene's own distance from each
+    double suns_lux = 0.0;   // all suns, in their strongest channel
+    double lamps_lux = 0.0;  // all spots and points at the scene's distance from each
     glm::vec3 sky_lux{0.0f};
     glm::vec3 bounce_lux{0.0f};
 };
 SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst);
 
-/// Ambient light for a scene that brings none: a share of what its lights give, bluish from above. Times
-/// `per_radiance`, a power of two; w is 0. Finite.
+/// Computes ambient light for a scene without any: a share of its lights, bluish from above. Scaled by `per_radiance`,
+/// a power of two. Finite; w is 0.
 AmbientRecord ambient_for(const SceneLight& light, float per_radiance = 1.0f);
 
 }  // namespace gnomon::lighting

@@ -12,7 +12,7 @@ namespace gnomon::lighting {
 namespace {
 
 constexpr std::uint64_t kBytes = sizeof(SampledDepths::pixels);
-constexpr std::uint32_t kTile_px = 64;  // of a work group: 16 invocations of 4 pixels, to either side
+constexpr std::uint32_t kTile_px = 64;  // edge of a work group's tile: 16 invocations of 4 pixels
 
 std::uint32_t tiles(std::uint32_t size_px) { return (size_px + kTile_px - 1) / kTile_px; }
 

@@ -9,8 +9,8 @@
 
 namespace gnomon::lighting {
 
-/// Counts the pixels of a picture by their view distance, on the GPU, and takes the counts when they have come: never
-/// waiting, a few pictures under way at most, in each frame the newest. Makes what it needs when first asked.
+/// Counts a picture's pixels by view distance on the GPU and reads the counts back. Never blocks: a few pictures are in
+/// flight, and the newest counts are used. Makes its objects on first use.
 class DepthSampler {
 public:
     explicit DepthSampler(gl::Device& device)
@@ -23,14 +23,15 @@ public:
         ecs::Entity camera;
         gl::TextureHandle depth;
         gl::SamplerHandle sampler;
-        gl::BufferHandle uniforms;  // begins with the CameraRecord
+        gl::BufferHandle uniforms;  // starts with the CameraRecord
         glm::uvec2 size_px;
     };
-    /// Records the counting of one picture, outside passes; nothing if all slots are under way or something failed.
+    /// Records the counting of one picture, outside passes. Does nothing if all slots are in flight or something
+    /// failed.
     void record(const Picture& picture, gl::CommandList& list);
 
-    /// Replaces `depths` by the newest counts that have come since the last call; without any it stays as it is.
-    /// Tells of failures by depths.failed, until counts come again.
+    /// Replaces `depths` by the newest counts since the last call, if any. Sets depths.failed from a failure until the
+    /// next counts.
     void collect(SampledDepths& depths);
 
 private:

@@ -8,8 +8,8 @@
 
 namespace gnomon::lighting {
 
-/// Brings the automatic exposure of a picture back from the GPU, which works it out in the frame that needs it: never
-/// waiting, so that it comes some frames late. Makes what it needs when first asked.
+/// Reads a picture's automatic exposure back from the GPU, some frames late, without blocking. Makes its objects on
+/// first use.
 class ExposureMeter {
 public:
     explicit ExposureMeter(gl::Device& device) : device_(device), scales_(device, "exposure to read", sizeof(float)) {}
@@ -22,21 +22,19 @@ public:
         gl::TextureHandle luminance;  // with its mips, as the tone curve reads it
         gl::SamplerHandle sampler;
         gl::BufferHandle uniforms;
-        std::uint32_t exposure_offset;  // of the ExposureRecord in it
+        std::uint32_t exposure_offset;  // offset of the ExposureRecord in `uniforms`
     };
-    /// Records the reading of one picture, outside passes; nothing if all slots are under way or something failed.
+    /// Records the reading of one picture, outside passes. Does nothing if all slots are in flight or something failed.
     void record(const Picture& picture, gl::CommandList& list);
 
-    /// The exposure to reckon with: an upper bound of what the next picture of `camera` is multiplied by before the
-    /// tone curve, by the newest reading of one of its pictures; in quarter stops, and the same for as long as it holds
-    /// and is not far too large. Infinite while nothing is known.
+    /// Returns an upper bound of the factor of `camera`'s next picture before the tone curve, from its newest reading.
+    /// Rounded to quarter stops, and unchanged while valid and at most twice too large. Infinite if unknown.
     double bound(ecs::Entity camera);
-    /// What is known is of the past: nobody has recorded since.
+    /// Discards readings that are outdated, because no picture was recorded since.
     void forget() { measured_.reset(); }
 
-    /// By how much a picture may become darker, and its exposure greater, until the next reading comes, at most four
-    /// frames: two stops. Whoever turns from the sun to the dark within a fifteenth of a second has the shadows of
-    /// faint lights a fifteenth of a second later.
+    /// Maximum growth of the exposure until the next reading, at most four frames: two stops. A faster change, from the
+    /// sun to the dark within 1/15 s, shows faint lights' shadows 1/15 s late.
     static constexpr double kMostGrowth = 4.0;
 
 private:

@@ -5,7 +5,7 @@
 namespace gnomon::lighting {
 namespace {
 
-constexpr gl::Format kFormat = gl::Format::r32f;  // what shaders reckon in: nothing is lost
+constexpr gl::Format kFormat = gl::Format::r32f;  // the shaders' own precision, so that nothing is lost
 
 glm::uvec2 size_of(gl::Rect area) { return {area.width, area.height}; }
 

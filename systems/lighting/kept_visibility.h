@@ -10,11 +10,10 @@
 
 namespace gnomon::lighting {
 
-/// What the pixels of a picture saw of its lights in an earlier frame, so that lights need not be looked up while
-/// nothing that this follows from changes: one texture per camera and light, a float per pixel that the light can
-/// reach. Owns its device objects. Scenes that move have none.
-///
-/// For each picture: begin(), plan() for each light that may be kept, end(). After the submission: submitted().
+/// Cache of lights' visibility per pixel, from an earlier frame, for pictures in which none of its inputs changes. A
+/// texture per camera and light, with a float per pixel that the light can reach. Owns its device objects. Moving
+/// scenes use no memory.
+/// For each picture: begin(), plan() for each cacheable light, end(). After the submission: submitted().
 class KeptVisibility final : public SpareMemory {
 public:
     explicit KeptVisibility(gl::Device& device) : device_(device) {}
@@ -22,42 +21,42 @@ public:
     KeptVisibility(const KeptVisibility&) = delete;
     KeptVisibility& operator=(const KeptVisibility&) = delete;
 
-    /// A picture of `camera`; `most_bytes`: all that may be held.
+    /// Starts a picture of `camera`. `most_bytes`: limit for all textures.
     void begin(ecs::Entity camera, std::uint64_t most_bytes);
 
     enum class Use : std::uint8_t {
-        look_up,  // as without this
-        fill,     // looked up once more, into the texture, and read from there
+        look_up,  // as without a cache
+        fill,     // look up once more, into the texture, and read from there
         read
     };
     struct Plan {
         Use use = Use::look_up;
-        gl::Rect area{};              // of the picture, which `texture` holds
+        gl::Rect area{};              // part of the picture in `texture`
         gl::TextureHandle texture{};  // r32f
-        gl::TargetHandle target{};    // of it
-        /// Of the size of the picture, where the area is less: to be filled instead and then copied; else {0}.
+        gl::TargetHandle target{};    // target of `texture`
+        /// Texture of the picture's size, if the area is smaller: fill it, then copy the area. Otherwise {0}.
         gl::TargetHandle scratch{};
         std::uint64_t bytes = 0;
     };
-    /// `signature`: of all that the light's visibility in this picture follows from; 0: it is not to be kept. Filled is
-    /// in the second frame in which it is what it was, so that what moves on pays nothing.
+    /// Decides what to do for a light. `signature`: hash of all inputs of the light's visibility in this picture; 0: do
+    /// not cache. Fills in the second frame with equal signatures, so that moving scenes pay nothing.
     Plan plan(ecs::Entity light, std::uint64_t signature, gl::Rect area, glm::uvec2 picture_px);
-    /// What plan() said last of that light cannot be done, for want of a program.
+    /// Cancels the last plan of that light, for lack of a program.
     void cancel(ecs::Entity light);
-    /// Frees what no light of this picture asked for, and what has not been read for kHoldFrames.
+    /// Frees the textures that no light of this picture used, and all not read for kHoldFrames.
     void end();
-    /// What was recorded since the last call was executed, or not: then nothing of it, nor before it, is trusted.
-    /// Until it is first called nothing is kept: nobody would say so.
+    /// Reports that everything recorded since the last call was executed, or failed; after a failure no content is
+    /// trusted. Nothing is cached before the first call, because results would be unknown.
     void submitted(bool drawn);
     bool is_told() const { return is_told_; }
 
     std::uint64_t bytes() const override;
     void release() override;
-    /// Whether the texture that a plan named still stands.
+    /// Returns true if the texture of a plan still exists.
     bool holds(gl::TextureHandle texture) const;
 
-    static constexpr std::uint64_t kHoldFrames = 60;  // of a camera: a second at 60 Hz, as maps (MapStore)
-    static constexpr std::uint32_t kStillFrames = 2;  // as they were, before it pays
+    static constexpr std::uint64_t kHoldFrames = 60;  // frames of a camera: a second at 60 Hz, as for maps (MapStore)
+    static constexpr std::uint32_t kStillFrames = 2;  // unchanged frames before caching pays
 
 private:
     enum class Content : std::uint8_t { none, recorded, stands };
@@ -70,7 +69,7 @@ private:
         gl::TextureHandle texture{};
         gl::TargetHandle target{};
         std::uint64_t asked_picture = 0, read_picture = 0;
-        Retry retry;  // of allocations, in pictures
+        Retry retry;  // for allocations, in pictures
     };
     Entry& entry(ecs::Entity light);
     bool provide(Entry& entry, gl::Rect area, glm::uvec2 picture_px);
@@ -81,7 +80,7 @@ private:
 
     gl::Device& device_;
     std::vector<Entry> entries_;
-    std::size_t next_ = 0;  // where the next light asked for is likely to be
+    std::size_t next_ = 0;  // probable index of the next light
     gl::TextureHandle scratch_{};
     gl::TargetHandle scratch_target_{};
     glm::uvec2 scratch_px_{0, 0};

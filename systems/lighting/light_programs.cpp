@@ -31,7 +31,7 @@ const char* output_name(RowOutput output) {
     return "light";
 }
 
-/// Those of surfaces that blend are drawn for lit ones alone.
+/// Returns true if the output adds light to the picture. Passes over blended surfaces draw only lit ones.
 bool adds_to_picture(RowOutput output) {
     return output == RowOutput::picture || output == RowOutput::kept || output == RowOutput::decided;
 }

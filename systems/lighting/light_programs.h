@@ -11,10 +11,12 @@
 
 namespace gnomon::lighting {
 
-/// What a program of a row writes; lookups: what a debug view shows of them.
-/// verdicts: what maps of sheets are certain of; rays: what rays find of the others (RayList). kept, kept_visibility:
-/// the picture, or the visibility, by what pixels saw in an earlier frame (KeptVisibility). decided: the picture but
-/// for pixels that the row's filter takes long for.
+/// Output of a row's program.
+/// - lookups: the lookup, as a debug view shows it
+/// - verdicts: what maps of sheets decide
+/// - rays: what rays decide of the other pixels (RayList)
+/// - kept, kept_visibility: picture and visibility from cached visibility (KeptVisibility)
+/// - decided: the picture, without pixels that take the row's filter long
 enum class RowOutput : std::uint8_t {
     picture,
     visibility,
@@ -27,12 +29,12 @@ enum class RowOutput : std::uint8_t {
     decided
 };
 
-/// A light that is not looked up: one row per kind.
+/// Returns the row for a light without lookup: one per kind.
 inline shadow::ProgramRow kept_row(const shadow::ProgramRow& row) { return {row.kind_define, {}, {}}; }
 
-/// Programs of the lighting system, made when first called for; one per (row, output, debug view). Owns them.
-/// One that could not be made is tried again after Retry::kFrames; one that no picture can do without, whenever it is
-/// called for: there is no frame to be spared. Finding one that exists allocates nothing.
+/// Programs of the lighting system, made on first use; one per (row, output, debug view). Owns them. A program that
+/// failed is retried after Retry::kFrames; an essential one at every use, as no frame works without it. Finding an
+/// existing program allocates nothing.
 class LightPrograms {
 public:
     explicit LightPrograms(gl::Device& device) : device_(device) {}
@@ -41,35 +43,33 @@ public:
     LightPrograms& operator=(const LightPrograms&) = delete;
 
     static constexpr std::uint32_t kNoLimit = ~0u;
-    /// To be called once a frame: the clock of the retries. `most_rows`: must_wait() lets so many be made in it.
+    /// Starts a frame, the clock of retries. `most_rows`: number of programs that must_wait() allows in it.
     void next_frame(std::uint32_t most_rows = kNoLimit) {
         ++frame_;
         rows_left_ = most_rows;
     }
 
-    /// {0} if it cannot be made.
+    /// Returns the row's program; {0} if it cannot be made.
     gl::ProgramHandle row(const shadow::ProgramRow& row, RowOutput output) { return find_or_make(row, output, {}); }
-    /// Whether row() would have to make it and this frame's share is used up. If it is not, that is taken from it.
+    /// Returns true if row() would have to make the program and this frame's number is used up. Otherwise counts it.
     bool must_wait(const shadow::ProgramRow& row, RowOutput output);
-    /// The row's lookups as `fragment`, a debug view's shader, shows them. {0} if it cannot be made.
+    /// Returns the program for the row's lookups in a debug view's shader, `fragment`; {0} if it cannot be made.
     gl::ProgramHandle lookups(const shadow::ProgramRow& row, std::string_view fragment) {
         return find_or_make(row, RowOutput::lookups, fragment);
     }
-    /// Whether surfaces may be unlit: programs that add light to the picture then ask each pixel for it, others need
-    /// not.
+    /// Sets whether surfaces may be unlit. Programs that add light to the picture then test each pixel.
     void set_some_unlit(bool some) { some_unlit_ = some; }
-    /// Whether what is drawn by meshes, surfaces and blended ones, has vertices with colours. Drops those programs if
-    /// that is not what they were made for.
+    /// Sets whether drawn meshes have vertex colours. Drops programs made for the other case.
     void set_coloured(bool coloured);
-    /// `places`: writes also where exactly surfaces are, for rows that ask by rays.
+    /// Returns the program for surfaces. `places`: also writes exact positions, for rows with rays.
     gl::ProgramHandle surface(bool places = false);
     gl::ProgramHandle blended_base();
-    /// The same for what is unlit; {0} if they cannot be made: it is then drawn by those above.
+    /// Returns the programs for unlit surfaces; {0} if they cannot be made: the ones above then draw them.
     gl::ProgramHandle unlit_surface(bool places);
     gl::ProgramHandle unlit_blended();
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
-    gl::Failure failure() const { return failure_; }  // of the last creation
+    gl::Failure failure() const { return failure_; }  // last program made
 
 private:
     struct Entry {
@@ -79,13 +79,13 @@ private:
     struct RowEntry {
         shadow::ProgramRow row;
         RowOutput output;
-        std::string_view fragment;  // of lookups
+        std::string_view fragment;  // for lookups
         bool some_unlit;
         Entry entry;
     };
     RowEntry& find_or_add(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
     gl::ProgramHandle find_or_make(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
-    /// A program that draws meshes into the picture; with their vertices' colours where those are set.
+    /// Makes a program that draws meshes into the picture, with vertex colours if set.
     void make_of_meshes(Entry& entry, const char* label, const char* fragment,
                         std::initializer_list<const char*> defines);
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }

@@ -20,15 +20,15 @@ void put(std::vector<std::byte>& bytes, std::uint32_t offset, const void* record
     std::memcpy(bytes.data() + offset, record, size);
 }
 
-/// Of anything in a box, from a place, at most. What is drawn in this order hides much of what follows, which is then
-/// not shaded: the small and near first, grounds and walls, which reach far, in what is left of the picture.
+/// Bounds the distance from a place to anything in a box. Drawing in this order hides much of the rest before it is
+/// shaded. Small and near objects come first, grounds and walls, which reach far, last.
 double farthest_m(const math::Aabb& box, const glm::dvec3& place) {
     return glm::distance(math::centre(box), place) + 0.5 * glm::distance(box.min, box.max);
 }
 
-/// A light's as its passes add it up; w is its source's size. Finite, whatever its candela.
+/// Scales a light's radiance for its passes; w is its source's size. Finite for any intensity.
 glm::vec4 in_picture(const glm::vec4& radiance, float per_radiance) {
-    constexpr float kMost = 1.0e30f;  // as lighting/lights/light_sample.glsl has it
+    constexpr float kMost = 1.0e30f;  // as in lighting/lights/light_sample.glsl
     const glm::vec3 scaled = glm::min(glm::vec3(radiance) * per_radiance, glm::vec3(kMost));
     return glm::vec4(scaled, radiance.w);
 }
@@ -55,7 +55,7 @@ gl::Rect LightingSystem::viewport() const {
     return {0, 0, static_cast<std::int32_t>(size_px().x), static_cast<std::int32_t>(size_px().y)};
 }
 
-/// Makes what is missing of all that no picture can do without; why not, if it cannot.
+/// Makes missing objects that every picture needs. Returns the reason of a failure.
 gl::Failure LightingSystem::prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) {
     if (!targets_.resize(scene.consumers[inputs.consumer].viewport_px)) return targets_.failure();
     const auto ensure = [&](gl::SamplerHandle& sampler, const gl::SamplerDesc& desc) {
@@ -96,7 +96,7 @@ void LightingSystem::add_mesh_run(const SceneSnapshot& scene, const GpuScene& gp
     for (std::uint32_t s = 0; s < mesh.submesh_count; ++s) {
         const GpuScene::SubmeshRange& submesh = gpu.submesh(mesh.first_submesh + s);
         const bool blend = gpu.material(submesh.material).alpha_mode == assets::AlphaMode::blend;
-        // Blended instances are drawn one by one, sorted; others in one go.
+        // Blended instances are drawn one by one, sorted; others in one draw.
         const std::uint32_t step = blend ? 1 : count;
         for (std::uint32_t i = 0; i < count; i += step) {
             const std::uint32_t nearest = visible_[first + i];
@@ -130,7 +130,7 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
     };
     std::sort(visible_.begin(), visible_.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
     for_each_mesh_run(scene, visible_, [&](std::uint32_t, std::uint32_t first, std::uint32_t count) {
-        // Mirrored instances of a mesh follow the others: their front faces wind the other way.
+        // Mirrored instances of a mesh come last, because their front faces have the opposite winding.
         const auto begin = visible_.begin() + first;
         const auto middle =
             std::find_if(begin, begin + count, [&](std::uint32_t i) { return scene.instances[i].mirrored; });
@@ -138,7 +138,7 @@ void LightingSystem::collect_draws(const ConsumerItem& consumer, const SceneSnap
         if (plain > 0) add_mesh_run(scene, gpu, first, plain, consumer);
         if (plain < count) add_mesh_run(scene, gpu, first + plain, count - plain, consumer);
     });
-    // Equals stay in the order of their items; a stable sort would allocate.
+    // Ties are broken by item; a stable sort would allocate.
     std::sort(draws_.begin(), draws_.end(), [](const SurfaceDraw& a, const SurfaceDraw& b) {
         return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.first_item < b.first_item;
     });
@@ -309,7 +309,7 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
     programs_.set_coloured(static_cast<bool>(gpu.colours()));
     report.failure = prepare(inputs, scene);
     if (report.failure != gl::Failure::none) {
-        // What was freed is only given back when the device has done its work: then there may be room.
+        // Freed memory returns only after the device has finished its work; then there may be room.
         device_.finish();
         report.failure = prepare(inputs, scene);
         if (report.failure != gl::Failure::none) return false;
@@ -360,8 +360,8 @@ bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std
 
 bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list) {
     const shadow::LightingLight& item = lookups.inputs.lights[lookups.light];
-    if (!item.map) return true;  // there is nothing to look up
-    // Of a light that asks by rays: how its map by itself would be.
+    if (!item.map) return true;  // nothing to look up
+    // A light with rays is shown with its map's plain lookup.
     const bool rays = item.row.rays;
     const gl::ProgramHandle program = programs_.lookups(rays ? item.plain.row : item.row, lookups.fragment);
     if (!program) return false;

@@ -23,29 +23,30 @@
 
 namespace gnomon::lighting {
 
-/// Matches ExposureBlock in shaders/lighting/post/exposure.glsl (std140).
+/// Uniform block; matches ExposureBlock in shaders/lighting/post/exposure.glsl (std140).
 struct ExposureRecord {
-    float scale = -1.0f;  // below 0: automatic
+    float scale = -1.0f;  // < 0: automatic
     float top_mip = 0.0f;
-    float radiance_per_one = 1.0f;  // what 1 in the picture stands for
-    float without_surfaces = 1.0f;  // scale, where it is automatic and nothing lit is seen
+    float radiance_per_one = 1.0f;  // radiance of 1 in the picture
+    float without_surfaces = 1.0f;  // scale of an automatic exposure without lit surfaces
 };
 
-/// Matches KeptBlock in shaders/lighting/lights/visibility_cache.glsl (std140).
+/// Uniform block; matches KeptBlock in shaders/lighting/lights/visibility_cache.glsl (std140).
 struct KeptRecord {
     glm::ivec4 area{0};
 };
 
 struct LightingSettings {
-    std::optional<float> exposure_ev;                   // EV100; empty: from the picture's own logarithmic mean
-    std::uint32_t most_rows = LightPrograms::kNoLimit;  // so many programs of lights are compiled in one frame at most
-    bool measure_exposure = false;                      // read the picture's own back, for most_exposure()
+    std::optional<float> exposure_ev;                   // EV100; empty: from the picture's logarithmic mean
+    std::uint32_t most_rows = LightPrograms::kNoLimit;  // maximum number of light programs compiled per frame
+    bool measure_exposure = false;                      // read the picture's exposure back, for most_exposure()
     bool sample_depths = false;  // count the picture's pixels by view distance, for collect_depths()
-    std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // of what pixels saw (KeptVisibility), over all pictures
+    std::uint64_t most_kept_bytes = ~std::uint64_t{0};  // limit of KeptVisibility, over all pictures
 };
 
-/// Deferred lighting: surfaces, one pass per light over its screen rectangle and before its farthest depth, blended
-/// surfaces, exposure. Reads of the shadow system only the LightingInputs it is handed. Owns its device objects.
+/// Deferred lighting: surfaces, a pass per light, blended surfaces, exposure. A light's pass is limited to its screen
+/// rectangle and to its farthest depth. Its only input from the shadow system are LightingInputs. Owns its device
+/// objects.
 class LightingSystem {
 public:
     explicit LightingSystem(gl::Device& device);
@@ -53,48 +54,47 @@ public:
     LightingSystem(const LightingSystem&) = delete;
     LightingSystem& operator=(const LightingSystem&) = delete;
 
-    /// Records the picture of one consumer. Lights whose program fails, or has to wait, are looked up with one tap
-    /// (LightingLight::plain); if that fails as well they are drawn unshadowed, or not at all. All of it is reported.
-    /// False if something that no picture can do without could not be had: nothing was recorded then, and
-    /// report.failure says why.
+    /// Records the picture of one consumer. A light without its program (failed, or compiled later) is looked up with
+    /// one tap (LightingLight::plain). If that fails too it is drawn unshadowed, or not at all. Everything is reported.
+    /// Returns false if an essential object is missing: nothing is recorded, and report.failure has the reason.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
 
-    /// To be called after each submission of what record() recorded: which it was, and whether it was executed without
-    /// failure. What pixels saw is kept only where this is called: a still picture then reads it instead of looking
-    /// lights up, to the same bits (docs/economy.md, "What pixels saw").
+    /// Reports a submission of what record() recorded: its number, and success. Visibility is cached only if this is
+    /// called. A still picture then reads it instead of looking lights up, to the same bits (docs/economy.md, "What
+    /// pixels saw").
     void submitted(std::uint64_t submission, bool drawn);
-    /// Timers of earlier submissions: what was saved by it, for later reports.
+    /// Learns lookup times from timers of earlier submissions, for reports of the saving.
     void learn(std::span<const gl::Timing> timings) { lookup_times_.learn(timings); }
-    /// What of its memory only saves time.
+    /// Returns the memory that only saves time.
     SpareMemory& spare() { return kept_; }
 
-    /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), over the surfaces of
-    /// the last record() of the same inputs. False if it cannot be done.
+    /// Records the visibility of one light (index into inputs.lights) into visibility_texture(), for the surfaces of
+    /// the last record() with the same inputs. Returns false if impossible.
     bool record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
                            gl::CommandList& list);
 
-    /// A picture of how one light's maps are looked up, over the surfaces of the last record() of `inputs`.
+    /// Picture of one light's map lookups, over the surfaces of the last record() of `inputs`.
     struct Lookups {
         const shadow::LightingInputs& inputs;
         std::uint32_t light;        // index into inputs.lights
-        std::string_view fragment;  // a shader that includes debug/lookup.glsl; lives as long as this system
-        gl::Rect area;              // of the picture
+        std::string_view fragment;  // shader that includes debug/lookup.glsl; outlives this system
+        gl::Rect area;              // part of the picture
         gl::BufferHandle block;     // the shader's own, binding 5
         std::uint32_t block_size;
     };
-    /// Records it, blended over the picture; nothing if the light has no map. False if it cannot be done.
+    /// Records it, blended over the picture; nothing if the light has no map. Returns false if impossible.
     bool record_lookups(const Lookups& lookups, const GpuScene& gpu, gl::CommandList& list);
 
-    /// Where the pixels of an earlier picture lie, the newest that is known: see DepthSampler::collect().
+    /// Returns the newest known view distances of an earlier picture: see DepthSampler::collect().
     void collect_depths(SampledDepths& depths) { depths_.collect(depths); }
 
-    /// The most that the automatic exposure of the next picture of `camera` can be: see ExposureMeter::bound().
+    /// Bounds the automatic exposure of the next picture of `camera`: see ExposureMeter::bound().
     double most_exposure(ecs::Entity camera) { return exposure_.bound(camera); }
     void forget_exposure() { exposure_.forget(); }
 
-    /// Binds the camera (uniforms 0) and the surfaces (textures 0 to 3) of the last record(), as
-    /// shaders/lighting/gbuffer/gbuffer_read.glsl names them.
+    /// Binds the camera (uniforms 0) and the surfaces (textures 0 to 3) of the last record(), as in
+    /// shaders/lighting/gbuffer/gbuffer_read.glsl.
     void bind_surface_textures(gl::CommandList& list) const;
 
     gl::TextureHandle picture_texture() const { return targets_.picture; }  // srgb8_a8
@@ -111,28 +111,28 @@ private:
         std::int32_t base_vertex;
         std::uint32_t first_item, item_count;
         bool mirrored, two_sided;
-        double distance_m;  // from the camera, for their order: of the nearest instance's end; blended: of its middle
+        double distance_m;  // from the camera, for sorting: to the nearest instance's far end; blended: to its centre
     };
 
-    /// What evaluates a light, and what it reads.
+    /// Program of a light, and its inputs.
     struct LightProgram {
         gl::ProgramHandle program{};
         gl::TextureHandle map{}, triangles{};
         gl::SamplerHandle sampler{};
         visibility::RayBuffers rays{};
-        gl::TextureHandle second{}, bounds{};                  // of a map of sheets
-        gl::BufferHandle ends{};                               // and of a source with a size
-        gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` itself asks the rays
-        gl::ProgramHandle decided_program{};                   // leaves to `program` what takes it long; {0}: nothing
-        Reason lacks = Reason::none;                           // why it is not the light's own row
+        gl::TextureHandle second{}, bounds{};                  // for maps of sheets
+        gl::BufferHandle ends{};                               // for area lights on such maps
+        gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` traces the rays itself
+        gl::ProgramHandle decided_program{};  // draws all but slow pixels, which remain for `program`; {0}: none
+        Reason lacks = Reason::none;          // reason why it is not the light's own row
         bool unshadowed = false;
     };
-    /// One light's pass over the picture.
+    /// Pass of one light over the picture.
     struct LightPass {
         LightProgram own;
         KeptVisibility::Plan kept;
-        gl::ProgramHandle reads{};  // of kept.use: instead of `own`
-        LightProgram fills;         // and before that
+        gl::ProgramHandle reads{};  // for kept.use: replaces `own`
+        LightProgram fills;         // runs before that, to fill
     };
     void plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                      const LightingSettings& settings);
@@ -176,14 +176,14 @@ private:
     KeptVisibility kept_;
     LookupTimes lookup_times_;
     MidstFinder midst_;
-    std::vector<LightPass> passes_;  // of the last record(): one per light of its inputs
+    std::vector<LightPass> passes_;  // last record(): one per light of its inputs
     GrowingBuffer items_, uniforms_;
-    bool has_places_ = false;  // of the last record(): surfaces say where exactly they are
+    bool has_places_ = false;  // the last record() wrote exact positions of surfaces
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};
     std::uint32_t light_stride_ = 0, kept_stride_ = 0, lights_offset_ = 0, kept_offset_ = 0, ambient_offset_ = 0,
                   exposure_offset_ = 0;
     std::vector<std::uint32_t> visible_;
-    std::vector<double> farthest_m_;  // of those, by instance
+    std::vector<double> farthest_m_;  // per visible instance
     std::vector<DrawItem> draw_items_;
     std::vector<SurfaceDraw> draws_, blended_;
     std::vector<std::byte> uniform_scratch_;

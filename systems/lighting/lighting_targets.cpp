@@ -3,7 +3,7 @@
 namespace gnomon::lighting {
 namespace {
 
-/// SurfacePlace of shaders/lighting/gbuffer/visible_triangle.glsl.
+/// Format of SurfacePlace in shaders/lighting/gbuffer/visible_triangle.glsl.
 constexpr gl::Format kPlaceFormat = gl::Format::rgba32ui;
 constexpr gl::Format kDepthFormat = gl::Format::d32f;
 

@@ -6,7 +6,7 @@
 
 namespace gnomon::lighting {
 
-/// Edge of the luminance target: 65536 samples settle an exposure. kSide in shaders/lighting/post/luminance.frag.
+/// Edge of the luminance target: 65536 samples suffice for an exposure. kSide in shaders/lighting/post/luminance.frag.
 inline constexpr std::uint32_t kLuminanceSide_px = 256;
 inline constexpr std::uint32_t kLuminanceTopMip = 8;  // log2 of the side
 
@@ -18,24 +18,24 @@ public:
     LightingTargets(const LightingTargets&) = delete;
     LightingTargets& operator=(const LightingTargets&) = delete;
 
-    /// True if everything exists at this size. On failure the former size stays usable if it is the same; otherwise
-    /// nothing.
+    /// Creates everything at this size. Returns false on failure; the old targets then remain usable if the size is
+    /// equal.
     bool resize(glm::uvec2 size_px);
-    /// Made when first asked for: nobody pays for a visibility picture that nobody reads.
+    /// Creates the visibility target on first use, because few pictures need it.
     bool ensure_visibility();
-    /// Beside the surfaces, where exactly they are: made when asked for, gone when not. False: there is no room.
+    /// Creates or frees the target for exact surface positions. Returns false without room.
     bool provide_places(bool wanted);
-    /// A second depth of the surfaces, with the light's sum: of those that a light's first draw leaves to its second.
-    /// Made when asked for, gone when not. False: there is no room, and lights do with one draw.
+    /// Creates or frees a second depth of the surfaces with the light's sum, for pixels that a light's first draw
+    /// leaves to its second. Returns false without room; lights then use one draw.
     bool provide_undecided(bool wanted);
     glm::uvec2 size_px() const { return size_px_; }
-    std::uint64_t place_bytes() const;                // of `places`
-    gl::Failure failure() const { return failure_; }  // of the last creation
+    std::uint64_t place_bytes() const;                // memory of `places`
+    gl::Failure failure() const { return failure_; }  // last creation
 
     gl::TextureHandle depth{}, colour{}, normals{}, material{}, light_sum{}, luminance{}, picture{}, visibility{},
         places{}, undecided{};
     gl::TargetHandle surface_target{}, light_target{}, luminance_target{}, picture_target{}, visibility_target{},
-        places_target{},     // the surfaces, places included
+        places_target{},     // the surfaces including places
         undecided_target{};  // light_sum, with `undecided`
 
 private:

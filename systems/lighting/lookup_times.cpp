@@ -9,7 +9,7 @@ namespace gnomon::lighting {
 void LookupTimes::submitted(std::uint64_t submission) {
     ++frame_;
     std::erase_if(passes_, [&](const Pass& p) { return p.frame + kFrames <= frame_; });
-    passes_.reserve(kFrames * recorded_.size());  // at once: later frames allocate nothing
+    passes_.reserve(kFrames * recorded_.size());  // at once, so that later frames do not allocate
     for (Pass& pass : recorded_) {
         pass.frame = frame_;
         pass.submission = submission;
@@ -24,7 +24,7 @@ void LookupTimes::learn(std::span<const gl::Timing> timings) {
             return p.submission == timing.submission && lighting_timer(p.index) == timing.id;
         });
         if (pass == passes_.end()) continue;
-        pass->us += timing.gpu_us;  // several pictures may be in one submission
+        pass->us += timing.gpu_us;  // a submission may have several pictures
         if (pass->light.index >= measured_.size()) measured_.resize(pass->light.index + std::size_t{1});
         Measured& light = measured_[pass->light.index];
         if (light.light != pass->light) light = {pass->light, {}, {}};

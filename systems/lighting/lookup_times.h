@@ -9,19 +9,19 @@
 
 namespace gnomon::lighting {
 
-/// What lighting with each light took on the GPU, when it was last measured: looked up, and read from what was kept.
-/// Devices may answer some frames late.
+/// Lighting times of each light on the GPU, as last measured: looked up, and read from cached visibility. Devices may
+/// report some frames late.
 class LookupTimes {
 public:
-    /// A pass that is recorded; `index`: of the light's timer.
+    /// Adds a recorded pass; `index`: of the light's timer.
     void add(std::uint32_t index, ecs::Entity light, bool kept) {
         recorded_.push_back({index, light, kept, 0, 0, 0.0});
     }
-    /// All that was added since the last call.
+    /// Assigns all passes since the last call to a submission.
     void submitted(std::uint64_t submission);
     void learn(std::span<const gl::Timing> timings);
 
-    /// By how many microseconds reading is faster; empty: not both were measured. Never below 0.
+    /// Returns the microseconds saved by reading, >= 0; empty: one of both was not measured.
     std::optional<double> saved_us(ecs::Entity light) const;
 
     static constexpr std::size_t kFrames = 8;  // more than drivers queue
@@ -38,7 +38,7 @@ private:
         ecs::Entity light;
         std::optional<double> looked_up_us, kept_us;
     };
-    std::vector<Pass> recorded_, passes_;  // of the frame at hand, and of the last kFrames
+    std::vector<Pass> recorded_, passes_;  // current frame; last kFrames
     std::uint64_t frame_ = 0;
     std::vector<Measured> measured_;  // by the entity's index
 };

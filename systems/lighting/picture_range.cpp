@@ -8,8 +8,8 @@
 namespace gnomon::lighting {
 namespace {
 
-/// The power of two that takes `value` to [target / 2, target); 1 if it is not above 0. Its inverse is a normal float,
-/// too.
+/// Returns the power of two that takes `value` to [target / 2, target); 1 if it is not above 0. Its inverse is a normal
+/// float, too.
 float power_to(double target, double value) {
     constexpr int kMostPower = 120;
     if (!(value > 0.0)) return 1.0f;
@@ -19,27 +19,27 @@ float power_to(double target, double value) {
 
 }  // namespace
 
-/// Saturation-based: L_max = 1.2 * 2^EV (ISO 12232; Lagarde & de Rousiers 2014, 4.2).
+/// Computes the saturation-based exposure: L_max = 1.2 * 2^EV (ISO 12232; Lagarde & de Rousiers 2014, 4.2).
 float exposure_scale(float ev) { return 1.0f / (1.2f * std::exp2(ev)); }
 
 PictureRange picture_range(const SceneLight& light, float most_emissive, std::optional<float> exposure_ev) {
-    // White is 8 after the exposure (shaders/lighting/post/tone_curve.glsl). That is far below what 16 bits hold, and a
-    // thousandth of a display's step far above their least.
+    // White is 8 after the exposure (shaders/lighting/post/tone_curve.glsl). That is far below the limit of 16 bits,
+    // and a thousandth of a display's step is far above their minimum.
     constexpr double kExposedIn16Bits = 64.0;
     if (exposure_ev) {
         const float scale = exposure_scale(*exposure_ev);
         const float per_radiance = power_to(kExposedIn16Bits, 1.0 / static_cast<double>(scale));
         return {per_radiance, per_radiance / scale};
     }
-    // What surfaces send back of a sun's light is about its third; of a lamp's, what the nearest send back. Ambient
-    // light reaches all of them: none is darker by more than its colour.
+    // Surfaces reflect about a third of a sun's light; for lamps the nearest surfaces dominate. Ambient light reaches
+    // all surfaces, so that none is darker by more than its colour.
     constexpr double kAboveSun = 64.0, kAboveLamps = 0x1p20;
     const double fallen_lux = light.suns_lux + light.lamps_lux;
     const double brightest = fallen_lux > 0.0 ? std::max(kAboveSun * light.suns_lux, kAboveLamps * light.lamps_lux)
                                               : kAboveSun * static_cast<double>(most_emissive);
     const float per_radiance = power_to(static_cast<double>(kMostInPicture), brightest);
-    // About what the automatic exposure of a picture without anything unlit would show as 1: middle grey is 0.18 of
-    // that, and a surface's radiance a sixth of what falls on it.
+    // Estimate of what an automatic exposure shows as 1 in a picture without unlit surfaces. Middle grey is 0.18 of
+    // that, and a surface's radiance a sixth of the incident light.
     const double typical = fallen_lux > 0.0 ? fallen_lux : static_cast<double>(most_emissive);
     const double shown_as_one = typical > 0.0 ? typical : 1.0;
     return {per_radiance, static_cast<float>(static_cast<double>(per_radiance) * shown_as_one)};

@@ -5,23 +5,22 @@ namespace gnomon::lighting {
 
 struct SceneLight;
 
-/// The greatest finite number of 16 bits, in which the picture is summed up. Twin:
-/// shaders/lighting/post/picture_sum.glsl.
+/// Largest finite number of 16 bits, the precision of the picture's sum. Twin: shaders/lighting/post/picture_sum.glsl.
 inline constexpr float kMostInPicture = 65504.0f;
 
-/// By what the picture of a camera at this EV100 is multiplied before the tone curve.
+/// Returns the picture's factor before the tone curve for a camera at this EV100.
 float exposure_scale(float ev);
 
-/// How radiance is held in the picture before its exposure: 16 bits reach from 6e-8 to 65504 only, scenes from candles
-/// of 1e-6 cd to arcs of 1e12.
+/// Scale of radiance in the picture before its exposure. 16 bits cover only 6e-8 to 65504; scenes range from candles of
+/// 1e-6 cd to arcs of 1e12.
 struct PictureRange {
-    float per_radiance = 1.0f;  // what the picture holds of a radiance of 1: a power of two, so that nothing is rounded
-    float per_unlit = 1.0f;     // and of what is unlit and shown as an exposed radiance of 1
+    float per_radiance = 1.0f;  // picture value of radiance 1: a power of two, so that nothing is rounded
+    float per_unlit = 1.0f;     // picture value of an unlit surface with exposed radiance 1
 };
 
-/// By the exposure where it is given (EV100); else by what falls on the scene, `most_emissive` where nothing does. An
-/// automatic exposure follows lamps as near to a surface as a 500th of the scene's distance from them; what is brighter
-/// is cut.
+/// Chooses the scale by the exposure, if given (EV100). Otherwise by the incident light, or `most_emissive` without
+/// any. An automatic exposure covers surfaces as close to a lamp as 1/500 of the scene's distance; brighter values are
+/// clamped.
 PictureRange picture_range(const SceneLight& light, float most_emissive, std::optional<float> exposure_ev);
 
 }  // namespace gnomon::lighting

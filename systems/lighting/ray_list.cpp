@@ -7,15 +7,15 @@
 namespace gnomon::lighting {
 namespace {
 
-/// In shaders/lighting/trace/ray_list.glsl.
+/// Binding in shaders/lighting/trace/ray_list.glsl.
 constexpr std::uint32_t kBinding = 1;
-/// In shaders/lighting/trace/ray_results.glsl.
+/// Units in shaders/lighting/trace/ray_results.glsl.
 constexpr std::uint32_t kVerdictUnit = 5, kAnswerUnit = 7;
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
-/// Two triangles.
+/// Number of vertices of two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
 
-/// In shaders/lighting/trace/ray_list_layout.glsl.
+/// Block in shaders/lighting/trace/ray_list_layout.glsl.
 constexpr glm::uvec2 kListBlock{4, 2};
 
 gl::Rect area_of(glm::uvec2 size_px) {

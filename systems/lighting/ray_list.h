@@ -6,14 +6,13 @@
 
 namespace gnomon::lighting {
 
-/// Texels of the picture in which the rays of a list are drawn and their answers lie: room for each pixel of a picture
-/// of up to 2^28 (16384 x 16384), neither edge longer than 16384. GLSL twin:
-/// shaders/lighting/trace/ray_list_layout.glsl.
+/// Computes the size of the texture for a list's rays and their results. It has a texel per pixel of a picture of up to
+/// 2^28 pixels (16384 x 16384), neither edge longer than 16384. GLSL twin: shaders/lighting/trace/ray_list_layout.glsl.
 glm::uvec2 ray_list_size_px(glm::uvec2 picture_px);
 
-/// Pixels of which a light's map is not certain (docs/exact.md), gathered so that rays cost no others: what the map
-/// says of each pixel, the list of those for rays, and their answers. One light after the other uses it. Holds nothing
-/// unless one asks for it.
+/// List of pixels that a light's map leaves undecided (docs/exact.md), so that rays cost no others. Contains the map's
+/// verdict per pixel, the pixels for rays, and their results. Lights use it one after the other. Uses no memory until
+/// needed.
 class RayList {
 public:
     explicit RayList(gl::Device& device);
@@ -21,19 +20,19 @@ public:
     RayList(const RayList&) = delete;
     RayList& operator=(const RayList&) = delete;
 
-    /// Made when wanted, gone when not. `depth`: of the picture's surfaces. False: there is no room; asked again later.
+    /// Creates or frees the list. `depth`: of the picture's surfaces. Returns false without room, and retries later.
     bool provide(bool wanted, glm::uvec2 size_px, gl::TextureHandle depth);
     explicit operator bool() const { return static_cast<bool>(answer_target_); }
     std::uint64_t bytes() const { return bytes_; }
 
-    /// Where the map's verdicts go: records the beginning of their pass. `end_verdicts` ends it.
+    /// Begins the pass that writes the map's verdicts; end_verdicts() ends it.
     void begin_verdicts(gl::CommandList& list) const;
     void end_verdicts(gl::CommandList& list) const;
-    /// A pass of one ray for each listed pixel.
+    /// Records a pass of one ray per listed pixel.
     void record_rays(gl::ProgramHandle program, gl::CommandList& list) const;
-    /// Binds both for the pass that reads them (shaders/lighting/trace/ray_results.glsl).
+    /// Binds verdicts and results for the pass that reads them (shaders/lighting/trace/ray_results.glsl).
     void bind_answers(gl::CommandList& list) const;
-    /// After it: another light's go into the same textures.
+    /// Unbinds them, because the next light writes the same textures.
     void unbind_answers(gl::CommandList& list) const;
 
 private:

@@ -10,22 +10,22 @@
 
 namespace gnomon::lighting {
 
-/// Copies of a small buffer on their way back from the device, a few at most, never waited for. Of those that have come
-/// the newest counts. Makes its buffers when first asked.
+/// Copies of a small buffer in flight from the device, a few at most, read without blocking. The newest arrived copy
+/// counts. Makes its buffers on first use.
 class ReadbackRing {
 public:
-    /// `label` lives as long as this.
+    /// Prepares copies of `bytes` bytes. `label` must outlive this.
     ReadbackRing(gl::Device& device, const char* label, std::uint64_t bytes)
         : device_(device), label_(label), bytes_(bytes) {}
     ~ReadbackRing();
     ReadbackRing(const ReadbackRing&) = delete;
     ReadbackRing& operator=(const ReadbackRing&) = delete;
 
-    /// Makes what is missing. False: it cannot be had.
+    /// Makes missing buffers. Returns false on failure.
     bool prepare();
-    /// False: all copies are under way.
+    /// Returns false if all copies are in flight.
     bool has_room() const;
-    /// Records the copy of `source`, of a picture of `camera`, outside passes. Only with room.
+    /// Records the copy of `source`, for a picture of `camera`, outside passes. Requires has_room().
     void record(gl::BufferHandle source, ecs::Entity camera, gl::CommandList& list);
 
     enum class State : std::uint8_t { nothing, came, failed };
@@ -33,15 +33,15 @@ public:
         State state = State::nothing;
         ecs::Entity camera = {};
     };
-    /// The newest copy that has come since the last call goes to `out`; failed: a copy was lost, and none came after
-    /// it.
+    /// Reads the newest copy that arrived since the last call into `out`. failed: a copy was lost, and no later one
+    /// arrived.
     News collect(std::span<std::byte> out);
 
 private:
     struct Slot {
         gl::BufferHandle buffer{};
         ecs::Entity camera = {};
-        std::uint64_t number = 0;  // of the copy; 0: free
+        std::uint64_t number = 0;  // number of the copy; 0: free
     };
     static constexpr std::size_t kSlots = 3;  // as many frames as drivers queue
 

@@ -3,11 +3,10 @@
 #include "engine/core/signature.h"
 #include "systems/lighting/lighting_system.h"
 
-/// Lights whose pixels see what they saw in an earlier frame: when that is so, what is recorded then, and what the
-/// report says of it.
+/// Cached visibility of lights: conditions, recording and report.
 namespace gnomon::lighting {
 
-/// Of all that surfaces show to lights: the camera, and what is drawn, where, how bent, and whose shadows it receives.
+/// Hashes all that surfaces show to lights: camera, drawn instances with place and pose, shadow layers.
 std::uint64_t LightingSystem::surfaces_signature(const shadow::LightingInputs& inputs,
                                                  const SceneSnapshot& scene) const {
     Signature s;
@@ -23,7 +22,7 @@ std::uint64_t LightingSystem::surfaces_signature(const shadow::LightingInputs& i
     return s.value();
 }
 
-/// After prepare(): programs may then be made.
+/// Plans the passes; runs after prepare(), so that programs can be made.
 void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
                                  const LightingSettings& settings) {
     const auto may_keep = [](const shadow::LightingLight& light) { return light.lookup_signature != 0; };
@@ -44,8 +43,8 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
     kept_.end();
 }
 
-/// The programs of a light that reads what was kept are made when it is filled: those of the visibility alone, and of
-/// its kind.
+/// Plans a light's cached visibility. Its programs are made when it is filled: for visibility alone, and for the
+/// light's kind.
 void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity entity, std::uint64_t surfaces,
                                LightPass& pass) {
     Signature s;
@@ -54,7 +53,7 @@ void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity e
     const KeptVisibility::Plan plan = kept_.plan(entity, s.value(), light.screen, targets_.size_px());
     if (plan.use == KeptVisibility::Use::look_up) return;
     const bool fills = plan.use == KeptVisibility::Use::fill;
-    // One after the other, where a frame may make but one.
+    // One after the other, because a frame may make only one.
     const auto made = [&](const shadow::ProgramRow& row, RowOutput output) {
         return programs_.must_wait(row, output) ? gl::ProgramHandle{} : programs_.row(row, output);
     };
@@ -88,7 +87,8 @@ void LightingSystem::record_kept(const LightPass& pass, std::uint32_t index, con
     list.add(gl::EndPass{});
 }
 
-/// Filters take their randomness from where the pixel is: what is less than the picture is filled in one of its size.
+/// Records the filling. Filters derive randomness from the pixel's place, so that a part is filled in a texture of the
+/// picture's size.
 void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu,
                                  gl::CommandList& list) {
     const KeptVisibility::Plan& kept = pass.kept;

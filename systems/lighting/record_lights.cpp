@@ -2,7 +2,7 @@
 #include "systems/lighting/lighting_system.h"
 #include "systems/lighting/report_lacks.h"
 
-/// Which program evaluates a light, what it reads, and the pass that does.
+/// Choice of a light's program, its inputs, and its pass.
 namespace gnomon::lighting {
 
 void LightingSystem::bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const {
@@ -33,17 +33,18 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
     if (gpu.caster_masks()) list.add(gl::BindStorage{7, gpu.caster_masks()});
 }
 
-/// The light's own row; where that cannot be had, one tap of its map; or the same light without its shadow.
+/// Chooses the program: the light's own row, otherwise one tap of its map, otherwise the light without shadow.
 LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, RowOutput output) {
     const shadow::PlainLookup& plain = light.plain;
     const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
-    const bool may_wait = has_plain && output != RowOutput::visibility;  // that is asked for by itself
+    // An explicitly requested visibility is never deferred.
+    const bool may_wait = has_plain && output != RowOutput::visibility;
     Reason lacks = Reason::buffer_failed;
     const bool lists = light.row.sheets && output != RowOutput::blended;
     const bool has_surfaces = !light.row.rays || (has_places_ && (!lists || ray_list_));
     if (has_surfaces) {
         bool waits = false;
-        // Each of several counts: a frame may have time for one.
+        // Each program counts, because a frame may have time for only one.
         const auto made = [&](RowOutput part) {
             const bool late = waits || (may_wait && programs_.must_wait(light.row, part));
             waits = late;
@@ -53,7 +54,7 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
                           light.rays,   light.second, light.bounds,    light.ends};
         if (lists) used.verdicts_program = made(RowOutput::verdicts);
         if (lists) used.rays_program = made(RowOutput::rays);
-        // One that only saves time comes when there is time to make it.
+        // A program that only saves time is made when there is time.
         const bool leaves = !waits && light.row.triangles && output == RowOutput::picture && targets_.undecided_target;
         if (leaves && !programs_.must_wait(light.row, RowOutput::decided))
             used.decided_program = programs_.row(light.row, RowOutput::decided);
@@ -69,8 +70,8 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
     return {.program = programs_.row(unshadowed, output), .lacks = lacks, .unshadowed = true};
 }
 
-/// Before the pass of a light whose map is certain of some of its pixels: which those are, and rays for the others, in
-/// that area of the picture; of surfaces before that depth alone, if it is given.
+/// Records the passes before a light with a map of sheets: verdicts, and rays for undecided pixels, in that area.
+/// `depth`: only surfaces before it, if given.
 void LightingSystem::record_rays(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
                                  std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
     ray_list_.begin_verdicts(list);
@@ -84,8 +85,8 @@ void LightingSystem::record_rays(const LightProgram& light, std::uint32_t index,
     ray_list_.record_rays(light.rays_program, list);
 }
 
-/// A light's draw over its area of the picture. If some of its pixels take long, it is two: the first takes away the
-/// depth of those it is done with, so that none but the others pass the second one's depth test.
+/// Records a light's draw over its area of the picture. If some pixels are slow there are two draws. The first removes
+/// the depth of finished pixels, so that only the others pass the second one's depth test.
 void LightingSystem::record_look_up(const LightProgram& light, std::uint32_t index, const gl::Rect& area,
                                     std::optional<float> depth, const GpuScene& gpu, gl::CommandList& list) const {
     const bool two = static_cast<bool>(light.decided_program);

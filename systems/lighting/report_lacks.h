@@ -4,17 +4,17 @@
 
 namespace gnomon::lighting {
 
-/// What keeps a light from being drawn by its own row.
+/// Reason why a light is not drawn by its own row.
 struct Lack {
     Reason reason = Reason::none;
-    bool unshadowed = false;  // it is drawn without its shadow, or not at all; else by one tap of its map
+    bool unshadowed = false;  // drawn without its shadow, or not at all; false: by one tap of its map
 };
 
-/// Makes the light's report say what is drawn instead: `plain` is what that one tap comes to. Of several pictures, in
-/// one of which something lacks, it says what of that one is so.
+/// Makes the light's report describe the substitute. `plain`: accuracy of one tap. With several pictures, the report
+/// describes one with a lack.
 void report_lack(const Lack& lack, const shadow::LookupAccuracy& plain, LightReport& report);
 
-/// The same of blended surfaces alone: on all others its shadow is what the report says already.
+/// Makes the report describe a lack for blended surfaces only; the shadow on others is as reported already.
 void report_blended_lack(const Lack& lack, const shadow::LookupAccuracy& plain, LightReport& report);
 
 }  // namespace gnomon::lighting

@@ -19,16 +19,17 @@ bool is_finite(const WorldTransform& w) {
     return is_finite(w.basis[0]) && is_finite(w.basis[1]) && is_finite(w.basis[2]) && is_finite(w.translation_ws_m);
 }
 
-// Unlike ==, tells -0 from 0, so that a reader of the change list never holds other bits than the registry.
+// Compares bit by bit. Unlike ==, it distinguishes -0 from 0, so that readers of the change list have the registry's
+// exact bits.
 bool same_bits(const WorldTransform& a, const WorldTransform& b) {
     static_assert(sizeof(WorldTransform) == 12 * sizeof(double), "padding would make memcmp unreliable");
-    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bits are what is asked for
+    // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): compares bits on purpose
     return std::memcmp(&a, &b, sizeof(WorldTransform)) == 0;
 }
 
-/// Empty if the quaternion has no direction.
+/// Converts a quaternion; nothing if it has no direction.
 std::optional<glm::dmat3> rotation_matrix(const glm::dquat& q) {
-    // Scaled first: the squares of very small or very large components would leave the range of double.
+    // Scaled first, because squares of very small or very large components leave the range of double.
     const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     if (!(largest > 0.0)) return std::nullopt;
     const glm::dquat scaled(q.w / largest, q.x / largest, q.y / largest, q.z / largest);
@@ -89,7 +90,7 @@ void TransformSystem::reread_all(ecs::Registry& registry) {
     for (const ecs::Entity entity : registry.entities_with<Transform>()) take(registry, entity);
 }
 
-/// Brings the node of a changed entity up to date. Says nothing twice: the order of log entries does not matter.
+/// Updates the node of a changed entity, at most once per pass. The order of log entries does not matter.
 void TransformSystem::take(ecs::Registry& registry, ecs::Entity entity) {
     const Transform* transform = registry.get<Transform>(entity);
     Node& node = node_at(entity.index);
@@ -103,7 +104,7 @@ void TransformSystem::take(ecs::Registry& registry, ecs::Entity entity) {
     } else {
         node.entity = entity;
         node.parent = transform->parent;
-        // A dead parent never comes back, so there is nothing to wait for. One without Transform may get one.
+        // A dead parent never returns. A parent without Transform may get one later.
         if (registry.alive(node.parent)) link(entity.index, node.parent.index);
     }
     Node& taken = nodes_[entity.index];  // linking may have moved the nodes
@@ -157,8 +158,8 @@ void TransformSystem::spread_to_descendants() {
     }
 }
 
-/// Climbs to the first ancestor that is settled, then evaluates downward: each node once, without recursion, so that
-/// neither the order of entities nor the depth of the tree matters.
+/// Climbs to the first settled ancestor, then evaluates downward. Visits each node once, without recursion, so that
+/// neither entity order nor tree depth matters.
 void TransformSystem::evaluate_with_ancestors(ecs::Registry& registry, std::uint32_t index) {
     path_.clear();
     while (nodes_[index].progress == Progress::pending) {
@@ -172,7 +173,8 @@ void TransformSystem::evaluate_with_ancestors(ecs::Registry& registry, std::uint
     for (; !path_.empty(); path_.pop_back()) evaluate(registry, nodes_[path_.back()]);
 }
 
-/// `member` is on the path and its descendants lead back to it: all from it to the end of the path form the cycle.
+/// Marks a cycle. `member` is on the path, and its descendants lead back to it: the path from it to the end is the
+/// cycle.
 void TransformSystem::condemn_cycle(std::uint32_t member) {
     for (auto it = std::find(path_.begin(), path_.end(), member); it != path_.end(); ++it) {
         nodes_[*it].progress = Progress::in_cycle;

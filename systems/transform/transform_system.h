@@ -8,54 +8,54 @@
 
 namespace gnomon {
 
-/// Why an entity has no place in the world.
+/// Reason why an entity has no place in the world.
 enum class TransformFault : std::uint8_t {
     none,
-    not_finite,      // a number of its Transform, or of the resulting WorldTransform, is NaN or infinite
+    not_finite,      // its Transform or WorldTransform has a NaN or infinity
     zero_rotation,   // its quaternion has no direction
     parent_missing,  // its parent is dead or has no Transform
     parent_cycle     // it is its own ancestor
 };
 const char* fault_code(TransformFault fault);
 
-/// An entity with a Transform but, until mended, without a WorldTransform.
+/// Entity with a Transform, but without a WorldTransform until its fault is corrected.
 struct QuarantinedEntity {
     ecs::Entity entity;
     TransformFault fault = TransformFault::none;
-    ecs::Entity cause;  // the entity itself, or the ancestor whose fault it shares
+    ecs::Entity cause;  // the entity itself, or the ancestor with the fault
     bool operator==(const QuarantinedEntity&) const = default;
 };
 
 struct TransformReport {
-    std::vector<QuarantinedEntity> quarantined;  // all of them, old and new, ordered by entity index
-    std::uint32_t evaluated = 0;                 // Transforms looked at: those changed and their descendants
+    std::vector<QuarantinedEntity> quarantined;  // all current ones, sorted by entity index
+    std::uint32_t evaluated = 0;                 // Transforms evaluated: changed ones and their descendants
     std::uint32_t changed = 0;                   // WorldTransforms added, changed or removed
 };
 
-/// Writes WorldTransform for every entity with a Transform. An entity whose value stays the same bit for bit is not
-/// written, so an unchanged scene makes no log entries, costs nothing and allocates nothing.
-/// One TransformSystem serves one registry, which must be the same in every call.
+/// Writes WorldTransform for every entity with a Transform. Skips values that stay the same bit for bit. An unchanged
+/// scene thus makes no log entries, costs nothing and allocates nothing. A TransformSystem serves one registry, which
+/// must be the same in every call.
 class TransformSystem {
 public:
-    /// Reads Transform's change list; work is proportional to the changed entities and their descendants.
-    /// Faulty entities and their descendants are quarantined; nobody else is affected, and a mended one comes back.
-    /// The report is valid until the next call.
+    /// Reads Transform's change list. The cost is proportional to the changed entities and their descendants. Faulty
+    /// entities and their descendants are quarantined until corrected; others are unaffected. The report is valid until
+    /// the next call.
     const TransformReport& update(ecs::Registry& registry);
 
 private:
     static constexpr std::uint32_t kNone = 0xffffffffu;
     enum class Progress : std::uint8_t { done, pending, on_path, in_cycle };
 
-    /// What is known of the entity with this index: its place in the tree, and its last verdict.
+    /// State of the entity with this index: its place in the tree, and its last result.
     struct Node {
         ecs::Entity entity;  // null: no Transform
         ecs::Entity parent;
         ecs::Entity cause;
-        std::uint32_t linked_to = kNone;  // index of the node whose child list it is in
+        std::uint32_t linked_to = kNone;  // node with this one in its child list
         std::uint32_t first_child = kNone, next_sibling = kNone, previous_sibling = kNone;
         TransformFault fault = TransformFault::none;
         Progress progress = Progress::done;
-        std::uint64_t pass = 0;  // the last update that evaluated it
+        std::uint64_t pass = 0;  // last update that evaluated it
     };
 
     void reread_all(ecs::Registry& registry);

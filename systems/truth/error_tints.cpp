@@ -12,7 +12,7 @@ constexpr std::uint8_t kVeil = 110, kHeavy = 200, kHalo = 120, kFaint = 60, kOpa
 constexpr float kHalf = 0.5f;
 constexpr Colour kDarker{0, 0, 0, kVeil};
 
-/// How far off the worst light is at a pixel; what is ambiguous does not count.
+/// Error of the worst light at a pixel; ambiguous lights do not count.
 struct Worst {
     float off = 0.0f;
     bool wrong = false, ambiguous = false;
@@ -35,7 +35,7 @@ Worst worst_of(std::span<const DrawnLight> lights, std::size_t i) {
         const bool wrong = is_wrong(pixel);
         const float off = pixel.measured >= 0.0f ? std::abs(pixel.measured - pixel.truth) : 1.0f;
         if (!(off > worst.off)) continue;
-        if (!wrong) pixel.measured = 1.0f - pixel.truth;  // the colour of its direction
+        if (!wrong) pixel.measured = 1.0f - pixel.truth;  // gives the colour of the error's direction
         worst.off = off;
         worst.wrong = wrong;
         worst.colour = error_colour(pixel);

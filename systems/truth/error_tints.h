@@ -6,21 +6,21 @@
 
 #include "systems/truth/light_truth.h"
 
-/// Errors as a layer over the picture that they are errors of.
+/// Errors as a layer over their picture.
 namespace gnomon::truth {
 
-/// One light's visibility as it was drawn, of every pixel, beside its truth.
+/// Drawn visibility of a light, per pixel, and its truth.
 struct DrawnLight {
     std::span<const float> measured;
     const LightTruth* truth = nullptr;
 };
 
-/// What lies over wrong pixels' neighbours, so that one alone is seen; and over all that is right.
+/// Radius of the halo around wrong pixels, which makes single ones visible.
 inline constexpr int kHalo_px = 2;
 
 /// Fills `rgba` with 8 bit sRGB and coverage, bottom row first. Each pixel has the colour (error_colour()) of the light
-/// that is farthest off there: wrong ones are opaque, with a halo; others have as much of it as they are off, 0 to a
-/// half. Ambiguous pixels are faint white. What is right, or not scored, is darkened a little.
+/// with the largest error. Wrong pixels are opaque with a halo; other errors have a coverage equal to the error, 0 to
+/// 1/2. Ambiguous pixels are faint white. Correct or unscored pixels are slightly darkened.
 void tint_errors(glm::uvec2 size_px, std::span<const DrawnLight> lights, std::vector<std::uint8_t>& rgba);
 
 }  // namespace gnomon::truth

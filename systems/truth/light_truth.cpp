@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::array<glm::dvec2, 4> kAround{{{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}}};
 
-/// Two axes in the plane of a unit normal.
+/// Returns two axes in the plane of a unit normal.
 std::array<glm::dvec3, 2> tangents(const glm::dvec3& n) {
     const glm::dvec3 helper = std::abs(n.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 first = glm::normalize(glm::cross(n, helper));
     return {first, glm::cross(n, first)};
 }
 
-/// The places of some rows that have to be asked about, and what they are asked for.
+/// Places of some rows to query, and their results.
 struct Questions {
     std::vector<std::size_t> pixels;
     std::vector<visibility::Place> places;
@@ -38,7 +38,8 @@ double cosine_to(const LightItem& light, const SeenSurfaces& seen, std::size_t p
     return distance > 0.0 ? glm::dot(seen.normal_ws[pixel], to_light) / distance : 0.0;
 }
 
-/// The jitter stays in the surface: off it, P would be inside its own solid and grazing rays would meet neighbours.
+/// Adds four places around the pixel's. The offset stays in the surface: outside it, a place could lie inside the
+/// solid, and grazing rays would hit neighbours.
 void add_around(const SeenSurfaces& seen, std::size_t pixel, Questions& questions) {
     const glm::dvec3& point = seen.position_ws_m[pixel];
     const double step_m = kJitter * glm::length(point - seen.camera_ws_m);

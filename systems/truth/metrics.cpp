@@ -66,7 +66,7 @@ private:
         if (far) (measured_lit ? m.leak : m.acne) += 1;
     }
 
-    // Distance from the pixel's centre to the midpoints between differing neighbours.
+    // Uses the distance from the pixel's centre to the midpoints between differing neighbours.
     bool far_from_edges(Pixel q) const {
         const int reach = static_cast<int>(kEdgeBandPx) + 1;
         for (int y = q.y - reach; y <= q.y + reach; ++y)
@@ -77,7 +77,8 @@ private:
         return true;
     }
 
-    // Toward the light, from a window around the edge; `across` (from shadow to light) where the window balances out.
+    // Estimates the gradient toward the light in a window around the edge; `across` (from shadow to light) if the
+    // window is balanced.
     glm::dvec2 gradient(Pixel a, Pixel b, const glm::dvec2& across) const {
         glm::dvec2 sum(0.0);
         const glm::dvec2 middle = 0.5 * glm::dvec2(a.x + b.x, a.y + b.y);
@@ -87,7 +88,7 @@ private:
         return glm::dot(sum, across) > 0.0 ? glm::normalize(sum) : across;
     }
 
-    // Bilinear; empty where a pixel that has a share is not scored or shows nothing.
+    // Interpolates bilinearly; nothing if a contributing pixel is not scored or has no surface.
     std::optional<double> measured_at(const glm::dvec2& place) const {
         const glm::dvec2 base = glm::floor(place);
         const glm::dvec2 f = place - base;
@@ -103,9 +104,10 @@ private:
         return value;
     }
 
-    // Where the measured value rises through one half along `rise`, nearest to `middle`; both ways at once.
-    // Sets `left_scored` when a side ended before the search did: a nearer one may be hidden there.
-    // An edge right here is one whatever the pixels beside it are: so a picture is no distance from itself.
+    // Finds the place nearest to `middle` where the measured value rises through one half along `rise`, in both
+    // directions. Sets `left_scored` if one side left the scored pixels before the search ended, because a nearer edge
+    // may be hidden there. An edge exactly here counts whatever the pixels beside it, so that a picture has distance 0
+    // to itself.
     std::optional<double> nearest_rise(const glm::dvec2& middle, const glm::dvec2& across, const glm::dvec2& rise,
                                        bool& left_scored) const {
         const double half = static_cast<double>(kHalf);

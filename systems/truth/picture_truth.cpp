@@ -6,12 +6,12 @@
 namespace gnomon::truth {
 namespace {
 
-/// Rows that one thread takes at once: places near each other share their way through the trees.
+/// Number of rows that a thread takes at a time: neighbouring places share their walk through the trees.
 constexpr std::uint32_t kRowsAtOnce = 4;
-/// Work per row: one ray to see it, five to know the light there.
+/// Cost per row: one ray for the surface, five for its light.
 constexpr std::uint64_t kSeeing = 1, kLighting = 5;
 
-/// Calls work(first_row, rows) for all rows, on several threads; `make_work` makes one for each of them.
+/// Calls work(first_row, rows) for all rows on several threads; `make_work` makes a `work` for each.
 template <class MakeWork>
 void share_rows(std::uint32_t height, unsigned threads, std::uint64_t work_per_row, TraceState& state,
                 const MakeWork& make_work) {
@@ -66,7 +66,8 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
 
 BackgroundTrace::BackgroundTrace(SceneSnapshot scene, const assets::MeshLibrary& library, unsigned threads)
     : scene_(std::move(scene)) {
-    scene_.version = std::max<std::uint64_t>(scene_.version, 1);  // counted: trees are made once, then only read
+    // Nonzero, so that trees are made once and then only read.
+    scene_.version = std::max<std::uint64_t>(scene_.version, 1);
     thread_ = std::thread([this, &library, threads] {
         truth_ = trace_picture(scene_, library, threads, state_);
         finished_ = true;

@@ -7,44 +7,44 @@
 #include "systems/truth/light_truth.h"
 #include "systems/truth/seen_surfaces.h"
 
-/// The truth about a picture's shadows: what the first camera sees, and what of each shadowed light reaches it.
+/// Truth about a picture's shadows: surfaces of the first camera, and the visibility of each shadowed light.
 namespace gnomon::truth {
 
 struct TracedLight {
-    std::uint32_t light = 0;  // index into the snapshot's
+    std::uint32_t light = 0;  // index in the snapshot
     LightTruth truth;
 };
 
 struct PictureTruth {
     SeenSurfaces seen;
-    std::vector<TracedLight> lights;  // those that have a LightShadow, in their order
+    std::vector<TracedLight> lights;  // lights with a LightShadow, in the snapshot's order
 };
 
-/// Of a trace under way: read and written by any thread.
+/// Progress of a trace; any thread may read and write it.
 struct TraceState {
-    std::atomic<std::uint64_t> done{0}, all{1};  // of its work, in rays of a row
+    std::atomic<std::uint64_t> done{0}, all{1};  // work in rays per row
     std::atomic<bool> cancelled{false};
     double share() const { return static_cast<double>(done.load()) / static_cast<double>(all.load()); }
 };
 
-/// On `threads` threads, this one included. Without a camera: no surface, no light. Cancelled: unfinished, to be thrown
-/// away.
+/// Traces on `threads` threads, including the caller's. Without a camera the result has no surface and no light. If
+/// cancelled, the result is incomplete and useless.
 PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary& library, unsigned threads,
                            TraceState& state);
 
-/// trace_picture() beside everything else that goes on: of a copy of the scene, as it was when the trace began.
+/// Runs trace_picture() in the background, on a copy of the scene as it was at the start.
 class BackgroundTrace {
 public:
-    /// Begins. `library` must outlive it.
+    /// Starts the trace. `library` must outlive it.
     BackgroundTrace(SceneSnapshot scene, const assets::MeshLibrary& library, unsigned threads);
-    /// Cancels, and waits for the end: as long as a few rows take.
+    /// Cancels and joins, which takes as long as a few rows.
     ~BackgroundTrace();
     BackgroundTrace(const BackgroundTrace&) = delete;
     BackgroundTrace& operator=(const BackgroundTrace&) = delete;
 
-    double share() const { return state_.share(); }  // of the work, 0 to 1
+    double share() const { return state_.share(); }  // completed share of the work, 0 to 1
     bool finished() const { return finished_.load(); }
-    /// Waits for the end.
+    /// Blocks until the trace ends and returns it.
     const PictureTruth& truth();
 
 private:
@@ -52,7 +52,7 @@ private:
     TraceState state_;
     std::atomic<bool> finished_{false};
     PictureTruth truth_;
-    std::thread thread_;  // last: it uses all of the above
+    std::thread thread_;  // last, because it uses all members above
 };
 
 }  // namespace gnomon::truth

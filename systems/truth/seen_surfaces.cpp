@@ -22,7 +22,7 @@ struct Hit {
     double t = std::numeric_limits<double>::infinity();
     std::uint32_t instance = kNoSurface, triangle = 0;
     glm::dvec3 front{0.0};   // counter-clockwise side, not normalised
-    glm::dvec3 corner{0.0};  // relative to where the ray begins
+    glm::dvec3 corner{0.0};  // relative to the ray's origin
 };
 
 bool is_double_sided(const assets::MeshLibrary& library, const assets::Mesh& mesh, std::uint32_t triangle) {
@@ -31,7 +31,7 @@ bool is_double_sided(const assets::MeshLibrary& library, const assets::Mesh& mes
     return false;
 }
 
-/// What the rays of a packet see of one instance.
+/// Hits of a packet's rays with one instance.
 class InstanceSight final : public rays::NearestTest {
 public:
     InstanceSight(const assets::MeshLibrary& library, const InstanceItem& item, std::uint32_t instance,
@@ -76,7 +76,7 @@ math::Aabb bounds_of(const SceneSnapshot& scene) {
     return all;
 }
 
-/// A packet's way through the instances.
+/// Walk of a packet through the instances.
 class Sight {
 public:
     Sight(const SceneSnapshot& scene, const visibility::CasterTrees& trees, const rays::RayPacket& rays)
@@ -142,7 +142,7 @@ void put(const rays::RayPacket& rays, std::size_t ray, const Hit& hit, std::size
     if (hit.instance == kNoSurface || !(length > 0.0)) return;
     const glm::dvec3 normal = hit.front / length;
     glm::dvec3 point = rays.along[ray] * hit.t;
-    // One Newton step puts the point on the plane to the last bits also where the ray grazes it.
+    // One Newton step puts the point on the plane to the last bits, even where the ray grazes it.
     point -= normal * glm::dot(normal, point - hit.corner);
     seen.instance[pixel] = hit.instance;
     seen.position_ws_m[pixel] = rays.from[ray] + point;

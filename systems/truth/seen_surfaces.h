@@ -8,33 +8,34 @@
 #include "systems/extract/snapshot.h"
 #include "systems/visibility/caster_trees.h"
 
-/// What a camera sees, by rays in double: the places at which the truth about a light is asked.
+/// Surfaces that a camera sees, by rays in double: the places for the truth about lights.
 namespace gnomon::truth {
 
 inline constexpr std::uint32_t kNoSurface = std::numeric_limits<std::uint32_t>::max();
 
-/// The surface at each pixel centre, rows bottom to top.
+/// Surface at each pixel centre, rows bottom to top.
 struct SeenSurfaces {
     glm::uvec2 size_px{0, 0};
     glm::dvec3 camera_ws_m{0.0};
-    std::vector<std::uint32_t> instance;    // index into the snapshot's; kNoSurface: none
-    std::vector<glm::dvec3> position_ws_m;  // on the triangle's plane, to the rounding of double
-    std::vector<glm::dvec3> normal_ws;      // unit, geometric, on the side that is seen
+    std::vector<std::uint32_t> instance;    // index in the snapshot; kNoSurface: none
+    std::vector<glm::dvec3> position_ws_m;  // on the triangle's plane, to double's rounding
+    std::vector<glm::dvec3> normal_ws;      // unit length, geometric, on the visible side
     std::size_t count() const { return instance.size(); }
-    /// Room for a picture, nothing seen.
+    /// Resizes for a picture without any surface.
     void reset(glm::uvec2 size, const glm::dvec3& camera);
 };
 
-/// Nearest front face (any face of double-sided materials) of visible instances through each pixel centre, between near
-/// and far plane. Masked texels are looked through; what is blended is not there.
+/// Finds the nearest front face (any face of double-sided materials) of visible instances through each pixel centre,
+/// between near and far plane. Masked texels and blended materials are transparent.
 class SurfaceTracer {
 public:
-    /// `trees`: of this scene, with TreesOf::casters_and_visible. All must outlive the tracer.
+    /// Refers to its arguments, which must outlive the tracer. `trees`: of this scene, with
+    /// TreesOf::casters_and_visible.
     SurfaceTracer(const SceneSnapshot& scene, const visibility::CasterTrees& trees, const ConsumerItem& camera)
         : scene_(scene), trees_(trees), camera_(camera) {}
 
-    /// Fills one row of `seen`. Rows may be traced at once by several threads. `hint`: an instance that is looked at
-    /// first, left at one that was seen; it changes only the time that is needed.
+    /// Fills one row of `seen`. Several threads may trace different rows. `hint`: instance to test first, set to an
+    /// instance that was hit; it affects only time.
     void trace_row(std::uint32_t row, std::uint32_t& hint, SeenSurfaces& seen) const;
 
 private:

@@ -14,13 +14,13 @@ namespace {
 
 using rays::Lanes;
 
-/// A corner relative to the place, and the plane through three of them, round a dozen times on numbers no larger than
-/// the coordinates they come from.
+/// Rounding of corners relative to the place, and of the plane through three of them. A dozen operations on numbers no
+/// larger than the coordinates.
 constexpr double kPlaneUnits = 64.0 * 0x1p-53;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// The test that decides, for one instance.
+/// Decides exactly, for one instance.
 class InstanceTest final : public rays::ExactTest {
 public:
     InstanceTest(const assets::MeshLibrary& library, const InstanceItem& item, const rays::RayPacket& rays)
@@ -38,7 +38,7 @@ public:
                               largest(exact.b) + largest(exact.c);
         const double error_m = kPlaneUnits * size_m;
         if (rays::begins_on_plane(exact, error_m)) return false;
-        // A lamp in the triangle's plane stands on its front.
+        // A lamp in the triangle's plane counts as in front of it.
         const bool on_front = rays::ends_on_plane(rays_.along[ray] * rays_.last, exact, error_m);
         if (on_front ? rays::begins_before(exact) != item_.mirrored : !(hit.t < rays_.last)) return false;
         return triangle.mask == rays::kOpaque ||
@@ -58,7 +58,7 @@ math::Aabb bounds_of(const SceneSnapshot& scene) {
     return all;
 }
 
-/// The rays of a packet on their way through the instances.
+/// Walk of a packet's rays through the instances.
 class Walk {
 public:
     Walk(const SceneSnapshot& scene, const CasterTrees& trees, ShadowLayers layers, const rays::RayPacket& rays,
@@ -123,7 +123,7 @@ private:
     rays::SegmentPacket open_;  // not blocked so far; relative to the middle of the scene
     rays::SegmentPacket segments_;
     rays::FramedRays framed_rays_;
-    rays::Frame frame_;  // of framed_rays_
+    rays::Frame frame_;  // frame of framed_rays_
     bool framed_ = false;
 };
 

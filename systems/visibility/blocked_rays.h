@@ -4,8 +4,8 @@
 
 namespace gnomon::visibility {
 
-/// Rays that a caster of these layers blocks: the walk through both levels. `trees` must be of this scene. `hint` is an
-/// instance that is asked first, the last one that blocked any; it changes only the time that is needed.
+/// Returns the rays that a caster of these layers blocks: the walk through both levels. `trees` must belong to the
+/// scene. `hint`: instance to test first, set to the last one with a hit; it affects only time.
 rays::Lanes blocked_rays(const SceneSnapshot& scene, const CasterTrees& trees, ShadowLayers layers,
                          const rays::RayPacket& rays, std::uint32_t& hint);
 

@@ -10,24 +10,23 @@
 
 namespace gnomon::visibility {
 
-/// Whose meshes get a tree: of what casts, or also of what a camera sees.
+/// Meshes that get a tree: those of casters, or also those of visible instances.
 enum class TreesOf : std::uint8_t { casters, casters_and_visible };
 
-/// The lower level of a two-level tree over all casters: one MeshBvh per mesh that casts, in its own space. The upper
-/// level is SceneSnapshot::tree, which extraction keeps anyway. Holds not a byte until update() is called for the first
-/// time: who asks for no ray pays for none.
+/// Lower level of a two-level tree over all casters: one MeshBvh per casting mesh, in its own space. The upper level is
+/// SceneSnapshot::tree, which extraction maintains anyway. Uses no memory before the first update().
 class CasterTrees {
 public:
-    /// `library` must outlive the trees. They are of one scene, whose versions say what changed.
+    /// Prepares trees for one scene. `library` must outlive them. The scene's versions mark changes.
     explicit CasterTrees(const assets::MeshLibrary& library, TreesOf of = TreesOf::casters)
         : library_(&library), of_(of) {}
 
-    /// Trees of all meshes that cast (or are seen) in `scene`, bent as it says. Builds those that are missing and
-    /// refits those whose pose changed; costs nothing where the scene's version is the same, and a look at each pose
-    /// where its lists are.
+    /// Updates the trees of all casting (or visible) meshes in `scene`, in their poses. Builds missing trees and refits
+    /// those with a changed pose. Costs nothing if the scene's version is unchanged, and a look at each pose if its
+    /// list_version is.
     void update(const SceneSnapshot& scene);
 
-    /// Null: no instance casts it (or is seen). Valid until the next update().
+    /// Returns a mesh's tree; null if no instance casts it (or shows it). Valid until the next update().
     const rays::MeshBvh* tree(std::uint32_t mesh) const {
         return mesh < trees_.size() && trees_[mesh].kept ? &trees_[mesh].bvh : nullptr;
     }
@@ -35,7 +34,7 @@ public:
 
     struct Counts {
         std::size_t trees = 0, triangles = 0, bytes = 0;
-        std::uint32_t builds = 0, refits = 0;  // by the last update() that did anything
+        std::uint32_t builds = 0, refits = 0;  // by the last update() with any work
     };
     const Counts& counts() const { return counts_; }
 
@@ -54,7 +53,7 @@ private:
 
     const assets::MeshLibrary* library_;
     TreesOf of_;
-    std::vector<Tree> trees_;           // by mesh; empty until something asks
+    std::vector<Tree> trees_;           // by mesh; empty before the first update()
     std::vector<assets::Vertex> bent_;  // scratch
     std::uint64_t version_ = 0, list_version_ = 0;
     Counts counts_;

@@ -13,17 +13,16 @@ namespace gnomon::visibility {
 namespace {
 
 constexpr double kUnitRoundoff = 0x1p-24;
-/// kBoxUnits of shaders/ray_tracing/ray_box.glsl: the same roundings, carried into the mesh's space, and the inverse's
-/// own.
+/// Rounding of a ray in mesh space: that of kBoxUnits in shaders/ray_tracing/ray_box.glsl, plus the inverse's own.
 constexpr double kBoxUnits = 48.0;
-/// Of a corner as shaders place it: its basis, three products, three sums.
+/// Rounding of a corner as shaders place it: its basis, three products, three sums.
 constexpr double kCornerUnits = 8.0;
-/// Where a basis has no inverse every box is met: farther than any coordinate, near enough for its square to be finite.
+/// Slack for a basis without inverse, so that every box is hit. Farther than any coordinate; its square is finite.
 constexpr float kEverywhere = 1.0e18f;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Largest sum of a row: what no axis of an image exceeds, per unit of the vector's largest.
+/// Computes the largest absolute row sum: bounds an image's coordinates per unit of the vector's largest coordinate.
 double norm(const glm::dmat3& m) { return largest(glm::abs(m[0]) + glm::abs(m[1]) + glm::abs(m[2])); }
 
 bool is_finite(const glm::dmat3& m) { return std::isfinite(norm(m)); }
@@ -50,7 +49,7 @@ RayInstance record_of(const InstanceItem& item, const MeshTreePlace& mesh) {
     return record;
 }
 
-/// Around where shaders find the instance's corners: its translation is two floats there.
+/// Computes a box around the instance's corners as shaders place them, with the translation in two floats.
 rays::Box box_of(const InstanceItem& item, const math::Aabb& bounds_ws, const RayInstance& record,
                  const glm::dvec3& anchor_ws_m) {
     constexpr double kTwoFloats = 0x1p-47;
@@ -101,9 +100,9 @@ void InstanceTree::list(const SceneSnapshot& scene, std::span<const MeshTreePlac
     open(scene, meshes);
 }
 
-/// Large instances, whose boxes overlap as those of a building's materials do, give way to the parts that their own
-/// trees have at the top, the largest first: a ray that comes by then meets few of them (Benthin, Woop, Wald and Afra
-/// 2017, "Improved two-level BVHs using partial re-braiding").
+/// Replaces large instances by the subtrees at the top of their own trees, the largest first. Boxes of large instances
+/// overlap, as those of a building's materials; a ray then hits fewer of the parts. (Benthin, Woop, Wald and Afra 2017,
+/// "Improved two-level BVHs using partial re-braiding".)
 void InstanceTree::open(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
     const std::size_t most = parts_.size() + kMostOpened;
     struct Large {
@@ -118,7 +117,7 @@ void InstanceTree::open(const SceneSnapshot& scene, std::span<const MeshTreePlac
         const std::span<const rays::BvhNode> tree = meshes[item.mesh].tree;
         if (tree.empty() || tree[part.begin_node].leaf != 0) return;
         const double area_m2 = half_area_m2(bounds_of(item, tree[part.begin_node]));
-        if (area_m2 > 0.0) largest.push({area_m2, i});  // nor where it is none, or not a number
+        if (area_m2 > 0.0) largest.push({area_m2, i});  // excludes areas of 0 or NaN
     };
     for (std::size_t i = 0; i < parts_.size(); ++i) push(i);
     while (parts_.size() < most && !largest.empty()) {
@@ -134,7 +133,7 @@ void InstanceTree::open(const SceneSnapshot& scene, std::span<const MeshTreePlac
     }
 }
 
-/// Amid the casters: a sum of two floats, so that shaders have it as it is.
+/// Sets the anchor in the middle of the casters, as a sum of two floats, so that shaders have it exactly.
 void InstanceTree::set_anchor(const SceneSnapshot& scene) {
     math::Aabb all;
     for (const Part& part : parts_) all = math::merged(all, scene.instances[part.item].bounds_ws);
@@ -144,7 +143,7 @@ void InstanceTree::set_anchor(const SceneSnapshot& scene) {
     anchor_ws_m_ = glm::dvec3(anchor.high) + glm::dvec3(anchor.low);
 }
 
-/// Records and boxes, by slot.
+/// Computes records and boxes, by slot.
 void InstanceTree::place(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes) {
     records_.resize(parts_.size());
     boxes_.resize(parts_.size());

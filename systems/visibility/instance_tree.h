@@ -10,36 +10,37 @@
 
 namespace gnomon::visibility {
 
-/// Where shaders find a mesh's tree, and what is around it in its own space. No nodes: it has none.
+/// Place of a mesh's tree in the shaders' buffers, and its box in mesh space. `nodes` is 0 without a tree.
 struct MeshTreePlace {
     std::uint32_t first_node = 0, nodes = 0, first_slot = 0;
     rays::Box box;
-    std::span<const rays::BvhNode> tree;  // empty: the mesh bends, and its nodes may come to lie otherwise
+    std::span<const rays::BvhNode> tree;  // empty for a deformable mesh, because its nodes may be reordered
 };
 
-/// The upper level of the trees that shaders ask: a box per instance that casts, or several of a large one, relative to
-/// an anchor amid them, so that floats hold it wherever in the world that is. Plain arrays as
-/// shaders/ray_tracing/bvh_buffers.glsl reads them.
+/// Upper level of the trees for shaders: a box per casting instance, or several of a large one. Boxes are relative to
+/// an anchor in their middle, so that floats suffice anywhere in the world. Plain arrays for
+/// shaders/ray_tracing/bvh_buffers.glsl.
 class InstanceTree {
 public:
-    /// Takes the snapshot's casters; `meshes` by mesh. Refits where the same ones moved, unless that has made walks
-    /// kLooseGrowth times as long as when the tree was built. `same`: they are the casters of the last update.
+    /// Updates the tree to the snapshot's casters; `meshes` by mesh. Refits if the same casters moved, unless walks
+    /// then cost kLooseGrowth times as much as when the tree was built. `same`: the casters are those of the last
+    /// update.
     void update(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes, bool same);
 
     const RayTop& head() const { return head_; }
     std::span<const rays::BvhNode> nodes() const { return nodes_; }
-    std::span<const RayInstance> parts() const { return records_; }  // by slot; a leaf holds one
-    std::size_t instances() const { return instances_; }             // that they are parts of
+    std::span<const RayInstance> parts() const { return records_; }  // by slot; a leaf has one
+    std::size_t instances() const { return instances_; }             // number of instances behind the parts
     std::uint32_t builds() const { return builds_; }
     std::size_t bytes() const;
 
     static constexpr double kLooseGrowth = 1.5;
-    /// So many more parts than instances at most. Samples of the rays' pass in one run of Sponza: 2531 with 256 of
-    /// them, 2313 with 1024, 2297 with 4096.
+    /// Maximum number of parts beyond the instances. Samples of the ray pass in a run of Sponza: 2531 with 256 parts,
+    /// 2313 with 1024, 2297 with 4096.
     static constexpr std::size_t kMostOpened = 1024;
 
 private:
-    /// An instance of the snapshot, or those triangles of it that lie below one node of its mesh's tree.
+    /// Instance of the snapshot, or its triangles below one node of its mesh's tree.
     struct Part {
         std::uint32_t item = 0, begin_node = 0, end_node = 0;
     };

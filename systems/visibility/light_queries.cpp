@@ -14,7 +14,7 @@
 namespace gnomon::visibility {
 namespace {
 
-/// Places that are put in order together: more are nearer to each other, fewer are shared out more evenly.
+/// Places sorted together: more lie closer to each other, fewer balance the threads better.
 constexpr std::size_t kMostPerBlock = std::size_t{1} << 16, kLeastPerBlock = std::size_t{1} << 10;
 constexpr std::size_t kBlocksPerThread = 4;
 
@@ -30,7 +30,7 @@ struct Batch {
 
 }  // namespace
 
-/// What one thread needs.
+/// State of one thread.
 struct LightQueries::Worker {
     NearOrder order;
     rays::RayPacket rays;
@@ -61,7 +61,7 @@ struct LightQueries::Worker {
         for (std::size_t i = 0; i < count; ++i) answers[i] /= static_cast<float>(batch.light.count(places[i].radius_m));
     }
 
-    /// Adds one to the answers of places whose rays come through.
+    /// Adds 1 to the results of places with an unblocked ray.
     void send(const Batch& batch, std::span<float> answers) {
         rays::Lanes lit = rays.lanes() & ~blocked_rays(batch.scene, batch.trees, batch.layers, rays, hint);
         for (; lit != 0; lit &= lit - 1u)

@@ -9,48 +9,49 @@
 #include "systems/extract/snapshot.h"
 #include "systems/visibility/caster_trees.h"
 
-/// How much of a light reaches a place: for what hides in shadows, grows in the sun or has to be seen. On the CPU, of
-/// the casters' own triangles, whether or not a camera sees them and whatever maps hold.
+/// Share of a light that reaches a place, for gameplay: hiding in shadows, plants, detection. Computed on the CPU from
+/// the casters' triangles, independent of cameras and maps.
 namespace gnomon::visibility {
 
-/// A point, or a sphere: then the light on the half of it that faces the light.
+/// Point, or sphere: then its half that faces the light receives.
 struct Place {
     glm::dvec3 at_ws_m{0.0};
     double radius_m = 0.0;
 };
 
 struct QueryOptions {
-    /// Rays per place where the place or the light has a size (LightShadow::source_radius_m, sun_radius_rad); at least
-    /// 1. Elsewhere one ray is all there is. The same places on both in every query, spread evenly.
+    /// Rays per place if the place or the light has a size (LightShadow::source_radius_m, sun_radius_rad); at least 1.
+    /// Otherwise one ray suffices. Every query uses the same sample positions on both, evenly spread.
     std::uint32_t samples = 16;
-    /// Casters nearer to the place than this, along the ray, do not count: what the place itself lies on. What it lies
-    /// on exactly, to the rounding of double, never counts.
+    /// Distance along the ray below which casters are ignored, to exclude the surface under the place. A surface
+    /// exactly at the place, to double's rounding, is always ignored.
     double nearest_m = 0.0;
-    /// Threads that share the batch, this one included; at least 1. More than one are started and joined by each call.
-    /// Batches can be shared out otherwise: ask() of several LightQueries may run at once over the same trees.
+    /// Number of threads for the batch, including the caller's; at least 1. Each call starts and joins the others.
+    /// Alternatively several LightQueries may run ask() concurrently over the same trees.
     unsigned threads = 1;
 };
 
-/// Answers batches of places for one light. What it needs besides the casters' trees is kept, so that nothing is
-/// allocated once as many places have been asked on as many threads.
+/// Computes visibility for batches of places and one light. Reuses its memory: once warm for a number of places and
+/// threads, it does not allocate.
 class LightQueries {
 public:
-    /// `trees` must outlive the queries. They are brought up to date by ask(), or beforehand by their update(), which
-    /// must not run while anybody asks.
+    /// Refers to `trees`, which must outlive the queries. ask() updates them, or the caller beforehand by their
+    /// update(), which must not run during ask().
     explicit LightQueries(CasterTrees& trees);
     ~LightQueries();
     LightQueries(LightQueries&&) noexcept;
     LightQueries& operator=(LightQueries&&) noexcept;
 
-    /// answers[i], 0 to 1: the share of `light`, which need not be in the scene, that reaches places[i]; answers must
-    /// be as long as places. 0 beyond the light's range or outside its cone; how it fades within them is not counted,
-    /// nor is any angle. Casters are those of the light's layers, both faces, alpha masks as the picture and the
-    /// reference tracer have them, moved and bent as the scene says, whether or not the light has a LightShadow; what
-    /// is blended lets all light through. A place or light that is not finite: 0.
-    ///
-    /// One ray's answer is that of a watertight test in double on corners relative to the place, which are right to
-    /// 2^-51 of the larger of corner and distance, here as at 1e8 m: no ray slips between two triangles with a common
-    /// edge. Float only leads there, and only where it is sure; answers do not depend on batches, order or threads.
+    /// Sets answers[i] to the share of `light` that reaches places[i], 0 to 1; both spans have equal length. The light
+    /// need not be in the scene.
+    /// - 0 beyond the light's range or outside its cone. Attenuation within them and angles of incidence do not count.
+    /// - Casters are those of the light's layers in their current places and poses, both faces. Alpha masks match the
+    ///   picture and the reference tracer; blended surfaces let all light through.
+    /// - The light needs no LightShadow. A place or light that is not finite gives 0.
+    /// - The test is watertight in double: no ray slips between two triangles with a common edge. Its corners relative
+    ///   to the place are exact to 2^-51 of the larger of corner and distance, also at 1e8 m. Float only narrows the
+    ///   search, and only where it is certain.
+    /// - Results do not depend on batches, order or threads.
     void ask(const SceneSnapshot& scene, const LightItem& light, std::span<const Place> places,
              const QueryOptions& options, std::span<float> answers);
 

@@ -13,7 +13,7 @@ namespace {
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// Sample i of n on a spiral whose turns are the golden angle: equal areas, evenly round (Vogel 1979).
+/// Returns sample i of n on a spiral with the golden angle: equal areas, evenly distributed (Vogel 1979).
 glm::dvec2 on_spiral(std::size_t i, std::size_t n) {
     const double golden_rad = glm::pi<double>() * (3.0 - std::sqrt(5.0));
     const double radius = std::sqrt((static_cast<double>(i) + 0.5) / static_cast<double>(n));
@@ -21,7 +21,7 @@ glm::dvec2 on_spiral(std::size_t i, std::size_t n) {
     return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)};
 }
 
-/// The step, near the golden section of n, that visits all n places before it repeats one.
+/// Returns a step close to n / golden ratio that visits all n places before it repeats one.
 std::size_t even_step(std::size_t n) {
     auto step = static_cast<std::size_t>(std::lround(static_cast<double>(n) * 0.5 * (std::sqrt(5.0) - 1.0)));
     while (std::gcd(step, n) != 1) ++step;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kBitsPerAxis = 6, kDigitBits = 9, kDigits = 1u << kDigitBits;
 constexpr double kCells = 1u << kBitsPerAxis;
 
-/// By x: its bits, two zeros before each.
+/// Table from x to its bits with two zeros before each.
 using SpreadTable = std::array<std::uint32_t, 1u << kBitsPerAxis>;
 constexpr SpreadTable kSpread = [] {
     SpreadTable table{};

@@ -7,11 +7,11 @@
 
 namespace gnomon::visibility {
 
-/// Puts places in an order in which those next to each other are near each other: that of the cells of a grid along
-/// Morton's curve. Keeps its storage.
+/// Orders places so that consecutive ones are close to each other: cells of a grid along Morton's curve. Reuses its
+/// memory.
 class NearOrder {
 public:
-    /// Valid until the next call. At most 2^32 places.
+    /// Returns the order of at most 2^32 places. Valid until the next call.
     std::span<const std::uint32_t> of(std::span<const Place> places);
 
 private:

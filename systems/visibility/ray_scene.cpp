@@ -6,7 +6,7 @@
 namespace gnomon::visibility {
 namespace {
 
-/// A tree that is built anew may have more nodes than before, never more than this: a leaf holds at least one.
+/// Bounds the nodes of a tree. A rebuilt tree may have more nodes than before, but a leaf has at least one triangle.
 std::uint32_t most_nodes(const rays::MeshBvh& tree, bool bends) {
     const auto triangles = static_cast<std::uint32_t>(tree.triangles().size());
     if (triangles == 0) return 0;
@@ -65,7 +65,7 @@ bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::Comma
     return ready;
 }
 
-/// A mesh's triangles by slot, as shaders read them.
+/// Appends a mesh's triangles by slot, as shaders read them.
 void RayScene::take_triangles(const GpuScene& gpu, std::uint32_t mesh) {
     const std::uint32_t first = gpu.mesh(mesh).first_index / 3;
     for (rays::BvhTriangle triangle : held_->trees.tree(mesh)->triangles()) {
@@ -79,7 +79,7 @@ void RayScene::take_triangles(const GpuScene& gpu, std::uint32_t mesh) {
     }
 }
 
-/// All meshes' trees, one after the other.
+/// Uploads all meshes' trees, one after the other.
 bool RayScene::make_meshes(const SceneSnapshot& scene, const GpuScene& gpu) {
     free_meshes();
     const std::size_t meshes = gpu.library().meshes.size();
@@ -134,7 +134,7 @@ void RayScene::rewrite_bent(const SceneSnapshot& scene, const GpuScene& gpu, gl:
     }
 }
 
-/// Whether all instances are as they were when the upper level was written.
+/// Returns true if all instances are as when the upper level was written.
 bool RayScene::stand_still(const SceneSnapshot& scene) const {
     if (scene.version == 0 || scene.version == held_->version) return scene.version != 0;
     const bool all_are_named =
@@ -142,7 +142,7 @@ bool RayScene::stand_still(const SceneSnapshot& scene) const {
     return all_are_named && scene.changed_instances.empty();
 }
 
-/// `all`: what the device has is not known.
+/// Writes the upper level. `all`: the device's contents are unknown.
 bool RayScene::write_instances(const SceneSnapshot& scene, bool all, gl::CommandList& list) {
     const bool still = !all && stand_still(scene);
     if (still) held_->version = scene.version;

@@ -16,9 +16,8 @@
 
 namespace gnomon::visibility {
 
-/// A snapshot's casters as shaders ask them by rays (shaders/ray_tracing/bvh_traversal.glsl): the trees of CasterTrees,
-/// and one over the instances, in storage buffers. Owns them. Holds nothing until update() is called for the first
-/// time.
+/// Casters of a snapshot in storage buffers for rays in shaders (shaders/ray_tracing/bvh_traversal.glsl). Contains the
+/// trees of CasterTrees, and one over the instances. Owns them. Uses no memory before the first update().
 class RayScene {
 public:
     explicit RayScene(gl::Device& device) : device_(device) {}
@@ -26,19 +25,19 @@ public:
     RayScene(const RayScene&) = delete;
     RayScene& operator=(const RayScene&) = delete;
 
-    /// Brings the buffers up to the snapshot: to be called in each frame that asks by rays. Trees are built once per
-    /// mesh, refitted and written again where it bent; the level above is written where something moved. False if the
-    /// device has no room; it is asked again after Retry::kFrames such frames.
+    /// Updates the buffers to the snapshot. Call it in each frame with rays. Trees are built once per mesh, refitted
+    /// and written again if its pose changed. The upper level is written if anything moved. Returns false without room
+    /// on the device; retries after Retry::kFrames such frames.
     bool update(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
-    /// Nobody asks any more: frees all of it.
+    /// Frees everything, when no light uses rays.
     void release();
-    /// A submission failed: the next update() writes all of it again.
+    /// Makes the next update() write everything again, after a failed submission.
     void forget_uploads() { forgotten_ = true; }
 
-    /// {0} unless update() succeeded.
+    /// Returns the buffers; {0} unless update() succeeded.
     const RayBuffers& buffers() const { return buffers_; }
 
-    /// What is held; written: by the last update().
+    /// Reports memory use, and what the last update() wrote.
     const RayReport& report() const { return report_; }
 
 private:
@@ -47,11 +46,11 @@ private:
         CasterTrees trees;
         RayMasks masks;
         std::vector<MeshTreePlace> places;         // by mesh
-        std::vector<std::uint64_t> pose_versions;  // by mesh: of what the buffers hold
+        std::vector<std::uint64_t> pose_versions;  // by mesh: pose versions in the buffers
         std::size_t placed_trees = 0;
         InstanceTree instances;
         GrowingBuffer top_buffer, instance_buffer;
-        std::uint64_t version = 0, list_version = 0;  // of the snapshot that the upper level is of
+        std::uint64_t version = 0, list_version = 0;  // versions of the snapshot in the upper level
         std::uint64_t mesh_bytes = 0;
         std::vector<rays::BvhTriangle> scratch;
     };
