@@ -150,7 +150,7 @@ struct FrameReport {
     std::vector<ViewReport> views;    // of all lights, in their order
     std::vector<DroppedEntity> dropped;
     bool still = false;  // nothing that shadows follow from had changed: the stages' results of the last frame stand
-    gl::ProgramCounts programs;  // that were made in this frame
+    std::uint64_t programs_compiled = 0;  // in this frame, failures included
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
@@ -164,7 +164,7 @@ struct FrameReport {
     void clear() {
         views.clear();
         still = false;
-        programs = {};
+        programs_compiled = 0;
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();
         shadow_gpu_us.reset();

@@ -152,12 +152,6 @@ struct Timing {
     double gpu_us = 0.0;
 };
 
-/// Programs that a device has made since it was: from their sources, failures included, and out of a cache.
-struct ProgramCounts {
-    std::uint64_t compiled = 0, cached = 0;
-    bool operator==(const ProgramCounts&) const = default;
-};
-
 /// What submit() found. A failed submission has drawn what it could; the frame goes on.
 struct SubmitResult {
     Failure failure = Failure::none;
@@ -171,7 +165,8 @@ public:
     virtual ~Device() = default;
 
     virtual const DeviceInfo& info() const = 0;
-    virtual ProgramCounts program_counts() const = 0;
+    /// Returns the number of programs that were compiled since the device was made, failures included.
+    virtual std::uint64_t compiled_programs() const = 0;
 
     /// `pixels`: empty (contents undefined), or tightly packed rows (bottom row first) of mip 0 of every layer; mips
     /// are then generated.

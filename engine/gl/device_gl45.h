@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -16,9 +15,8 @@ using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 
 /// Makes the OpenGL 4.5 executor for the context that is current on this thread. It sets glClipControl and
 /// other fixed state, and owns every object it makes: the destructor deletes them (context must be current).
-/// `program_cache`: a folder where linked programs are kept from run to run (program_cache.h); empty: nowhere.
 /// Error if the context is below 4.5 core (rule "gl.version").
-Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, std::filesystem::path program_cache = {});
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink);
 
 /// OpenGL's own name of a texture, sampler or buffer, for draw calls that are not Gnomon's. 0 if there is none. The
 /// object stays the device's: it may be replaced or deleted in any later frame.
