@@ -64,7 +64,7 @@ def differences(old, new, where=""):
     """Places of two statistics that differ, of those that both have; times are left out."""
     if isinstance(old, dict) and isinstance(new, dict):
         for key in old.keys() & new.keys():
-            if not key.endswith(("_us", "_ns", "_ms")) and key != "programs":
+            if not key.endswith(("_us", "_ns", "_ms")):
                 yield from differences(old[key], new[key], f"{where}/{key}")
     elif isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
         for i, (a, b) in enumerate(zip(old, new)):

@@ -76,14 +76,12 @@ int run_sweeps(const Arguments& arguments) {
     command.scenes.assign(arguments.scenes.begin(), arguments.scenes.end());
     command.folder = arguments.out;
     command.only = arguments.sweep_rows;
-    command.markdown = arguments.markdown;
     if (!arguments.size_given && command.size == SweepSize::quick) command.stage.size_px = kQuickSize_px;
     if (arguments.rounds_given) command.rounds = arguments.rounds;
     if (arguments.repeat_given) command.frames = arguments.repeat;
-    const auto scenes = run_sweep(command);
-    if (!scenes) return fail(scenes.error());
-    std::fputs(sweep_summary(scenes.value()).c_str(), stdout);
-    std::printf("%s\n", (command.folder / "report.html").c_str());
+    if (auto error = run_sweep(command)) return fail(*error);
+    std::printf("%s: bench/sweep/report.py makes the page and the tables of it\n",
+                (command.folder / "report.json").c_str());
     return 0;
 }
 

@@ -34,7 +34,7 @@ const shadow::History& Frame::held_fits() const { return shadows_->held_fits(); 
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const auto start = std::chrono::steady_clock::now();
-    const gl::ProgramCounts programs = device_.program_counts();
+    const std::uint64_t compiled_before = device_.compiled_programs();
     commands_.clear();
     report_.clear();
 
@@ -68,8 +68,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
                            static_cast<std::int32_t>(settings.viewport_px.y)};
         commands_.add(gl::Blit{lighting_->picture_target(), {}, all, all});
     }
-    const gl::ProgramCounts now = device_.program_counts();
-    report_.programs = {now.compiled - programs.compiled, now.cached - programs.cached};
+    report_.programs_compiled = device_.compiled_programs() - compiled_before;
     report_.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
 
     const gl::SubmitResult result = device_.submit(commands_);

@@ -151,8 +151,8 @@ struct FrameReport {
     std::vector<LightReport> lights;  // one per LightItem, same order
     std::vector<ViewReport> views;    // views of all lights, in their order
     std::vector<DroppedEntity> dropped;
-    bool still = false;          // no input of shadows changed: the stages' results of the last frame are valid
-    gl::ProgramCounts programs;  // made in this frame
+    bool still = false;  // no input of shadows changed: the stages' results of the last frame are valid
+    std::uint64_t programs_compiled = 0;  // in this frame, failures included
     double shadow_cpu_us = 0.0;
     double cpu_us = 0.0;
     std::optional<double> gpu_us, shadow_gpu_us;
@@ -166,7 +166,7 @@ struct FrameReport {
     void clear() {
         views.clear();
         still = false;
-        programs = {};
+        programs_compiled = 0;
         shadow_cpu_us = cpu_us = 0.0;
         gpu_us.reset();
         shadow_gpu_us.reset();

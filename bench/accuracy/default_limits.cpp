@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
-#include "bench/text/format_number.h"
 #include "bench/text/printf_string.h"
 #include "tests/oracle/metrics.h"
 
 namespace gnomon::bench {
 namespace {
+
+std::string percent_words(double share) { return formatted("%.3g %%", 100.0 * share); }
 
 std::string near_words(double errors, const std::optional<double>& far, const std::string& where) {
     if (!far) return {};
@@ -17,8 +18,6 @@ std::string near_words(double errors, const std::optional<double>& far, const st
 }
 
 }  // namespace
-
-bool keeps_promise(const PromisedErrors& errors) { return promise_words(errors).empty(); }
 
 std::string promise_words(const PromisedErrors& errors) {
     std::string text;

@@ -15,8 +15,6 @@ struct PromisedErrors {
     std::optional<double> false_shadow_far, false_light_far;
 };
 
-bool keeps_promise(const PromisedErrors& errors);
-
 /// What is above its bound, how far, and how much of it lies nearer to a true edge than half a texel of the map is wide
 /// there: "0.101 % wrong (0.05 %), 93.8 % of that within ...; ...". Empty: nothing is.
 std::string promise_words(const PromisedErrors& errors);

@@ -44,7 +44,8 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     add_common(command, arguments);
     command
         .add_option("--sweep", arguments.sweep,
-                    "quick or full: what each setting costs and gains, as a report in --out; --scene may be repeated")
+                    "quick or full: what each setting costs and gains, as report.json in --out, of which ./gnomon "
+                    "makes a page and tables; --scene may be repeated")
         ->check(CLI::IsMember({"quick", "full"}));
     command.add_option("--rows", arguments.sweep_rows,
                        "with --sweep: regular expression for rows' names, the defaults aside (default: all)");
@@ -57,7 +58,7 @@ void add_accuracy(CLI::App& command, Arguments& arguments) {
     add_rounds(command, arguments.rounds, "with --filters and --sweep: rounds of --repeat frames each");
     add_markdown(command, arguments,
                  "page whose text between <!-- NAME --> and <!-- end of NAME --> is replaced; --filters: rows, "
-                 "--sweep: cost");
+                 "--sweep: cost (./gnomon)");
 }
 
 void add_audit(CLI::App& command, Arguments& arguments) { add_scene(command, arguments); }

@@ -219,14 +219,13 @@ Result<SceneSweep> measure_sweep(Stage& stage, const SweepOptions& options) {
     sweep.camera = stage.frame().snapshot().consumers.front().name;
     sweep.size_px = truths.value().hits.size_px;
     sweep.trace_s = truths.value().trace_s;
-    sweep.pictures = options.folder / "pictures";
     auto planned =
         chosen(options.plan.empty() ? sweep_plan(options.size, kinds_of(truths.value())) : options.plan, options.only);
     if (!planned) return planned.error();
     const std::vector<SweepRow> plan = std::move(planned).value();
     const bool software = stage.device().info().is_software;
     const std::uint32_t frames = options.frames > 0 ? options.frames : software ? kSoftwareFrames : kDeviceFrames;
-    auto pictures = RowPictures::make(sweep.pictures, truths.value());
+    auto pictures = RowPictures::make(options.folder / "pictures", truths.value());
     if (!pictures) return pictures.error();
     auto journal = SweepJournal::open(options.folder / "journal.jsonl",
                                       header_of(stage, sweep.device, plan, frames, options.disks));

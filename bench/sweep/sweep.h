@@ -29,8 +29,7 @@ struct SceneSweep {
     std::uint32_t rounds = 0;             // of times that every row has
     std::uint32_t gl_complaints = 0;
     std::vector<SweepRow> plan;
-    std::vector<JudgedRow> rows;     // in the plan's order
-    std::filesystem::path pictures;  // folder
+    std::vector<JudgedRow> rows;  // in the plan's order
 };
 
 /// Judges every row of the plan by truths that are traced once, then times them all in rounds: in each, every few rows

@@ -1,8 +1,10 @@
 #include "bench/sweep/sweep_command.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <span>
 
-#include "bench/text/replace_doc_section.h"
+#include "bench/sweep/sweep_json.h"
 #include "sample_game/support/files/image_files.h"
 
 namespace gnomon::bench {
@@ -31,17 +33,15 @@ Result<SceneSweep> sweep_scene(const SweepCommand& command, std::size_t index) {
 
 }  // namespace
 
-Result<std::vector<SceneSweep>> run_sweep(const SweepCommand& command) {
+std::optional<Error> run_sweep(const SweepCommand& command) {
     std::vector<SceneSweep> scenes;
     for (std::size_t i = 0; i < std::max<std::size_t>(command.scenes.size(), 1); ++i) {
         auto sweep = sweep_scene(command, i);
         if (!sweep) return sweep.error();
         scenes.push_back(std::move(sweep).value());
     }
-    if (auto error = write_sweep(scenes, command.folder)) return *error;
-    if (!command.markdown.empty())
-        if (auto error = replace_marked(command.markdown, "cost", sweep_markdown(scenes))) return *error;
-    return scenes;
+    const std::string json = sweep_json(scenes);
+    return game::write_file(command.folder / "report.json", std::as_bytes(std::span(json)));
 }
 
 }  // namespace gnomon::bench

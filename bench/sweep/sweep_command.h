@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/common/stage.h"
-#include "bench/sweep/sweep_report.h"
+#include "bench/sweep/sweep.h"
 
 namespace gnomon::bench {
 
@@ -15,12 +15,11 @@ struct SweepCommand {
     std::filesystem::path folder = "gnomon_sweep";
     std::string only;  // as SweepOptions::only
     std::optional<std::uint32_t> rounds;
-    std::uint32_t frames = 0;        // 0: by the device
-    std::filesystem::path markdown;  // empty: none
+    std::uint32_t frames = 0;  // 0: by the device
 };
 
-/// Sweeps each scene in turn, says on stderr how far it is, and writes the report into the folder. Errors: those of
-/// Stage::open, measure_sweep and write_sweep; "page.*" of the Markdown page.
-Result<std::vector<SceneSweep>> run_sweep(const SweepCommand& command);
+/// Sweeps each scene in turn, says on stderr how far it is, and writes report.json into the folder. report.py makes the
+/// page and the tables of it. Errors: those of Stage::open, measure_sweep and game::write_file.
+std::optional<Error> run_sweep(const SweepCommand& command);
 
 }  // namespace gnomon::bench

@@ -1,7 +1,7 @@
 #pragma once
 #include <nlohmann/json.hpp>
 
-#include "bench/compare/evaluate_configuration.h"
+#include "bench/sweep/sweep.h"
 
 namespace gnomon::bench {
 
@@ -13,7 +13,7 @@ RowFigures figures_from(const nlohmann::ordered_json& json);
 nlohmann::ordered_json to_json(const LightRow& row);
 LightRow light_row_from(const nlohmann::ordered_json& json);
 
-/// How a kind of light is called in files and tables, as in --stats.
-std::string_view kind_name(LightKind kind);
+/// Everything that was measured, for report.py and for other scripts; bench/README.md lists the keys.
+std::string sweep_json(const std::vector<SceneSweep>& scenes);
 
 }  // namespace gnomon::bench

@@ -1,7 +1,6 @@
 #include "bench/sweep/sweep_plan.h"
 
 #include <algorithm>
-#include <bit>
 #include <iterator>
 #include <span>
 
@@ -176,12 +175,6 @@ std::vector<SweepRow> sweep_plan(SweepSize size, LightKinds kinds) {
     plan.cross("resolution x cascades", sizes,
                named(cascades(size), full ? Names{"cascades=1", "cascades=2", "cascades=8"} : Names{"cascades=1"}));
     return std::move(plan).rows();
-}
-
-std::size_t light_rows(const std::vector<SweepRow>& plan) {
-    std::size_t count = 0;
-    for (const SweepRow& row : plan) count += static_cast<std::size_t>(std::popcount(row.kinds));
-    return count;
 }
 
 }  // namespace gnomon::bench

@@ -27,7 +27,4 @@ inline constexpr std::size_t kMostSweepRows = 400;
 /// rows in the same order every time.
 std::vector<SweepRow> sweep_plan(SweepSize size, LightKinds kinds = kAllKinds);
 
-/// One per row and kind of light: at most kMostSweepRows.
-std::size_t light_rows(const std::vector<SweepRow>& plan);
-
 }  // namespace gnomon::bench

@@ -63,11 +63,6 @@ void Svg::text(const glm::dvec2& at, std::string_view words, std::string_view st
              "</text>\n";
 }
 
-void Svg::open_group(std::string_view attributes, std::string_view title) {
-    text_ += "<g " + std::string(attributes) + "><title>" + escaped(title) + "</title>\n";
-}
-void Svg::close_group() { text_ += "</g>\n"; }
-
 void Svg::open_clip(const glm::dvec2& low, const glm::dvec2& high) {
     const std::string id = "clip" + std::to_string(clips_++);
     text_ += "<clipPath id=\"" + id + "\">";

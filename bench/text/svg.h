@@ -18,9 +18,6 @@ public:
     void circle(const glm::dvec2& centre, double radius, std::string_view style);
     void rectangle(const glm::dvec2& low, const glm::dvec2& high, std::string_view style);
     void text(const glm::dvec2& at, std::string_view words, std::string_view style = "");
-    /// What is drawn until close_group() has these attributes, and the title as its tooltip.
-    void open_group(std::string_view attributes, std::string_view title);
-    void close_group();
     /// What is drawn until close_clip() shows only inside the rectangle.
     void open_clip(const glm::dvec2& low, const glm::dvec2& high);
     void close_clip();

@@ -153,12 +153,6 @@ struct Timing {
     double gpu_us = 0.0;
 };
 
-/// Number of programs made since the device exists: compiled from source (including failures), and loaded from a cache.
-struct ProgramCounts {
-    std::uint64_t compiled = 0, cached = 0;
-    bool operator==(const ProgramCounts&) const = default;
-};
-
 /// Result of submit(). A failed submission executes as much as possible, and the frame goes on.
 struct SubmitResult {
     Failure failure = Failure::none;
@@ -172,7 +166,8 @@ public:
     virtual ~Device() = default;
 
     virtual const DeviceInfo& info() const = 0;
-    virtual ProgramCounts program_counts() const = 0;
+    /// Returns the number of programs that were compiled since the device was made, failures included.
+    virtual std::uint64_t compiled_programs() const = 0;
 
     /// Creates a texture. `pixels`: empty (contents undefined), or tightly packed rows (bottom row first) of mip 0 of
     /// every layer; mips are then generated.

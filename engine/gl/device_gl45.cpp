@@ -7,7 +7,6 @@
 
 #include "engine/gl/gl45_execute.h"
 #include "engine/gl/gl45_objects.h"
-#include "engine/gl/gl45_programs.h"
 #include "engine/gl/gl45_readbacks.h"
 #include "engine/gl/gl45_timers.h"
 #include "engine/gl/validate.h"
@@ -73,8 +72,7 @@ MessageSeverity severity_of(GLenum type, GLenum severity) {
 
 class Gl45Device final : public Device {
 public:
-    Gl45Device(MessageSink sink, std::filesystem::path program_cache)
-        : sink_(std::move(sink)), info_(read_info()), programs_(std::move(program_cache)) {
+    explicit Gl45Device(MessageSink sink) : sink_(std::move(sink)), info_(read_info()) {
         if (sink_) {
             glEnable(GL_DEBUG_OUTPUT);
             glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -96,7 +94,7 @@ public:
     }
 
     const DeviceInfo& info() const override { return info_; }
-    ProgramCounts program_counts() const override { return programs_.counts(); }
+    std::uint64_t compiled_programs() const override { return compiled_programs_; }
     std::size_t live_objects() const { return objects_.count(); }
     GLuint name(TextureHandle h) const {
         const GlTexture* texture = find_object(objects_.textures, h.id);
@@ -133,7 +131,8 @@ public:
     }
     Created<ProgramHandle> create_program(const ProgramDesc& desc) override {
         if (lost()) return refused<ProgramHandle>(Failure::context_lost, desc.label);
-        return keep<ProgramHandle>(objects_.programs, programs_.make(desc));
+        ++compiled_programs_;
+        return keep<ProgramHandle>(objects_.programs, make_program(desc));
     }
     Created<TargetHandle> create_target(const TargetDesc& desc) override {
         if (lost()) return refused<TargetHandle>(Failure::context_lost, desc.label);
@@ -231,24 +230,23 @@ private:
 
     MessageSink sink_;
     DeviceInfo info_;
-    GlPrograms programs_;
     GlFixtures fixtures_;
     GlObjects objects_;
     GlTimers timers_;
     GlReadbacks readbacks_;
     std::uint32_t next_id_ = 1;
-    std::uint64_t submissions_ = 0;
+    std::uint64_t submissions_ = 0, compiled_programs_ = 0;
     bool robust_ = false, lost_ = false;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, std::filesystem::path program_cache) {
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink) {
     const int version = epoxy_is_desktop_gl() ? epoxy_gl_version() : 0;
     if (version < kNeededVersion) {
         return Error{"the current context is not OpenGL 4.5 but " + get_string(GL_VERSION), {}, {}, "gl.version"};
     }
-    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink), std::move(program_cache))};
+    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink))};
 }
 
 unsigned gl_name(const Device& gl45_device, TextureHandle texture) {

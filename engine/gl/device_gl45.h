@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,10 +14,9 @@ enum class MessageSeverity : std::uint8_t { notification, low, medium, high };
 using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 
 /// Creates the OpenGL 4.5 executor for the context that is current on this thread. Sets glClipControl and other fixed
-/// state. Owns every object that it creates; the destructor deletes them (context must be current). `program_cache`:
-/// folder for linked programs across runs (program_cache.h); empty: none. Error if the context is below 4.5 core (rule
-/// "gl.version").
-Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, std::filesystem::path program_cache = {});
+/// state. Owns every object that it creates; the destructor deletes them (context must be current). Error if the context
+/// is below 4.5 core (rule "gl.version").
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink);
 
 /// Returns OpenGL's own name of a texture, sampler or buffer, for draw calls outside Gnomon; 0 if it does not exist.
 /// The device keeps ownership, and may replace or delete the object in any later frame.

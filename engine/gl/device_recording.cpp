@@ -193,7 +193,7 @@ void RecordingDevice::check_leaks() {
 }
 
 const DeviceInfo& RecordingDevice::info() const { return info_; }
-ProgramCounts RecordingDevice::program_counts() const { return {compiled_, 0}; }
+std::uint64_t RecordingDevice::compiled_programs() const { return compiled_; }
 
 std::optional<Failure> RecordingDevice::injected(Call call, const std::string* label) {
     const std::optional<Failure> failure = lost_ ? Failure::context_lost : scheduled(calls_, call, label);

@@ -133,7 +133,7 @@ public:
 
     // Device
     const DeviceInfo& info() const override;
-    ProgramCounts program_counts() const override;  // every create_program() is compiled
+    std::uint64_t compiled_programs() const override;
     Created<TextureHandle> create_texture(const TextureDesc&, std::span<const std::byte>) override;
     Created<SamplerHandle> create_sampler(const SamplerDesc&) override;
     Created<BufferHandle> create_buffer(const BufferDesc&, std::span<const std::byte>) override;

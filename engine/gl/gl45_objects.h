@@ -63,6 +63,7 @@ Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte>
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
 void delete_buffer(const GlBuffer& buffer);
+Made<GLuint> make_program(const ProgramDesc& desc);
 Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects);
 
 /// Discards errors that other users of the context left behind.

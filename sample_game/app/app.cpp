@@ -1,7 +1,6 @@
 #include "sample_game/app/app.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <thread>
 
 #include "components/light_shadow.h"
@@ -65,10 +64,7 @@ std::optional<Error> check_outputs(const CommandLine& line) {
     for (const auto& file : {line.stats, line.screenshot, line.truth})
         if (file)
             if (auto error = check_writable(*file)) return error;
-    for (const auto& folder : {line.visibility, line.program_cache})
-        if (folder && !folder->empty())
-            if (auto error = make_writable_folder(*folder)) return error;
-    return std::nullopt;
+    return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
 }
 
 void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings) {
@@ -90,9 +86,7 @@ bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, c
 
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
     // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
-    Result<std::unique_ptr<gl::Device>> device =
-        gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {},
-                             program_folder(line, std::getenv("XDG_CACHE_HOME"), std::getenv("HOME")));
+    Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
     if (!device) return device.error();
     Renderer renderer{std::move(device).value(), nullptr};
     const gl::DeviceInfo& info = renderer.device->info();

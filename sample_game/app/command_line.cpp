@@ -20,7 +20,7 @@ constexpr double kFramesPerSecond = 60.0;
 /// What was typed, before it is understood.
 struct Typed {
     std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms,
-        shadow_rays, stats, screenshot, visibility, truth, truth_light, program_cache, preset, debug;
+        shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;
     std::vector<std::string> settings;
     bool headless = false, demo = false, list = false;
 };
@@ -53,9 +53,6 @@ void declare(CLI::App& app, Typed& typed) {
         "--truth", typed.truth,
         "F.png: the last frame with its errors against ray-traced truth over it; their figures go to --stats");
     app.add_option("--truth-light", typed.truth_light, "NAME: with --truth, this light's errors (default: the worst)");
-    app.add_option("--program-cache", typed.program_cache,
-                   "DIR|off: where compiled programs are kept between runs (default: the user's cache folder in a "
-                   "window, off with --headless)");
     app.add_option("--preset", typed.preset, "fast|default|high: LightShadow fields of every light, before --set");
     app.add_option("--set", typed.settings, "KEY=VALUE: a LightShadow field of every light; repeatable")
         ->expected(1)
@@ -139,9 +136,7 @@ std::optional<Error> read_names(const Typed& typed, const CLI::App& app, Command
                      read("--screenshot", typed.screenshot, line.screenshot) &&
                      read("--visibility", typed.visibility, line.visibility) &&
                      read("--truth", typed.truth, line.truth) &&
-                     read("--truth-light", typed.truth_light, line.truth_light) &&
-                     read("--program-cache", typed.program_cache, line.program_cache);
-    if (typed.program_cache == "off") line.program_cache = std::filesystem::path{};
+                     read("--truth-light", typed.truth_light, line.truth_light);
     return all ? std::nullopt : std::optional(wrong("an empty name was given"));
 }
 
@@ -196,15 +191,6 @@ Result<CommandLine> parse_command_line(int argc, const char* const* argv) {
 bool plays_game(const CommandLine& line) {
     return line.demo || !(line.headless || line.scene || line.camera || line.fit_camera || line.animation ||
                           line.frames || line.time_s);
-}
-
-std::filesystem::path program_folder(const CommandLine& line, const char* cache_home, const char* home) {
-    if (line.program_cache) return *line.program_cache;
-    if (line.headless) return {};
-    // XDG base directories, 0.8: a path that is not absolute is to be ignored.
-    const std::filesystem::path named = cache_home ? cache_home : "", own = home ? home : "";
-    if (named.is_absolute()) return named / "gnomon";
-    return own.is_absolute() ? own / ".cache" / "gnomon" : std::filesystem::path{};
 }
 
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames) {

@@ -29,7 +29,6 @@ struct CommandLine {
     std::optional<std::filesystem::path> stats, screenshot, visibility;
     std::optional<std::filesystem::path> truth;          // the last frame beside its truth: picture with errors over it
     std::optional<std::string> truth_light;              // whose errors it shows; empty: each pixel's worst
-    std::optional<std::filesystem::path> program_cache;  // folder; empty path: off; nothing: see program_folder()
     debug::Request debug;                                // its light is not checked against a scene
     const Preset* preset = nullptr;                      // applied before the settings
     std::vector<std::string> settings;                   // KEY=VALUE, each known to be right
@@ -42,10 +41,6 @@ Result<CommandLine> parse_command_line(int argc, const char* const* argv);
 /// Whether the game is played: --demo, or a window without --scene, --camera, --fit-camera, --animation, --frames and
 /// --time.
 bool plays_game(const CommandLine& line);
-
-/// Where compiled programs are kept: as --program-cache says; else, in a window, in `cache_home` ($XDG_CACHE_HOME) or
-/// below `home` ($HOME), if they name an absolute path; nullptr: not set. Empty: nowhere.
-std::filesystem::path program_folder(const CommandLine& line, const char* cache_home, const char* home);
 
 /// Scene time of frame `index` of `frames`: the last one is at `line.time_s`, or, without it, the first one at 0.
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames);

@@ -17,9 +17,7 @@ class WindowTest(GameTest):
     def play(self, script, *args, size=SMALL):
         """Runs the game in a window, calls script(window id), and returns the picture it wrote when it ended."""
         file = self.path("w%d.png" % len(os.listdir(self.folder)))
-        # The user's own cache folder is nobody's business here.
-        game = subprocess.Popen([self.game, "--size", size, "--exposure", "6", "--screenshot", file,
-                                 "--program-cache", self.path("programs")] + list(args),
+        game = subprocess.Popen([self.game, "--size", size, "--exposure", "6", "--screenshot", file] + list(args),
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         try:
             script(self.find_window(game))

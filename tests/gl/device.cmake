@@ -5,5 +5,4 @@ gnomon_tests(NAME gl_device LABEL gl SOURCES
   device_pulled_gl_test.cpp
   device_readback_gl_test.cpp
   device_resources_gl_test.cpp
-  device_state_gl_test.cpp
-  program_cache_gl_test.cpp)
+  device_state_gl_test.cpp)

@@ -286,6 +286,7 @@ TEST_F(DeviceResources, IncompleteTargetsAreRefused) {
 
 TEST_F(DeviceResources, AShaderThatDoesNotCompileSaysWhereAndLeavesNothing) {
     const std::size_t live = gl::live_objects(device());
+    const std::uint64_t compiled = device().compiled_programs();
     const std::string good = "#version 450 core\nvoid main() { gl_Position = vec4(0.0); }\n";
     const std::string bad = "#version 450 core\n#line 7 3\nnonsense;\nvoid main() {}\n";
     const auto fragment = device().create_program({"bad fragment", good, bad});
@@ -295,6 +296,7 @@ TEST_F(DeviceResources, AShaderThatDoesNotCompileSaysWhereAndLeavesNothing) {
     EXPECT_EQ(vertex.failure, Failure::compile_failed);
     EXPECT_THAT(vertex.log, HasSubstr("(vertex)"));
     EXPECT_EQ(gl::live_objects(device()), live);
+    EXPECT_EQ(device().compiled_programs(), compiled + 2) << "failures count";
     take_messages();
 }
 

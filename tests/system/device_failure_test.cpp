@@ -36,7 +36,7 @@ public:
     MOCK_METHOD(gl::SubmitResult, submit, (const gl::CommandList&), (override));
 
     const gl::DeviceInfo& info() const override { return recording.info(); }
-    gl::ProgramCounts program_counts() const override { return recording.program_counts(); }
+    std::uint64_t compiled_programs() const override { return recording.compiled_programs(); }
     void destroy(gl::TextureHandle h) override { recording.destroy(h); }
     void destroy(gl::SamplerHandle h) override { recording.destroy(h); }
     void destroy(gl::BufferHandle h) override { recording.destroy(h); }

@@ -48,7 +48,7 @@ TEST_F(FrameCost, TimesAreOfThisFrameAlone) {
 class SilentDevice final : public gl::Device {
 public:
     const gl::DeviceInfo& info() const override { return inner_.info(); }
-    gl::ProgramCounts program_counts() const override { return inner_.program_counts(); }
+    std::uint64_t compiled_programs() const override { return inner_.compiled_programs(); }
     gl::Created<gl::TextureHandle> create_texture(const gl::TextureDesc& d, std::span<const std::byte> b) override { return inner_.create_texture(d, b); }
     gl::Created<gl::SamplerHandle> create_sampler(const gl::SamplerDesc& d) override { return inner_.create_sampler(d); }
     gl::Created<gl::BufferHandle> create_buffer(const gl::BufferDesc& d, std::span<const std::byte> b) override { return inner_.create_buffer(d, b); }

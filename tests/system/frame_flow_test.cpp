@@ -77,7 +77,7 @@ protected:
         std::size_t late = 2;
 
         const gl::DeviceInfo& info() const override { return recording.info(); }
-        gl::ProgramCounts program_counts() const override { return recording.program_counts(); }
+        std::uint64_t compiled_programs() const override { return recording.compiled_programs(); }
         gl::Created<gl::TextureHandle> create_texture(const gl::TextureDesc& d,
                                                       std::span<const std::byte> b) override {
             return recording.create_texture(d, b);

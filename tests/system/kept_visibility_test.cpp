@@ -213,7 +213,7 @@ TEST_F(KeptVisibility, ItsProgramsWaitForThoseThatLightsNeed) {
     settings.programs_per_frame = 1;
     bool waited = false;
     for (int i = 0; i < kSettled; ++i) {
-        const std::uint64_t compiled = step().programs.compiled;
+        const std::uint64_t compiled = step().programs_compiled;
         EXPECT_LE(i == 0 ? 0 : compiled, 1u) << i;
         bool waits = false;
         for (const LightReport& l : frame->report().lights) waits = waits || l.reason == Reason::filter_program_waits;

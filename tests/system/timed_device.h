@@ -86,7 +86,7 @@ public:
         return oldest;
     }
     void finish() override { recording.finish(); }
-    gl::ProgramCounts program_counts() const override { return recording.program_counts(); }
+    std::uint64_t compiled_programs() const override { return recording.compiled_programs(); }
 
     std::uint64_t map_bytes() const {
         std::uint64_t sum = 0;

@@ -67,6 +67,8 @@ struct RootSpec {
 };
 
 /// Collects a scene and writes it as binary glTF 2.0 with one buffer. Same calls, same bytes.
+/// Written by hand, since the writer of tinygltf (2.7) cannot leave out the `zfar` of a camera. It writes 0 for an
+/// infinite projection, which glTF forbids.
 class GlbBuilder {
 public:
     std::uint32_t add_texture(const std::string& name, std::span<const std::uint8_t> png);

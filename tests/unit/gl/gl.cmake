@@ -1,7 +1,6 @@
 gnomon_tests(NAME unit_gl LABEL unit SOURCES
   gl/commands_test.cpp
   gl/descriptions_test.cpp
-  gl/program_cache_test.cpp
   gl/recording_device_test.cpp
   gl/recording_misuse_test.cpp
   gl/shader_source_test.cpp)

@@ -99,6 +99,18 @@ cp "$project/build/release/bin/gnomon_game" "$project/build/release/bin/gnomon_b
 run GNOMON_SKIP_DEPS=1 GAME_STATUS=1 -- check --json "a b"
 expect "check is the bench's, with its flags" is "$out" "$work/elsewhere|3|check --json a b"
 expect "check passes its verdict on" is "$status" 1
+stand_in python3 'echo "python3 $*"'
+for sweep in '--sweep full' --sweep=quick --quick; do
+    run GNOMON_SKIP_DEPS=1 -- bench accuracy $sweep --out "a b"
+    expect "$sweep: the bench measures" has "$out" "|accuracy $sweep --out a b"
+    expect "$sweep: the script makes the report, with its flags" \
+        has "$out" "python3 $project/bench/sweep/report.py accuracy $sweep --out a b"
+done
+run GNOMON_SKIP_DEPS=1 GAME_STATUS=2 -- bench accuracy --quick
+expect "a sweep that fails passes its status on" is "$status" 2
+expect "and has no report" not_has "$out" report.py
+run GNOMON_SKIP_DEPS=1 -- bench accuracy --json quick
+expect "other measurements have none" not_has "$out" report.py
 run NINJA_SAYS='ninja: no work to do.' -- play
 expect "an up-to-date build says nothing" is "$err" ""
 expect "and builds nothing" not_called cmake

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <set>
 
@@ -58,6 +59,13 @@ TEST(SweepPlan, NoRowSetsWhatTheDefaultsAreAnyway) {
         if (row.factor == kDefaultsRow) continue;
         EXPECT_NE(shadow_of(row), LightShadow{}) << row.name;
     }
+}
+
+/// Counts one row per kind of light.
+std::size_t light_rows(const std::vector<SweepRow>& plan) {
+    std::size_t count = 0;
+    for (const SweepRow& row : plan) count += static_cast<std::size_t>(std::popcount(row.kinds));
+    return count;
 }
 
 TEST(SweepPlan, IsNoLongerThanAnybodyWaitsForAndTheQuickOneAQuarterOfIt) {

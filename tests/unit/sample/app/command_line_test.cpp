@@ -70,19 +70,6 @@ TEST(CommandLine, APresetIsOneOfThreeWords) {
     EXPECT_THAT(parse({"--list"}).value().print, HasSubstr("Presets of --preset"));
 }
 
-TEST(CommandLine, ProgramsAreKeptWhereItSaysElseForWindowsInTheUsersCache) {
-    const CommandLine window = parse({"--size", "64x32"}).value(), headless = parse({"--headless"}).value();
-    EXPECT_EQ(program_folder(window, "/cache", "/home/a"), "/cache/gnomon");
-    EXPECT_EQ(program_folder(window, nullptr, "/home/a"), "/home/a/.cache/gnomon");
-    EXPECT_EQ(program_folder(window, "not/absolute", "/home/a"), "/home/a/.cache/gnomon");
-    EXPECT_EQ(program_folder(window, "", ""), "");
-    EXPECT_EQ(program_folder(window, nullptr, nullptr), "");
-    EXPECT_EQ(program_folder(headless, "/cache", "/home/a"), "");
-    EXPECT_EQ(program_folder(parse({"--headless", "--program-cache", "p"}).value(), "/cache", "/home/a"), "p");
-    EXPECT_EQ(program_folder(parse({"--program-cache", "off"}).value(), "/cache", "/home/a"), "");
-    EXPECT_FALSE(parse({"--program-cache", ""}));
-}
-
 TEST(CommandLine, TheGameIsPlayedInAPlainWindowAndByTheDemo) {
     for (const auto& plays : {std::vector<const char*>{},
                               {"--size", "64x64"},
