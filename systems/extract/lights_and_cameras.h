@@ -21,8 +21,8 @@ public:
         changed,  // in place
         listing   // it came or went: list() is to be called
     };
-    /// After a Light, LightShadow, Camera or WorldTransform of this entity was written or removed. Costs no more than
-    /// finding it among the lights and cameras.
+    /// Brings in what a Light, LightShadow, ShadowTuning, Camera or WorldTransform of this entity says, after it was
+    /// written or removed. Costs no more than finding it among the lights and cameras.
     Effect touch(const ecs::Registry& registry, ecs::Entity entity, SceneSnapshot& snapshot) const;
 
     /// After a Name of any of these was written or removed. Names are unique, so that one may change others.

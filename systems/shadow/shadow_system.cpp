@@ -201,7 +201,7 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
                    reason == Reason::sampler_failed || reason == Reason::filter_program_failed;
         };
         return !is_tried_again(sets.skip) && !is_tried_again(demand.note) && !demand.left_to_rays &&
-               (demand.skip != Reason::none || scene.lights[demand.light].shadow.economy);
+               (demand.skip != Reason::none || scene.lights[demand.light].tuning.reuse.economy);
     };
     return history_ == frame_.next_history &&
            std::equal(frame_.sets.begin(), frame_.sets.end(), frame_.demands.begin(), frame_.demands.end(), settled);

@@ -20,7 +20,7 @@ struct Place {
 };
 
 struct QueryOptions {
-    /// Rays per place where the place or the light has a size (LightShadow::source_radius_m, sun_radius_rad); at least
+    /// Rays per place where the place or the light has a size (Light::source_radius_m, sun_radius_rad); at least
     /// 1. Elsewhere one ray is all there is. The same places on both in every query, spread evenly.
     std::uint32_t samples = 16;
     /// Casters nearer to the place than this, along the ray, do not count: what the place itself lies on. What it lies

@@ -16,16 +16,17 @@ protected:
         double near_m, far_m;
     };
     /// `depths`: reversed depth, one layer or six faces, of a view from near to far.
-    gl::TextureHandle moments_of(const shadow::FilterRow& row, const LightShadow& shadow, LightKind kind, gl::TextureHandle depths,
+    gl::TextureHandle moments_of(const shadow::FilterRow& row, const LightItem& light, gl::TextureHandle depths,
                                  std::uint32_t size_px, Range range) {
+        const LightKind kind = light.kind;
         const auto& kind_row = shadow::light_kind_row(kind);
         SceneSnapshot scene;
         scene.lights.emplace_back();
         shadow::ShadowFrame frame;
         shadow::ShadowDemand demand;
         demand.filter = row.id;
-        demand.filtering = shadow::filter_demand(row, shadow, size_px);
-        demand.moments = shadow::moment_demand(row, shadow, size_px);
+        demand.filtering = shadow::filter_demand(row, light, size_px);
+        demand.moments = shadow::moment_demand(row, light, size_px);
         frame.demands = {demand};
         frame.sets.resize(1);
         frame.cpu_us.resize(1);

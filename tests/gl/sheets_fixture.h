@@ -49,7 +49,7 @@ protected:
         const LightItem& light = scene.lights.at(0);
         shadow::ShadowDemand demand;
         demand.filter = ask == Ask::middle ? ShadowFilter::triangles : ShadowFilter::exact_soft;
-        demand.filtering = shadow::filter_demand(shadow::filter_row(demand.filter), light.shadow, size_px);
+        demand.filtering = shadow::filter_demand(shadow::filter_row(demand.filter), light, size_px);
         demand.resolution_px = demand.most_px = size_px;
         demand.view_count = static_cast<std::uint32_t>(views.size());
         frame.demands = {demand};

@@ -138,7 +138,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
         set_most(*load.light, load.wanted.most_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
-    load.activity = load.light->shadow.economy ? static_cast<double>(next.activity) : 1.0;
+    load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.activity) : 1.0;
     double extent_px = 0.0;
     for (std::size_t v = first_view; v < end_view; ++v) {
         const ShadowView& view = frame.views[v];
@@ -284,7 +284,7 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, ShadowFrame& frame) c
             views += 1.0f;
             changed += (is_kept ? frame.slots[end].changed : has_moving) ? 1.0f : 0.0f;
         }
-        if (!scene.lights[frame.demands[d].light].shadow.economy || views == 0.0f) continue;
+        if (!scene.lights[frame.demands[d].light].tuning.reuse.economy || views == 0.0f) continue;
         if (frame.next_history.lights[held_[i]].new_frames > 0) continue;
         float& activity = frame.next_history.lights[held_[i]].activity;
         const float now = changed / views;

@@ -24,7 +24,7 @@ constexpr double kSeldom = 1.0 / 8.0;
 
 bool has_cascades(const LightItem& light, const ShadowDemand& demand) {
     return light.kind == LightKind::directional && demand.view_count > 1 &&
-           light.shadow.splits != CascadeSplits::manual;  // which names them all
+           light.tuning.cascades.splits != CascadeSplits::manual;  // which names them all
 }
 
 /// What is no number counts as all.
@@ -73,20 +73,20 @@ ShadowDemand granted(const LightItem& light, const ShadowDemand& wanted, const G
     demand.most_px = std::min(wanted.most_px, grant.most_px);
     const std::uint32_t edge_px = std::min(wanted.resolution_px, demand.most_px);
     if (edge_px != wanted.resolution_px || demand.filter != wanted.filter) set_resolution(light, edge_px, demand);
-    demand.refresh_frames = light.shadow.economy ? grant.refresh_frames : 1;
+    demand.refresh_frames = light.tuning.reuse.economy ? grant.refresh_frames : 1;
     return demand;
 }
 
 bool is_less(const LightItem& light, const ShadowDemand& wanted, const Grant& grant) {
     return grant.none || (grant.plain && wanted.filter != kPlainFilter) || grant.most_px < wanted.resolution_px ||
            (has_cascades(light, wanted) && grant.most_views < wanted.view_count) ||
-           (grant.refresh_frames > 1 && light.shadow.economy);
+           (grant.refresh_frames > 1 && light.tuning.reuse.economy);
 }
 
 double mean_fetches(const LightItem& light, const ShadowDemand& demand, ShadowFilter filter) {
     const FilterRow& row = filter_row(filter);
     const bool cube = map_texture(light, demand) == gl::TextureKind::cube;
-    const double most = row.taps(light.shadow, cube);
+    const double most = row.taps(light.tuning.kernel, cube);
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
 

@@ -68,7 +68,7 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
         const std::uint32_t light = frame.demands[d].light;
         const LightItem& item = scene.lights[light];
         const PotentialSets& sets = frame.sets[d];
-        if (sets.skip != Reason::none || !item.shadow.economy) continue;
+        if (sets.skip != Reason::none || !item.tuning.reuse.economy) continue;
         const auto receivers = std::span(frame.receiver_items).subspan(sets.receivers.first, sets.receivers.count);
         const double at_one = most_display_steps(scene, gpu, item, receivers, 1.0);
         faintest = std::min(faintest, at_one);

@@ -216,7 +216,7 @@ private:
 
     bool fit_count(std::uint32_t count, const ShadowDemand& usual, const HeldLight& held, HeldLight& next) {
         demand() = usual;
-        set_cascades(light_.shadow, count, demand());
+        set_cascades(light_.tuning.cascades, count, demand());
         set_most(light_, usual.most_px, held.map_px, demand());
         return fit(held, next);
     }

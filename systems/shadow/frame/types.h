@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "components/light.h"
-#include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
 #include "engine/gl/commands.h"
 #include "engine/math/aabb.h"
 #include "engine/math/frustum.h"

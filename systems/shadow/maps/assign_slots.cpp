@@ -75,7 +75,7 @@ void MapStore::assign_views(const SceneSnapshot& scene, ShadowFrame& frame) {
         slot.content = slot.ends ? with_source(signature.all, frame.demands[view.demand].filtering) : signature.all;
         slot.placement = signature.placement;
         slot.still_content = signature.still;
-        slot.reuse = view.lit || (light.shadow.economy && history.content[view.layer] == slot.content);
+        slot.reuse = view.lit || (light.tuning.reuse.economy && history.content[view.layer] == slot.content);
         if (slot.reuse) continue;
         slot.shown_content = history.content[view.layer];
         slot.if_held = staleness_of(scene, frame, v, history);
@@ -110,7 +110,7 @@ void MapStore::assign_moments(const SceneSnapshot& scene, ShadowFrame& frame) {
             s.add(frame.slots[other].content);
         }
         slot.moment_content = s.value();
-        slot.convert = !view.lit && (!light.shadow.economy || moments.content[view.layer] != slot.moment_content);
+        slot.convert = !view.lit && (!light.tuning.reuse.economy || moments.content[view.layer] != slot.moment_content);
     }
 }
 
@@ -127,7 +127,7 @@ void MapStore::choose_routes(const SceneSnapshot& scene, ShadowFrame& frame) {
         apart = apart || static_cast<bool>(frame.slots[first].second);
         if (frame.views[first].projection != ViewProjection::cube_face || faces == 0 || apart) continue;
         const LightItem& light = scene.lights[frame.demands[frame.views[first].demand].light];
-        const CubeRoute route = cube_route(light.shadow.cube_route, device_.info(), faces);
+        const CubeRoute route = cube_route(light.tuning.maps.cube_route, device_.info(), faces);
         if (route == CubeRoute::six_passes) continue;
         LightHistory& history = entry(light.entity);
         if (!history.whole) history.whole = device_.create_target(target_of(history, gl::kAllLayers)).handle;

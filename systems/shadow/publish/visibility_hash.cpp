@@ -56,8 +56,8 @@ void sign_lookups(const SceneSnapshot& scene, const ShadowFrame& frame, Lighting
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i, first = end) {
         while (end < frame.views.size() && frame.demands[frame.views[end].demand].light == i) ++end;
         LightingLight& light = inputs.lights[i];
-        const LightShadow& shadow = scene.lights[i].shadow;
-        if (light.row.filter_file.empty() || !shadow.economy || !shadow.keep_visibility || scene.version == 0) continue;
+        const ShadowTuning::Reuse& reuse = scene.lights[i].tuning.reuse;
+        if (light.row.filter_file.empty() || !reuse.economy || !reuse.keep_visibility || scene.version == 0) continue;
         Signature s;
         add_light(light, s);
         // Rays meet whatever casts anywhere.

@@ -37,34 +37,35 @@ Reason wanted(const LightItem& light, bool shadows) {
 }
 
 /// How many cascades a sun has, and what fades between them.
-void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowDemand& demand) {
-    if (depths_failed && shadow.splits == CascadeSplits::sampled) demand.note = Reason::depths_unread;
-    if (!are_splits(shadow)) demand.note = Reason::splits_invalid;
-    if (shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
+void decide_cascades(const LightItem& light, bool depths_failed, ShadowDemand& demand) {
+    const ShadowTuning::Cascades& tuning = light.tuning.cascades;
+    if (depths_failed && tuning.splits == CascadeSplits::sampled) demand.note = Reason::depths_unread;
+    if (!are_splits(tuning)) demand.note = Reason::splits_invalid;
+    if (light.shadow.cascades > kMaxCascades) demand.note = Reason::cascades_clamped;
     // A finer map only saves rays: of itself a light asks for one.
-    const bool one = shadow.cascades == 0 && asks_rays(filter_row(demand.filter));
-    set_cascades(shadow, one ? 1 : cascade_count(shadow, demand.view_count), demand);
+    const bool one = light.shadow.cascades == 0 && asks_rays(filter_row(demand.filter));
+    set_cascades(tuning, one ? 1 : cascade_count(light, demand.view_count), demand);
 }
 
 /// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
 /// as the contract makes them.
 bool leaves_count(const LightItem& light, const ShadowDemand& demand) {
     return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, demand) &&
-           light.shadow.splits != CascadeSplits::manual && !demand.perspective_sun && demand.warp == 0.0f;
+           light.tuning.cascades.splits != CascadeSplits::manual && !demand.perspective_sun && demand.warp == 0.0f;
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
 void decide_projection(const LightItem& light, bool depths_failed, ShadowDemand& demand) {
-    const LightProjection wish = light.shadow.projection;
+    const LightProjection wish = light.tuning.projection.kind;
     const bool sun = light.kind == LightKind::directional;
-    if (sun) decide_cascades(light.shadow, depths_failed, demand);
-    if (is_range(light.shadow)) {
-        demand.near_m = static_cast<double>(light.shadow.near_m);
-        demand.far_m = static_cast<double>(light.shadow.far_m);
+    if (sun) decide_cascades(light, depths_failed, demand);
+    if (is_range(light.tuning.projection)) {
+        demand.near_m = static_cast<double>(light.tuning.projection.near_m);
+        demand.far_m = static_cast<double>(light.tuning.projection.far_m);
     } else {
         demand.note = Reason::range_invalid;
     }
-    if (sun && !is_eye(light.shadow)) {
+    if (sun && !is_eye(light.tuning.projection)) {
         demand.note = Reason::eye_invalid;
         demand.near_m = demand.far_m = 0.0;  // they would be counted from the eye
     } else if (sun && wish == LightProjection::perspective) {
@@ -76,27 +77,20 @@ void decide_projection(const LightItem& light, bool depths_failed, ShadowDemand&
 }
 
 /// How far a sun's maps may be warped. The fit measures what a warp gains for one camera alone.
-void decide_warp(const LightShadow& shadow, bool one_consumer, ShadowDemand& demand) {
-    if (shadow.warp == 0.0f) return;
-    const bool possible = shadow.fit == ShadowFit::tight && one_consumer && !demand.perspective_sun &&
+void decide_warp(const ShadowTuning::Cascades& tuning, bool one_consumer, ShadowDemand& demand) {
+    if (tuning.warp == 0.0f) return;
+    const bool possible = tuning.fit == ShadowFit::tight && one_consumer && !demand.perspective_sun &&
                           !needs_distances(demand.filtering) && demand.near_m == 0.0 && demand.far_m == 0.0;
-    if (possible && shadow.warp > 0.0f && shadow.warp <= 1.0f)
-        demand.warp = shadow.warp;
+    if (possible && tuning.warp > 0.0f && tuning.warp <= 1.0f)
+        demand.warp = tuning.warp;
     else
         demand.note = Reason::warp_unsupported;
-}
-
-/// A sun has no radius in metres, and what is no sun none as an angle.
-LightShadow with_own_source(const LightItem& light) {
-    LightShadow shadow = light.shadow;
-    (light.kind == LightKind::directional ? shadow.source_radius_m : shadow.sun_radius_rad) = 0.0f;
-    return shadow;
 }
 
 /// Of a point there is nothing to ask but whether it is seen.
 ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
     if (filter != ShadowFilter::exact_soft) return filter;
-    const bool has_size = needs_distances(filter_demand(filter_row(filter), with_own_source(light), kLeastMap_px));
+    const bool has_size = needs_distances(filter_demand(filter_row(filter), light, kLeastMap_px));
     return has_size ? filter : ShadowFilter::exact;
 }
 
@@ -176,18 +170,16 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
     return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
 }
 
-void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowDemand& demand) {
-    const LightShadow& usable = are_splits(shadow) ? shadow : LightShadow{};
+void set_cascades(const ShadowTuning::Cascades& tuning, std::uint32_t count, ShadowDemand& demand) {
     demand.view_count = count;
-    demand.cascade_blend = count > 1 ? usable.cascade_blend : 0.0f;
+    demand.cascade_blend = count > 1 ? (are_splits(tuning) ? tuning : ShadowTuning::Cascades{}).blend : 0.0f;
 }
 
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowDemand& demand) {
     demand.resolution_px = size_px;
-    const LightShadow shadow = with_own_source(light);
     const FilterRow& row = filter_row(demand.filter);
-    demand.filtering = filter_demand(row, shadow, size_px);
-    demand.moments = moment_demand(row, shadow, size_px);
+    demand.filtering = filter_demand(row, light, size_px);
+    demand.moments = moment_demand(row, light, size_px);
     demand.moments.sampler_anisotropy = map_texture(light, demand) != gl::TextureKind::cube;
     if (demand.filtering.cut || demand.moments.cut) demand.note = Reason::filter_cut;
 }
@@ -214,13 +206,13 @@ ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, con
     ShadowDemand demand;
     demand.light = i;
     demand.filter = filter;
-    demand.depth_format = light.shadow.depth_format;
+    demand.depth_format = light.tuning.maps.depth_format;
     demand.view_count = light_kind_row(light.kind).layers;
     demand.device_px = limit_px;
     demand.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, demand);
     decide_projection(light, scene.sampled_depths.failed, demand);
-    if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, demand);
+    if (light.kind == LightKind::directional) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, demand);
     if (light.kind == LightKind::spot) decide_cone(light, held_light, demand);
     if (demand.aim.used) {
         demand.faces_eighths = 0;
@@ -229,7 +221,7 @@ ShadowDemand demand_with(const SceneSnapshot& scene, std::uint32_t limit_px, con
     if (leaves_count(light, demand)) {
         demand.most_views = demand.view_count;
         if (held_light && held_light->cascades > 0 && held_light->cascades < demand.most_views)
-            set_cascades(light.shadow, held_light->cascades, demand);
+            set_cascades(light.tuning.cascades, held_light->cascades, demand);
     }
     if (light.kind == LightKind::directional && follows_contract(light, demand))
         set_most(light, sun_edge_px(light, viewport_px, limit_px, demand), held_light ? held_light->map_px : 0, demand);

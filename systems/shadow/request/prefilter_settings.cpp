@@ -35,10 +35,9 @@ void set_footprint(MomentDemand& demand) {
 }
 
 /// Of FilterWidth::source, as filter_demand() takes its size.
-std::uint32_t penumbra_levels(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
-    const auto has_size = [](float radius) { return std::isfinite(radius) && radius > 0.0f; };
-    const bool soft =
-        row.width == FilterWidth::source && (has_size(shadow.source_radius_m) || has_size(shadow.sun_radius_rad));
+std::uint32_t penumbra_levels(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
+    const float size = source_size(light);
+    const bool soft = row.width == FilterWidth::source && std::isfinite(size) && size > 0.0f;
     if (!soft) return 1;
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
     return widest_penumbra_levels(std::min(kMostPenumbra_texel, most_texel));
@@ -50,31 +49,31 @@ std::uint32_t widest_penumbra_levels(float radius_texel) {
     return static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(std::max(radius_texel, 1.0f))));
 }
 
-MomentDemand moment_demand(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
+MomentDemand moment_demand(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
     MomentDemand demand;
     if (!row.moments) return demand;
-    const bool half = shadow.moment_bits <= 16;
+    const ShadowTuning::Moments& tuning = light.tuning.moments;
+    const bool half = tuning.bits <= 16;
     const MomentStore& store = half ? row.moments->bits_16 : row.moments->bits_32;
-    demand.cut = shadow.moment_bits != 16 && shadow.moment_bits != 32;
+    demand.cut = tuning.bits != 16 && tuning.bits != 32;
     demand.format = store.format;
     const float negative = row.moments->usual_negative_exponent;
     demand.settings = {
-        exponent(shadow.moment_exponent, store.usual_exponent, store.most_exponent, demand.cut),
-        negative > 0.0f ? exponent(shadow.moment_negative_exponent, negative, store.most_exponent, demand.cut) : 0.0f,
+        exponent(tuning.exponent, store.usual_exponent, store.most_exponent, demand.cut),
+        negative > 0.0f ? exponent(tuning.negative_exponent, negative, store.most_exponent, demand.cut) : 0.0f,
         store.least, half ? 1.0f : 0.0f};
-    const bool share = shadow.moment_bleeding >= 0.0f && shadow.moment_bleeding <= kMostMomentBleeding;
-    demand.bleeding = share ? shadow.moment_bleeding : LightShadow{}.moment_bleeding;
-    demand.levels = std::clamp(shadow.moment_levels, 1u, kMostMomentLevels);
-    demand.anisotropy = std::clamp(shadow.moment_anisotropy, 1u, kMostMomentAnisotropy);
+    const bool share = tuning.bleeding >= 0.0f && tuning.bleeding <= kMostMomentBleeding;
+    demand.bleeding = share ? tuning.bleeding : ShadowTuning::Moments{}.bleeding;
+    demand.levels = std::clamp(tuning.levels, 1u, kMostMomentLevels);
+    demand.anisotropy = std::clamp(tuning.anisotropy, 1u, kMostMomentAnisotropy);
     set_footprint(demand);
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
     while (demand.reach_texel > most_texel && demand.levels + demand.anisotropy > 2) {
         (demand.levels > 1 ? demand.levels : demand.anisotropy) -= 1;
         set_footprint(demand);
     }
-    demand.cut =
-        demand.cut || !share || demand.levels != shadow.moment_levels || demand.anisotropy != shadow.moment_anisotropy;
-    demand.levels = std::max(demand.levels, penumbra_levels(row, shadow, resolution_px));
+    demand.cut = demand.cut || !share || demand.levels != tuning.levels || demand.anisotropy != tuning.anisotropy;
+    demand.levels = std::max(demand.levels, penumbra_levels(row, light, resolution_px));
     return demand;
 }
 

@@ -10,8 +10,8 @@ namespace gnomon::shadow {
 namespace {
 
 /// An offset that is chosen by hand says nothing of what keeps a moved caster from darkening itself.
-bool may_be_held(const LightShadow& shadow) {
-    return shadow.refresh_error_px > 0.0f && shadow.bias == BiasMode::automatic;
+bool may_be_held(const LightItem& light) {
+    return light.shadow.refresh_error_px > 0.0f && light.tuning.bias.mode == BiasMode::automatic;
 }
 
 bool is_cube(const ShadowFrame& frame, std::size_t v) { return frame.views[v].projection == ViewProjection::cube_face; }
@@ -76,7 +76,7 @@ Staleness MapStore::staleness_of(const SceneSnapshot& scene, const ShadowFrame& 
     const ShadowView& view = frame.views[v];
     const ShadowSlot& slot = frame.slots[v];
     const bool certain = static_cast<bool>(slot.second);  // what sheets say would no longer be
-    const bool economy = scene.lights[frame.demands[view.demand].light].shadow.economy;
+    const bool economy = scene.lights[frame.demands[view.demand].light].tuning.reuse.economy;
     const bool shows_it = slot.shown_content != 0 && history.placements[view.layer] == slot.placement;
     if (certain || !economy || !shows_it || view.layer >= history.shown.size()) return kUnknownStaleness;
     return staleness(scene, view, history.shown[view.layer], slot.still_content, casters_of(frame, view));
@@ -84,10 +84,10 @@ Staleness MapStore::staleness_of(const SceneSnapshot& scene, const ShadowFrame& 
 
 /// Whether it is kept.
 Hold MapStore::hold_of(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v) const {
-    const LightShadow& shadow = scene.lights[frame.demands[frame.views[v].demand].light].shadow;
+    const LightItem& light = scene.lights[frame.demands[frame.views[v].demand].light];
     const double error_px = frame.slots[v].if_held.error_px;
     if (!std::isfinite(error_px)) return Hold::none;
-    if (may_be_held(shadow) && error_px <= static_cast<double>(shadow.refresh_error_px)) return Hold::within_error;
+    if (may_be_held(light) && error_px <= static_cast<double>(light.shadow.refresh_error_px)) return Hold::within_error;
     return is_others_turn(frame, v) ? Hold::by_turn : Hold::none;
 }
 
@@ -113,7 +113,7 @@ void MapStore::note_held(const SceneSnapshot& scene, ShadowFrame& frame) {
 void MapStore::note_shown(const SceneSnapshot& scene, const ShadowFrame& frame, std::size_t v,
                           LightHistory& history) const {
     const ShadowView& view = frame.views[v];
-    if (!may_be_held(scene.lights[frame.demands[view.demand].light].shadow) && !takes_turns_) {
+    if (!may_be_held(scene.lights[frame.demands[view.demand].light]) && !takes_turns_) {
         history.shown.clear();
         return;
     }

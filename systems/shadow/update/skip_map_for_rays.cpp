@@ -32,7 +32,7 @@ void MapStore::leave_to_rays(const SceneSnapshot& scene, const GpuScene& gpu, Sh
         while (end < frame.views.size() && frame.views[end].demand == frame.views[first].demand) ++end;
         ShadowDemand& demand = frame.demands[frame.views[first].demand];
         const LightItem& light = scene.lights[demand.light];
-        if (!demand.asks_rays || !light.shadow.economy || !frame.slots[first].texture) continue;
+        if (!demand.asks_rays || !light.tuning.reuse.economy || !frame.slots[first].texture) continue;
         LightHistory& history = entry(light.entity);
         const std::uint64_t content = content_of(frame, first, end);
         const bool moves = history.wanted_content != 0 && history.wanted_content != content;

@@ -62,7 +62,7 @@ void MapStore::keep_still_apart(const SceneSnapshot& scene, const GpuScene& gpu,
         if (!both || !slot.texture || slot.reuse || slot.second) continue;
         const ShadowDemand& demand = frame.demands[view.demand];
         const LightItem& light = scene.lights[demand.light];
-        if (!light.shadow.economy) continue;
+        if (!light.tuning.reuse.economy) continue;
         const LightTime time(frame, demand.light);
         LightHistory& map = entry(light.entity);
         map.still.layers.resize(map.targets.size());

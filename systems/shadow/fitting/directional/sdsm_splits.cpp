@@ -104,7 +104,7 @@ bool wants_sampled_depths(const SceneSnapshot& scene, const ShadowFrame& frame) 
         const LightItem& light = scene.lights[demand.light];
         const bool has_views = demand.skip == Reason::none && frame.sets[i].skip == Reason::none;
         if (has_views && light.kind == LightKind::directional && !demand.perspective_sun && demand.view_count > 1 &&
-            light.shadow.splits == CascadeSplits::sampled && are_splits(light.shadow))
+            light.tuning.cascades.splits == CascadeSplits::sampled && are_splits(light.tuning.cascades))
             return true;
     }
     return false;

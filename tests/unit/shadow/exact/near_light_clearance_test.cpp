@@ -52,12 +52,13 @@ double clearance(oracle::AnalyticScene& scene, bool whole_view = true, bool cube
     }
     LightItem light;
     light.kind = cube ? LightKind::point : LightKind::spot;
-    light.shadow = {.filter = ShadowFilter::exact_soft, .source_radius_m = kRadius_m};
+    light.shadow.filter = ShadowFilter::exact_soft;
+    light.source_radius_m = kRadius_m;
     scene.snapshot.lights = {light};
     shadow::ShadowFrame frame;
     shadow::ShadowDemand demand;
     demand.filter = light.shadow.filter;
-    demand.filtering = shadow::filter_demand(light.shadow, 512);
+    demand.filtering = shadow::filter_demand(light, 512);
     frame.demands = {demand};
     frame.sets.resize(1);
     frame.cpu_us.resize(1);

@@ -104,7 +104,7 @@ TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
 TEST_F(DemandTest, EveryKindTakesAnisotropyAndPaysForHalfItsFootprint) {
     for (LightItem& light : scene.lights) light.shadow.filter = ShadowFilter::vsm;
     for (const ShadowDemand& d : decide()) EXPECT_EQ(d.moments.reach_texel, 0.0f);
-    for (LightItem& light : scene.lights) light.shadow.moment_anisotropy = 4;
+    for (LightItem& light : scene.lights) light.tuning.moments.anisotropy = 4;
     for (const ShadowDemand& d : decide()) {
         EXPECT_EQ(d.note, Reason::none);
         EXPECT_EQ(d.moments.anisotropy, 4u);

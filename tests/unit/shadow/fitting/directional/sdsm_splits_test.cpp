@@ -178,7 +178,7 @@ ShadowFrame with_views(std::uint32_t cascades) {
 TEST(SampledDepths, AreWantedByASunWithCascadesThatAsksForThem) {
     SceneSnapshot scene = two_suns();
     EXPECT_FALSE(wants_sampled_depths(scene, with_views(4)));
-    scene.lights[1].shadow.splits = CascadeSplits::sampled;
+    scene.lights[1].tuning.cascades.splits = CascadeSplits::sampled;
     EXPECT_TRUE(wants_sampled_depths(scene, with_views(4)));
     EXPECT_FALSE(wants_sampled_depths(scene, with_views(1))) << "one cascade has no end to choose";
     ShadowFrame frame = with_views(4);
@@ -196,8 +196,8 @@ TEST(SampledDepths, AreWantedByASunWithCascadesThatAsksForThem) {
 
 TEST(SampledDepths, AreNotWantedWhereSplitsFallBackToTheDefault) {
     SceneSnapshot scene = two_suns();
-    scene.lights[0].shadow.splits = CascadeSplits::sampled;
-    scene.lights[0].shadow.split_lambda = -1.0f;
+    scene.lights[0].tuning.cascades.splits = CascadeSplits::sampled;
+    scene.lights[0].tuning.cascades.split_lambda = -1.0f;
     EXPECT_FALSE(wants_sampled_depths(scene, with_views(4)));
 }
 
