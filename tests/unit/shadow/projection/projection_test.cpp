@@ -8,7 +8,7 @@
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// LightShadow::projection, eye, near_m and far_m, up to the views.
+/// ShadowTuning::Projection, up to the views.
 namespace gnomon::shadow {
 namespace {
 

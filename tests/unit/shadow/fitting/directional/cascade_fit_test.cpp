@@ -10,7 +10,7 @@
 #include "tests/unit/shadow/fitting/directional/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// What LightShadow::fit promises, mode by mode.
+/// What each ShadowFit promises.
 namespace gnomon::shadow {
 namespace {
 
