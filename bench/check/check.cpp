@@ -105,7 +105,7 @@ Result<Check> run_check(const CheckOptions& options) {
     if (!rows_without) return rows_without.error();
     check.programs.left_out = without.value();
     check.rows.left_out = rows_without.value();
-    LightShadow probe;
+    game::LightSettings probe;
     for (const std::string& setting : options.settings)
         if (auto error = game::apply_setting(probe, setting)) return *error;
     if (auto error = check_device_and_programs(programs, options, check)) return *error;

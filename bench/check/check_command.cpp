@@ -51,7 +51,7 @@ void add_check_options(CLI::App& command, CheckCommand& check) {
     command.add_option("--programs", check.options.programs, "regular expression for programs' names (default: all)");
     command
         .add_option("--set", check.options.settings,
-                    "KEY=VALUE of every row's LightShadow, as the game's --set; "
+                    "KEY=VALUE of every row's light, as the game's --set; "
                     "the truth stays as it is")
         ->allow_extra_args(false);
     command.add_option("--repeat", check.options.frames, "frames of each row that are timed; 0: none")

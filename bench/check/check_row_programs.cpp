@@ -31,10 +31,10 @@ std::vector<gl::ProgramDesc> programs_of_rows() {
         for (const game::NamedEntity& light : spawned.lights) world.remove<LightShadow>(light.entity);
         frame.value()->run(world, settings);
         for (const game::NamedEntity& light : spawned.lights) {
-            LightShadow shadow;
-            for (const std::string& setting : setup.settings) (void)game::apply_setting(shadow, setting);
-            shadow.resolution_px = kMap_px;
-            world.emplace<LightShadow>(light.entity, shadow);
+            game::LightSettings settings_of_row;
+            for (const std::string& setting : setup.settings) (void)game::apply_setting(settings_of_row, setting);
+            settings_of_row.shadow.resolution_px = kMap_px;
+            game::put_settings(world, light.entity, settings_of_row);
         }
         for (int i = 0; i < kFrames; ++i) frame.value()->run(world, settings);
     }

@@ -38,9 +38,9 @@ CheckRowSetup setup_of(const shadow::LightKindRow& kind, const shadow::FilterRow
 }
 
 std::uint32_t rays_of(const CheckRowSetup& setup) {
-    LightShadow shadow;
-    for (const std::string& setting : setup.settings) (void)game::apply_setting(shadow, setting);
-    return shadow.penumbra_rays;
+    game::LightSettings settings;
+    for (const std::string& setting : setup.settings) (void)game::apply_setting(settings, setting);
+    return settings.tuning.kernel.penumbra_rays;
 }
 
 Spread time_frames_of(Stage& stage, std::uint32_t light, bool kept, const BlockOptions& options) {

@@ -16,7 +16,7 @@ void add_scene(CLI::App& command, Arguments& arguments) {
     command.add_option("--scene", arguments.scenes, "glTF or GLB, valley or spheres (default: the built-in courtyard)");
     command.add_option("--camera", arguments.camera, "name or index (default: the first)");
     command.add_option("--size", arguments.size, "WIDTHxHEIGHT")->capture_default_str();
-    command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every LightShadow, as the game's --set")
+    command.add_option("--set", arguments.stage.settings, "KEY=VALUE of every light, as the game's --set")
         ->allow_extra_args(false);
     command.add_option("--time", arguments.stage.time_s, "scene time in seconds")->capture_default_str();
     command.add_option("--offset", arguments.offset, "X,Y,Z metres by which the whole scene is moved");
@@ -111,7 +111,7 @@ void add_demand(CLI::App& command, Arguments& arguments) {
         ->check(CLI::Range(1u, kMostLights))
         ->capture_default_str();
     command.add_option("--size", arguments.demand_size, "WIDTHxHEIGHT")->capture_default_str();
-    command.add_option("--set", options.settings, "KEY=VALUE of every LightShadow, as the game's --set")
+    command.add_option("--set", options.settings, "KEY=VALUE of every light, as the game's --set")
         ->allow_extra_args(false);
     command.add_option("--repeat", options.frames, "frames of each block that are timed")
         ->check(CLI::Range(1u, kMaxRepeats))

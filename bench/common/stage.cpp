@@ -8,7 +8,6 @@
 #include "engine/gl/device_gl45.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/open_scene.h"
-#include "sample_game/support/settings/light_settings.h"
 
 namespace gnomon::bench {
 
@@ -44,7 +43,7 @@ std::optional<Error> Stage::spawn(const StageOptions& options, assets::SceneData
     for (const std::string& setting : options.settings)
         if (auto error = apply_setting(setting)) return error;
     for (const game::NamedEntity& light : spawned_.lights)
-        if (const auto* shadow = world_.get<LightShadow>(light.entity)) opened_.emplace_back(light.entity, *shadow);
+        if (const auto opened = game::settings_of(world_, light.entity)) opened_.emplace_back(light.entity, *opened);
     if (!options.camera) return std::nullopt;
     const auto camera = game::find_camera(spawned_, *options.camera);
     if (!camera) return camera.error();
@@ -73,34 +72,38 @@ std::optional<Error> Stage::prepare(const StageOptions& options) {
 }
 
 std::optional<Error> Stage::apply_setting(const std::string& key_value) {
-    LightShadow probe;
+    game::LightSettings probe;
     if (auto error = game::apply_setting(probe, key_value)) return error;
     for (const game::NamedEntity& light : spawned_.lights)
-        world_.patch<LightShadow>(light.entity,
-                                  [&](LightShadow& shadow) { (void)game::apply_setting(shadow, key_value); });
+        game::change_settings(world_, light.entity,
+                              [&](game::LightSettings& settings) { (void)game::apply_setting(settings, key_value); });
     return std::nullopt;
 }
 
 std::optional<Error> Stage::start_over(std::span<const std::string> settings, LightKinds kinds) {
-    LightShadow probe;
+    game::LightSettings probe;
     for (const std::string& setting : settings)
         if (auto error = game::apply_setting(probe, setting)) return error;
-    for (const auto& [entity, opened] : opened_) world_.remove<LightShadow>(entity);
+    for (const auto& [entity, opened] : opened_) {
+        game::put_settings(world_, entity, opened);  // a light's size stays when its shadow goes
+        world_.remove<LightShadow>(entity);
+    }
     run_frame();
     for (const auto& [entity, opened] : opened_) {
         const auto* light = world_.get<Light>(entity);
         if (!light || !holds(kinds, light->kind)) continue;
-        LightShadow shadow = opened;
-        for (const std::string& setting : settings) (void)game::apply_setting(shadow, setting);
-        shadow.keep_visibility = false;
-        world_.emplace<LightShadow>(entity, shadow);
+        game::LightSettings now = opened;
+        for (const std::string& setting : settings) (void)game::apply_setting(now, setting);
+        now.tuning.reuse.keep_visibility = false;
+        game::put_settings(world_, entity, now);
     }
     return std::nullopt;
 }
 
 void Stage::set_economy(bool on) {
     for (const game::NamedEntity& light : spawned_.lights)
-        world_.patch<LightShadow>(light.entity, [on](LightShadow& shadow) { shadow.economy = on; });
+        game::change_settings(world_, light.entity,
+                              [on](game::LightSettings& settings) { settings.tuning.reuse.economy = on; });
 }
 
 }  // namespace gnomon::bench

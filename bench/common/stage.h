@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "bench/common/configuration.h"
-#include "components/light_shadow.h"
 #include "engine/assets/mesh_library.h"
 #include "engine/core/result.h"
 #include "engine/ecs/registry.h"
 #include "engine/gl/device.h"
 #include "engine/platform/context.h"
 #include "sample_game/support/scene/spawn_scene.h"
+#include "sample_game/support/settings/light_settings.h"
 #include "systems/frame.h"
 
 namespace gnomon::bench {
@@ -26,7 +26,7 @@ struct StageOptions {
     std::optional<std::filesystem::path> scene;  // empty: the built-in scene
     std::optional<std::string> camera;           // name or index; empty: the first
     glm::uvec2 size_px{1280, 720};
-    std::vector<std::string> settings;  // KEY=VALUE, for every LightShadow
+    std::vector<std::string> settings;  // KEY=VALUE, for every light with a shadow
     double time_s = 0.0;                // scene time
     glm::dvec3 offset_m{0.0};           // moves the whole scene
 };
@@ -49,12 +49,12 @@ public:
     }
     void show_shadows(bool on) { settings_.shadows = on; }
     void set_economy(bool on);
-    /// "KEY=VALUE" for every LightShadow. Errors: "set.*".
+    /// "KEY=VALUE" for every light with a shadow. Errors: "set.*".
     std::optional<Error> apply_setting(const std::string& key_value);
     /// Every light of these kinds as it was when the scene was opened, with these settings; lights of other kinds cast
     /// no shadows. Runs a frame without any shadows in between, so that neither fits nor maps remember what was before.
-    /// Lights are looked up in every frame, still ones as well (LightShadow::keep_visibility): that tells rows apart.
-    /// Errors: "set.*"; then nothing is changed.
+    /// Lights are looked up in every frame, still ones as well (ShadowTuning::Reuse::keep_visibility): that tells rows
+    /// apart. Errors: "set.*"; then nothing is changed.
     std::optional<Error> start_over(std::span<const std::string> settings, LightKinds kinds = kAllKinds);
 
     Frame& frame() { return *frame_; }
@@ -80,7 +80,7 @@ private:
     assets::MeshLibrary library_;
     game::SpawnedScene spawned_;
     std::vector<game::MovingEntity> moving_;
-    std::vector<std::pair<ecs::Entity, LightShadow>> opened_;  // as the scene and the options have them
+    std::vector<std::pair<ecs::Entity, game::LightSettings>> opened_;  // as the scene and the options have them
     FrameSettings settings_;
     std::unique_ptr<Frame> frame_;
     StageOptions options_;

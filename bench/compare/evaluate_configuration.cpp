@@ -44,7 +44,7 @@ void judge_edges(Stage& stage, const TracedTruths& truths, const TracedLight& li
     figures.sub_texel_caster = static_cast<double>(exceptions.sub_texel_caster);
     figures.truth_ambiguous = static_cast<double>(exceptions.truth_ambiguous);
     // What is predicted rests on the bias.
-    const bool own_bias = scene.lights[light.index].shadow.bias == BiasMode::automatic;
+    const bool own_bias = scene.lights[light.index].tuning.bias.mode == BiasMode::automatic;
     const auto others = static_cast<double>(exceptions.unexplained);
     figures.other_bias = own_bias ? 0.0 : others;
     figures.unexplained = own_bias ? others : 0.0;
@@ -100,7 +100,7 @@ void take_report(const LightItem& light, const LightReport& report, std::uint32_
     RowFigures& figures = row.figures;
     const bool chosen = light.shadow.filter == ShadowFilter::automatic;
     const ShadowFilter filter = chosen ? report.filter.filter : light.shadow.filter;
-    figures.taps = shadow::filter_row(filter).taps(light.shadow, light.kind == LightKind::point);
+    figures.taps = shadow::filter_row(filter).taps(light.tuning.kernel, light.kind == LightKind::point);
     figures.views = report.views;
     figures.texels = static_cast<double>(report.texels);
     figures.bytes = static_cast<double>(report.bytes);

@@ -30,7 +30,7 @@ std::vector<FilterVariant> pictured() {
     std::vector<FilterVariant> found = filter_variants(), by_disk;
     for (const FilterVariant& variant : found) {
         const ShadowFilter id = variant.row->id;
-        const bool widest_grid = id == ShadowFilter::pcf_grid && variant.shadow.filter_size == kShownGrid;
+        const bool widest_grid = id == ShadowFilter::pcf_grid && variant.light.tuning.kernel.size_texel == kShownGrid;
         if (id == ShadowFilter::hard || id == ShadowFilter::triangles || widest_grid)
             by_disk.push_back(judged_by_disk(variant));
     }
@@ -104,10 +104,15 @@ std::string table_line(const FilterVariant& variant, const LightAccuracy& light,
     const bool cube = light.report.kind == LightKind::point;
     const double texels = static_cast<double>(light.report.texels) / std::max(1u, light.report.views);
     const auto edge_px = static_cast<std::uint32_t>(std::sqrt(texels));
+    LightItem item;
+    item.kind = light.report.kind;
+    item.source_radius_m = variant.light.source_radius_m;
+    item.sun_radius_rad = variant.light.sun_radius_rad;
+    item.tuning = variant.light.tuning;
     char text[256];
     std::snprintf(text, sizeof text, "| %s | %s | %u | %.1f | %.3f | %.3f | %.1f | %.3f | %.3f |\n",
-                  variant.name.c_str(), light.report.name.c_str(), variant.row->taps(variant.shadow, cube),
-                  static_cast<double>(shadow::filter_settings(variant.shadow, edge_px).widest_texel),
+                  variant.name.c_str(), light.report.name.c_str(), variant.row->taps(item.tuning.kernel, cube),
+                  static_cast<double>(shadow::filter_settings(*variant.row, item, edge_px).widest_texel),
                   kPercent * light.metrics.fraction(light.metrics.wrong), kPercent * mean_error(light),
                   kPercent * taps.saved(), kPercent * taps.share(taps.changed), kPercent * taps.share(taps.wrong));
     return text;

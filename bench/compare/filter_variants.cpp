@@ -25,7 +25,7 @@ void add(std::vector<FilterVariant>& found, const shadow::FilterRow& row, const 
     if (key) variant.settings.push_back(std::string(key) + "=" + number);
     if (variant.by_source())
         variant.settings.insert(variant.settings.end(), disk_source().begin(), disk_source().end());
-    for (const std::string& setting : variant.settings) (void)game::apply_setting(variant.shadow, setting);
+    for (const std::string& setting : variant.settings) (void)game::apply_setting(variant.light, setting);
 }
 
 }  // namespace
@@ -38,9 +38,7 @@ const std::vector<std::string>& disk_source() {
 std::vector<FilterVariant> filter_variants() {
     std::vector<FilterVariant> found;
     for (const shadow::FilterRow& row : shadow::filter_table()) {
-        LightShadow fewest{.filter = row.id}, most = fewest;
-        fewest.filter_taps = 1;
-        most.filter_taps = kTaps.back();
+        const ShadowTuning::Kernel fewest{.taps = 1}, most{.taps = kTaps.back()};
         const bool moments = row.storage == shadow::FilterStorage::moments;
         if (row.width == shadow::FilterWidth::size)
             for (const std::uint32_t size : moments ? kBlurs : kSizes) add(found, row, "filter_size", size);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bench/common/configuration.h"
+#include "sample_game/support/settings/light_settings.h"
 #include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::bench {
@@ -10,7 +11,7 @@ namespace gnomon::bench {
 /// A row of the filter table; its name is followed by its width or taps.
 struct FilterVariant : RowSetup {
     const shadow::FilterRow* row = nullptr;
-    LightShadow shadow;  // what the settings make of the defaults
+    game::LightSettings light;  // what the settings make of the defaults
     /// It softens by the source's size, so that it is judged by a source with a size alone.
     bool by_source() const { return row->width == shadow::FilterWidth::source; }
 };

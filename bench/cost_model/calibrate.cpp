@@ -75,11 +75,9 @@ public:
         std::vector<Row<glm::dvec4>> rows;
         stage_.set_economy(false);
         for (const DrawingRow& row : kDrawing) {
-            light_up(row.lamps, {.filter = ShadowFilter::hard,
-                                 .resolution_px = row.map_px,
-                                 .layers = layer_of(row.group),
-                                 .economy = false,
-                                 .keep_visibility = false});
+            light_up(row.lamps,
+                     {.filter = ShadowFilter::hard, .resolution_px = row.map_px, .layers = layer_of(row.group)},
+                     {.reuse = {.economy = false, .keep_visibility = false}});
             rows.push_back({{}, timed([](const FrameReport& report) { return report.shadow_gpu_us.value_or(0.0); })});
             for (const LightReport& light : stage_.frame().report().lights)
                 rows.back().units += glm::dvec4(light.views_drawn, light.draws, static_cast<double>(light.triangles),
@@ -92,11 +90,8 @@ public:
         std::vector<Row<glm::dvec2>> rows;
         for (const std::uint32_t size : kGridSizes) {
             const ShadowFilter filter = size == 1 ? ShadowFilter::hard : ShadowFilter::pcf_grid;
-            light_up(1, {.filter = filter,
-                         .filter_size = size,
-                         .resolution_px = kLookedUp_px,
-                         .layers = layer_of(0),
-                         .keep_visibility = false});
+            light_up(1, {.filter = filter, .resolution_px = kLookedUp_px, .layers = layer_of(0)},
+                     {.kernel = {.size_texel = size}, .reuse = {.keep_visibility = false}});
             const double ns = timed([](const FrameReport& report) { return report.lights[0].gpu_us.value_or(0.0); });
             const SceneSnapshot& scene = stage_.frame().snapshot();
             const gl::Rect area = shadow::screen_rectangle(scene.lights[0], scene.consumers[0]);
@@ -112,7 +107,7 @@ private:
     static ShadowLayers layer_of(std::uint32_t group) { return static_cast<ShadowLayers>(1u << group); }
 
     /// That many lamps shine with such shadows, the others not at all.
-    void light_up(std::uint32_t lamps, const LightShadow& shadow) {
+    void light_up(std::uint32_t lamps, const LightShadow& shadow, const ShadowTuning& tuning) {
         std::uint32_t i = 0;
         for (const auto& light : stage_.spawned().lights) {
             const bool on = i++ < lamps;
@@ -120,6 +115,7 @@ private:
                 s = shadow;
                 s.enabled = on;
             });
+            stage_.world().emplace<ShadowTuning>(light.entity, tuning);
         }
     }
 

@@ -53,8 +53,9 @@ Result<std::string> set_shares(const StageOptions& options) {
     for (const game::NamedEntity& light : spawned.lights)
         for (const std::string& setting : options.settings) {
             std::optional<Error> error;
-            world.patch<LightShadow>(light.entity,
-                                     [&](LightShadow& shadow) { error = game::apply_setting(shadow, setting); });
+            game::change_settings(world, light.entity, [&](game::LightSettings& settings) {
+                error = game::apply_setting(settings, setting);
+            });
             if (error) return *error;
         }
     if (options.camera) {

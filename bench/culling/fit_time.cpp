@@ -41,7 +41,7 @@ constexpr Kind kKinds[] = {{"sun's view, tight", LightKind::directional, ShadowF
 /// So many of the boxes receive, so many cast; the light, with one view, reaches all.
 SceneSnapshot scene_of(const Kind& kind, std::size_t receivers, std::size_t casters) {
     SceneSnapshot scene = plain(kBoxes, kind.kind, 0.0);
-    scene.lights[0].shadow.fit = kind.fit;
+    scene.lights[0].tuning.cascades.fit = kind.fit;
     scene.lights[0].shadow.cascades = 1;
     const double side_m = 5.0 * std::sqrt(static_cast<double>(kBoxes));
     if (kind.kind == LightKind::spot) {

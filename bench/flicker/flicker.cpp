@@ -252,9 +252,9 @@ std::vector<SurfacePoint> points_of_path(const ShadowFrames& frames, const Stage
 
 std::vector<std::string> known_fits() {
     std::vector<std::string> names;
-    for (const game::LightSetting& setting : game::light_settings())
-        if (std::string_view(setting.key) == "fit" && setting.choice)
-            for (std::size_t i = 0; !setting.choice(i).empty(); ++i) names.emplace_back(setting.choice(i));
+    const game::LightSetting* setting = game::find_setting("fit");
+    if (setting && setting->choice)
+        for (std::size_t i = 0; !setting->choice(i).empty(); ++i) names.emplace_back(setting->choice(i));
     return names;
 }
 

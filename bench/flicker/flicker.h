@@ -52,7 +52,7 @@ struct Stability {
     std::vector<PathFlicker> rows;  // by path, then fit, then light
 };
 
-/// The words of LightShadow's `fit`; empty where there is no choice.
+/// The words of the setting `fit`; empty where there is no choice.
 std::vector<std::string> known_fits();
 
 /// Errors: "bench.path", "bench.fit" for unknown names, "bench.camera", "bench.map", "bench.row" for a light whose

@@ -44,7 +44,7 @@ struct DemandOptions {
     std::vector<std::uint32_t> lights{1, 3, 10, 30, 100, 300, 1000};
     std::uint32_t rounds = 2, frames = 5;
     glm::uvec2 size_px{320, 180};
-    std::vector<std::string> settings;  // KEY=VALUE, for every LightShadow
+    std::vector<std::string> settings;  // KEY=VALUE, for every light with a shadow
 };
 
 struct Demand {

@@ -56,11 +56,12 @@ public:
         std::vector<std::string> settings = options.settings;
         settings.push_back("fit=" + fit);
         for (const std::string& setting : settings) {
-            LightShadow probe;
+            game::LightSettings probe;
             if (auto error = game::apply_setting(probe, setting)) return *error;
             for (const game::NamedEntity& light : runner->spawned_.lights)
-                runner->world_.patch<LightShadow>(
-                    light.entity, [&](LightShadow& shadow) { (void)game::apply_setting(shadow, setting); });
+                game::change_settings(runner->world_, light.entity, [&](game::LightSettings& settings_of_light) {
+                    (void)game::apply_setting(settings_of_light, setting);
+                });
         }
         auto gpu = GpuScene::create(runner->device_, runner->library_);
         if (!gpu) return gpu.error();

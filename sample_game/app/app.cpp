@@ -45,10 +45,9 @@ Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line) {
         world->fit_camera = camera.value();
     }
     for (const NamedEntity& light : world->scene.lights) {
-        if (!world->registry.has<LightShadow>(light.entity)) continue;
-        world->registry.patch<LightShadow>(light.entity, [&](LightShadow& shadow) {
-            if (line.preset) apply_preset(*line.preset, shadow);
-            for (const std::string& setting : line.settings) apply_setting(shadow, setting);
+        change_settings(world->registry, light.entity, [&](LightSettings& settings) {
+            if (line.preset) apply_preset(*line.preset, settings);
+            for (const std::string& setting : line.settings) apply_setting(settings, setting);
         });
     }
     std::vector<std::string> shadowed;

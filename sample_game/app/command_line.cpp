@@ -53,8 +53,8 @@ void declare(CLI::App& app, Typed& typed) {
         "--truth", typed.truth,
         "F.png: the last frame with its errors against ray-traced truth over it; their figures go to --stats");
     app.add_option("--truth-light", typed.truth_light, "NAME: with --truth, this light's errors (default: the worst)");
-    app.add_option("--preset", typed.preset, "fast|default|high: LightShadow fields of every light, before --set");
-    app.add_option("--set", typed.settings, "KEY=VALUE: a LightShadow field of every light; repeatable")
+    app.add_option("--preset", typed.preset, "fast|default|high: settings of every light, before --set");
+    app.add_option("--set", typed.settings, "KEY=VALUE: a setting of every light with a shadow; repeatable")
         ->expected(1)
         ->allow_extra_args(false)
         ->take_all();
@@ -164,7 +164,7 @@ Result<CommandLine> understand(const Typed& typed, const CLI::App& app) {
         if (!debug) return debug.error();
         line.debug = std::move(debug).value();
     }
-    LightShadow any;
+    LightSettings any;
     for (const std::string& setting : typed.settings)
         if (auto error = apply_setting(any, setting)) return *error;
     return line;

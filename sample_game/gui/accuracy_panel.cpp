@@ -33,12 +33,11 @@ std::optional<float> common_px(const GameWorld& world, const ContractState& stat
     return common;
 }
 
-/// Changes the LightShadow of every light that is meant.
+/// Changes the settings of every light that is meant.
 template <class Change>
 void change(GameWorld& world, const ContractState& state, const Change& changed) {
     for (const NamedEntity& light : world.scene.lights)
-        if (world.registry.has<LightShadow>(light.entity) && is_meant(light, state))
-            world.registry.patch<LightShadow>(light.entity, changed);
+        if (is_meant(light, state)) change_settings(world.registry, light.entity, changed);
 }
 
 /// Whether the size of any map that is meant was given, so that it does not follow max_error_px.
@@ -63,9 +62,9 @@ void draw_light_choice(const GameWorld& world, ContractState& state) {
 const Preset* common_preset(const GameWorld& world, const ContractState& state) {
     const Preset* common = nullptr;
     for (const NamedEntity& light : world.scene.lights) {
-        const LightShadow* shadow = world.registry.get<LightShadow>(light.entity);
-        if (!shadow || !is_meant(light, state)) continue;
-        const Preset* own = preset_of(*shadow);
+        const std::optional<LightSettings> settings = settings_of(world.registry, light.entity);
+        if (!settings || !is_meant(light, state)) continue;
+        const Preset* own = preset_of(*settings);
         if (!own || (common && own != common)) return nullptr;
         common = own;
     }
@@ -76,7 +75,7 @@ void draw_presets(GameWorld& world, ContractState& state) {
     const Preset* now = common_preset(world, state);
     for (const Preset& preset : presets()) {
         if (ImGui::RadioButton(preset.name, now == &preset))
-            change(world, state, [&](LightShadow& shadow) { apply_preset(preset, shadow); });
+            change(world, state, [&](LightSettings& settings) { apply_preset(preset, settings); });
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.meaning);
         ImGui::SameLine();
     }
@@ -97,11 +96,12 @@ void draw_slider(GameWorld& world, ContractState& state, std::optional<float> no
     const std::string shown = px_words(now);
     if (ImGui::SliderInt("max_error_px", &step, kLeastContractStep, kMostContractStep, shown.c_str(),
                          ImGuiSliderFlags_NoInput))
-        change(world, state, [&](LightShadow& shadow) { shadow.max_error_px = contract_px(step); });
+        change(world, state, [&](LightSettings& settings) { settings.shadow.max_error_px = contract_px(step); });
     ImGui::SameLine();
     bool automatic = now && !is_said;
     if (ImGui::Checkbox("automatic", &automatic))
-        change(world, state, [&](LightShadow& shadow) { shadow.max_error_px = automatic ? 0.0f : contract_px(0); });
+        change(world, state,
+               [&](LightSettings& settings) { settings.shadow.max_error_px = automatic ? 0.0f : contract_px(0); });
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("1 px, as far as maps of the usual filter keep it");
 }
 

@@ -97,7 +97,7 @@ void draw_budget(const FrameReport& report, shadow::ShadowBudget& budget);
 void draw_debug_choice(const GameWorld& world, const FrameReport& report, PanelState& state);
 
 /// The panel: switches, the debug view, the report, and for each light that has a LightShadow every row of
-/// light_settings(). Debug views are shown beside the panel if there is room.
+/// setting_groups(). Debug views are shown beside the panel if there is room.
 void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, FrozenFrame& frozen,
                       PanelState& state);
 

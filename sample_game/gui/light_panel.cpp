@@ -15,8 +15,8 @@ namespace gnomon::game {
 namespace {
 
 /// What was chosen for `setting`, as a text for its `set`; empty if nothing was touched.
-std::string edited(const LightSetting& setting, const LightShadow& shadow) {
-    std::string now = setting.get(shadow);
+std::string edited(const LightSetting& setting, const LightSettings& settings) {
+    std::string now = setting.get(settings);
     switch (setting.editor) {
         case SettingEditor::toggle: {
             bool on = now == "on";
@@ -51,19 +51,28 @@ std::string edited(const LightSetting& setting, const LightShadow& shadow) {
     return setting.whole ? std::to_string(std::lround(value)) : std::to_string(value);
 }
 
+/// Edits what was opened: at first the group that an author needs.
+void draw_groups(LightSettings& settings) {
+    ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_DefaultOpen;
+    for (const SettingGroup& group : setting_groups()) {
+        const bool open = ImGui::TreeNodeEx(group.name, flags);
+        flags = ImGuiTreeNodeFlags_None;
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", group.meaning);
+        if (!open) continue;
+        for (const LightSetting& setting : group.settings) {
+            const std::string text = edited(setting, settings);
+            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.meaning);
+            if (!text.empty()) setting.set(settings, text);  // a value that it does not take changes nothing
+        }
+        ImGui::TreePop();
+    }
+}
+
 void draw_settings(GameWorld& world) {
     for (const NamedEntity& light : world.scene.lights) {
-        const LightShadow* shadow = world.registry.get<LightShadow>(light.entity);
-        if (!shadow || !ImGui::CollapsingHeader(light.name.c_str())) continue;
+        if (!world.registry.has<LightShadow>(light.entity) || !ImGui::CollapsingHeader(light.name.c_str())) continue;
         ImGui::PushID(light.name.c_str());
-        LightShadow changed = *shadow;
-        for (const LightSetting& setting : light_settings()) {
-            const std::string text = edited(setting, changed);
-            if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.meaning);
-            if (!text.empty()) setting.set(changed, text);  // a value that it does not take changes nothing
-        }
-        if (!(changed == *shadow))
-            world.registry.patch<LightShadow>(light.entity, [&](LightShadow& s) { s = changed; });
+        change_settings(world.registry, light.entity, draw_groups);
         ImGui::PopID();
     }
 }

@@ -126,6 +126,7 @@ Extractor::Lists Extractor::read_all(ecs::Registry& registry) {
     anew.instances |= read_changes<ShadowCaster>(registry, cursors_.caster, &shown_, &shown_);
     anew.views |= read_changes<Light>(registry, cursors_.light, &edited_, nullptr);
     anew.views |= read_changes<LightShadow>(registry, cursors_.shadow, &edited_, &edited_);
+    anew.views |= read_changes<ShadowTuning>(registry, cursors_.tuning, &edited_, &edited_);
     anew.views |= read_changes<Camera>(registry, cursors_.camera, &edited_, nullptr);
     anew.views |= read_changes<Name>(registry, cursors_.name, &named_, &named_);
     return anew;

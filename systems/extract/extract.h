@@ -24,7 +24,7 @@ public:
 
 private:
     struct Cursors {
-        ecs::ChangeCursor world, mesh, caster, light, shadow, camera, name, skin, weights;
+        ecs::ChangeCursor world, mesh, caster, light, shadow, tuning, camera, name, skin, weights;
     };
     /// Lists to rebuild.
     struct Lists {

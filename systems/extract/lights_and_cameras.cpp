@@ -45,14 +45,18 @@ bool put(T& field, const T& value) {
 bool put_light(const ecs::Registry& registry, const Light& light, const WorldTransform& world, std::uint64_t version,
                LightItem& item) {
     const LightShadow* shadow = registry.get<LightShadow>(item.entity);
+    const ShadowTuning* tuning = shadow ? registry.get<ShadowTuning>(item.entity) : nullptr;
     bool shape = put(item.kind, light.kind);
     shape |= put(item.position_ws_m, world.translation_ws_m);
     shape |= put(item.rotation_ws, orientation(world.basis));
     shape |= put(item.range_m, static_cast<double>(light.range_m));
     shape |= put(item.inner_cone_rad, static_cast<double>(light.inner_cone_rad));
     shape |= put(item.outer_cone_rad, std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>()));
+    shape |= put(item.source_radius_m, light.source_radius_m);
+    shape |= put(item.sun_radius_rad, light.sun_radius_rad);
     shape |= put(item.has_shadow, shadow != nullptr);
     shape |= put(item.shadow, shadow ? *shadow : LightShadow{});
+    shape |= put(item.tuning, tuning ? *tuning : ShadowTuning{});
     bool any = put(item.colour, light.colour);
     any |= put(item.intensity, light.intensity);
     if (shape) item.shape_version = version;

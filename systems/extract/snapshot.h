@@ -11,6 +11,7 @@
 #include "components/camera.h"
 #include "components/light.h"
 #include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
 #include "engine/assets/deformer.h"
 #include "engine/ecs/entity.h"
 #include "engine/math/aabb.h"
@@ -48,10 +49,13 @@ struct LightItem {
     float intensity = 0.0f;
     double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    bool has_shadow = false;  // the entity has a LightShadow
+    float source_radius_m = 0.0f;  // of a spot or a point
+    float sun_radius_rad = 0.0f;   // of a sun
+    bool has_shadow = false;       // a LightShadow component exists
     LightShadow shadow = {};
-    std::uint64_t version = 0;        // grows with every change of a field above
-    std::uint64_t shape_version = 0;  // likewise, but not for name, colour and intensity: covers what shadows depend on
+    ShadowTuning tuning = {};         // the defaults where there is no LightShadow
+    std::uint64_t version = 0;        // grows whenever any of the above changed
+    std::uint64_t shape_version = 0;  // grows whenever any but name, colour and intensity did: what shadows follow from
 };
 
 /// Pose of a deformable mesh (assets::Mesh::deformer) in this frame.

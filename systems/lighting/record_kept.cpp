@@ -110,7 +110,7 @@ void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, con
 
 void LightingSystem::report_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
                                  FrameReport& frame) {
-    const bool may_pay = light.has_shadow && light.shadow.keep_visibility && light.shadow.economy;
+    const bool may_pay = light.has_shadow && light.tuning.reuse.keep_visibility && light.tuning.reuse.economy;
     if (may_pay && kept_.is_told() && !pass.fills.program)
         lookup_times_.add(index, light.entity, static_cast<bool>(pass.reads));
     if (!pass.reads || index >= frame.lights.size()) return;

@@ -211,7 +211,7 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     for (std::size_t i = 0; i < frame_.statuses.size(); ++i) {
         const LightStatus& status = frame_.statuses[i];
         if (is_tried_again(status.skipped()) || is_tried_again(status.degraded())) return false;
-        if (frame_.requests[i].skip == Reason::none && !scene.lights[i].shadow.economy) return false;
+        if (frame_.requests[i].skip == Reason::none && !scene.lights[i].tuning.reuse.economy) return false;
     }
     return std::none_of(frame_.updates.begin(), frame_.updates.end(),
                         [](const UpdatePlan& plan) { return plan.left_to_rays; });

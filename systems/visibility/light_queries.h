@@ -20,8 +20,8 @@ struct Place {
 };
 
 struct QueryOptions {
-    /// Rays per place if the place or the light has a size (LightShadow::source_radius_m, sun_radius_rad); at least 1.
-    /// Otherwise one ray suffices. Every query uses the same sample positions on both, evenly spread.
+    /// Rays per place where the place or the light has a size (Light::source_radius_m, sun_radius_rad); at least
+    /// 1. Elsewhere one ray is all there is. The same places on both in every query, spread evenly.
     std::uint32_t samples = 16;
     /// Distance along the ray below which casters are ignored, to exclude the surface under the place. A surface
     /// exactly at the place, to double's rounding, is always ignored.

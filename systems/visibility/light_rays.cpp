@@ -45,8 +45,8 @@ void fill_disk(std::size_t count, std::vector<glm::dvec2>& disk) {
 LightRays::LightRays(const LightItem& light, std::span<const glm::dvec2> disk)
     : light_(light), disk_(disk), partner_(even_step(disk.size())) {
     const bool sun = light.kind == LightKind::directional;
-    size_ = sun ? std::tan(static_cast<double>(std::clamp(light.shadow.sun_radius_rad, 0.0f, kMostSunRadius_rad)))
-                : static_cast<double>(std::clamp(light.shadow.source_radius_m, 0.0f, kMostSourceRadius_m));
+    size_ = sun ? std::tan(static_cast<double>(std::clamp(light.sun_radius_rad, 0.0f, kMostSunRadius_rad)))
+                : static_cast<double>(std::clamp(light.source_radius_m, 0.0f, kMostSourceRadius_m));
     sized_ = size_ > 0.0;
     last_ = sun ? std::numeric_limits<double>::infinity() : 1.0;
     outer_cosine_ = std::cos(light.outer_cone_rad);

@@ -17,7 +17,7 @@ void BothWays::run(ecs::Registry& world, glm::uvec2 viewport_px, const std::func
     const TransformReport& transforms = transforms_.update(world);
     extractor_.update(world, library_, transforms, viewport_px, snapshot_);
     for (const Way way : {kThrifty, kLavish}) sides_[way]->scene = snapshot_;
-    for (LightItem& light : sides_[kLavish]->scene.lights) light.shadow.economy = false;
+    for (LightItem& light : sides_[kLavish]->scene.lights) light.tuning.reuse.economy = false;
     if (mislead) mislead(sides_[kThrifty]->scene);
     for (const Way way : {kThrifty, kLavish}) run_side(way, look);
 }

@@ -32,31 +32,37 @@ glm::dvec3 ChangingWorld::place(double low_m, double high_m) {
     return {x, y, z};
 }
 
-LightShadow ChangingWorld::any_shadow() {
+void ChangingWorld::put_any_shadow(ecs::Entity light) {
     constexpr std::uint32_t kLeastMap_px = 32;
     LightShadow shadow;
+    ShadowTuning tuning;
     shadow.filter = any_of(filters_);
     shadow.resolution_px = kLeastMap_px << below(4);
-    shadow.fit = static_cast<ShadowFit>(below(3));
+    tuning.cascades.fit = static_cast<ShadowFit>(below(3));
     shadow.cascades = 1 + below(4);
-    shadow.cascade_blend = chance(0.5) ? 0.1f : 0.0f;
-    shadow.splits = chance(0.5) ? CascadeSplits::practical : CascadeSplits::seen;
+    tuning.cascades.blend = chance(0.5) ? 0.1f : 0.0f;
+    tuning.cascades.splits = chance(0.5) ? CascadeSplits::practical : CascadeSplits::seen;
     shadow.caster_faces = static_cast<CasterFaces>(below(4));
-    shadow.cube_route = static_cast<CubeRoute>(below(4));
-    shadow.depth_format = static_cast<DepthFormat>(below(3));
+    tuning.maps.cube_route = static_cast<CubeRoute>(below(4));
+    tuning.maps.depth_format = static_cast<DepthFormat>(below(3));
     if (chance(0.3)) shadow.layers = static_cast<ShadowLayers>(1u + below(3));
-    if (chance(0.3)) shadow.source_radius_m = 0.1f, shadow.sun_radius_rad = 0.02f;
-    if (chance(0.2)) shadow.near_m = 0.5f, shadow.far_m = 12.0f;
-    if (chance(0.1)) shadow.warp = 0.5f;
-    if (chance(0.1)) shadow.projection = LightProjection::perspective;
+    const bool is_wide = chance(0.3);
+    if (chance(0.2)) tuning.projection.near_m = 0.5f, tuning.projection.far_m = 12.0f;
+    if (chance(0.1)) tuning.cascades.warp = 0.5f;
+    if (chance(0.1)) tuning.projection.kind = LightProjection::perspective;
     shadow.enabled = chance(0.9);
-    return shadow;
+    world_.registry.emplace<LightShadow>(light, shadow);
+    world_.registry.emplace<ShadowTuning>(light, tuning);
+    world_.registry.patch<Light>(light, [&](Light& l) {
+        l.source_radius_m = is_wide ? 0.1f : 0.0f;
+        l.sun_radius_rad = is_wide ? 0.02f : 0.0f;
+    });
 }
 
 void ChangingWorld::add_light() {
     if (lights_.size() == kMostLights) return;
     const ecs::Entity light = world_.add_light(static_cast<LightKind>(below(3)), place(1.0, 8.0), "light", false);
-    if (chance(0.9)) world_.registry.emplace<LightShadow>(light, any_shadow());
+    if (chance(0.9)) put_any_shadow(light);
     lights_.push_back(light);
 }
 
@@ -91,16 +97,15 @@ void ChangingWorld::turn_camera(ecs::Entity camera) {
 
 void ChangingWorld::change_light(ecs::Entity light) {
     if (!world_.registry.has<LightShadow>(light)) {
-        world_.registry.emplace<LightShadow>(light, any_shadow());
+        put_any_shadow(light);
     } else if (chance(0.1)) {
         world_.registry.remove<LightShadow>(light);
     } else if (chance(0.5)) {
-        const LightShadow other = any_shadow();
-        world_.registry.patch<LightShadow>(light, [&](LightShadow& s) { s = other; });
+        put_any_shadow(light);
     }
     if (chance(0.5)) world_.move(light, place(0.5, 8.0));
     if (!chance(0.4)) return;
-    Light other;
+    Light other = *world_.registry.get<Light>(light);  // its size stays
     other.kind = static_cast<LightKind>(below(3));
     other.intensity = chance(0.1) ? 0.0f : 100.0f;
     other.range_m = static_cast<float>(chance(0.3) ? 0.0 : number(1.0, 20.0));

@@ -30,7 +30,7 @@ private:
         return from[below(from.size())];
     }
     glm::dvec3 place(double low_m, double high_m);
-    LightShadow any_shadow();
+    void put_any_shadow(ecs::Entity light);
     void add_light();
     void add_caster();
     void add_camera();

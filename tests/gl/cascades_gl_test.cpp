@@ -33,11 +33,11 @@ protected:
         add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, {-0.5, -1.0, -0.3},
                   {.filter = ShadowFilter::hard,  // so that cascades differ where edges are
                    .resolution_px = 1024,
-                   .fit = cascades.fit,
-                   .cascades = cascades.count,
-                   .splits = cascades.splits,
-                   .split_m = {3.0f, 8.0f, 14.0f},
-                   .cascade_blend = cascades.blend});
+                   .cascades = cascades.count},
+                  {.cascades = {.fit = cascades.fit,
+                                .splits = cascades.splits,
+                                .split_m = {3.0f, 8.0f, 14.0f},
+                                .blend = cascades.blend}});
         add_camera({.fov_y_rad = 0.9f, .near_m = 0.1}, {0.3, 2.2, 3.0}, {0.0, -0.35, -1.0});
     }
 };
@@ -79,7 +79,7 @@ TEST_F(CascadePictures, FadingMixesTwoHardEdgesAndNothingElseDoes) {
     };
     EXPECT_GT(between(visibility()), 8);
     const ecs::Entity sun = frame().snapshot().lights.front().entity;
-    world.patch<LightShadow>(sun, [](LightShadow& s) { s.cascade_blend = 0.0f; });
+    edit_light(world, sun, [](ShadowTuning& t) { t.cascades.blend = 0.0f; });
     draw();
     EXPECT_EQ(between(visibility()), 0);
 }
@@ -103,7 +103,7 @@ TEST_P(LitCascades, ShowToTheBitWhatEmptyMapsWouldShow) {
         add_box({-0.9, 0.0, -1.5}, {-0.2, 1.2, -0.6});
         const glm::dvec3 along(-0.5, -1.0, -0.3);
         add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, along,
-                  {.filter = GetParam(), .resolution_px = 512, .cascades = 4, .cascade_blend = blend});
+                  {.filter = GetParam(), .resolution_px = 512, .cascades = 4}, {.cascades = {.blend = blend}});
         add_camera({.fov_y_rad = 0.9f, .near_m = 0.1}, {0.3, 2.2, 3.0}, {0.0, -0.35, -1.0});
         // To both sides of what is seen, high above the ground that the farther maps hold.
         std::vector<ecs::Entity> high;

@@ -27,7 +27,8 @@ protected:
                 }
         for (const CubeRoute route : {CubeRoute::six_passes, CubeRoute::layered_vertex, CubeRoute::layered_geometry})
             add_light({.kind = LightKind::point, .intensity = 1000.0f}, glm::dvec3(0.1, -0.2, 0.15), {0.0, 0.0, -1.0},
-                      {.filter = ShadowFilter::pcf_grid, .resolution_px = kMap_px, .cube_route = route, .economy = false});
+                      {.filter = ShadowFilter::pcf_grid, .resolution_px = kMap_px},
+                      {.maps = {.cube_route = route}, .reuse = {.economy = false}});
     }
     /// Of each light, in order: what the light passes bind.
     std::vector<gl::TextureHandle> maps() {

@@ -75,7 +75,8 @@ protected:
 
 TEST_F(DebugLookups, EachPixelHasTheColourOfTheCascadeThatItsDistanceAlongTheViewChooses) {
     add_posts();
-    add_light(kSun, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 512, .fit = ShadowFit::stable, .cascade_blend = 0.0f});
+    add_light(kSun, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 512},
+              {.cascades = {.fit = ShadowFit::stable, .blend = 0.0f}});
     look_along();
     show_plain();
     show("cascades", light_name());
@@ -105,7 +106,8 @@ TEST_F(DebugLookups, EachPixelHasTheColourOfTheCascadeThatItsDistanceAlongTheVie
 
 TEST_F(DebugLookups, WhereOneCascadeFadesIntoTheNextTheColoursDoToo) {
     add_posts();
-    add_light(kSun, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 512, .fit = ShadowFit::stable, .cascade_blend = 0.5f});
+    add_light(kSun, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 512},
+              {.cascades = {.fit = ShadowFit::stable, .blend = 0.5f}});
     look_along();
     show_plain();
     show("cascades", light_name());
@@ -123,7 +125,8 @@ TEST_F(DebugLookups, WhereOneCascadeFadesIntoTheNextTheColoursDoToo) {
 
 TEST_F(DebugLookups, OneMapAloneTintsWhatItServesAndLeavesTheRest) {
     add_posts();
-    add_light(kSun, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 512, .fit = ShadowFit::stable, .cascade_blend = 0.0f});
+    add_light(kSun, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 512},
+              {.cascades = {.fit = ShadowFit::stable, .blend = 0.0f}});
     look_along();
     show_plain();
     show("cascades", light_name(), 1);
@@ -167,8 +170,8 @@ TEST_F(DebugLookups, ACubesFacesMeetWhereTwoCoordinatesOfTheDirectionAreEqual) {
 
 TEST_F(DebugLookups, TheGridIsAsWideAsTheTexelsThatTheLabelNames) {
     add_box({-0.3, 2.0, -4.3}, {0.3, 2.2, -3.7});
-    add_light(kSun, {}, {0.0, -1.0, 0.0},
-              {.filter = ShadowFilter::hard, .resolution_px = 64, .fit = ShadowFit::stable, .cascades = 1});
+    add_light(kSun, {}, {0.0, -1.0, 0.0}, {.filter = ShadowFilter::hard, .resolution_px = 64, .cascades = 1},
+              {.cascades = {.fit = ShadowFit::stable}});
     look_down(6.0, {0.0, 0.0, -4.0});
     show_plain();
     show("texels", light_name());
@@ -218,11 +221,9 @@ TEST_P(DebugBias, AConstantOneHasItsColourOnTheScale) {
     constexpr double kBias_m = 0.01;
     add_post();
     add_light(light_of(GetParam()), {0.4, 6.0, -5.0}, {0.0, -1.0, 0.0},
-              {.filter = ShadowFilter::hard,
-               .resolution_px = 512,
-               .bias = BiasMode::constant,
-               .bias_m = static_cast<float>(kBias_m),
-               .cascade_blend = 0.0f});  // into a cascade that nothing can darken it fades to the plain picture
+              {.filter = ShadowFilter::hard, .resolution_px = 512},
+              {.bias = {.mode = BiasMode::constant, .offset_m = static_cast<float>(kBias_m)},
+               .cascades = {.blend = 0.0f}});  // into a cascade that nothing can darken it fades to the plain picture
     look_along();
     show_plain();
     show("bias", light_name());
@@ -261,9 +262,9 @@ TEST_P(DebugBias, ALargerOneIsFartherOnTheScaleAndTheAutomaticOneLiesOnIt) {
     const std::size_t automatic = covered();
     EXPECT_GT(automatic, kMany);
     const auto last_everywhere = [&](float bias_m) {
-        world.patch<LightShadow>(entity, [&](LightShadow& s) {
-            s.bias = BiasMode::constant;
-            s.bias_m = bias_m;
+        edit_light(world, entity, [&](ShadowTuning& t) {
+            t.bias.mode = BiasMode::constant;
+            t.bias.offset_m = bias_m;
         });
         show_plain();
         show("bias", light_name());
@@ -288,12 +289,8 @@ INSTANTIATE_TEST_SUITE_P(EachKind, DebugBias,
 TEST_F(DebugLookups, AFilterThatSpreadsByMetresShowsThatWidthAndWhatItsTexelsAdd) {
     constexpr double kSpread_m = 0.15;
     add_post();
-    add_light(kSun, {}, {0.0, -1.0, 0.0},
-              {.filter = ShadowFilter::poisson,
-               .filter_spread_m = static_cast<float>(kSpread_m),
-               .resolution_px = 2048,
-               .fit = ShadowFit::stable,
-               .cascades = 1});
+    add_light(kSun, {}, {0.0, -1.0, 0.0}, {.filter = ShadowFilter::poisson, .resolution_px = 2048, .cascades = 1},
+              {.kernel = {.spread_m = static_cast<float>(kSpread_m)}, .cascades = {.fit = ShadowFit::stable}});
     look_along();
     show_plain();
     show("cascades", light_name());

@@ -23,9 +23,9 @@ constexpr std::size_t kPixels = std::size_t{kPicture_px.x} * kPicture_px.y;
 /// Whether a light's shadows are meant to be those of its rays: not of a range that somebody else chose, which leaves
 /// out casters beyond it, and not of a sun seen in perspective, whose rays are not parallel.
 bool follows_rays(const LightItem& light) {
-    const LightShadow& shadow = light.shadow;
-    const bool is_spread = light.kind == LightKind::directional && shadow.projection == LightProjection::perspective;
-    return shadow.near_m == 0.0f && shadow.far_m == 0.0f && !is_spread;
+    const ShadowTuning::Projection& given = light.tuning.projection;
+    const bool is_spread = light.kind == LightKind::directional && given.kind == LightProjection::perspective;
+    return given.near_m == 0.0f && given.far_m == 0.0f && !is_spread;
 }
 
 /// One of each way to store a map and to read it; all of them in a long run, since each costs programs.

@@ -28,11 +28,12 @@ protected:
     void add_lights() {
         for (const shadow::LightKindRow& kind : shadow::light_kind_table())
             for (const shadow::FilterRow& filter : shadow::filter_table()) {
-                LightShadow wish{.filter = filter.id, .resolution_px = kMap_px};
-                wish.source_radius_m = 0.1f;
-                wish.sun_radius_rad = 0.03f;
-                Light light{.kind = kind.kind, .intensity = 100.0f};
-                light.outer_cone_rad = 0.6f;
+                const LightShadow wish{.filter = filter.id, .resolution_px = kMap_px};
+                const Light light{.kind = kind.kind,
+                                  .intensity = 100.0f,
+                                  .outer_cone_rad = 0.6f,
+                                  .source_radius_m = 0.1f,
+                                  .sun_radius_rad = 0.03f};
                 const double angle = 0.4 * static_cast<double>(lights.size());
                 const glm::dvec3 at(2.0 * std::cos(angle), 4.0, 2.0 * std::sin(angle));
                 lights.push_back(add_light(light, at, -at, wish));

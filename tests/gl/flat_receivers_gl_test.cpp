@@ -22,13 +22,11 @@ protected:
         add_camera({.fov_y_rad = 2.5, .near_m = 0.01 * scale}, scale * glm::dvec3(0.0, 0.8, 0.0), {0.0, -1.0, 0.0});
     }
     /// A light straight above, of every row of the table.
-    void add_rows(LightKind kind, double scale, LightShadow shadow) {
+    void add_rows(LightKind kind, double scale, const ShadowTuning& tuning) {
         const Light light{.kind = kind, .intensity = 3000.0f, .outer_cone_rad = 0.9f};
-        shadow.resolution_px = 512;
-        for (const shadow::FilterRow& row : shadow::filter_table()) {
-            shadow.filter = row.id;
-            add_light(light, scale * glm::dvec3(0.0, 6.0, 0.0), {0.0, -1.0, 0.0}, shadow);
-        }
+        for (const shadow::FilterRow& row : shadow::filter_table())
+            add_light(light, scale * glm::dvec3(0.0, 6.0, 0.0), {0.0, -1.0, 0.0},
+                      {.filter = row.id, .resolution_px = 512}, tuning);
     }
     void expect_every_row_true(const std::string& what) {
         constexpr float kOnePercent = 0.01f;
@@ -52,7 +50,7 @@ TEST_F(FlatReceivers, UnderTheSunAreDarkBelowWhatFloatsAboveThemWhateverTheFit) 
             // A short run takes each fit and each scale once, a long one every pair.
             if (!is_long_run() && kScales[static_cast<std::size_t>(fit) % kScales.size()] != scale) continue;
             build(scale);
-            add_rows(LightKind::directional, scale, {.fit = fit});
+            add_rows(LightKind::directional, scale, {.cascades = {.fit = fit}});
             draw();
             expect_every_row_true("fit " + std::to_string(static_cast<int>(fit)) + ", " + std::to_string(scale));
         }
@@ -61,7 +59,7 @@ TEST_F(FlatReceivers, UnderTheSunAreDarkBelowWhatFloatsAboveThemWhateverTheFit) 
 TEST_F(FlatReceivers, UnderLampsAreDarkBelowWhatFloatsAboveThem) {
     for (const LightKind kind : {LightKind::spot, LightKind::point}) {
         build(1.0);
-        add_rows(kind, 1.0, {.moment_bleeding = 0.4f});  // one caster behind the other
+        add_rows(kind, 1.0, {.moments = {.bleeding = 0.4f}});  // one caster behind the other
         draw();
         expect_every_row_true(std::string(shadow::light_kind_row(kind).name));
     }

@@ -5,8 +5,6 @@
 #include <optional>
 
 #include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
 #include "components/mesh_ref.h"
 #include "components/name.h"
 #include "components/shadow_caster.h"
@@ -14,6 +12,7 @@
 #include "sample_game/support/built_in_scenes/primitives.h"
 #include "systems/frame.h"
 #include "tests/gl/gl_test_context.h"
+#include "tests/system/edit_light.h"
 
 namespace gnomon {
 
@@ -57,11 +56,12 @@ protected:
     }
 
     ecs::Entity add_light(const Light& light, const glm::dvec3& position, const glm::dvec3& direction,
-                          const LightShadow& shadow = {.resolution_px = 512}) {
+                          const LightShadow& shadow = {.resolution_px = 512}, const ShadowTuning& tuning = {}) {
         const ecs::Entity entity = world.create();
         world.emplace<Transform>(entity, {.translation_m = position, .rotation = looking_along(direction)});
         world.emplace<Light>(entity, light);
         world.emplace<LightShadow>(entity, shadow);
+        if (!(tuning == ShadowTuning{})) world.emplace<ShadowTuning>(entity, tuning);
         return entity;
     }
 

@@ -17,7 +17,8 @@ protected:
         add_ground(40.0);
         for (const double z : {-2.0, -6.0, -12.0, -20.0}) add_box({-0.9, 0.0, z - 0.5}, {-0.2, 1.2, z + 0.4});
         add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, {-0.5, -1.0, -0.3},
-                  {.filter = ShadowFilter::hard, .resolution_px = 512, .fit = GetParam(), .cascade_blend = 0.0f});
+                  {.filter = ShadowFilter::hard, .resolution_px = 512},
+                  {.cascades = {.fit = GetParam(), .blend = 0.0f}});
         camera_ = add_camera({.fov_y_rad = 0.9, .near_m = 0.1}, {0.3, 2.2, 3.0}, {0.0, -0.35, -1.0});
     }
     void move_camera() {

@@ -33,16 +33,19 @@ protected:
         place(box, {.translation_m = {0.0, 1.0, 0.0}});
         place(add_mesh(game::make_box({-0.4, -0.4, -0.4}, {0.4, 0.4, 0.4}), glass), {.translation_m = {1.2, 0.8, 1.0}}, false);
         bystander = place(box, {.translation_m = {-1.5, 0.6, 0.5}}, false);
-        const LightShadow shadow{.filter = filter, .filter_seed = FilterSeed::screen, .resolution_px = 128};
-        add_light({.kind = LightKind::directional, .intensity = 500.0f}, {2.0, 6.0, 1.0}, {-2.0, -6.0, -1.0}, shadow);
+        const LightShadow shadow{.filter = filter, .resolution_px = 128};
+        const ShadowTuning tuning{.kernel = {.seed = FilterSeed::screen}};
+        add_light({.kind = LightKind::directional, .intensity = 500.0f}, {2.0, 6.0, 1.0}, {-2.0, -6.0, -1.0}, shadow,
+                  tuning);
         add_light({.kind = LightKind::spot, .intensity = 3000.0f, .range_m = 9.0f, .outer_cone_rad = 0.5f},
-                  {3.0, 5.0, 2.0}, {-3.0, -4.5, -2.0}, shadow);
-        add_light({.kind = LightKind::point, .intensity = 900.0f, .range_m = 3.0f}, {0.2, 2.2, 0.4}, {0.0, -1.0, 0.0}, shadow);
+                  {3.0, 5.0, 2.0}, {-3.0, -4.5, -2.0}, shadow, tuning);
+        add_light({.kind = LightKind::point, .intensity = 900.0f, .range_m = 3.0f}, {0.2, 2.2, 0.4}, {0.0, -1.0, 0.0},
+                  shadow, tuning);
         add_camera({.fov_y_rad = 0.8}, {0.5, 4.0, 6.0}, {-0.5, -4.0, -6.0});
     }
     void keep(bool on) {
         world.each<LightShadow>([&](ecs::Entity e, const LightShadow&) {
-            world.patch<LightShadow>(e, [&](LightShadow& s) { s.keep_visibility = on; });
+            edit_light(world, e, [&](ShadowTuning& t) { t.reuse.keep_visibility = on; });
         });
     }
     std::size_t reading() {

@@ -45,8 +45,8 @@ protected:
     void shine(const Case& c, const glm::dvec3& from) {
         lamp = add_light(
             {.kind = c.kind, .intensity = 1000.0f, .range_m = 0.0f, .inner_cone_rad = 1.2f, .outer_cone_rad = 1.3f},
-            placed(from), turn * glm::dvec3(0.0, 0.0, -1.0),
-            {.filter = c.filter, .resolution_px = 512, .cube_route = c.route});
+            placed(from), turn * glm::dvec3(0.0, 0.0, -1.0), {.filter = c.filter, .resolution_px = 512},
+            {.maps = {.cube_route = c.route}});
     }
     void move_lamp(const glm::dvec3& to) {
         world.patch<Transform>(lamp, [&](Transform& t) { t.translation_m = placed(to); });

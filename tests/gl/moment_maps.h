@@ -16,8 +16,9 @@ protected:
         double near_m, far_m;
     };
     /// `depths`: reversed depth, one layer or six faces, of a view from near to far.
-    gl::TextureHandle moments_of(const shadow::FilterRow& row, const LightShadow& shadow, LightKind kind, gl::TextureHandle depths,
+    gl::TextureHandle moments_of(const shadow::FilterRow& row, const LightItem& light, gl::TextureHandle depths,
                                  std::uint32_t size_px, Range range) {
+        const LightKind kind = light.kind;
         const auto& kind_row = shadow::light_kind_row(kind);
         SceneSnapshot scene;
         scene.lights.emplace_back();
@@ -26,8 +27,8 @@ protected:
         frame.statuses.resize(1);
         shadow::MapSettings& settings = frame.decisions[0].request.map;
         settings.filter = row.id;
-        settings.filtering = shadow::filter_settings(row, shadow, size_px);
-        settings.moments = shadow::prefilter_settings(row, shadow, size_px);
+        settings.filtering = shadow::filter_settings(row, light, size_px);
+        settings.moments = shadow::prefilter_settings(row, light, size_px);
         const gl::TextureDesc map{.label = "moments", .kind = kind_row.texture, .format = settings.moments.format, .width = size_px, .height = size_px, .mips = settings.moments.levels};
         const auto moments = keep(device().create_texture(map, {}));
         const std::uint32_t rows = size_px + 2 * shadow::scratch_rows(settings, kind == LightKind::point);

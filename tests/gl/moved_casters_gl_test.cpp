@@ -29,7 +29,7 @@ protected:
         if (change == Change::all_are_touched)
             for (const ecs::Entity e : casters())
                 world.patch<MeshRef>(e, [&](MeshRef& m) { m.mesh = m.mesh == twin ? twin - 1 : twin; });
-        world.patch<LightShadow>(lamp, [&](LightShadow& s) { s.economy = change != Change::nothing_is_kept; });
+        edit_light(world, lamp, [&](ShadowTuning& t) { t.reuse.economy = change != Change::nothing_is_kept; });
         draw();
     }
     std::vector<ecs::Entity> casters() const {
@@ -67,7 +67,7 @@ TEST_P(MovedCasters, AmongStillOnesGiveTheBitsOfAllMovingAndOfNothingKept) {
     const bool is_sun = GetParam() == LightKind::directional;
     for (const ShadowFit fit : {ShadowFit::tight, ShadowFit::stable, ShadowFit::quantised}) {
         if (fit != ShadowFit::tight && !is_sun) continue;
-        world.patch<LightShadow>(lamp, [&](LightShadow& s) { s.fit = fit; });
+        edit_light(world, lamp, [&](ShadowTuning& t) { t.cascades.fit = fit; });
         walk(Change::one_moves);  // what fits hold of the last frames is then the same for all
         const Walk kept = walk(Change::one_moves);
         EXPECT_GT(kept.drawn, 0u);

@@ -32,15 +32,14 @@ protected:
         place(add_mesh(game::make_card(glm::dvec3(0.0), {2.0 * kHalf_m, 0.0, 0.0}, {0.0, 0.0, -2.0 * kHalf_m})));
         add_camera({.fov_y_rad = 1.0}, {3.0 * turn(random), 7.0, 3.0 * turn(random)}, {0.01, -1.0, 0.02});
         const Light light{.kind = GetParam(), .intensity = 1000.0f, .outer_cone_rad = 0.9f};
-        const auto add = [&](const LightShadow& shadow) {
-            return add_light(light, toward_light * kDistance_m, -toward_light, shadow);
+        const auto add = [&](const LightShadow& shadow, const ShadowTuning& tuning = {}) {
+            return add_light(light, toward_light * kDistance_m, -toward_light, shadow, tuning);
         };
         for (const shadow::FilterRow& filter : shadow::filter_table())
             for (const shadow::DepthFormatRow& format : formats)
-                lights_.push_back(add({.filter = filter.id,
-                                       .resolution_px = 64,
-                                       .near_m = GetParam() == LightKind::directional ? 0.0f : kNear_m,
-                                       .depth_format = format.id}));
+                lights_.push_back(add({.filter = filter.id, .resolution_px = 64},
+                                      {.projection = {.near_m = GetParam() == LightKind::directional ? 0.0f : kNear_m},
+                                       .maps = {.depth_format = format.id}}));
         add({.enabled = false});
     }
     /// Pixels that the light of this index reaches, and those of them that its shadow darkens.
@@ -63,9 +62,9 @@ protected:
                 EXPECT_EQ(report.state, LightState::rendered) << report.name;
             }
             const auto [lit, dark] = lit_and_dark(i);
-            const LightShadow& shadow = *world.get<LightShadow>(lights_[i]);
-            EXPECT_EQ(dark, 0u) << "round " << round << ", " << shadow::filter_row(shadow.filter).name << ", format "
-                                << static_cast<int>(shadow.depth_format);
+            const LightItem& item = frame().snapshot().lights[i];
+            EXPECT_EQ(dark, 0u) << "round " << round << ", " << shadow::filter_row(item.shadow.filter).name
+                                << ", format " << static_cast<int>(item.tuning.maps.depth_format);
             lit_of_all += lit;
         }
         return lit_of_all;
@@ -82,7 +81,7 @@ TEST_P(Planes, AreLitThroughEveryFilterAndFormat) {
         add_scene(random);
         lit_of_all += expect_lit(round);
         for (const ecs::Entity light : lights_)
-            world.patch<LightShadow>(light, [](LightShadow& s) { s.bias = BiasMode::constant; });
+            edit_light(world, light, [](ShadowTuning& t) { t.bias.mode = BiasMode::constant; });
         draw();
         for (std::uint32_t i = 0; i < lights_.size(); ++i) dark_without_bias += lit_and_dark(i).second;
     }

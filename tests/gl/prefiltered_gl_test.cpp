@@ -47,8 +47,8 @@ protected:
                 }
         const auto map = keep(device().create_texture({.label = "depths", .kind = gl::TextureKind::cube, .format = gl::Format::d32f, .width = kFace_px, .height = kFace_px},
                                                       std::as_bytes(std::span(depths))));
-        const LightShadow shadow{.filter = ShadowFilter::vsm, .filter_size = size};
-        const auto moments = moments_of(shadow::filter_row(ShadowFilter::vsm), shadow, LightKind::point, map, kFace_px, {kNear_m, kFar_m});
+        const LightItem lamp{.kind = LightKind::point, .tuning = {.kernel = {.size_texel = size}}};
+        const auto moments = moments_of(shadow::filter_row(ShadowFilter::vsm), lamp, map, kFace_px, {kNear_m, kFar_m});
         std::vector<std::vector<float>> faces;
         for (std::uint32_t face = 0; face < 6; ++face) faces.push_back(read<float>(moments, std::size_t{kFace_px} * kFace_px * 2, face));
         return faces;
@@ -129,44 +129,44 @@ TEST_F(PrefilteredCube, HasNoStepWhereTwoFacesMeet) {
 class Prefiltered : public BoxTest, public ::testing::WithParamInterface<LightKind> {
 protected:
     /// A light high on the left that shines on the origin.
-    ecs::Entity add_slanting_light(const LightShadow& shadow) {
+    ecs::Entity add_slanting_light(const LightShadow& shadow, const ShadowTuning& tuning) {
         const glm::dvec3 position(-3.0, 6.0, 2.0);
         const Light light{.kind = GetParam(), .intensity = GetParam() == LightKind::directional ? 10000.0f : 3000.0f, .outer_cone_rad = 0.9f};
-        return add_light(light, position, -position, shadow);
+        return add_light(light, position, -position, shadow, tuning);
     }
 };
 
 TEST_P(Prefiltered, ShadowsAreThoseOfAHardFilterAwayFromEdgesInEveryFormatAndWidth) {
     constexpr std::uint32_t kMap_px = 512;
-    std::vector<LightShadow> rows;
+    std::vector<std::pair<ShadowFilter, ShadowTuning>> rows;
     std::size_t first_bits = 0;
     for (const shadow::FilterRow* row : prefiltered_rows()) {
-        const LightShadow plain{.filter = row->id, .resolution_px = kMap_px};
-        std::array<LightShadow, 4> widths{plain, plain, plain, plain};
-        widths[0].filter_size = 1;
-        widths[1].filter_size = 9;
-        widths[2].moment_levels = 3;
-        widths[3].moment_anisotropy = 8;
+        const std::array<ShadowTuning, 4> widths{{{.kernel = {.size_texel = 1}},
+                                                  {.kernel = {.size_texel = 9}},
+                                                  {.moments = {.levels = 3}},
+                                                  {.moments = {.anisotropy = 8}}}};
         // A short run takes every width, and both formats, of each filter; a long one every pair.
         constexpr std::array kBits{16u, 32u};
         for (std::size_t width = 0; width < widths.size(); ++width)
             for (std::size_t format = 0; format < kBits.size(); ++format) {
                 if (!is_long_run() && (first_bits + width) % kBits.size() != format) continue;
-                rows.push_back(widths[width]);
-                rows.back().moment_bits = kBits[format];
+                rows.emplace_back(row->id, widths[width]);
+                rows.back().second.moments.bits = kBits[format];
             }
         ++first_bits;  // the next filter begins with the other format
     }
     truth.margin_m = 0.45;  // nine texels of blur, or four and a pixel's footprint, on the plane
     add_ground(6.0);
     add_box({-1.2, 1.0, -1.4}, {1.1, 2.5, 1.3});
-    for (const LightShadow& shadow : rows) add_slanting_light(shadow);
+    for (const auto& [filter, tuning] : rows) add_slanting_light({.filter = filter, .resolution_px = kMap_px}, tuning);
     look_down(5.0);
     draw();
     for (std::uint32_t i = 0; i < rows.size(); ++i) {
-        SCOPED_TRACE(std::string(shadow::filter_row(rows[i].filter).name) + ", " + std::to_string(rows[i].moment_bits) + " bits, size " +
-                     std::to_string(rows[i].filter_size) + ", levels " + std::to_string(rows[i].moment_levels) + ", anisotropy " +
-                     std::to_string(rows[i].moment_anisotropy));
+        const auto& [filter, tuning] = rows[i];
+        SCOPED_TRACE(std::string(shadow::filter_row(filter).name) + ", " + std::to_string(tuning.moments.bits) +
+                     " bits, size " + std::to_string(tuning.kernel.size_texel) + ", levels " +
+                     std::to_string(tuning.moments.levels) + ", anisotropy " +
+                     std::to_string(tuning.moments.anisotropy));
         constexpr float kOnePercent = 0.01f;
         const SceneSnapshot& scene = frame().snapshot();
         const boxes::Verdict verdict = boxes::judge(truth, scene.consumers.front(), scene.lights[i], visibility(i), kOnePercent);
@@ -186,7 +186,8 @@ TEST_P(PrefilteredLamp, TwoCastersLetThroughNoMoreThanTheDocumentedShare) {
     add_box({-1.5, 3.8, -1.5}, {0.0, 4.0, 1.5});
     const Light light{.kind = GetParam(), .intensity = 3000.0f, .outer_cone_rad = 0.9f};
     const auto add = [&](ShadowFilter filter, float bleeding) {
-        add_light(light, {0.0, 6.0, 0.0}, {0.0, -1.0, 0.0}, {.filter = filter, .moment_bleeding = bleeding, .resolution_px = 512});
+        add_light(light, {0.0, 6.0, 0.0}, {0.0, -1.0, 0.0}, {.filter = filter, .resolution_px = 512},
+                  {.moments = {.bleeding = bleeding}});
     };
     for (const shadow::FilterRow* row : prefiltered_rows()) add(row->id, 0.0f);
     add(ShadowFilter::vsm, 0.4f);

@@ -16,10 +16,11 @@ constexpr glm::dvec3 kDown{0.0, -1.0, 0.0};
 class ProjectionTest : public BoxTest {
 protected:
     /// A sun straight above, whose eye stands at kEye_m over the origin, given how high what is seen reaches.
-    ecs::Entity add_sun(LightShadow shadow, double seen_height_m) {
-        shadow.resolution_px = 1024;
-        shadow.eye_distance_m = static_cast<float>(kEye_m - 0.5 * seen_height_m);
-        return add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, kDown, shadow);
+    ecs::Entity add_sun(ShadowTuning::Projection projection, double seen_height_m,
+                        ShadowFilter filter = ShadowFilter::automatic) {
+        projection.eye_distance_m = static_cast<float>(kEye_m - 0.5 * seen_height_m);
+        return add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, kDown,
+                         {.filter = filter, .resolution_px = 1024}, {.projection = projection});
     }
     /// The frame's visibility against a point source at the eye.
     boxes::Verdict judged_from_eye() {
@@ -48,7 +49,7 @@ TEST_F(ProjectionTest, ASunInPerspectiveCastsAsALampAtItsEyeDoes) {
     add_ground(6.0);
     add_box({1.5, 1.0, 1.0}, {2.5, 2.0, 2.0});
     add_box({-3.0, 0.0, -2.0}, {-2.5, 2.0, 1.0});
-    add_sun({.projection = LightProjection::perspective, .eye_angle_rad = 1.6f}, 2.0);
+    add_sun({.kind = LightProjection::perspective, .eye_angle_rad = 1.6f}, 2.0);
     look_down(5.0);
     draw();
     const boxes::Verdict verdict = judged_from_eye();
@@ -62,7 +63,7 @@ TEST_F(ProjectionTest, ASunWithoutTheWishIsNoLampAtItsEye) {
     add_ground(6.0);
     add_box({1.5, 1.0, 1.0}, {2.5, 2.0, 2.0});
     add_box({-3.0, 0.0, -2.0}, {-2.5, 2.0, 1.0});
-    add_sun({.projection = LightProjection::orthographic}, 2.0);
+    add_sun({.kind = LightProjection::orthographic}, 2.0);
     look_down(5.0);
     draw();
     expect_true(0, 10 * kSome);  // the boxes hide their own shadows from above
@@ -71,7 +72,7 @@ TEST_F(ProjectionTest, ASunWithoutTheWishIsNoLampAtItsEye) {
 
 TEST_F(ProjectionTest, EveryFilterLeavesAPerspectiveSunsPlanesUnspotted) {
     for (const shadow::FilterRow& filter : shadow::filter_table())
-        add_sun({.filter = filter.id, .projection = LightProjection::perspective, .eye_angle_rad = 1.6f}, 2.0);
+        add_sun({.kind = LightProjection::perspective, .eye_angle_rad = 1.6f}, 2.0, filter.id);
     add_ground(6.0);
     place(add_mesh(game::make_box({-0.5, 0.0, -0.5}, {0.5, 2.0, 0.5})),
           {.translation_m = {3.0, 0.0, 0.0}, .rotation = glm::angleAxis(0.5, glm::dvec3(0.0, 1.0, 0.0))});
@@ -89,7 +90,7 @@ TEST_F(ProjectionTest, BeyondAPerspectiveSunsViewItIsLit) {
     add_ground(6.0);
     add_box({-0.4, 1.0, -0.4}, {0.4, 2.0, 0.4});
     add_box({4.0, 1.0, -0.5}, {5.0, 2.0, 0.5});
-    add_sun({.projection = LightProjection::perspective, .eye_angle_rad = 0.4f}, 2.0);
+    add_sun({.kind = LightProjection::perspective, .eye_angle_rad = 0.4f}, 2.0);
     look_down(5.0);
     draw();
     const auto field = visibility();
@@ -106,16 +107,18 @@ class GivenRange : public ProjectionTest, public ::testing::WithParamInterface<W
 protected:
     /// What is seen reaches up to 6 m in these scenes.
     void add(float near_m, float far_m) {
-        LightShadow shadow{.resolution_px = 1024, .near_m = near_m, .far_m = far_m};
-        shadow.eye_angle_rad = 1.6f;
+        ShadowTuning::Projection projection{.eye_angle_rad = 1.6f, .near_m = near_m, .far_m = far_m};
+        const LightShadow shadow{.resolution_px = 1024};
         const glm::dvec3 place_m(0.0, kEye_m, 0.0);
-        if (GetParam() == Way::perspective_sun) shadow.projection = LightProjection::perspective;
+        if (GetParam() == Way::perspective_sun) projection.kind = LightProjection::perspective;
         if (GetParam() == Way::flat_sun || GetParam() == Way::perspective_sun)
-            add_sun(shadow, 6.0);
+            add_sun(projection, 6.0);
         else if (GetParam() == Way::spot)
-            add_light({.kind = LightKind::spot, .intensity = 3000.0f, .outer_cone_rad = 0.8f}, place_m, kDown, shadow);
+            add_light({.kind = LightKind::spot, .intensity = 3000.0f, .outer_cone_rad = 0.8f}, place_m, kDown, shadow,
+                      {.projection = projection});
         else
-            add_light({.kind = LightKind::point, .intensity = 3000.0f}, place_m, kDown, shadow);
+            add_light({.kind = LightKind::point, .intensity = 3000.0f}, place_m, kDown, shadow,
+                      {.projection = projection});
     }
     /// Ground; a box high up on the left; on the right a card at 4 m under a smaller card at 6 m.
     void add_scene() {
@@ -137,7 +140,10 @@ TEST_P(GivenRange, AbsurdOnesLeaveThePictureAsItIsAndAreReported) {
     constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
     for (const auto& [near_m, far_m] : {std::pair(9.0f, 8.0f), {kNan, 0.0f}, {-1.0f, 20.0f}, {3.0f, 3.0f}}) {
         const ecs::Entity light = frame().snapshot().lights[0].entity;
-        world.patch<LightShadow>(light, [&, n = near_m, f = far_m](LightShadow& s) { s.near_m = n, s.far_m = f; });
+        edit_light(world, light, [n = near_m, f = far_m](ShadowTuning& t) {
+            t.projection.near_m = n;
+            t.projection.far_m = f;
+        });
         draw();
         EXPECT_EQ(fitted, visibility()) << near_m << ", " << far_m;
         EXPECT_EQ(frame().report().lights[0].state, LightState::degraded);
@@ -151,7 +157,7 @@ TEST_P(GivenRange, AWideOneChangesNothingThatShows) {
     draw();
     const auto fitted = visibility();
     const ecs::Entity light = frame().snapshot().lights[0].entity;
-    world.patch<LightShadow>(light, [](LightShadow& s) { s.near_m = 0.5f, s.far_m = 500.0f; });
+    edit_light(world, light, [](ShadowTuning& t) { t.projection.near_m = 0.5f, t.projection.far_m = 500.0f; });
     draw();
     const auto wide = visibility();
     std::size_t differ = 0;

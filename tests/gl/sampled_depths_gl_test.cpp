@@ -117,8 +117,8 @@ TEST_F(SampledPicture, CountsAsManyPixelsAsShowSurfacesAndWhereTheyStand) {
     settings.repeatable = true;
     add_box({-1.0, -1.0, -9.0}, {1.0, 1.0, -8.0});
     add_box({-300.0, -300.0, -101.0}, {300.0, 300.0, -100.0});
-    add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, {-0.5, -1.0, -0.3},
-              {.resolution_px = 256, .splits = CascadeSplits::sampled});
+    add_light({.kind = LightKind::directional, .intensity = 10000.0f}, {}, {-0.5, -1.0, -0.3}, {.resolution_px = 256},
+              {.cascades = {.splits = CascadeSplits::sampled}});
     add_camera({.fov_y_rad = 0.9f, .near_m = 0.1}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     draw();
     EXPECT_EQ(frame().snapshot().sampled_depths.camera, ecs::kNull);

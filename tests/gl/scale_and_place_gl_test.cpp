@@ -21,8 +21,8 @@ void boxes(World& w) {
 void lamp_and_spots(World& w) {
     w.settings = {kSize};
     w.lamp({1.5, 4.0, -1.0});
-    w.lamp({-1.0, 3.0, 2.0}, 6.0,
-           {.near_m = static_cast<float>(0.5 * w.scale), .far_m = static_cast<float>(7.0 * w.scale)});
+    w.lamp({-1.0, 3.0, 2.0}, 6.0, {},
+           {.projection = {.near_m = static_cast<float>(0.5 * w.scale), .far_m = static_cast<float>(7.0 * w.scale)}});
     w.spot({-2.0, 5.0, 1.0}, {0.4, -1.0, -0.2}, 0.7);
     w.spot({-2.0, 3.0, 1.0}, {0.4, -1.0, -0.2}, 1.2);  // so wide that it is faces of a cube
 }
@@ -35,12 +35,9 @@ void all_lights(World& w) {
         w.sun(kSlant);
     }
     w.settings = {"fit=tight", kSize, "splits=manual"};
-    LightShadow own;
-    own.split_m = {metres(6.0), metres(11.0)};
-    own.cascade_blend = 0.25f;
-    w.sun(kSlant, own);
+    w.sun(kSlant, {}, {.cascades = {.split_m = {metres(6.0), metres(11.0)}, .blend = 0.25f}});
     w.settings = {"fit=tight", kSize};
-    w.sun(kSlant, {.bias = BiasMode::constant, .bias_m = metres(0.03)});
+    w.sun(kSlant, {}, {.bias = {.mode = BiasMode::constant, .offset_m = metres(0.03)}});
     lamp_and_spots(w);
 }
 

@@ -91,7 +91,8 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
         // The cube lies askew to the room: in its creases a tap that leaves the room is behind the other wall. One that
         // is compared on the receiver's plane is not allowed to mind.
         const bool on_plane = filters()[light].reading == shadow::MapReading::depths;
-        const double reach = static_cast<double>(shadow::filter_settings({.filter = filters()[light].id}, kCoarse_px).widest_texel);
+        const double reach =
+            static_cast<double>(shadow::filter_settings(filters()[light], LightItem{}, kCoarse_px).widest_texel);
         const double widest_texel_m = 2.0 / kCoarse_px * glm::length(glm::abs(lamp) + kHalf_m);
         truth.margin_m = on_plane ? least_m : std::max(least_m, std::sqrt(2.0) * reach * widest_texel_m);
         EXPECT_GE(frame().report().lights[light].views, 4u);  // as many as the camera sees walls in

@@ -51,7 +51,7 @@ protected:
         shadow::ShadowRequest& request = frame.decisions[0].request;
         shadow::MapSettings& map = request.map;
         map.filter = ask == Ask::middle ? ShadowFilter::triangles : ShadowFilter::exact_soft;
-        map.filtering = shadow::filter_settings(shadow::filter_row(map.filter), light.shadow, size_px);
+        map.filtering = shadow::filter_settings(shadow::filter_row(map.filter), light, size_px);
         map.resolution_px = request.limits.max_px = size_px;
         map.view_count = static_cast<std::uint32_t>(views.size());
         frame.statuses.resize(1);

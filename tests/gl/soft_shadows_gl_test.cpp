@@ -13,20 +13,19 @@ constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKi
 class SoftShadows : public TracedFrameTest {
 protected:
     /// A ground, and at that height a sheet over the half of it where x is negative.
-    void build(LightKind kind, double height_m, const LightShadow& shadow, bool sheet = true) {
+    void build(LightKind kind, double height_m, ShadowFilter filter, const ShadowTuning& tuning = {},
+               bool sheet = true) {
         start_anew();
         place(add_mesh(game::make_box({-4.0, -0.1, -4.0}, {4.0, 0.0, 4.0})));
         if (sheet)
             place(add_mesh(game::make_box({-4.0, height_m, -3.0}, {0.0, height_m + 0.01, 3.0})));
-        light_ = add_light_of(kind, {0.4, kLamp_m, 0.3}, shadow);
+        light_ = add_light_of(kind, {0.4, kLamp_m, 0.3}, {.filter = filter, .resolution_px = 1024}, tuning);
         add_camera({.fov_y_rad = 0.35}, {0.4, 1.2, 3.0}, glm::dvec3(-0.35, -1.2, -3.0));
     }
-    LightShadow soft(LightKind, ShadowFilter filter = ShadowFilter::pcss) const {
-        return {.filter = filter,
-                .filter_taps = 32,
-                .source_radius_m = 0.3f,
-                .sun_radius_rad = 0.08f,
-                .resolution_px = 1024};
+    /// The same under a light with a size.
+    void build_soft(LightKind kind, double height_m, ShadowFilter filter = ShadowFilter::pcss, bool sheet = true) {
+        build(kind, height_m, filter, {.kernel = {.taps = 32}}, sheet);
+        world.patch<Light>(light_, [](Light& light) { light.source_radius_m = 0.3f, light.sun_radius_rad = 0.08f; });
     }
     struct Soft {
         oracle::SoftMetrics metrics;
@@ -56,7 +55,7 @@ TEST_F(SoftShadows, OfOneEdgeAreAsWideAsTheSourceMakesThemFromEveryHeight) {
     for (const LightKind kind : kKinds)
         for (const double height_m : {0.2, 0.4, 0.8, 1.2, 1.6}) {
             SCOPED_TRACE(std::string(kind_name(kind)) + " " + std::to_string(height_m));
-            build(kind, height_m, soft(kind));
+            build_soft(kind, height_m);
             draw();
             const oracle::SoftMetrics m = judge_soft().metrics;
             EXPECT_GT(m.widths.places, 100u);
@@ -72,7 +71,7 @@ TEST_F(SoftShadows, PrefilteredOfOneEdgeAreAboutAsWideAsTheSourceMakesThem) {
     for (const LightKind kind : kKinds)
         for (const double height_m : {0.2, 0.4, 0.8, 1.2, 1.6}) {
             SCOPED_TRACE(std::string(kind_name(kind)) + " " + std::to_string(height_m));
-            build(kind, height_m, soft(kind, ShadowFilter::pcss_moments));
+            build_soft(kind, height_m, ShadowFilter::pcss_moments);
             draw();
             const oracle::SoftMetrics m = judge_soft().metrics;
             EXPECT_GT(m.widths.places, 100u);
@@ -90,7 +89,7 @@ TEST_F(SoftShadows, WithoutASizeAreThoseOfTheFilterBeneathToTheBit) {
                 SCOPED_TRACE(std::string(kind_name(kind)) + " " + std::to_string(levels));
                 std::vector<float> shown[2];
                 for (const bool plain : {false, true}) {
-                    build(kind, 0.8, {.filter = plain ? beneath : filter, .moment_levels = levels, .resolution_px = 1024});
+                    build(kind, 0.8, plain ? beneath : filter, {.moments = {.levels = levels}});
                     draw();
                     shown[plain] = visibility();
                 }
@@ -104,7 +103,7 @@ TEST_F(SoftShadows, WithoutASizeAreThoseOfTheSharpFilterToTheBit) {
         SCOPED_TRACE(kind_name(kind));
         std::vector<float> shown[2];
         for (const ShadowFilter filter : {ShadowFilter::pcss, ShadowFilter::sharp_4x4}) {
-            build(kind, 0.8, {.filter = filter, .resolution_px = 1024, .cascade_blend = 0.0f});
+            build(kind, 0.8, filter, {.cascades = {.blend = 0.0f}});
             draw();
             shown[filter == ShadowFilter::pcss] = visibility();
         }
@@ -119,7 +118,7 @@ TEST_F(SoftShadows, AreNoWiderBesideAHighCasterThatHidesNothingOfTheSource) {
     for (const bool aside : {true, false}) {
         std::vector<float> shown[2];
         for (const bool high : {false, true}) {
-            build(LightKind::directional, 0.3, soft(LightKind::directional));
+            build_soft(LightKind::directional, 0.3);
             const double x = aside ? 0.5 : -0.1;
             if (high) place(add_mesh(game::make_box({x, 3.0, -3.0}, {x + 1.0, 3.1, 3.0})));
             world.patch<Transform>(light_, [](Transform& t) { t.rotation = looking_along({0.0, -1.0, 0.0}); });
@@ -146,7 +145,7 @@ TEST_F(SoftShadows, WithoutTheCasterAreGone) {
     for (const ShadowFilter filter : {ShadowFilter::pcss, ShadowFilter::pcss_moments})
         for (const LightKind kind : kKinds) {
             SCOPED_TRACE(kind_name(kind));
-            build(kind, 0.8, soft(kind, filter), false);
+            build_soft(kind, 0.8, filter, false);
             draw();
             const std::vector<float> shown = visibility();
             EXPECT_EQ(std::count_if(shown.begin(), shown.end(), [](float v) { return v >= 0.0f && v < 1.0f; }), 0);
@@ -157,9 +156,8 @@ void SoftShadows::plane_alone_is_lit(ShadowFilter filter) {
     for (const LightKind kind : kKinds)
         for (const double height_m : {0.02, 0.1, 0.5, 2.0}) {
             SCOPED_TRACE(std::string(kind_name(kind)) + " " + std::to_string(height_m));
-            LightShadow shadow = soft(kind, filter);
-            shadow.sun_radius_rad = shadow.source_radius_m = 0.3f;
-            build(kind, 0.0, shadow, false);
+            build_soft(kind, 0.0, filter, false);
+            world.patch<Light>(light_, [](Light& light) { light.sun_radius_rad = light.source_radius_m = 0.3f; });
             const glm::dvec3 at_m(-1.7, height_m, 1.1);
             world.patch<Transform>(light_, [&](Transform& t) {
                 t.translation_m = at_m;

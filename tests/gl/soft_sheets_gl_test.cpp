@@ -36,8 +36,8 @@ protected:
         constexpr double kAllCasters_m = 25.0;   // before the near plane they would be as near as that
         View view = test::view_of(GetParam(), scene, random, kAllCasters_m);
         view.light.shadow.filter = ShadowFilter::exact_soft;
-        view.light.shadow.sun_radius_rad = static_cast<float>(std::pow(10.0, between(random, -3.5, -0.8)));
-        view.light.shadow.source_radius_m = static_cast<float>(std::pow(10.0, between(random, -4.0, -0.7)));
+        view.light.sun_radius_rad = static_cast<float>(std::pow(10.0, between(random, -3.5, -0.8)));
+        view.light.source_radius_m = static_cast<float>(std::pow(10.0, between(random, -4.0, -0.7)));
         if (chance(random, 0.5)) surround(scene, view.light, random);
         scene.snapshot.lights = {view.light};
         ConsumerItem camera;
@@ -63,7 +63,7 @@ private:
     /// Small things around a lamp, as a cage or a housing has them, some of them in one face of its cube alone.
     static void surround(QueryScene& scene, const LightItem& light, Random& random) {
         if (light.kind == LightKind::directional) return;
-        const double radius_m = static_cast<double>(light.shadow.source_radius_m);
+        const double radius_m = static_cast<double>(light.source_radius_m);
         const std::uint32_t cube = scene.add_cube();
         const auto count = static_cast<int>(between(random, 1.0, 12.0));
         for (int i = 0; i < count; ++i) {

@@ -18,8 +18,9 @@ protected:
         return mesh;
     }
     /// A light of each kind above the ground around the origin.
-    ecs::Entity add_light_of(LightKind kind, const glm::dvec3& at_m, const LightShadow& shadow) {
-        return add_light({.kind = kind, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at_m, -at_m, shadow);
+    ecs::Entity add_light_of(LightKind kind, const glm::dvec3& at_m, const LightShadow& shadow,
+                             const ShadowTuning& tuning = {}) {
+        return add_light({.kind = kind, .range_m = 0.0f, .outer_cone_rad = 1.0f}, at_m, -at_m, shadow, tuning);
     }
     struct Judged {
         oracle::Metrics metrics;

@@ -40,7 +40,7 @@ std::string diamond_file() {
     return text.str();
 }
 // [row]
-std::uint32_t five(const LightShadow&, bool) { return 5; }
+std::uint32_t five(const ShadowTuning::Kernel&, bool) { return 5; }
 
 constexpr shadow::FilterRow kDiamond{
     ShadowFilter::count, "diamond", "shadow/filters/diamond.glsl", five, 1.5f, shadow::FilterWidth::fixed,
@@ -71,12 +71,12 @@ protected:
     void SetUp() override {
         GlTest::SetUp();
         row_ = GetParam();
-        if (is_soft()) shadow_ = kSource;
+        if (is_soft()) settings_ = kSource;
     }
     /// Another row than the test's parameter.
-    void use(const shadow::FilterRow& row, const LightShadow& shadow) {
+    void use(const shadow::FilterRow& row, const LightItem& settings) {
         row_ = row;
-        shadow_ = shadow;
+        settings_ = settings;
         programs_ = {};
     }
 
@@ -92,9 +92,16 @@ protected:
     /// Whether values between lit and dark occur.
     bool blends() const { return row_.id != ShadowFilter::hard && (!reads_depths() || is_soft()); }
     bool is_soft() const { return row_.width == shadow::FilterWidth::source; }
-    shadow::FilterSettings filtering() const { return shadow::filter_settings(row_, shadow_, kMap_px); }
+    LightItem item(LightKind kind) const {
+        LightItem light = settings_;
+        light.kind = kind;
+        return light;
+    }
+    shadow::FilterSettings filtering(LightKind kind) const { return shadow::filter_settings(row_, item(kind), kMap_px); }
     /// E in the tangent or metres of the map.
-    double reach() const { return static_cast<double>(filtering().widest_texel) * 2.0 * kHalf / kMap_px; }
+    double reach(LightKind kind) const {
+        return static_cast<double>(filtering(kind).widest_texel) * 2.0 * kHalf / kMap_px;
+    }
 
     /// The row as a program that looks up a list of probes.
     gl::ProgramHandle program_of(LightKind kind) {
@@ -112,7 +119,8 @@ protected:
         files.push_back({"probe.frag", fragment});
         const std::string diamond = diamond_file();
         files.push_back({kDiamond.file, diamond});
-        std::vector<std::string> defines{"SHADOWED 1", "SHADOW_REACH_TEXEL " + std::to_string(filtering().reach_texel)};
+        std::vector<std::string> defines{"SHADOWED 1",
+                                         "SHADOW_REACH_TEXEL " + std::to_string(filtering(kind).reach_texel)};
         if (reads_depths()) defines.emplace_back("SHADOW_DEPTHS 1");
         if (reads_moments()) defines.emplace_back("SHADOW_MOMENTS 1");
         if (reads_triangles()) defines.emplace_back("SHADOW_TRIANGLES 1");
@@ -145,11 +153,11 @@ protected:
         const auto probe_bytes = std::as_bytes(std::span(probes));
         const auto buffer = keep(device().create_buffer({.label = "probes", .size = probe_bytes.size(), .use = gl::BufferUse::fixed}, probe_bytes));
         shadow::LightRecord light = record(kind);
-        const shadow::FilterSettings filter = filtering();
+        const shadow::FilterSettings filter = filtering(kind);
         light.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), early_bail ? 1 : 0, 1};
         light.spread = {filter.spread_texel, 0.0f, 0.0f, filter.most_spread_texel};
         light.seed_place.w = 1.0f / filter.cell_m;
-        const shadow::PrefilterSettings moments = shadow::prefilter_settings(row_, shadow_, kMap_px);
+        const shadow::PrefilterSettings moments = shadow::prefilter_settings(row_, item(kind), kMap_px);
         light.moments = moments.settings;
         light.moment_sampling.x = moments.bleeding;
         light.radiance.w = kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
@@ -166,7 +174,8 @@ protected:
         list.add(gl::SetPipeline{{.program = program_of(kind)}});
         list.add(gl::BindUniforms{1, uniforms, 0, sizeof light});
         list.add(gl::BindStorage{kProbeBinding, buffer});
-        list.add(gl::BindTexture{4, reads_moments() ? moments_of(row_, shadow_, kind, map, kMap_px, {kNear_m, kFar_m}) : map, sampler});
+        list.add(gl::BindTexture{
+            4, reads_moments() ? moments_of(row_, item(kind), map, kMap_px, {kNear_m, kFar_m}) : map, sampler});
         if (reads_triangles()) list.add(gl::BindTexture{5, no_triangles(kind_row.texture), {}});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
@@ -223,14 +232,14 @@ protected:
     }
 
     /// Of rows that ask for it: the cone from half_covered()'s receivers to the source is a few texels wide at the casters.
-    static constexpr LightShadow kSource{.source_radius_m = 0.3f, .sun_radius_rad = 0.05f};
+    const LightItem kSource{.source_radius_m = 0.3f, .sun_radius_rad = 0.05f};
     static constexpr float kWeights = 1e-6f;  // a sampler's weights sum up to 1 but for rounding
     static constexpr float kMiddle = 0.5f;  // a depth between near and far
     static constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
 private:
     shadow::FilterRow row_{};
-    LightShadow shadow_;
+    LightItem settings_;
     std::array<gl::ProgramHandle, 3> programs_{};
 };
 
@@ -278,8 +287,8 @@ TEST_P(VisibilityInclude, FartherThanItsHalfWidthFromACastersEdgeItIsLitOrDarkAn
             const auto points = places(kind, 5.5, 8.8);
             const auto values = look_up(kind, half_covered(kind), points, early_bail);
             // A flat map leaves a border; a texel of the next face is larger by what lies beyond the seam.
-            const double border = kind == LightKind::point ? 2.0 : 1.0 - reach();
-            const double clear = reach() * (kind == LightKind::point ? 1.0 + 2.0 * reach() : 1.0);
+            const double border = kind == LightKind::point ? 2.0 : 1.0 - reach(kind);
+            const double clear = reach(kind) * (kind == LightKind::point ? 1.0 + 2.0 * reach(kind) : 1.0);
             std::size_t dark = 0, lit = 0, between = 0, inside = 0;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const double away = from_edge(kind, points[i]);
@@ -294,7 +303,8 @@ TEST_P(VisibilityInclude, FartherThanItsHalfWidthFromACastersEdgeItIsLitOrDarkAn
                 EXPECT_NEAR(values[i], expected, kWeights) << "at " << points[i].x << " " << points[i].y << " " << points[i].z;
                 (expected > 0.0f ? lit : dark) += 1;
             }
-            const auto enough = static_cast<std::size_t>(200.0 * (1.0 - 2.0 * reach()));  // of wide ones fewer are left
+            const auto enough =
+                static_cast<std::size_t>(200.0 * (1.0 - 2.0 * reach(kind)));  // of wide ones fewer are left
             EXPECT_GT(lit, enough);
             EXPECT_GT(dark, enough);
             EXPECT_GT(inside, 5u) << "nothing near the edge: the test sees nothing";
@@ -347,10 +357,10 @@ TEST_P(FewestFetches, AreTheMeanOfASquareOfHardwareTapsATexelApart) {
         for (int i = 0; i < 500; ++i) points.push_back({place(random) * (kind == LightKind::directional ? 1.0f : 8.0f), place(random), -8.0f});
         for (const std::uint32_t size : {1u, 3u, 5u, 7u}) {
             SCOPED_TRACE(std::string(shadow::light_kind_row(kind).name) + " " + std::to_string(size));
-            const LightShadow shadow{.filter_size = size};
-            use(plain, shadow);
+            const LightItem wide{.tuning = {.kernel = {.size_texel = size}}};
+            use(plain, wide);
             const auto wanted = look_up(kind, texels, points);
-            use(GetParam(), shadow);
+            use(GetParam(), wide);
             const auto found = look_up(kind, texels, points);
             float worst = 0.0f, range = 0.0f;
             for (std::size_t i = 0; i < wanted.size(); ++i) {
@@ -359,8 +369,8 @@ TEST_P(FewestFetches, AreTheMeanOfASquareOfHardwareTapsATexelApart) {
             }
             EXPECT_LT(worst, kBlendError);
             EXPECT_GT(range, 5.0f * kBlendError) << "every place looks the same";
-            EXPECT_EQ(GetParam().taps(shadow, false), (size + 1) * (size + 1) / 4);
-            EXPECT_EQ(plain.taps(shadow, false), size * size);
+            EXPECT_EQ(GetParam().taps(wide.tuning.kernel, false), (size + 1) * (size + 1) / 4);
+            EXPECT_EQ(plain.taps(wide.tuning.kernel, false), size * size);
         }
     }
 }

@@ -107,6 +107,8 @@ struct Case {
     const char* name;
     LightShadow shadow;
     bool shadow::ProgramRow::*needs;
+    ShadowTuning tuning = {};
+    float source_radius_m = 0.0f, sun_radius_rad = 0.0f;
 };
 
 int check(LightKind kind, const Case& wanted) {
@@ -115,7 +117,11 @@ int check(LightKind kind, const Case& wanted) {
     const assets::MeshLibrary library = ground_and_box();
     auto gpu_scene = GpuScene::create(*device.value(), library);
     if (!gpu_scene) return fail(to_line(gpu_scene.error()));
-    const SceneSnapshot scene = stage_with({kind}, wanted.shadow, library);
+    SceneSnapshot scene = stage_with({kind}, wanted.shadow, library);
+    LightItem& lamp = scene.lights.front();
+    lamp.tuning = wanted.tuning;
+    lamp.source_radius_m = wanted.source_radius_m;
+    lamp.sun_radius_rad = wanted.sun_radius_rad;
 
     // [shadows]
     shadow::ShadowSystem shadows(*device.value());
@@ -171,18 +177,16 @@ int main() {
         {"triangles", {.filter = ShadowFilter::triangles}, &shadow::ProgramRow::triangles},
         {"moments", {.filter = ShadowFilter::moments, .resolution_px = 512}, &shadow::ProgramRow::moments},
         {"evsm4 with mipmaps",
-         {.filter = ShadowFilter::evsm4, .moment_levels = 2, .moment_anisotropy = 4, .resolution_px = 2048},
-         &shadow::ProgramRow::footprint},
-        {"pcss",
-         {.filter = ShadowFilter::pcss, .source_radius_m = 1.0f, .sun_radius_rad = 0.01f},
-         &shadow::ProgramRow::depths},
+         {.filter = ShadowFilter::evsm4, .resolution_px = 2048},
+         &shadow::ProgramRow::footprint,
+         {.moments = {.levels = 2, .anisotropy = 4}}},
+        {"pcss", {.filter = ShadowFilter::pcss}, &shadow::ProgramRow::depths, {}, 1.0f, 0.01f},
         {"exact", {.filter = ShadowFilter::exact}, &shadow::ProgramRow::sheets},
-        {"exact_soft",
-         {.filter = ShadowFilter::exact_soft, .source_radius_m = 1.0f, .sun_radius_rad = 0.01f},
-         &shadow::ProgramRow::sheets},
+        {"exact_soft", {.filter = ShadowFilter::exact_soft}, &shadow::ProgramRow::sheets, {}, 1.0f, 0.01f},
         {"exact without a map",
-         {.filter = ShadowFilter::exact, .projection = LightProjection::perspective},
-         &shadow::ProgramRow::rays}};
+         {.filter = ShadowFilter::exact},
+         &shadow::ProgramRow::rays,
+         {.projection = {.kind = LightProjection::perspective}}}};
     int failed = 0;
     for (const Case& one : cases)
         for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})

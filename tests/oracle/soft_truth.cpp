@@ -118,8 +118,8 @@ bool undecided(const std::vector<Sum>& few, const glm::uvec2& size_px, const glm
 }  // namespace
 
 double source_size(const LightItem& light) {
-    if (light.kind == LightKind::directional) return std::tan(static_cast<double>(light.shadow.sun_radius_rad));
-    return static_cast<double>(light.shadow.source_radius_m);
+    if (light.kind == LightKind::directional) return std::tan(static_cast<double>(light.sun_radius_rad));
+    return static_cast<double>(light.source_radius_m);
 }
 
 SoftTruth ReferenceTracer::trace_source(const PrimaryHits& hits, const LightItem& light,

@@ -7,7 +7,7 @@
 /// Ray-traced truth about the shadows of a source with a size.
 namespace gnomon::oracle {
 
-/// The source's size as shadows take it: LightShadow's radius in metres, or the tangent of a sun's angular radius. 0: a
+/// The source's size as shadows take it: Light's radius in metres, or the tangent of a sun's angular radius. 0: a
 /// point.
 double source_size(const LightItem& light);
 

@@ -56,8 +56,8 @@ protected:
     Walk go(const std::string& path, const std::vector<std::string>& settings) {
         for (const game::NamedEntity& light : spawned_.lights)
             for (const std::string& setting : settings)
-                world_.patch<LightShadow>(light.entity,
-                                          [&](LightShadow& s) { EXPECT_FALSE(game::apply_setting(s, setting)); });
+                game::change_settings(world_, light.entity,
+                                      [&](game::LightSettings& s) { EXPECT_FALSE(game::apply_setting(s, setting)); });
         extract();
         Walk walk;
         shadow::History history;

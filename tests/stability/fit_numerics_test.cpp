@@ -70,7 +70,7 @@ TEST_P(FitNumerics, AMillionMetresAwayTheMapCoordinatesAreTheSame) {
     for (int round = 0; round < 60; ++round) {
         SCOPED_TRACE("round " + std::to_string(round));
         SceneSnapshot scene = random.scene(GetParam());
-        scene.lights[0].shadow.fit = ShadowFit::tight;  // the others lie on lattices of the world
+        scene.lights[0].tuning.cascades.fit = ShadowFit::tight;  // the others lie on lattices of the world
         expect_same(scene, 1.0, glm::dvec3(1e6, -1e6, 1e6));
     }
 }
@@ -88,7 +88,7 @@ SceneSnapshot wall_edge_on(const glm::dvec3& at, std::uint32_t cascades) {
     s.consumers[0].fov_y_rad = 0.04;
     s.lights[0].rotation_ws = math::basis_from_back({0, 1, 0});
     s.lights[0].shadow.cascades = cascades;
-    s.lights[0].shadow.fit = ShadowFit::tight;
+    s.lights[0].tuning.cascades.fit = ShadowFit::tight;
     place(s, 1.0, at);
     return s;
 }

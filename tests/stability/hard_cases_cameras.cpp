@@ -130,7 +130,7 @@ void linear_splits() {
     World w;
     w.ground(50.0);
     w.box({-0.5, 0.0, -0.5}, {0.5, 1.0, 0.5});
-    w.sun(kSlant, {.cascades = 4, .cascade_blend = 0.0f});  // so that each begins where the one before ends
+    w.sun(kSlant, {.cascades = 4}, {.cascades = {.blend = 0.0f}});  // so that each begins where the one before ends
     w.camera({0.0, 20.0, 20.0}, kOrigin,
              {.projection = CameraProjection::orthographic, .half_height_m = 8.0, .near_m = 0.1, .far_m = 100.0});
     Stages stages(w);

@@ -75,25 +75,25 @@ ecs::Entity World::ground(double half_m, const glm::dvec3& at) {
 }
 
 ecs::Entity World::light(const Light& light, const glm::dvec3& at, const glm::dvec3& direction,
-                         const LightShadow& shadow) {
+                         const LightShadow& shadow, const ShadowTuning& tuning) {
     const ecs::Entity entity = registry.create();
     Light scaled = light;
     scaled.range_m = static_cast<float>(static_cast<double>(light.range_m) * scale);
     if (light.kind != LightKind::directional) scaled.intensity *= static_cast<float>(scale * scale);
     registry.emplace<Transform>(entity, {at * scale + offset_m, looking_along(direction)});
     registry.emplace<Light>(entity, scaled);
-    LightShadow set = shadow;
+    game::LightSettings set{.shadow = shadow, .tuning = tuning};
     for (const std::string& setting : settings)
         if (const auto error = game::apply_setting(set, setting)) throw std::invalid_argument(to_line(*error));
-    registry.emplace<LightShadow>(entity, set);
+    game::put_settings(registry, entity, set);
     return entity;
 }
-ecs::Entity World::sun(const glm::dvec3& direction, const LightShadow& shadow) {
-    return light({.kind = LightKind::directional, .intensity = kSun_lx}, kOrigin, direction, shadow);
+ecs::Entity World::sun(const glm::dvec3& direction, const LightShadow& shadow, const ShadowTuning& tuning) {
+    return light({.kind = LightKind::directional, .intensity = kSun_lx}, kOrigin, direction, shadow, tuning);
 }
-ecs::Entity World::lamp(const glm::dvec3& at, double range_m, const LightShadow& shadow) {
+ecs::Entity World::lamp(const glm::dvec3& at, double range_m, const LightShadow& shadow, const ShadowTuning& tuning) {
     return light({.kind = LightKind::point, .intensity = kLamp_cd, .range_m = static_cast<float>(range_m)}, at, kDown,
-                 shadow);
+                 shadow, tuning);
 }
 ecs::Entity World::spot(const glm::dvec3& at, const glm::dvec3& direction, double outer_rad,
                         const LightShadow& shadow) {

@@ -39,9 +39,11 @@ struct World {
     /// Two triangles at height y = 0 of `at`, facing up; casts nothing.
     ecs::Entity ground(double half_m, const glm::dvec3& at = kOrigin);
 
-    ecs::Entity light(const Light& light, const glm::dvec3& at, const glm::dvec3& direction, const LightShadow& = {});
-    ecs::Entity sun(const glm::dvec3& direction, const LightShadow& shadow = {});
-    ecs::Entity lamp(const glm::dvec3& at, double range_m = 0.0, const LightShadow& shadow = {});
+    ecs::Entity light(const Light& light, const glm::dvec3& at, const glm::dvec3& direction, const LightShadow& = {},
+                      const ShadowTuning& = {});
+    ecs::Entity sun(const glm::dvec3& direction, const LightShadow& shadow = {}, const ShadowTuning& tuning = {});
+    ecs::Entity lamp(const glm::dvec3& at, double range_m = 0.0, const LightShadow& shadow = {},
+                     const ShadowTuning& tuning = {});
     ecs::Entity spot(const glm::dvec3& at, const glm::dvec3& direction, double outer_rad, const LightShadow& = {});
     /// A sun, a lamp and a spot above the origin.
     void three_lights();

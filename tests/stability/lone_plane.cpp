@@ -157,7 +157,7 @@ public:
                                                 : LightKind::directional;
         light.has_shadow = true;
         light.shadow.filter = filter;
-        light.shadow.depth_format = format;
+        light.tuning.maps.depth_format = format;
         scene_.lights = {light};
     }
     const shadow::LightingLight& of(const std::vector<ShadowView>& views, std::uint32_t size_px,
@@ -168,9 +168,9 @@ public:
         light.rotation_ws = {views[0].axis_u, views[0].axis_v, views[0].axis_back};
         shadow::ShadowRequest demand;
         demand.filter = light.shadow.filter;
-        demand.depth_format = light.shadow.depth_format;
+        demand.depth_format = light.tuning.maps.depth_format;
         demand.resolution_px = size_px;
-        demand.filtering = shadow::filter_settings(light.shadow, size_px);
+        demand.filtering = shadow::filter_settings(light, size_px);
         frame_.demands = {demand};
         frame_.fitted.views = views;
         frame_.slots.assign(views.size(), {.texture = {1}, .size_px = size_px});

@@ -71,23 +71,25 @@ ConsumerItem RandomFits::camera(const SceneSnapshot& scene) {
     return camera;
 }
 
-void RandomFits::cascades(LightShadow& shadow) {
-    shadow.fit = kFits[static_cast<std::size_t>(number(0.0, std::size(kFits)))];
-    shadow.splits = kSplits[static_cast<std::size_t>(number(0.0, std::size(kSplits)))];
-    shadow.cascades = static_cast<std::uint32_t>(number(0.0, kMaxCascades + 1.0));
-    shadow.split_lambda = static_cast<float>(number(0.0, 1.0));
-    if (chance(0.3)) shadow.cascade_blend = static_cast<float>(number(0.0, 0.5));
+void RandomFits::cascades(LightItem& light) {
+    ShadowTuning::Cascades& tuning = light.tuning.cascades;
+    tuning.fit = kFits[static_cast<std::size_t>(number(0.0, std::size(kFits)))];
+    tuning.splits = kSplits[static_cast<std::size_t>(number(0.0, std::size(kSplits)))];
+    light.shadow.cascades = static_cast<std::uint32_t>(number(0.0, kMaxCascades + 1.0));
+    tuning.split_lambda = static_cast<float>(number(0.0, 1.0));
+    if (chance(0.3)) tuning.blend = static_cast<float>(number(0.0, 0.5));
 }
 
-void RandomFits::eye(LightShadow& shadow) {
-    shadow.projection = LightProjection::perspective;
-    shadow.eye_angle_rad = static_cast<float>(size(0.01, 2.7));
-    if (chance(0.5)) shadow.eye_distance_m = static_cast<float>(size(0.5, 500.0));
+void RandomFits::eye(ShadowTuning::Projection& tuning) {
+    tuning.kind = LightProjection::perspective;
+    tuning.eye_angle_rad = static_cast<float>(size(0.01, 2.7));
+    if (chance(0.5)) tuning.eye_distance_m = static_cast<float>(size(0.5, 500.0));
 }
 
-void RandomFits::depth_range(LightShadow& shadow) {
-    if (chance(0.7)) shadow.near_m = static_cast<float>(size(0.01, 100.0));
-    if (chance(0.7)) shadow.far_m = (shadow.near_m > 0.0f ? shadow.near_m : 1.0f) * static_cast<float>(size(1.01, 100.0));
+void RandomFits::depth_range(ShadowTuning::Projection& tuning) {
+    if (chance(0.7)) tuning.near_m = static_cast<float>(size(0.01, 100.0));
+    if (chance(0.7))
+        tuning.far_m = (tuning.near_m > 0.0f ? tuning.near_m : 1.0f) * static_cast<float>(size(1.01, 100.0));
 }
 
 LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
@@ -100,10 +102,10 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
         light.shadow.filter = filter_table()[static_cast<std::size_t>(number(0.0, static_cast<double>(filter_table().size())))].id;
     } while (asks_rays(filter_row(light.shadow.filter)));
     if (kind == LightKind::directional) {
-        cascades(light.shadow);
-        if (chance(0.15)) eye(light.shadow);
+        cascades(light);
+        if (chance(0.15)) eye(light.tuning.projection);
     }
-    if (chance(0.15)) depth_range(light.shadow);
+    if (chance(0.15)) depth_range(light.tuning.projection);
     const math::Aabb& near = scene.instances.front().bounds_ws;
     light.position_ws_m = on_lattice(chance(0.1) ? near.min : chance(0.2) ? math::centre(near) : vector(size(1.0, 128.0)));
     const math::Aabb& aim = scene.instances.back().bounds_ws;
@@ -131,7 +133,7 @@ SceneSnapshot RandomFits::scene(LightKind kind) {
     const std::size_t cameras = chance(0.15) ? static_cast<std::size_t>(number(2.0, 5.0)) : 1;
     while (s.consumers.size() < cameras) s.consumers.push_back(camera(s));
     s.lights.push_back(light(kind, s));
-    if (s.lights[0].shadow.splits == CascadeSplits::sampled) s.sampled_depths = depths(s.consumers[0]);
+    if (s.lights[0].tuning.cascades.splits == CascadeSplits::sampled) s.sampled_depths = depths(s.consumers[0]);
     return s;
 }
 
@@ -177,7 +179,8 @@ void scale(SceneSnapshot& s, int power) {
     for (LightItem& l : s.lights) {
         l.position_ws_m *= by;
         l.range_m *= by;
-        for (float* metres : {&l.shadow.near_m, &l.shadow.far_m, &l.shadow.eye_distance_m}) *metres *= static_cast<float>(by);
+        ShadowTuning::Projection& given = l.tuning.projection;
+        for (float* metres : {&given.near_m, &given.far_m, &given.eye_distance_m}) *metres *= static_cast<float>(by);
     }
 }
 

@@ -29,9 +29,9 @@ private:
     InstanceItem box(std::uint32_t index);
     ConsumerItem camera(const SceneSnapshot& scene);
     LightItem light(LightKind kind, const SceneSnapshot& scene);
-    void cascades(LightShadow& shadow);
-    void eye(LightShadow& shadow);
-    void depth_range(LightShadow& shadow);
+    void cascades(LightItem& light);
+    void eye(ShadowTuning::Projection& tuning);
+    void depth_range(ShadowTuning::Projection& tuning);
     SampledDepths depths(const ConsumerItem& camera);
     glm::dvec3 direction();
 

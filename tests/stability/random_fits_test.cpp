@@ -115,7 +115,7 @@ protected:
         source.position_ws_m =
             frame.fitted.views.empty()
                 ? sun_eye(math::basis_from_back(light.rotation_ws[2]),
-                          std::span(frame.sets.receiver_points_ws).subspan(seen.first, seen.count), light.shadow)
+                          std::span(frame.sets.receiver_points_ws).subspan(seen.first, seen.count), light.tuning.projection)
                       .position_ws_m
                 : frame.fitted.views[0].pose.anchor_ws_m;
         source.range_m = 0.0;
@@ -123,8 +123,9 @@ protected:
     }
 
     /// What a given depth range or a given eye leaves out is lit: then only what a view holds counts.
-    static bool leaves_out(const ShadowRequest& demand, const LightShadow& shadow) {
-        return demand.projection.near_m > 0.0 || demand.projection.far_m > 0.0 || (demand.projection.perspective_sun && shadow.eye_distance_m > 0.0f);
+    static bool leaves_out(const ShadowRequest& demand, const LightItem& light) {
+        return demand.projection.near_m > 0.0 || demand.projection.far_m > 0.0 ||
+               (demand.projection.perspective_sun && light.tuning.projection.eye_distance_m > 0.0f);
     }
 
     void judge_point(const SceneSnapshot& scene, const ShadowFrame& frame, const Vector& p) {
@@ -135,7 +136,7 @@ protected:
         const oracle::Deciding by = oracle::deciding_views(frame.fitted.views, demand, scene.consumers[0], p, reach);
         const bool in_view = by.view && oracle::holds(*by.view, p, size_px, 0);
         const bool in_single = by.single && oracle::holds(*by.single, p, size_px, 0);
-        const bool partial = leaves_out(demand, scene.lights[0].shadow);
+        const bool partial = leaves_out(demand, scene.lights[0]);
         if (partial && !(by.wants_view && in_view) && !(by.wants_single && in_single)) return;
         ++tally.points;
         bool dark = false;
@@ -215,12 +216,12 @@ protected:
 
     /// A sun that one camera sees, as warped as it may be, or less.
     void warp(SceneSnapshot& scene) {
-        LightShadow& shadow = scene.lights[0].shadow;
-        shadow.fit = ShadowFit::tight;
-        shadow.projection = LightProjection::automatic;
-        shadow.near_m = shadow.far_m = 0.0f;
-        shadow.cascades = random.chance(0.7) ? 1 : 3;
-        shadow.warp = random.chance(0.5) ? 1.0f : static_cast<float>(random.number(0.05, 1.0));
+        LightItem& light = scene.lights[0];
+        light.tuning.cascades.fit = ShadowFit::tight;
+        light.tuning.projection.kind = LightProjection::automatic;
+        light.tuning.projection.near_m = light.tuning.projection.far_m = 0.0f;
+        light.shadow.cascades = random.chance(0.7) ? 1 : 3;
+        light.tuning.cascades.warp = random.chance(0.5) ? 1.0f : static_cast<float>(random.number(0.05, 1.0));
         scene.consumers.resize(1);
     }
 

@@ -52,7 +52,7 @@ std::optional<SceneSnapshot> snapshot_of(const std::string& name) {
     snapshot.lights.clear();
     for (const ShadowFit fit : kFits) {
         snapshot.lights.push_back(light_of(LightKind::directional));
-        snapshot.lights.back().shadow.fit = fit;
+        snapshot.lights.back().tuning.cascades.fit = fit;
     }
     const double size_m = glm::length(math::half_extent(all));
     for (const LightKind kind : {LightKind::point, LightKind::spot}) {

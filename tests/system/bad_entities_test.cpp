@@ -74,7 +74,7 @@ TEST_F(BadEntities, OtherDrawsAreTheSameAsIfTheFaultyOneHadNeverBeen) {
     };
     const auto faulty = without();
     world.registry.destroy(victim);
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.economy = false; });
+    edit_light(world.registry, lamp, [](ShadowTuning& t) { t.reuse.economy = false; });
     EXPECT_EQ(faulty, without());
     EXPECT_THAT(dropped(), IsEmpty()) << "a destroyed entity is no fault any more";
 }

@@ -15,7 +15,7 @@ protected:
         sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
     }
     void use(ShadowFit fit) {
-        world.registry.patch<LightShadow>(sun, [fit](LightShadow& s) { s.fit = fit; });
+        edit_light(world.registry, sun, [fit](ShadowTuning& t) { t.cascades.fit = fit; });
     }
     void walk(double step_m) {
         world.registry.patch<Transform>(stage.camera, [step_m](Transform& t) { t.translation_m.x += step_m; });
@@ -116,7 +116,8 @@ TEST_F(CascadeEconomy, EightCascadesHaveEightLayersAndNineAreReported) {
     step();
     EXPECT_THAT(map_labels(device), SizeIs(1 + 8));
     EXPECT_STREQ(reason_code(light("sun").reason), "cascades_clamped");
-    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.cascades = 1, s.cascade_blend = 2.0f; });
+    edit_light(world.registry, sun, [](LightShadow& s) { s.cascades = 1; });
+    edit_light(world.registry, sun, [](ShadowTuning& t) { t.cascades.blend = 2.0f; });
     step();
     EXPECT_THAT(map_labels(device), SizeIs(1 + 1));
     EXPECT_STREQ(reason_code(light("sun").reason), "splits_invalid");

@@ -135,7 +135,7 @@ TEST_F(DepthPasses, AStillSceneRedrawsNothing) {
 
 TEST_F(DepthPasses, WithoutEconomyEveryViewIsRedrawn) {
     const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.economy = false; });
+    edit_light(world.registry, lamp, [](ShadowTuning& t) { t.reuse.economy = false; });
     step();
     const gl::CommandList first = frame->commands();
     step();
@@ -151,9 +151,9 @@ TEST_F(DepthPasses, ALayeredCubeIsOnePassOnFacesThatAreClearedOneByOne) {
     const std::uint64_t triangles = light("lamp").triangles;
     const std::uint32_t draws = light("lamp").draws;
     for (const CubeRoute route : {CubeRoute::layered_geometry, CubeRoute::six_passes}) {
-        world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) {
-            s.cube_route = route;
-            s.economy = false;
+        edit_light(world.registry, lamp, [&](ShadowTuning& t) {
+            t.maps.cube_route = route;
+            t.reuse.economy = false;
         });
         step();
         const bool layered = route == CubeRoute::layered_geometry;
@@ -171,7 +171,7 @@ TEST_F(DepthPasses, ALayeredCubeIsOnePassOnFacesThatAreClearedOneByOne) {
 TEST_F(DepthPasses, WithoutVertexLayersThatRouteIsSixPasses) {
     ASSERT_FALSE(device.info().vertex_layer);
     const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
-    world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.cube_route = CubeRoute::layered_vertex; });
+    edit_light(world.registry, lamp, [&](ShadowTuning& t) { t.maps.cube_route = CubeRoute::layered_vertex; });
     step();
     EXPECT_THAT(depth_passes(), SizeIs(4));
 }
@@ -179,7 +179,7 @@ TEST_F(DepthPasses, WithoutVertexLayersThatRouteIsSixPasses) {
 TEST_F(DepthPasses, ALayeredProgramThatDoesNotCompileCostsNothingButThePasses) {
     device.fail_label("layer by geometry", gl::Failure::compile_failed);
     const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
-    world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.cube_route = CubeRoute::layered_geometry; });
+    edit_light(world.registry, lamp, [&](ShadowTuning& t) { t.maps.cube_route = CubeRoute::layered_geometry; });
     step();
     EXPECT_EQ(light("lamp").state, LightState::rendered);
     EXPECT_THAT(depth_passes(), SizeIs(4));

@@ -98,10 +98,10 @@ TEST_F(DimLightsTest, NoneIsWhereTheExposureIsNotKnownOrItIsNotWanted) {
     step();
     EXPECT_FALSE(left_out("lamp"));
     settings.leave_out_dim_lights = true;
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.economy = false; });
+    edit_light(world.registry, lamp, [](ShadowTuning& t) { t.reuse.economy = false; });
     step();
     EXPECT_FALSE(left_out("lamp"));
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.economy = true; });
+    edit_light(world.registry, lamp, [](ShadowTuning& t) { t.reuse.economy = true; });
     step();
     EXPECT_TRUE(left_out("lamp"));
 }

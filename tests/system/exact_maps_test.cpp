@@ -34,11 +34,11 @@ protected:
     }
     template <class Change>
     void set(ecs::Entity light, Change change) {
-        world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
+        edit_light(world.registry, light, [](LightShadow& s) {
             s.filter = ShadowFilter::exact;
             s.resolution_px = kSize_px;
-            change(s);
         });
+        edit_light(world.registry, light, change);
     }
     /// Labels of the targets of the last frame's passes that begin so.
     std::vector<std::string> drawn(const std::string& kind = "shadow map") const {
@@ -73,7 +73,7 @@ TEST_F(ExactMaps, ShareOneLayerOfTrianglesAmongAllViews) {
 
 TEST_F(ExactMaps, OfAStillSceneAreKeptWhereverTheCameraStands) {
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
-    set(lamp, [](LightShadow& s) { s.fit = ShadowFit::stable; });
+    set(lamp, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; });
     step();
     step();
     EXPECT_THAT(drawn(), IsEmpty());
@@ -103,9 +103,9 @@ TEST_F(ExactMaps, AreOneOfASunUnlessItSaysOtherwise) {
 
 TEST_F(ExactMaps, AreNotMadeForASunSeenFromAnEye) {
     const ecs::Entity sun = add_light(LightKind::directional, "sun");
-    set(sun, [](LightShadow& s) {
-        s.projection = LightProjection::perspective;
-        s.eye_distance_m = 50.0f;
+    set(sun, [](ShadowTuning& t) {
+        t.projection.kind = LightProjection::perspective;
+        t.projection.eye_distance_m = 50.0f;
     });
     step();
     EXPECT_THAT(drawn(), IsEmpty());

@@ -27,14 +27,13 @@ protected:
     }
     ecs::Entity add_light(LightKind kind, const std::string& name, ShadowFilter filter = ShadowFilter::exact_soft) {
         const ecs::Entity light = world.add_light(kind, kLightPlace_m, name);
-        set(light, [&](LightShadow& s) {
-            s = {.filter = filter, .source_radius_m = 0.1f, .sun_radius_rad = 0.01f, .resolution_px = kSize_px};
-        });
+        set(light, [&](LightShadow& s) { s = {.filter = filter, .resolution_px = kSize_px}; });
+        set(light, [](Light& l) { l.source_radius_m = 0.1f, l.sun_radius_rad = 0.01f; });
         return light;
     }
     template <class Change>
     void set(ecs::Entity light, Change change) {
-        world.registry.patch<LightShadow>(light, change);
+        edit_light(world.registry, light, change);
     }
     std::size_t dispatches() const {
         const auto& commands = frame->commands().commands;
@@ -58,14 +57,14 @@ TEST_F(ExactSoftMaps, HaveOneBufferMoreThatIsFilledWhenTheyAreDrawnAndKeptWhenNo
     step();
     EXPECT_EQ(dispatches(), others);
     EXPECT_EQ(light("lamp").reason, Reason::content_unchanged);
-    set(lamp, [](LightShadow& s) { s.source_radius_m = 0.05f; });
+    set(lamp, [](Light& l) { l.source_radius_m = 0.05f; });
     step();
     EXPECT_EQ(dispatches(), others + kLevels) << "how steep a facet may be follows from the size";
 }
 
 TEST_F(ExactSoftMaps, OfAPointAreThoseOfExact) {
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
-    set(lamp, [](LightShadow& s) { s.source_radius_m = 0.0f; });  // a sun's size is none of its own
+    set(lamp, [](Light& l) { l.source_radius_m = 0.0f; });  // a sun's size is none of its own
     add_light(LightKind::spot, "hard", ShadowFilter::exact);
     step();
     EXPECT_EQ(light("lamp").bytes, light("hard").bytes);
@@ -99,7 +98,7 @@ TEST_F(ExactSoftMaps, CountEveryRayInABudgetAndGiveWayToTheFilterOfASourceWithAS
     step();
     EXPECT_EQ(light("lamp").reason, Reason::ray_budget) << "of 16 for each";
     EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("pcss")));
-    set(lamp, [](LightShadow& s) { s.penumbra_rays = 12; });
+    set(lamp, [](ShadowTuning& t) { t.kernel.penumbra_rays = 12; });
     step();
     EXPECT_EQ(light("lamp").reason, Reason::none) << "which leaves a quarter more";
 }

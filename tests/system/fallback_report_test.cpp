@@ -42,10 +42,9 @@ protected:
         world.registry.patch<LightShadow>(light, [&](LightShadow& s) {
             s.filter = filter;
             s.resolution_px = kSize_px;
-            s.source_radius_m = 0.1f;
-            s.sun_radius_rad = 0.01f;
-            s.keep_visibility = false;
         });
+        edit_light(world.registry, light, [](Light& l) { l.source_radius_m = 0.1f, l.sun_radius_rad = 0.01f; });
+        edit_light(world.registry, light, [](ShadowTuning& t) { t.reuse.keep_visibility = false; });
         return light;
     }
     const LightReport& lamp() const { return light(kLamp); }

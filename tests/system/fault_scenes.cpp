@@ -19,10 +19,8 @@ FaultScene courtyard(CascadeSplits splits, ShadowFit fit) {
     const auto registry = std::make_shared<ecs::Registry>();
     const game::SpawnedScene scene = game::spawn_scene(std::move(data).value(), *registry, *library);
     for (const game::NamedEntity& light : scene.lights)
-        registry->patch<LightShadow>(light.entity, [=](LightShadow& shadow) {
-            shadow.splits = splits;
-            shadow.fit = fit;
-        });
+        if (registry->has<LightShadow>(light.entity))
+            registry->emplace<ShadowTuning>(light.entity, {.cascades = {.fit = fit, .splits = splits}});
     const auto play = [registry, moving = scene.moving](int frame) {
         game::apply_motion(moving, frame * kFrame_s, *registry);
     };
@@ -59,19 +57,21 @@ FaultScene exact_scene() {
     const TestWorld::Stage stage = world->add_stage();
     world->add_mesh(kMaskedBox, {1.5, 1, 0}, true);
     world->add_mesh(kBlendedBox, {-1.5, 1, 0}, false);
-    const auto add = [&](LightKind kind, const char* name, const LightShadow& shadow) {
+    const auto add = [&](LightKind kind, const char* name, ShadowFilter filter) {
         const ecs::Entity light = world->add_light(kind, kLightPlace_m, name);
-        world->registry.patch<LightShadow>(light, [&](LightShadow& s) { s = shadow; });
+        world->registry.emplace<LightShadow>(light, {.filter = filter, .resolution_px = 128});
+        return light;
     };
-    add(LightKind::spot, "exact", {.filter = ShadowFilter::exact, .resolution_px = 128});
-    add(LightKind::point, "soft", {.filter = ShadowFilter::exact_soft, .source_radius_m = 0.1f, .resolution_px = 128});
-    add(LightKind::directional, "eye",
-        {.filter = ShadowFilter::exact, .resolution_px = 128, .projection = LightProjection::perspective});
+    add(LightKind::spot, "exact", ShadowFilter::exact);
+    const ecs::Entity soft = add(LightKind::point, "soft", ShadowFilter::exact_soft);
+    world->registry.patch<Light>(soft, [](Light& light) { light.source_radius_m = 0.1f; });
+    const ecs::Entity eye = add(LightKind::directional, "eye", ShadowFilter::exact);
+    world->registry.emplace<ShadowTuning>(eye, {.projection = {.kind = LightProjection::perspective}});
     const auto play = [world, box = stage.box](int frame) { world->move(box, {0.01 * frame, 1, 0}); };
     return {std::make_shared<assets::MeshLibrary>(test_library()), {world, &world->registry}, play};
 }
 
-FaultScene courtyard_scene() { return courtyard(LightShadow{}.splits, LightShadow{}.fit); }
+FaultScene courtyard_scene() { return courtyard(ShadowTuning::Cascades{}.splits, ShadowTuning::Cascades{}.fit); }
 // A held fit would go on from what it held while depths were missing, not from what it holds without a fault.
 FaultScene sampled_courtyard_scene() { return courtyard(CascadeSplits::sampled, ShadowFit::tight); }
 

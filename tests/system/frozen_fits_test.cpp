@@ -13,7 +13,7 @@ protected:
         FrameTest::SetUp();
         stage = world.add_stage();
         const ecs::Entity sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
-        world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.fit = ShadowFit::tight; });
+        edit_light(world.registry, sun, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::tight; });
         world.add_light(LightKind::spot, kLightPlace_m, "lamp");
         world.look_lights_up();
         step();

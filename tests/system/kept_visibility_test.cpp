@@ -107,7 +107,7 @@ TEST_F(KeptVisibility, EndsWithWhateverItFollowsFrom) {
         std::function<void()> make;
         std::vector<std::string> kept;  // lights that do not follow from it
     };
-    const auto patched = [&](auto edit) { return [this, edit] { world.registry.patch<LightShadow>(sun, edit); }; };
+    const auto patched = [&](auto edit) { return [this, edit] { edit_light(world.registry, sun, edit); }; };
     const std::vector<Change> changes = {
         {"a caster", [&] { world.move(stage.box, {0.1, 1, 0}); }, {}},
         {"a receiver", [&] { world.move(stage.plane, {0, -0.1, 0}); }, {}},
@@ -122,7 +122,7 @@ TEST_F(KeptVisibility, EndsWithWhateverItFollowsFrom) {
         {"a light's strength", [&] { world.registry.patch<Light>(spot, [](Light& l) { l.intensity *= 2.0f; }); }, all},
         {"a filter", patched([](LightShadow& s) { s.filter = ShadowFilter::hard; }), {"spot", "point"}},
         {"a map's size", patched([](LightShadow& s) { s.resolution_px = 128; }), {"spot", "point"}},
-        {"a bias", patched([](LightShadow& s) { s.bias = BiasMode::constant; }), {"spot", "point"}},
+        {"a bias", patched([](ShadowTuning& t) { t.bias.mode = BiasMode::constant; }), {"spot", "point"}},
         {"a light's layers", patched([](LightShadow& s) { s.layers = 1; }), {"spot", "point"}},
     };
     for (const Change& change : changes) {
@@ -151,10 +151,10 @@ TEST_F(KeptVisibility, IsFreedASecondAfterThingsMoved) {
 
 TEST_F(KeptVisibility, IsFreedAtOnceWhereNobodyAsksForIt) {
     settle();
-    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.keep_visibility = false; });
+    edit_light(world.registry, sun, [](ShadowTuning& t) { t.reuse.keep_visibility = false; });
     step();
     EXPECT_THAT(textures(), SizeIs(2));
-    world.registry.patch<LightShadow>(spot, [](LightShadow& s) { s.economy = false; });
+    edit_light(world.registry, spot, [](ShadowTuning& t) { t.reuse.economy = false; });
     step();
     EXPECT_THAT(textures(), SizeIs(1));
     world.registry.destroy(point);

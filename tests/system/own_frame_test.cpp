@@ -32,10 +32,8 @@ protected:
         stage = w.add_stage();
         const auto add = [&](LightKind kind, const char* name, ShadowFilter filter, float intensity) {
             const ecs::Entity light = w.add_light(kind, kLightPlace_m, name);
-            w.registry.patch<LightShadow>(light, [&](LightShadow& s) {
-                s.filter = filter;
-                s.splits = CascadeSplits::sampled;
-            });
+            edit_light(w.registry, light, [&](LightShadow& s) { s.filter = filter; });
+            edit_light(w.registry, light, [](ShadowTuning& t) { t.cascades.splits = CascadeSplits::sampled; });
             w.registry.patch<Light>(light, [&](Light& l) { l.intensity = intensity; });
         };
         add(LightKind::directional, "sun", ShadowFilter::automatic, 50000.0f);

@@ -55,6 +55,11 @@ protected:
         static const LightShadow kNone{};
         return kNone;
     }
+    const game::Preset* preset_of(const std::string& light) const {
+        for (const game::NamedEntity& named : world.scene.lights)
+            if (named.name == light) return game::preset_of(*game::settings_of(world.registry, named.entity));
+        return nullptr;
+    }
     std::uint64_t texels() const {
         std::uint64_t sum = 0;
         for (const LightReport& light : frame->report().lights) sum += light.texels;
@@ -120,7 +125,7 @@ TEST_F(Panel, SetsPresetsByTheirNames) {
     ASSERT_TRUE(hand->click({"accuracy for time"}));
     for (const game::Preset& preset : game::presets()) {
         ASSERT_TRUE(hand->click({preset.name})) << preset.name;
-        for (const std::string& light : shadowed) EXPECT_EQ(game::preset_of(shadow(light)), &preset) << light;
+        for (const std::string& light : shadowed) EXPECT_EQ(preset_of(light), &preset) << light;
     }
 }
 
@@ -143,19 +148,32 @@ TEST_F(Panel, BoundsWhatShadowsTakeAndLetsGo) {
 
 TEST_F(Panel, ChangesOneLightsOwnSettings) {
     ASSERT_TRUE(hand->click({"lantern"}));
-    ASSERT_TRUE(hand->drag({"lantern", "resolution"}, 1.5));
+    ASSERT_TRUE(hand->drag({"lantern", "shadow", "resolution"}, 1.5));
     EXPECT_EQ(shadow("lantern").resolution_px, 4096u);
     EXPECT_EQ(shadow("sun").resolution_px, 0u);
-    ASSERT_TRUE(hand->click({"lantern", "filter"}));
+    ASSERT_TRUE(hand->click({"lantern", "shadow", "filter"}));
     ASSERT_TRUE(hand->choose("hard"));
     EXPECT_EQ(shadow("lantern").filter, ShadowFilter::hard);
-    ASSERT_TRUE(hand->click({"lantern", "enabled"}));
+    ASSERT_TRUE(hand->click({"lantern", "shadow", "enabled"}));
     EXPECT_FALSE(shadow("lantern").enabled);
     step();
     for (const LightReport& light : frame->report().lights)
         if (light.name == "lantern") {
             EXPECT_EQ(light.reason, Reason::shadows_off);
         }
+}
+
+TEST_F(Panel, ShowsTheSettingsInTheGroupsThatAreListedAndTheAuthorsOpen) {
+    ASSERT_TRUE(hand->click({"lantern"}));
+    EXPECT_FALSE(hand->click({"lantern", "reuse", "economy"})) << "its group is closed";
+    for (const game::NamedEntity& light : world.scene.lights)
+        EXPECT_FALSE(world.registry.has<ShadowTuning>(light.entity)) << "nobody needs it";
+    ASSERT_TRUE(hand->click({"lantern", "reuse"}));
+    ASSERT_TRUE(hand->click({"lantern", "reuse", "economy"}));
+    for (const game::NamedEntity& light : world.scene.lights) {
+        const ShadowTuning* tuning = world.registry.get<ShadowTuning>(light.entity);
+        EXPECT_EQ(tuning && !tuning->reuse.economy, light.name == "lantern") << light.name;
+    }
 }
 
 TEST_F(Panel, SwitchesShadowsFitsMovementAndTheFrozenFrame) {

@@ -22,14 +22,14 @@ protected:
         const ecs::Entity light = world.add_light(kind, kind == LightKind::point ? glm::dvec3(0, 4, 0) : kLightPlace_m, name);
         choose(light, [filter](LightShadow& s) {
             s.filter = filter;
-            s.filter_size = kBlur_texel;
             s.resolution_px = kSize_px;
         });
+        choose(light, [](ShadowTuning& t) { t.kernel.size_texel = kBlur_texel; });
         return light;
     }
     template <class Change>
     void choose(ecs::Entity light, Change change) {
-        world.registry.patch<LightShadow>(light, change);
+        edit_light(world.registry, light, change);
     }
     /// Passes whose group says so.
     std::vector<Pass> conversions() const {
@@ -98,13 +98,13 @@ TEST_F(PrefilteredMaps, OfASoftFilterHaveMipmapsForAsLongAsTheSourceHasASize) {
     EXPECT_THAT(conversions(), SizeIs(2));
     EXPECT_EQ(mip_generations(), 0u);
     const std::uint64_t plain = light("lamp").bytes;
-    choose(lamp, [](LightShadow& s) { s.source_radius_m = 0.05f; });
+    choose(lamp, [](Light& l) { l.source_radius_m = 0.05f; });
     step();
     EXPECT_EQ(mip_generations(), 1u);
     EXPECT_GT(light("lamp").bytes, plain);
-    choose(lamp, [](LightShadow& s) {
-        s.source_radius_m = 0.0f;
-        s.sun_radius_rad = 0.1f;  // not a spot's business
+    choose(lamp, [](Light& l) {
+        l.source_radius_m = 0.0f;
+        l.sun_radius_rad = 0.1f;  // not a spot's business
     });
     step();
     EXPECT_EQ(mip_generations(), 0u);
@@ -132,14 +132,14 @@ TEST_F(PrefilteredMaps, OfAStillLightAreKeptAndNothingIsConverted) {
 TEST_F(PrefilteredMaps, AreMadeAnewWithoutTheirDepthsWhereOnlyTheyChange) {
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::evsm2);
     step();
-    choose(lamp, [](LightShadow& s) { s.moment_exponent = 10.0f; });
+    choose(lamp, [](ShadowTuning& t) { t.moments.exponent = 10.0f; });
     step();
     EXPECT_THAT(conversions(), SizeIs(2));
     EXPECT_THAT(depth_passes(), IsEmpty());
-    choose(lamp, [](LightShadow& s) { s.moment_bleeding = 0.4f; });
+    choose(lamp, [](ShadowTuning& t) { t.moments.bleeding = 0.4f; });
     step();
     EXPECT_THAT(conversions(), IsEmpty()) << "only a lookup's";
-    choose(lamp, [](LightShadow& s) { s.economy = false; });
+    choose(lamp, [](ShadowTuning& t) { t.reuse.economy = false; });
     step();
     EXPECT_THAT(conversions(), SizeIs(2));
 }
@@ -155,7 +155,7 @@ TEST_F(PrefilteredMaps, OfACubeAreMadeAnewWhereAFaceOrOneBesideItChanges) {
     EXPECT_GE(drawn, 1u);
     EXPECT_GE(converted, drawn);
     EXPECT_LE(converted, views);
-    choose(bulb, [](LightShadow& s) { s.filter_size = 1; });
+    choose(bulb, [](ShadowTuning& t) { t.kernel.size_texel = 1; });
     step();
     EXPECT_THAT(conversions(), SizeIs(light("bulb").views)) << "nothing to blur: one pass each";
 }
@@ -165,14 +165,14 @@ TEST_F(PrefilteredMaps, CountMomentsScratchAndMipmapsAmongTheLightsBytes) {
     constexpr std::uint64_t kTexels = std::uint64_t{kSize_px} * kSize_px, kDepth = 4, kTwoFloats = 8, kTwoShorts = 4;
     step();
     EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + 2 * kTwoFloats));
-    choose(lamp, [](LightShadow& s) { s.moment_bits = 16; });
+    choose(lamp, [](ShadowTuning& t) { t.moments.bits = 16; });
     step();
     EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + 2 * kTwoShorts));
-    choose(lamp, [](LightShadow& s) { s.filter_size = 1; });
+    choose(lamp, [](ShadowTuning& t) { t.kernel.size_texel = 1; });
     step();
     EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + kTwoShorts));
     EXPECT_EQ(mip_generations(), 0u);
-    choose(lamp, [](LightShadow& s) { s.moment_levels = 2; });
+    choose(lamp, [](ShadowTuning& t) { t.moments.levels = 2; });
     step();
     EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + kTwoShorts) + kTexels / 4 * kTwoShorts);
     EXPECT_EQ(mip_generations(), 1u);
@@ -186,7 +186,7 @@ TEST_F(PrefilteredMaps, CountMomentsScratchAndMipmapsAmongTheLightsBytes) {
 
 TEST_F(PrefilteredMaps, OfTheSunHaveMipmapsMadeOnceForAllCascades) {
     const ecs::Entity sun = add_light(LightKind::directional, "sun", ShadowFilter::vsm);
-    choose(sun, [](LightShadow& s) { s.moment_levels = 3; });
+    choose(sun, [](ShadowTuning& t) { t.moments.levels = 3; });
     step();
     EXPECT_GT(light("sun").views_drawn, 1u);
     EXPECT_EQ(mip_generations(), 1u);
@@ -222,7 +222,7 @@ TEST_F(PrefilteredMaps, WithoutTheirProgramTheDepthsAreReadAndItIsTriedAgain) {
 
 TEST_F(PrefilteredMaps, AreBlendedBySamplersOfTheirOwnSettings) {
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::vsm);
-    choose(lamp, [](LightShadow& s) { s.moment_anisotropy = 8; });
+    choose(lamp, [](ShadowTuning& t) { t.moments.anisotropy = 8; });
     add_light(LightKind::spot, "other", ShadowFilter::vsm);
     step();
     std::vector<gl::SamplerHandle> samplers;

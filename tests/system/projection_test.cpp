@@ -1,6 +1,6 @@
 #include "tests/system/frame_fixture.h"
 
-/// What LightShadow::projection, the eye and the depth range do to maps, commands and report.
+/// What ShadowTuning::projection, the eye and the depth range do to maps, commands and report.
 namespace gnomon {
 namespace {
 
@@ -12,7 +12,10 @@ protected:
         FrameTest::SetUp();
         world.add_stage();
     }
-    void change(ecs::Entity lamp, void (*edit)(LightShadow&)) { world.registry.patch<LightShadow>(lamp, edit); }
+    template <class Change>
+    void change(ecs::Entity lamp, Change edit) {
+        edit_light(world.registry, lamp, edit);
+    }
 };
 
 TEST_F(ProjectionReport, ASunInPerspectiveHasAMapOfOneLayerAndDrawsItOnce) {
@@ -20,7 +23,7 @@ TEST_F(ProjectionReport, ASunInPerspectiveHasAMapOfOneLayerAndDrawsItOnce) {
     change(sun, [](LightShadow& s) { s.cascades = 4; });
     step();
     ASSERT_THAT(map_labels(device), SizeIs(1 + 4));
-    change(sun, [](LightShadow& s) { s.projection = LightProjection::perspective; });
+    change(sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::perspective; });
     step();
     EXPECT_THAT(map_labels(device), SizeIs(1 + 1));
     EXPECT_THAT(depth_passes(), SizeIs(1));
@@ -28,7 +31,7 @@ TEST_F(ProjectionReport, ASunInPerspectiveHasAMapOfOneLayerAndDrawsItOnce) {
     EXPECT_EQ(light("sun").views, 1u);
     step();
     EXPECT_EQ(light("sun").state, LightState::reused);
-    change(sun, [](LightShadow& s) { s.projection = LightProjection::automatic; });
+    change(sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::automatic; });
     step();
     EXPECT_THAT(map_labels(device), SizeIs(1 + 4));
     EXPECT_THAT(depth_passes(), SizeIs(4));
@@ -37,7 +40,7 @@ TEST_F(ProjectionReport, ASunInPerspectiveHasAMapOfOneLayerAndDrawsItOnce) {
 TEST_F(ProjectionReport, WhatAKindCannotDoIsReportedAndItsOwnIsDrawn) {
     for (const LightKind kind : {LightKind::spot, LightKind::point}) {
         const ecs::Entity lamp = world.add_light(kind, kLightPlace_m, "lamp");
-        change(lamp, [](LightShadow& s) { s.projection = LightProjection::orthographic; });
+        change(lamp, [](ShadowTuning& t) { t.projection.kind = LightProjection::orthographic; });
         step();
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_STREQ(reason_code(light("lamp").reason), "projection_unsupported");
@@ -48,11 +51,14 @@ TEST_F(ProjectionReport, WhatAKindCannotDoIsReportedAndItsOwnIsDrawn) {
 
 TEST_F(ProjectionReport, AnAbsurdEyeOrRangeIsReported) {
     const ecs::Entity sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
-    change(sun, [](LightShadow& s) { s.projection = LightProjection::perspective, s.eye_angle_rad = -1.0f, s.cascades = 4; });
+    change(sun, [](LightShadow& s) { s.cascades = 4; });
+    change(sun, [](ShadowTuning& t) { t.projection = {.kind = LightProjection::perspective, .eye_angle_rad = -1.0f}; });
     step();
     EXPECT_STREQ(reason_code(light("sun").reason), "eye_invalid");
     EXPECT_THAT(map_labels(device), SizeIs(1 + 4)) << "it stays orthographic";
-    change(sun, [](LightShadow& s) { s.eye_angle_rad = 1.0f, s.near_m = 5.0f, s.far_m = 1.0f; });
+    change(sun, [](ShadowTuning& t) {
+        t.projection = {.kind = LightProjection::perspective, .eye_angle_rad = 1.0f, .near_m = 5.0f, .far_m = 1.0f};
+    });
     step();
     EXPECT_STREQ(reason_code(light("sun").reason), "range_invalid");
     EXPECT_EQ(light("sun").views, 1u);

@@ -20,10 +20,8 @@ protected:
     }
     template <class Change>
     void set(Change change) {
-        world.registry.patch<LightShadow>(sun, [&](LightShadow& s) {
-            s.filter = ShadowFilter::exact;
-            change(s);
-        });
+        edit_light(world.registry, sun, [](LightShadow& s) { s.filter = ShadowFilter::exact; });
+        edit_light(world.registry, sun, change);
     }
     /// How many maps were drawn meanwhile.
     std::uint32_t walk(std::uint32_t frames) {
@@ -106,7 +104,7 @@ TEST_F(QuietSuns, KeepTheSizeThatIsAskedFor) {
 }
 
 TEST_F(QuietSuns, AreNoneWhereAllIsDrawnInEveryFrame) {
-    set([](LightShadow& s) { s.economy = false; });
+    set([](ShadowTuning& t) { t.reuse.economy = false; });
     step();
     EXPECT_EQ(walk(2 * shadow::kQuietFrames), 2 * shadow::kQuietFrames);
     EXPECT_EQ(light("sun").texels, moving_texels);

@@ -243,7 +243,7 @@ TEST_F(RayScene, WithoutRoomALightWhoseContractAsksForRaysIsHeldToWhatMapsGive) 
 TEST_F(RayScene, WithoutRoomASunThatAskedForNoMapHasOneAFrameLater) {
     device.fail_label("ray triangles", gl::Failure::out_of_memory);
     const ecs::Entity sun = add_light(LightKind::directional, "sun", ShadowFilter::exact);
-    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.projection = LightProjection::perspective; });
+    edit_light(world.registry, sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::perspective; });
     step();
     EXPECT_EQ(light("sun").state, LightState::skipped) << "there is nothing to look up";
     EXPECT_EQ(light("sun").reason, Reason::buffer_failed);

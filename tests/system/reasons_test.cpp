@@ -57,11 +57,13 @@ protected:
         std::function<void()> change = {};  // of the world, or the device, before the frame
         int frames = 1;
         std::function<void()> before_each = {};  // of the frames
+        ShadowTuning tuning = {};
     };
     static Scene of_spot(std::function<void(LightShadow&)> setting) { return {LightKind::spot, std::move(setting)}; }
     static Scene of_sun(std::function<void(LightShadow&)> setting) {
         return {LightKind::directional, std::move(setting)};
     }
+    static Scene tuned(LightKind kind, const ShadowTuning& tuning) { return {.kind = kind, .tuning = tuning}; }
     Scene changed(std::function<void()> change) { return {LightKind::spot, {}, std::move(change)}; }
     /// The first call of that kind and label of a frame without a fault fails.
     Scene refused(Kind kind, const std::string& label, gl::Failure failure) {
@@ -92,6 +94,7 @@ protected:
         stage = world.add_stage();
         lamp = shadowed(world, scene.kind);
         if (scene.setting) world.registry.patch<LightShadow>(lamp, scene.setting);
+        world.registry.emplace<ShadowTuning>(lamp, scene.tuning);
         if (scene.change) scene.change();
         for (int i = 0; i < scene.frames; ++i) {
             if (scene.before_each) scene.before_each();
@@ -135,8 +138,7 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
           {},
           3,
           [this] { world.registry.patch<Transform>(stage.box, [](Transform& t) { t.translation_m.x += 0.001; }); }}},
-        {Reason::map_too_coarse,
-         {LightKind::spot, [](LightShadow& s) { s = {.max_error_px = 0.1f}; }}},
+        {Reason::map_too_coarse, {LightKind::spot, [](LightShadow& s) { s = {.max_error_px = 0.1f}; }}},
         {Reason::visibility_kept, {.frames = 10}},
         {Reason::resolution_clamped, of_spot([](LightShadow& s) { s.resolution_px = 1u << 20; })},
         {Reason::over_budget, changed([this] { settings.shadow_budget.bytes = 1; })},
@@ -164,17 +166,23 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
         {Reason::filter_program_waits, changed([this] { settings.programs_per_frame = 0; })},
         {Reason::buffer_failed, refused(Kind::create_buffer, "shadow draw items", gl::Failure::out_of_memory)},
         {Reason::sampler_failed, refused(Kind::create_sampler, "shadow compare linear", gl::Failure::out_of_memory)},
-        {Reason::projection_unsupported, of_spot([](LightShadow& s) { s.projection = LightProjection::orthographic; })},
-        {Reason::eye_invalid, of_sun([](LightShadow& s) { s.eye_angle_rad = -1.0f; })},
-        {Reason::range_invalid, of_spot([](LightShadow& s) { s.near_m = 2.0f, s.far_m = 1.0f; })},
+        {Reason::projection_unsupported,
+         tuned(LightKind::spot, {.projection = {.kind = LightProjection::orthographic}})},
+        {Reason::eye_invalid, tuned(LightKind::directional, {.projection = {.eye_angle_rad = -1.0f}})},
+        {Reason::range_invalid, tuned(LightKind::spot, {.projection = {.near_m = 2.0f, .far_m = 1.0f}})},
         {Reason::cascades_clamped, of_sun([](LightShadow& s) { s.cascades = 9; })},
-        {Reason::warp_unsupported, of_sun([](LightShadow& s) { s.warp = 2.0f; })},
-        {Reason::splits_invalid, of_sun([](LightShadow& s) { s.cascade_blend = 2.0f; })},
+        {Reason::warp_unsupported, tuned(LightKind::directional, {.cascades = {.warp = 2.0f}})},
+        {Reason::splits_invalid, tuned(LightKind::directional, {.cascades = {.blend = 2.0f}})},
         {Reason::depths_unread,
-         {LightKind::directional, [](LightShadow& s) { s.splits = CascadeSplits::sampled; },
-          [this] { device.fail_label("view distances", gl::Failure::compile_failed); }, 2}},
-        {Reason::filter_cut, of_spot([](LightShadow& s) { s.filter = ShadowFilter::pcf_grid, s.filter_size = 0; })},
-        {Reason::depth_coarse, of_spot([](LightShadow& s) { s.depth_format = DepthFormat::d16, s.near_m = 1e-4f; })},
+         {.kind = LightKind::directional,
+          .change = [this] { device.fail_label("view distances", gl::Failure::compile_failed); },
+          .frames = 2,
+          .tuning = {.cascades = {.splits = CascadeSplits::sampled}}}},
+        {Reason::filter_cut,
+         {.setting = [](LightShadow& s) { s.filter = ShadowFilter::pcf_grid; },
+          .tuning = {.kernel = {.size_texel = 0}}}},
+        {Reason::depth_coarse,
+         tuned(LightKind::spot, {.projection = {.near_m = 1e-4f}, .maps = {.depth_format = DepthFormat::d16}})},
     };
 }
 

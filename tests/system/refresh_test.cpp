@@ -175,15 +175,13 @@ TEST_F(Refresh, IsNotPutOffByWhatIsOff) {
         step();
         EXPECT_EQ(draws("lamp", 6, {1.0e-6, 0.0, 0.0}).size(), 6u);
     }
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) {
-        s.refresh_error_px = 100.0f;
-        s.bias = BiasMode::constant;
-    });
+    edit_light(world.registry, lamp, [](LightShadow& s) { s.refresh_error_px = 100.0f; });
+    edit_light(world.registry, lamp, [](ShadowTuning& t) { t.bias.mode = BiasMode::constant; });
     step();
     EXPECT_EQ(draws("lamp", 6, {1.0e-6, 0.0, 0.0}).size(), 6u) << "a bias by hand promises nothing";
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) {
-        s.bias = BiasMode::automatic;
-        s.economy = false;
+    edit_light(world.registry, lamp, [](ShadowTuning& t) {
+        t.bias.mode = BiasMode::automatic;
+        t.reuse.economy = false;
     });
     EXPECT_EQ(draws("lamp", 6, {1.0e-6, 0.0, 0.0}).size(), 6u);
 }

@@ -19,7 +19,8 @@ protected:
         use(CascadeSplits::sampled);
     }
     void use(CascadeSplits splits, ShadowFit fit = ShadowFit::tight) {
-        world.registry.patch<LightShadow>(sun, [&](LightShadow& s) { s.splits = splits, s.fit = fit, s.cascades = 4; });
+        edit_light(world.registry, sun, [](LightShadow& s) { s.cascades = 4; });
+        edit_light(world.registry, sun, [&](ShadowTuning& t) { t.cascades.splits = splits, t.cascades.fit = fit; });
     }
     /// Lets the device answer that all pixels lie between these bins.
     void answer(std::uint32_t from_bin, std::uint32_t to_bin) {

@@ -62,7 +62,7 @@ TEST_F(ShadowMaps, ADepthFormatIsTheLightsOwnAndChangesWithIt) {
     for (const auto& row : {std::pair{DepthFormat::d32f, gl::Format::d32f}, std::pair{DepthFormat::d16, gl::Format::d16},
                             std::pair{DepthFormat::d24, gl::Format::d24}}) {
         const DepthFormat wish = row.first;
-        world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.depth_format = wish; });
+        edit_light(world.registry, lamp, [&](ShadowTuning& t) { t.maps.depth_format = wish; });
         step();
         EXPECT_EQ(map_of("lamp").format, row.second);
         EXPECT_THAT(map_labels(device), SizeIs(2)) << "the map of another format is left";

@@ -187,7 +187,7 @@ TEST_P(OneSpot, DrawsAllWhereTheDeviceHasNoRoomAndSaysNothingOfIt) {
 }
 
 TEST_P(OneSpot, KeepsNothingApartWhereAllIsDrawnAnyway) {
-    world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.economy = false; });
+    edit_light(world.registry, lamp, [](ShadowTuning& t) { t.reuse.economy = false; });
     for (int i = 0; i < 40; ++i) {
         nudge(), step();
         ASSERT_EQ(copies(), 0u);
@@ -208,7 +208,7 @@ TEST_P(OneSpot, KeepsNothingApartWhereDrawingIsLessThanCopying) {
 TEST_P(OneSpot, DrawsThoseThatMoveAfterTheOthersWithAndWithoutEconomy) {
     for (int i = 0; i < 70; ++i) step();
     for (const bool economy : {true, false}) {
-        world.registry.patch<LightShadow>(lamp, [economy](LightShadow& s) { s.economy = economy; });
+        edit_light(world.registry, lamp, [economy](ShadowTuning& t) { t.reuse.economy = economy; });
         step();
         nudge(), step();
         ASSERT_THAT(depth_passes(), SizeIs(1));

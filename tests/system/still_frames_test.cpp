@@ -56,7 +56,7 @@ TEST_F(StillFrames, EndWithWhateverChanges) {
 }
 
 TEST_F(StillFrames, NeverComeWhereALightAsksForAllToBeDrawn) {
-    world.registry.patch<LightShadow>(sun, [](LightShadow& s) { s.economy = false; });
+    edit_light(world.registry, sun, [](ShadowTuning& t) { t.reuse.economy = false; });
     EXPECT_EQ(settle(), 0);
     EXPECT_GT(light("sun").views_drawn, 0u);
 }

@@ -102,7 +102,7 @@ void TestWorld::move(ecs::Entity e, const glm::dvec3& to_m) {
 
 void TestWorld::look_lights_up() {
     registry.each<LightShadow>([&](ecs::Entity e, const LightShadow&) {
-        registry.patch<LightShadow>(e, [](LightShadow& s) { s.keep_visibility = false; });
+        edit_light(registry, e, [](ShadowTuning& t) { t.reuse.keep_visibility = false; });
     });
 }
 

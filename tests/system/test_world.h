@@ -4,11 +4,9 @@
 #include <vector>
 
 #include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
 #include "components/transform.h"
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
+#include "tests/system/edit_light.h"
 
 namespace gnomon {
 
@@ -29,7 +27,7 @@ struct TestWorld {
     /// Sun and spot shine from `at_m` at the origin. Range 30 m for local lights.
     ecs::Entity add_light(LightKind kind, const glm::dvec3& at_m, const std::string& name, bool shadow = true);
     void move(ecs::Entity e, const glm::dvec3& to_m);
-    /// In still frames as well: for tests of how that is done (LightShadow::keep_visibility).
+    /// In still frames as well: for tests of how that is done (ShadowTuning::Reuse::keep_visibility).
     void look_lights_up();
 
     /// A plane that receives, a box at 1 m height that casts, a camera that sees both.

@@ -20,7 +20,7 @@ protected:
         lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
         choose(ShadowFilter::triangles);
         // A still light reads what its pixels saw, and is not looked up.
-        world.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.keep_visibility = false; });
+        edit_light(world.registry, lamp, [](ShadowTuning& t) { t.reuse.keep_visibility = false; });
     }
     void choose(ShadowFilter filter) {
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = filter; });
@@ -85,11 +85,10 @@ TEST_F(Undecided, PixelsAreThoseWhoseDepthTheFirstDrawDoesNotTake) {
 
 TEST_F(Undecided, LightsEachBeginWithAllSurfaces) {
     for (const ecs::Entity light : {world.add_light(LightKind::point, kLightPlace_m, "bulb"),
-                                    world.add_light(LightKind::directional, kLightPlace_m, "sun")})
-        world.registry.patch<LightShadow>(light, [](LightShadow& s) {
-            s.filter = ShadowFilter::triangles;
-            s.keep_visibility = false;
-        });
+                                    world.add_light(LightKind::directional, kLightPlace_m, "sun")}) {
+        edit_light(world.registry, light, [](LightShadow& s) { s.filter = ShadowFilter::triangles; });
+        edit_light(world.registry, light, [](ShadowTuning& t) { t.reuse.keep_visibility = false; });
+    }
     constexpr int kPrograms = 6;  // frames may make but one each
     for (int i = 0; i < kPrograms; ++i) step();
     std::size_t two = 0;

@@ -1,13 +1,16 @@
 #pragma once
-#include <span>
 #include <string>
+#include <string_view>
 
 #include "sample_game/support/settings/light_settings.h"
 
 namespace gnomon::game {
 
-/// The rows of light_settings() that say how a map is read.
-std::span<const LightSetting> filter_settings();
+/// Sets and reads the setting "filter": `automatic`, or the name of a row of the filter table.
+bool set_filter(LightSettings& settings, std::string_view text);
+std::string get_filter(const LightSettings& settings);
+/// `automatic`, then the rows; empty beyond the last.
+std::string_view filter_name(std::size_t index);
 
 /// The filter table's names, as an error message lists them.
 std::string filter_names();

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "sample_game/support/settings/light_settings.h"
-
 namespace gnomon::game {
 namespace {
 
@@ -17,10 +15,9 @@ const std::array kPresets{Preset{"fast", "one tap of small maps, two of them for
 std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
 
 /// Back to its default.
-void reset(std::string_view key, LightShadow& shadow) {
-    const LightShadow defaults;
-    for (const LightSetting& setting : light_settings())
-        if (key == setting.key) setting.set(shadow, setting.get(defaults));
+void reset(std::string_view key, LightSettings& settings) {
+    const LightSetting& setting = *find_setting(key);
+    setting.set(settings, setting.get(LightSettings{}));
 }
 
 }  // namespace
@@ -33,17 +30,17 @@ const Preset* find_preset(std::string_view name) {
     return found == kPresets.end() ? nullptr : &*found;
 }
 
-void apply_preset(const Preset& preset, LightShadow& shadow) {
+void apply_preset(const Preset& preset, LightSettings& settings) {
     for (const Preset& other : kPresets)
-        for (const char* setting : other.settings) reset(key_of(setting), shadow);
-    for (const char* setting : preset.settings) (void)apply_setting(shadow, setting);
+        for (const char* setting : other.settings) reset(key_of(setting), settings);
+    for (const char* setting : preset.settings) (void)apply_setting(settings, setting);
 }
 
-const Preset* preset_of(const LightShadow& shadow) {
+const Preset* preset_of(const LightSettings& settings) {
     for (const Preset& preset : kPresets) {
-        LightShadow changed = shadow;
+        LightSettings changed = settings;
         apply_preset(preset, changed);
-        if (changed == shadow) return &preset;
+        if (changed == settings) return &preset;
     }
     return nullptr;
 }

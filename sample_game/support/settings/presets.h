@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "components/light_shadow.h"
+#include "sample_game/support/settings/light_settings.h"
 
 /// Shadow settings in three words, for whoever does not want to choose each.
 namespace gnomon::game {
@@ -21,10 +21,10 @@ const Preset* find_preset(std::string_view name);
 
 /// Sets what the preset says. Keys that another preset sets and this one does not go back to their defaults; all others
 /// stay.
-void apply_preset(const Preset& preset, LightShadow& shadow);
+void apply_preset(const Preset& preset, LightSettings& settings);
 
 /// The preset that would change nothing; null: none, something was set otherwise.
-const Preset* preset_of(const LightShadow& shadow);
+const Preset* preset_of(const LightSettings& settings);
 
 /// What --list prints.
 std::string list_presets();

@@ -142,7 +142,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
         set_most(*load.light, load.wanted.limits.max_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
-    load.activity = load.light->shadow.economy ? static_cast<double>(next.activity) : 1.0;
+    load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.activity) : 1.0;
     double extent_px = 0.0;
     for (const ShadowView& view : inputs.fitted.views_of(light)) {
         if (view.casters.count == 0) continue;
@@ -256,7 +256,7 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, const DrawnViews& dra
             views += 1.0f;
             changed += (drawn.has_map(v) ? drawn.updates[v].changed : has_moving) ? 1.0f : 0.0f;
         }
-        if (!scene.lights[lights_[i]].shadow.economy || views == 0.0f) continue;
+        if (!scene.lights[lights_[i]].tuning.reuse.economy || views == 0.0f) continue;
         if (next.lights[held_[i]].new_frames > 0) continue;
         float& activity = next.lights[held_[i]].activity;
         const float now = changed / views;

@@ -24,7 +24,7 @@ constexpr double kSeldom = 1.0 / 8.0;
 
 bool has_cascades(const LightItem& light, const ShadowRequest& request) {
     return light.kind == LightKind::directional && request.map.view_count > 1 &&
-           light.shadow.splits != CascadeSplits::manual;  // which names them all
+           light.tuning.cascades.splits != CascadeSplits::manual;  // which names them all
 }
 
 /// What is no number counts as all.
@@ -79,20 +79,20 @@ ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const
 }
 
 std::uint32_t refresh_frames(const LightItem& light, const Grant& grant) {
-    return light.shadow.economy ? grant.refresh_frames : 1;
+    return light.tuning.reuse.economy ? grant.refresh_frames : 1;
 }
 
 bool is_less(const LightItem& light, const ShadowRequest& wanted, const Grant& grant) {
     return grant.none || (grant.plain && wanted.map.filter != kPlainFilter) ||
            grant.most_px < wanted.map.resolution_px ||
            (has_cascades(light, wanted) && grant.most_views < wanted.map.view_count) ||
-           (grant.refresh_frames > 1 && light.shadow.economy);
+           (grant.refresh_frames > 1 && light.tuning.reuse.economy);
 }
 
 double mean_fetches(const LightItem& light, const ShadowRequest& request, ShadowFilter filter) {
     const FilterRow& row = filter_row(filter);
     const bool cube = map_texture(light, request) == gl::TextureKind::cube;
-    const double most = row.taps(light.shadow, cube);
+    const double most = row.taps(light.tuning.kernel, cube);
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
 

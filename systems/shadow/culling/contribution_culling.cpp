@@ -67,7 +67,7 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
     double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;        // steps at an exposure of 1
     for (std::uint32_t i = 0; i < statuses.size(); ++i) {
         const LightItem& item = scene.lights[i];
-        if (statuses[i].is_skipped() || !item.shadow.economy) continue;
+        if (statuses[i].is_skipped() || !item.tuning.reuse.economy) continue;
         const auto receivers = slice(sets.receiver_items, sets.lights[i].receivers);
         const double at_one = most_display_steps(scene, gpu, item, receivers, 1.0);
         faintest = std::min(faintest, at_one);

@@ -18,7 +18,7 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 /// Which lights are too dim for their shadows to be seen: those that, lit everywhere, change no pixel by more than half
 /// a step all together. The dimmest first; one that is left out stays so until it must not, one that is not is left out
 /// only well below. Needs SceneSnapshot::exposure: none may be left out where that is infinite.
-/// LightShadow::economy=false exempts a light.
+/// ShadowTuning::Reuse::economy=false exempts a light.
 class DimLights {
 public:
     /// Skips lights with below_display_step, after select_sets(). Allocates nothing once warm.

@@ -23,7 +23,7 @@
 ///   (told_apart_m): a map may miss such a thing altogether.
 /// - `truth_ambiguous`: which surface is seen, or whether the light reaches it, hangs on less than the rasteriser's
 ///   snapping or the last digits of the position.
-/// Assumed: the bias is Gnomon's own, not LightShadow::bias.
+/// Assumed: the bias is Gnomon's own, not a manual BiasMode.
 namespace gnomon::shadow {
 
 /// A texel's sides across the light at a point, metres.

@@ -249,7 +249,7 @@ bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
 
 bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const HeldLight& held, HeldLight& next) {
     request() = usual;
-    set_cascades(light_.shadow, count, request());
+    set_cascades(light_.tuning.cascades, count, request());
     set_most(light_, usual.limits.max_px, held.map_px, request());
     return fit_size(held, next);
 }

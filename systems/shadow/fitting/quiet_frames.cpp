@@ -41,7 +41,7 @@ void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, c
             }
         for (HeldLight& entry : next.lights) {
             if (entry.light != light.entity) continue;
-            const bool same = entry.casters == casters.value() && light.shadow.economy && !shared_out;
+            const bool same = entry.casters == casters.value() && light.tuning.reuse.economy && !shared_out;
             entry.casters = casters.value();
             entry.quiet_frames = same ? std::min(entry.quiet_frames + (moved ? 1 : 0), kQuietFrames) : 0;
         }

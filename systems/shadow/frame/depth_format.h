@@ -1,5 +1,5 @@
 #pragma once
-#include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
 
 namespace gnomon::shadow {

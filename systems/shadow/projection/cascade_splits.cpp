@@ -44,12 +44,12 @@ double even_over(const Scale& scale, std::span<const DepthSpan> receivers, const
 
 }  // namespace
 
-bool are_splits(const LightShadow& shadow) {
-    if (!(shadow.split_lambda >= 0.0f && shadow.split_lambda <= 1.0f)) return false;
-    if (!(shadow.cascade_blend >= 0.0f && shadow.cascade_blend <= kMostBlend)) return false;
-    if (shadow.splits != CascadeSplits::manual) return true;
+bool are_splits(const ShadowTuning::Cascades& tuning) {
+    if (!(tuning.split_lambda >= 0.0f && tuning.split_lambda <= 1.0f)) return false;
+    if (!(tuning.blend >= 0.0f && tuning.blend <= kMostBlend)) return false;
+    if (tuning.splits != CascadeSplits::manual) return true;
     float last_m = 0.0f;
-    for (const float end_m : shadow.split_m) {
+    for (const float end_m : tuning.split_m) {
         if (end_m == 0.0f) break;
         if (!(end_m > last_m) || !std::isfinite(end_m)) return false;
         last_m = end_m;
@@ -57,20 +57,21 @@ bool are_splits(const LightShadow& shadow) {
     return last_m > 0.0f;
 }
 
-std::uint32_t cascade_count(const LightShadow& shadow, std::uint32_t automatic) {
-    if (shadow.splits == CascadeSplits::manual && are_splits(shadow)) {
-        const auto end = std::find(shadow.split_m.begin(), shadow.split_m.end(), 0.0f);
-        return static_cast<std::uint32_t>(end - shadow.split_m.begin()) + 1;
+std::uint32_t cascade_count(const LightItem& light, std::uint32_t automatic) {
+    const ShadowTuning::Cascades& tuning = light.tuning.cascades;
+    if (tuning.splits == CascadeSplits::manual && are_splits(tuning)) {
+        const auto end = std::find(tuning.split_m.begin(), tuning.split_m.end(), 0.0f);
+        return static_cast<std::uint32_t>(end - tuning.split_m.begin()) + 1;
     }
-    return shadow.cascades == 0 ? automatic : std::min<std::uint32_t>(shadow.cascades, kMaxCascades);
+    return light.shadow.cascades == 0 ? automatic : std::min<std::uint32_t>(light.shadow.cascades, kMaxCascades);
 }
 
-CascadeEnds cascade_ends(const LightShadow& shadow, std::uint32_t count, const DepthSpan& whole, bool perspective,
-                         std::span<DepthSpan> receivers) {
-    const LightShadow defaults;
-    const bool usable = are_splits(shadow);
-    const CascadeSplits splits = usable ? shadow.splits : defaults.splits;
-    const auto lambda = static_cast<double>(usable ? shadow.split_lambda : defaults.split_lambda);
+CascadeEnds cascade_ends(const ShadowTuning::Cascades& tuning, std::uint32_t count, const DepthSpan& whole,
+                         bool perspective, std::span<DepthSpan> receivers) {
+    const ShadowTuning::Cascades defaults;
+    const bool usable = are_splits(tuning);
+    const CascadeSplits splits = usable ? tuning.splits : defaults.splits;
+    const auto lambda = static_cast<double>(usable ? tuning.split_lambda : defaults.split_lambda);
     const double start_m = std::max(whole.lowest, whole.highest * kNearestShare);
     const Scale logarithmic{perspective && start_m > 0.0, start_m};
     const Scale uniform{false, 0.0};
@@ -85,7 +86,7 @@ CascadeEnds cascade_ends(const LightShadow& shadow, std::uint32_t count, const D
             case CascadeSplits::logarithmic:
                 return even(logarithmic, whole, share);
             case CascadeSplits::manual:
-                return static_cast<double>(shadow.split_m[i - 1]);
+                return static_cast<double>(tuning.split_m[i - 1]);
             case CascadeSplits::seen:
             case CascadeSplits::sampled:
                 return lambda * even_over(logarithmic, receivers, whole, share) +

@@ -5,10 +5,10 @@
 
 namespace gnomon::shadow {
 
-bool is_range(const LightShadow& shadow) {
+bool is_range(const ShadowTuning::Projection& tuning) {
     const auto usable = [](float end_m) { return end_m >= 0.0f && std::isfinite(end_m); };
-    if (!usable(shadow.near_m) || !usable(shadow.far_m)) return false;
-    return shadow.near_m == 0.0f || shadow.far_m == 0.0f || shadow.near_m < shadow.far_m;
+    if (!usable(tuning.near_m) || !usable(tuning.far_m)) return false;
+    return tuning.near_m == 0.0f || tuning.far_m == 0.0f || tuning.near_m < tuning.far_m;
 }
 
 void override_range(const ProjectionRequest& projection, double& near_m, double& far_m) {

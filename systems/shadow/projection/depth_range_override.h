@@ -1,13 +1,13 @@
 #pragma once
-#include "components/light_shadow.h"
-#include "systems/shadow/frame/shadow_request.h"
+#include "components/shadow_tuning.h"
+#include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/perspective_range.h"
 
-/// LightShadow::near_m and far_m against the fitted depth range. Distances are from the light, or from a sun's eye.
+/// ShadowTuning's near_m and far_m against the fitted depth range. Distances are from the light, or from a sun's eye.
 namespace gnomon::shadow {
 
 /// Whether they can be obeyed: each 0 (fitted) or positive and finite, near before far where both are given.
-bool is_range(const LightShadow& shadow);
+bool is_range(const ShadowTuning::Projection& tuning);
 
 /// Puts the ends that the request asks for in the place of fitted ones. A fitted end that a given one has passed moves
 /// out of its way, to half or twice the given distance. Afterwards near_m < far_m if that held before.

@@ -145,10 +145,10 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
 }
 
 /// What filters read.
-void filter_record(const LightShadow& shadow, const FilterSettings& filter, const ConsumerItem& consumer,
+void filter_record(const ShadowTuning::Kernel& kernel, const FilterSettings& filter, const ConsumerItem& consumer,
                    LightRecord& record) {
-    record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), shadow.early_bail ? 1 : 0,
-                        shadow.filter_seed == FilterSeed::world ? 1 : 0};
+    record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), kernel.early_bail ? 1 : 0,
+                        kernel.seed == FilterSeed::world ? 1 : 0};
     record.spread = {filter.spread_texel, filter.spread_m, filter.doubles_m > 0.0f ? 1.0f / filter.doubles_m : 0.0f,
                      filter.most_spread_texel};
     const SeedCell cell = seed_cell(consumer.position_ws_m, static_cast<double>(filter.cell_m));
@@ -175,16 +175,17 @@ glm::vec4 source_record(const ProjectionRequest& projection, double clearance_m)
     return {fitted ? 1.0f : 0.0f, static_cast<float>(clearance_m), 0.0f, 0.0f};
 }
 
-void bias_record(const LightShadow& shadow, LightingLight& out) {
-    const LightShadow usual;
-    const auto valid = [&](float LightShadow::*field) {
-        return std::isfinite(shadow.*field) && shadow.*field >= 0.0f ? shadow.*field : usual.*field;
+void bias_record(const ShadowTuning::Bias& bias, LightingLight& out) {
+    using Bias = ShadowTuning::Bias;
+    const Bias usual;
+    const auto valid = [&](float Bias::*field) {
+        return std::isfinite(bias.*field) && bias.*field >= 0.0f ? bias.*field : usual.*field;
     };
-    out.row.manual_bias = shadow.bias != BiasMode::automatic && shadow.bias < BiasMode::count;
+    out.row.manual_bias = bias.mode != BiasMode::automatic && bias.mode < BiasMode::count;
     if (!out.row.manual_bias) return;
-    out.record.options.y = static_cast<std::int32_t>(shadow.bias);
-    out.record.bias.x = valid(&LightShadow::bias_m);
-    out.record.bias.z = valid(&LightShadow::bias_texel);
+    out.record.options.y = static_cast<std::int32_t>(bias.mode);
+    out.record.bias.x = valid(&Bias::offset_m);
+    out.record.bias.z = valid(&Bias::offset_texel);
 }
 
 }  // namespace
@@ -235,7 +236,7 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
         // Also where it has no map.
-        filter_record(light.shadow, request.map.filtering, consumer, out.record);
+        filter_record(light.tuning.kernel, request.map.filtering, consumer, out.record);
         out.record.radiance.w = source_size(light.kind, request.map.filtering);
         out.sampler = in.samplers.of(MapReading::depths);
     }
@@ -270,9 +271,9 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     out.record.options.w |= 1 << view.layer;
     if (light.kind == LightKind::spot || request.projection.aim.used)
         out.record.cone.z = static_cast<float>(request.projection.faces_eighths) / 8.0f;
-    bias_record(light.shadow, out);
+    bias_record(light.tuning.bias, out);
     const MapSettings& map = request.map;
-    filter_record(light.shadow, map.filtering, consumer, out.record);
+    filter_record(light.tuning.kernel, map.filtering, consumer, out.record);
     out.record.moments = map.moments.settings;
     out.record.moment_sampling = {map.moments.bleeding, map.moments.footprint_texel,
                                   static_cast<float>(map.moments.anisotropy), 0.0f};

@@ -55,8 +55,8 @@ bool add_views(const DrawnViews& drawn, std::uint32_t light, Signature& s) {
 void sign_lookups(const SceneSnapshot& scene, const DrawnViews& drawn, LightingInputs& inputs) {
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         LightingLight& light = inputs.lights[i];
-        const LightShadow& shadow = scene.lights[i].shadow;
-        if (light.row.filter_file.empty() || !shadow.economy || !shadow.keep_visibility || scene.version == 0) continue;
+        const ShadowTuning::Reuse& reuse = scene.lights[i].tuning.reuse;
+        if (light.row.filter_file.empty() || !reuse.economy || !reuse.keep_visibility || scene.version == 0) continue;
         Signature s;
         add_light(light, s);
         // Rays meet whatever casts anywhere.

@@ -33,7 +33,7 @@ double wished_error_px(const LightShadow& shadow) {
 }
 
 bool follows_contract(const LightItem& light, const ShadowRequest& request) {
-    const bool stable = light.kind == LightKind::directional && light.shadow.fit == ShadowFit::stable;
+    const bool stable = light.kind == LightKind::directional && light.tuning.cascades.fit == ShadowFit::stable;
     return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
            !asks_rays(filter_row(request.map.filter));  // which err by nothing
 }

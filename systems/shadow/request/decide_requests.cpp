@@ -38,35 +38,36 @@ Reason wanted(const LightItem& light, bool shadows) {
 }
 
 /// How many cascades a sun has, and what fades between them.
-void decide_cascades(const LightShadow& shadow, bool depths_failed, ShadowRequest& request) {
-    if (depths_failed && shadow.splits == CascadeSplits::sampled) request.note = Reason::depths_unread;
-    if (!are_splits(shadow)) request.note = Reason::splits_invalid;
-    if (shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
+void decide_cascades(const LightItem& light, bool depths_failed, ShadowRequest& request) {
+    const ShadowTuning::Cascades& tuning = light.tuning.cascades;
+    if (depths_failed && tuning.splits == CascadeSplits::sampled) request.note = Reason::depths_unread;
+    if (!are_splits(tuning)) request.note = Reason::splits_invalid;
+    if (light.shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
     // A finer map only saves rays: of itself a light asks for one.
-    const bool one = shadow.cascades == 0 && asks_rays(filter_row(request.map.filter));
-    set_cascades(shadow, one ? 1 : cascade_count(shadow, request.map.view_count), request);
+    const bool one = light.shadow.cascades == 0 && asks_rays(filter_row(request.map.filter));
+    set_cascades(tuning, one ? 1 : cascade_count(light, request.map.view_count), request);
 }
 
 /// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
 /// as the contract makes them.
 bool leaves_count(const LightItem& light, const ShadowRequest& request) {
     return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, request) &&
-           light.shadow.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
+           light.tuning.cascades.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
            request.projection.warp == 0.0f;
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
 void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest& request) {
-    const LightProjection wish = light.shadow.projection;
+    const LightProjection wish = light.tuning.projection.kind;
     const bool sun = light.kind == LightKind::directional;
-    if (sun) decide_cascades(light.shadow, depths_failed, request);
-    if (is_range(light.shadow)) {
-        request.projection.near_m = static_cast<double>(light.shadow.near_m);
-        request.projection.far_m = static_cast<double>(light.shadow.far_m);
+    if (sun) decide_cascades(light, depths_failed, request);
+    if (is_range(light.tuning.projection)) {
+        request.projection.near_m = static_cast<double>(light.tuning.projection.near_m);
+        request.projection.far_m = static_cast<double>(light.tuning.projection.far_m);
     } else {
         request.note = Reason::range_invalid;
     }
-    if (sun && !is_eye(light.shadow)) {
+    if (sun && !is_eye(light.tuning.projection)) {
         request.note = Reason::eye_invalid;
         request.projection.near_m = request.projection.far_m = 0.0;  // they would be counted from the eye
     } else if (sun && wish == LightProjection::perspective) {
@@ -78,28 +79,21 @@ void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest
 }
 
 /// How far a sun's maps may be warped. The fit measures what a warp gains for one camera alone.
-void decide_warp(const LightShadow& shadow, bool one_consumer, ShadowRequest& request) {
-    if (shadow.warp == 0.0f) return;
-    const bool possible = shadow.fit == ShadowFit::tight && one_consumer && !request.projection.perspective_sun &&
+void decide_warp(const ShadowTuning::Cascades& tuning, bool one_consumer, ShadowRequest& request) {
+    if (tuning.warp == 0.0f) return;
+    const bool possible = tuning.fit == ShadowFit::tight && one_consumer && !request.projection.perspective_sun &&
                           !needs_distances(request.map.filtering) && request.projection.near_m == 0.0 &&
                           request.projection.far_m == 0.0;
-    if (possible && shadow.warp > 0.0f && shadow.warp <= 1.0f)
-        request.projection.warp = shadow.warp;
+    if (possible && tuning.warp > 0.0f && tuning.warp <= 1.0f)
+        request.projection.warp = tuning.warp;
     else
         request.note = Reason::warp_unsupported;
-}
-
-/// A sun has no radius in metres, and what is no sun none as an angle.
-LightShadow with_own_source(const LightItem& light) {
-    LightShadow shadow = light.shadow;
-    (light.kind == LightKind::directional ? shadow.source_radius_m : shadow.sun_radius_rad) = 0.0f;
-    return shadow;
 }
 
 /// Of a point there is nothing to ask but whether it is seen.
 ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
     if (filter != ShadowFilter::exact_soft) return filter;
-    const bool has_size = needs_distances(filter_settings(filter_row(filter), with_own_source(light), kLeastMap_px));
+    const bool has_size = needs_distances(filter_settings(filter_row(filter), light, kLeastMap_px));
     return has_size ? filter : ShadowFilter::exact;
 }
 
@@ -180,18 +174,16 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
     return std::min((bounded_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
 }
 
-void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowRequest& request) {
-    const LightShadow& usable = are_splits(shadow) ? shadow : LightShadow{};
+void set_cascades(const ShadowTuning::Cascades& tuning, std::uint32_t count, ShadowRequest& request) {
     request.map.view_count = count;
-    request.map.cascade_blend = count > 1 ? usable.cascade_blend : 0.0f;
+    request.map.cascade_blend = count > 1 ? (are_splits(tuning) ? tuning : ShadowTuning::Cascades{}).blend : 0.0f;
 }
 
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest& request) {
     request.map.resolution_px = size_px;
-    const LightShadow shadow = with_own_source(light);
     const FilterRow& row = filter_row(request.map.filter);
-    request.map.filtering = filter_settings(row, shadow, size_px);
-    request.map.moments = prefilter_settings(row, shadow, size_px);
+    request.map.filtering = filter_settings(row, light, size_px);
+    request.map.moments = prefilter_settings(row, light, size_px);
     request.map.moments.sampler_anisotropy = map_texture(light, request) != gl::TextureKind::cube;
     if (request.map.filtering.cut || request.map.moments.cut) request.note = Reason::filter_cut;
 }
@@ -217,13 +209,13 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     const LightItem& light = scene.lights[i];
     ShadowRequest request;
     request.map.filter = filter;
-    request.map.depth_format = light.shadow.depth_format;
+    request.map.depth_format = light.tuning.maps.depth_format;
     request.map.view_count = light_kind_row(light.kind).layers;
     request.limits.device_px = limit_px;
     request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, request);
     decide_projection(light, scene.sampled_depths.failed, request);
-    if (light.kind == LightKind::directional) decide_warp(light.shadow, scene.consumers.size() == 1, request);
+    if (light.kind == LightKind::directional) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
     if (light.kind == LightKind::spot) decide_cone(light, held_light, request);
     if (request.projection.aim.used) {
         request.projection.faces_eighths = 0;
@@ -232,7 +224,7 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     if (leaves_count(light, request)) {
         request.limits.max_views = request.map.view_count;
         if (held_light && held_light->cascades > 0 && held_light->cascades < request.limits.max_views)
-            set_cascades(light.shadow, held_light->cascades, request);
+            set_cascades(light.tuning.cascades, held_light->cascades, request);
     }
     if (light.kind == LightKind::directional && follows_contract(light, request))
         set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->map_px : 0,

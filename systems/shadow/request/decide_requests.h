@@ -18,7 +18,7 @@ std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixe
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest& request);
 
 /// Sets how many cascades a sun has, and whether they fade into each other.
-void set_cascades(const LightShadow& shadow, std::uint32_t count, ShadowRequest& request);
+void set_cascades(const ShadowTuning::Cascades& tuning, std::uint32_t count, ShadowRequest& request);
 
 /// What the light of that index deserves with that filter, if it deserves anything.
 ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,

@@ -18,11 +18,13 @@ bool is_seen_as_before(const HeldFilter& held, double seen_px) {
 
 bool leaves_filter(const LightItem& light) {
     const LightShadow& shadow = light.shadow;
+    const ShadowTuning& tuning = light.tuning;
     if (shadow.filter != ShadowFilter::automatic || !(shadow.max_error_px > 0.0f)) return false;
     const bool sun = light.kind == LightKind::directional;
-    const bool given = shadow.resolution_px > 0 || shadow.near_m != 0.0f || shadow.far_m != 0.0f;
-    const bool apart = sun && (shadow.fit == ShadowFit::stable || shadow.projection == LightProjection::perspective);
-    return !given && !apart && shadow.bias == BiasMode::automatic;
+    const bool given = shadow.resolution_px > 0 || tuning.projection.near_m != 0.0f || tuning.projection.far_m != 0.0f;
+    const bool apart =
+        sun && (tuning.cascades.fit == ShadowFit::stable || tuning.projection.kind == LightProjection::perspective);
+    return !given && !apart && tuning.bias.mode == BiasMode::automatic;
 }
 
 ShadowFilter filter_to_fit(const LightItem& light, const HeldFilter* held) {

@@ -11,31 +11,33 @@ namespace {
 
 bool is_length(float value) { return std::isfinite(value) && value >= 0.0f; }
 
+using Kernel = ShadowTuning::Kernel;
+
 /// The field, or the default instead of what is no length.
-float length_of(const LightShadow& shadow, float LightShadow::*field, FilterSettings& filter) {
-    if (is_length(shadow.*field)) return shadow.*field;
+float length_of(const Kernel& kernel, float Kernel::*field, FilterSettings& filter) {
+    if (is_length(kernel.*field)) return kernel.*field;
     filter.cut = true;
-    return LightShadow{}.*field;
+    return Kernel{}.*field;
 }
 
 /// Taps that differ from point to point.
-void take_seeds(const LightShadow& shadow, FilterSettings& filter) {
-    filter.taps = std::clamp(shadow.filter_taps, 1u, kMostFilterTaps);
-    filter.cell_m = length_of(shadow, &LightShadow::filter_cell_m, filter);
-    if (!(filter.cell_m > 0.0f)) filter.cell_m = LightShadow{}.filter_cell_m;
-    filter.cut = filter.cut || filter.taps != shadow.filter_taps || filter.cell_m != shadow.filter_cell_m;
+void take_seeds(const Kernel& kernel, FilterSettings& filter) {
+    filter.taps = std::clamp(kernel.taps, 1u, kMostFilterTaps);
+    filter.cell_m = length_of(kernel, &Kernel::cell_m, filter);
+    if (!(filter.cell_m > 0.0f)) filter.cell_m = Kernel{}.cell_m;
+    filter.cut = filter.cut || filter.taps != kernel.taps || filter.cell_m != kernel.cell_m;
 }
 
 /// In place of taps.
-void take_rays(const LightShadow& shadow, FilterSettings& filter) {
-    filter.taps = std::clamp(shadow.penumbra_rays, 1u, kMostPenumbraRays);
-    filter.cut = filter.cut || filter.taps != shadow.penumbra_rays;
+void take_rays(const Kernel& kernel, FilterSettings& filter) {
+    filter.taps = std::clamp(kernel.penumbra_rays, 1u, kMostPenumbraRays);
+    filter.cut = filter.cut || filter.taps != kernel.penumbra_rays;
 }
 
-void take_spread(const LightShadow& shadow, float most_texel, FilterSettings& filter) {
-    filter.spread_m = length_of(shadow, &LightShadow::filter_spread_m, filter);
-    filter.doubles_m = length_of(shadow, &LightShadow::filter_doubles_m, filter);
-    const float spread_texel = length_of(shadow, &LightShadow::filter_spread_texel, filter);
+void take_spread(const Kernel& kernel, float most_texel, FilterSettings& filter) {
+    filter.spread_m = length_of(kernel, &Kernel::spread_m, filter);
+    filter.doubles_m = length_of(kernel, &Kernel::doubles_m, filter);
+    const float spread_texel = length_of(kernel, &Kernel::spread_texel, filter);
     filter.spread_texel = std::min(spread_texel, most_texel);
     filter.cut = filter.cut || (filter.spread_m == 0.0f && filter.spread_texel != spread_texel);
     const bool varies = filter.spread_m > 0.0f || filter.doubles_m > 0.0f;
@@ -44,12 +46,15 @@ void take_spread(const LightShadow& shadow, float most_texel, FilterSettings& fi
 }
 
 /// How many texels it reaches follows from where casters are: up to the most.
-void take_source(const LightShadow& shadow, float most_texel, FilterSettings& filter) {
-    const float radius_m = length_of(shadow, &LightShadow::source_radius_m, filter);
-    const float angle_rad = length_of(shadow, &LightShadow::sun_radius_rad, filter);
-    filter.source_radius_m = std::min(radius_m, kMostSourceRadius_m);
-    filter.sun_radius_tan = std::tan(std::min(angle_rad, kMostSunRadius_rad));
-    filter.cut = filter.cut || radius_m > kMostSourceRadius_m || angle_rad > kMostSunRadius_rad;
+void take_source(const LightItem& light, float most_texel, FilterSettings& filter) {
+    const float size = source_size(light);
+    const bool sun = light.kind == LightKind::directional;
+    const float taken = is_length(size) ? std::min(size, sun ? kMostSunRadius_rad : kMostSourceRadius_m) : 0.0f;
+    if (sun)
+        filter.sun_radius_tan = std::tan(taken);
+    else
+        filter.source_radius_m = taken;
+    filter.cut = filter.cut || !(taken == size);
     if (!needs_distances(filter)) return;
     filter.most_spread_texel = std::min(kMostPenumbra_texel, most_texel);
     filter.widest_texel += filter.most_spread_texel;
@@ -66,11 +71,16 @@ bool needs_distances(const FilterSettings& filter) {
     return filter.source_radius_m > 0.0f || filter.sun_radius_tan > 0.0f;
 }
 
-FilterSettings filter_settings(const LightShadow& shadow, std::uint32_t resolution_px) {
-    return filter_settings(filter_row(shadow.filter), shadow, resolution_px);
+float source_size(const LightItem& light) {
+    return light.kind == LightKind::directional ? light.sun_radius_rad : light.source_radius_m;
 }
 
-FilterSettings filter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
+FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px) {
+    return filter_settings(filter_row(light.shadow.filter), light, resolution_px);
+}
+
+FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
+    const Kernel& kernel = light.tuning.kernel;
     const auto most_edge_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
     const float most_texel = std::min(kMostSpread_texel, most_edge_texel);
     FilterSettings filter;
@@ -78,17 +88,17 @@ FilterSettings filter_settings(const FilterRow& row, const LightShadow& shadow, 
     if (row.width == FilterWidth::size) {
         // The nearest odd size below.
         const auto most = std::min(kMostFilterSize, 2 * static_cast<std::uint32_t>(most_texel) + 1);
-        filter.size = (std::clamp(shadow.filter_size, 1u, most) - 1) / 2 * 2 + 1;
-        filter.cut = filter.size != shadow.filter_size;
+        filter.size = (std::clamp(kernel.size_texel, 1u, most) - 1) / 2 * 2 + 1;
+        filter.cut = filter.size != kernel.size_texel;
         filter.reach_texel += 0.5f * static_cast<float>(filter.size - 1);
     }
-    filter.reach_texel += prefilter_settings(row, shadow, resolution_px).reach_texel;
+    filter.reach_texel += prefilter_settings(row, light, resolution_px).reach_texel;
     filter.widest_texel = filter.reach_texel;
     filter.still_texel = row.still_texel;
-    if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(shadow, filter);
-    if (row.width == FilterWidth::spread) take_spread(shadow, most_texel, filter);
-    if (asks_rays(row)) take_rays(shadow, filter);
-    if (row.width == FilterWidth::source) take_source(shadow, most_edge_texel, filter);
+    if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(kernel, filter);
+    if (row.width == FilterWidth::spread) take_spread(kernel, most_texel, filter);
+    if (asks_rays(row)) take_rays(kernel, filter);
+    if (row.width == FilterWidth::source) take_source(light, most_edge_texel, filter);
     filter.border_texel = border_texel(filter, filter.most_spread_texel);
     return filter;
 }

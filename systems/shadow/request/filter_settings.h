@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "components/light_shadow.h"
+#include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_request.h"
 
 namespace gnomon::shadow {
@@ -17,8 +17,13 @@ inline constexpr float kMostPenumbra_texel = 128.0f;
 /// Of a map's edge: a wider footprint would leave too little between its borders.
 inline constexpr std::uint32_t kEdgesPerSpread = 8;
 
-FilterSettings filter_settings(const LightShadow& shadow, std::uint32_t resolution_px);
-FilterSettings filter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
+/// Of the source's sizes the light's own kind's counts.
+FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px);
+/// The same with the light's own filter.
+FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px);
+
+/// The size of the light's source: a sun's as an angle, others' in metres. 0 or no length: a point.
+float source_size(const LightItem& light);
 
 /// Whether a map has to hold how far casters truly are, instead of flattening those before its depth range.
 bool needs_distances(const FilterSettings& filter);

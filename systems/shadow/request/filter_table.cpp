@@ -9,29 +9,31 @@
 namespace gnomon::shadow {
 namespace {
 
-std::uint32_t one(const LightShadow&, bool) { return 1; }
+using Kernel = ShadowTuning::Kernel;
+
+std::uint32_t one(const Kernel&, bool) { return 1; }
 /// What a ray reads on an average way through a large scene, by 16 bytes (docs/exact.md, "Quality"): there is no most.
-std::uint32_t of_ray(const LightShadow&, bool) {
+std::uint32_t of_ray(const Kernel&, bool) {
     constexpr std::uint32_t kBoxes = 55, kTriangles = 32, kPerBox = 2, kPerTriangle = 3;
     return kBoxes * kPerBox + kTriangles * kPerTriangle;
 }
-std::uint32_t of_rays(const LightShadow& shadow, bool cube) { return of_ray(shadow, cube) * shadow.penumbra_rays; }
-std::uint32_t of_grid(const LightShadow& shadow, bool) { return shadow.filter_size * shadow.filter_size; }
+std::uint32_t of_rays(const Kernel& kernel, bool cube) { return of_ray(kernel, cube) * kernel.penumbra_rays; }
+std::uint32_t of_grid(const Kernel& kernel, bool) { return kernel.size_texel * kernel.size_texel; }
 /// A fetch takes 2x2 texels; a grid of n that slides over them touches n + 1.
-std::uint32_t of_pairs(const LightShadow& shadow, bool) {
-    const std::uint32_t pairs = (shadow.filter_size + 1) / 2;
+std::uint32_t of_pairs(const Kernel& kernel, bool) {
+    const std::uint32_t pairs = (kernel.size_texel + 1) / 2;
     return pairs * pairs;
 }
-std::uint32_t of_disk(const LightShadow& shadow, bool) { return shadow.filter_taps; }
+std::uint32_t of_disk(const Kernel& kernel, bool) { return kernel.taps; }
 // On a flat map what differs only toward the light is one tap.
-std::uint32_t of_cube_grid(const LightShadow&, bool cube) { return cube ? 64 : 16; }
-std::uint32_t of_directions(const LightShadow&, bool cube) { return cube ? 20 : 8; }
+std::uint32_t of_cube_grid(const Kernel&, bool cube) { return cube ? 64 : 16; }
+std::uint32_t of_directions(const Kernel&, bool cube) { return cube ? 20 : 8; }
 
 /// Where the first, a fetch of four, does not settle it: sixteen, and two neighbours of each that is above the plane.
-std::uint32_t of_votes(const LightShadow&, bool) { return 1 + 16 * 3; }
+std::uint32_t of_votes(const Kernel&, bool) { return 1 + 16 * 3; }
 
 /// The same, and which triangles the four show.
-std::uint32_t of_triangles(const LightShadow& shadow, bool cube) { return of_votes(shadow, cube) + 4; }
+std::uint32_t of_triangles(const Kernel& kernel, bool cube) { return of_votes(kernel, cube) + 4; }
 
 // e^11.09 is the largest half float, e^88.7 the largest float; EVSM stores squares, and a sum of weights needs room.
 // Half floats below 2^-14 lose bits: e^-9.7.
@@ -45,14 +47,14 @@ constexpr MomentRow kWarpedTwice{
     {gl::Format::rgba16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rgba32f, 42.0f, 40.0f, 2.5e-7f}, 5.0f};
 constexpr MomentRow kFourMoments{{gl::Format::rgba16, 0.0f, 0.0f, 6.0e-5f}, {gl::Format::rgba32f, 0.0f, 0.0f, 3.0e-7f}};
 /// The search of pcss.glsl, then two disks or votes.
-std::uint32_t of_search(const LightShadow& shadow, bool cube) {
+std::uint32_t of_search(const Kernel& kernel, bool cube) {
     constexpr std::uint32_t kTapsPerOctave = 4, kOctaves = 8;  // from half a texel to kMostPenumbra_texel
     static_assert(kMostPenumbra_texel == 0.5f * (1u << kOctaves));
-    return kTapsPerOctave * kOctaves + std::max(2 * shadow.filter_taps, of_votes(shadow, cube));
+    return kTapsPerOctave * kOctaves + std::max(2 * kernel.taps, of_votes(kernel, cube));
 }
 
 /// A lookup in each level of mipmaps, up to a texel as wide as the widest penumbra, and four between two of them.
-std::uint32_t of_levels(const LightShadow&, bool) { return widest_penumbra_levels(kMostPenumbra_texel) + 4; }
+std::uint32_t of_levels(const Kernel&, bool) { return widest_penumbra_levels(kMostPenumbra_texel) + 4; }
 
 // E is the distance from the receiver's map position to the farthest texel edge that takes part: one nearest tap 1/2;
 // a hardware 2x2 tap blends texels up to one away; taps beside the middle add their own distance. The sharp one counts

@@ -3,17 +3,17 @@
 #include <span>
 #include <string_view>
 
-#include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
 
 namespace gnomon::shadow {
 
-/// What of LightShadow the footprint of a filter follows.
+/// Which settings the footprint of a filter follows.
 enum class FilterWidth : std::uint8_t {
     fixed,
-    size,    // filter_size
-    spread,  // filter_spread_texel, filter_spread_m, filter_doubles_m
-    source   // source_radius_m, sun_radius_rad; needs true distances of casters
+    size,    // ShadowTuning::Kernel::size_texel
+    spread,  // its spread_texel, spread_m, doubles_m
+    source   // Light::source_radius_m, sun_radius_rad; needs true distances of casters
 };
 
 /// What a map holds for a filter: depth, or also which triangle each texel shows
@@ -48,7 +48,7 @@ struct FilterRow {
     std::string_view name;  // as in --set filter=
     std::string_view file;  // under shaders/
     /// Most texture fetches per lookup, without early bailing; `cube`: of a point light.
-    std::uint32_t (*taps)(const LightShadow& shadow, bool cube);
+    std::uint32_t (*taps)(const ShadowTuning::Kernel& kernel, bool cube);
     /// E, the half-width of the footprint that decides a pixel, in texels: this, and what `width` adds.
     float reach_texel;
     FilterWidth width;

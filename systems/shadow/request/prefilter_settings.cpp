@@ -35,10 +35,9 @@ void set_footprint(PrefilterSettings& request) {
 }
 
 /// Of FilterWidth::source, as filter_settings() takes its size.
-std::uint32_t penumbra_levels(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
-    const auto has_size = [](float radius) { return std::isfinite(radius) && radius > 0.0f; };
-    const bool soft =
-        row.width == FilterWidth::source && (has_size(shadow.source_radius_m) || has_size(shadow.sun_radius_rad));
+std::uint32_t penumbra_levels(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
+    const float size = source_size(light);
+    const bool soft = row.width == FilterWidth::source && std::isfinite(size) && size > 0.0f;
     if (!soft) return 1;
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
     return widest_penumbra_levels(std::min(kMostPenumbra_texel, most_texel));
@@ -50,31 +49,31 @@ std::uint32_t widest_penumbra_levels(float radius_texel) {
     return static_cast<std::uint32_t>(std::bit_width(static_cast<std::uint32_t>(std::max(radius_texel, 1.0f))));
 }
 
-PrefilterSettings prefilter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px) {
+PrefilterSettings prefilter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
     PrefilterSettings request;
     if (!row.moments) return request;
-    const bool half = shadow.moment_bits <= 16;
+    const ShadowTuning::Moments& tuning = light.tuning.moments;
+    const bool half = tuning.bits <= 16;
     const MomentStore& store = half ? row.moments->bits_16 : row.moments->bits_32;
-    request.cut = shadow.moment_bits != 16 && shadow.moment_bits != 32;
+    request.cut = tuning.bits != 16 && tuning.bits != 32;
     request.format = store.format;
     const float negative = row.moments->usual_negative_exponent;
     request.settings = {
-        exponent(shadow.moment_exponent, store.usual_exponent, store.most_exponent, request.cut),
-        negative > 0.0f ? exponent(shadow.moment_negative_exponent, negative, store.most_exponent, request.cut) : 0.0f,
+        exponent(tuning.exponent, store.usual_exponent, store.most_exponent, request.cut),
+        negative > 0.0f ? exponent(tuning.negative_exponent, negative, store.most_exponent, request.cut) : 0.0f,
         store.least, half ? 1.0f : 0.0f};
-    const bool share = shadow.moment_bleeding >= 0.0f && shadow.moment_bleeding <= kMostMomentBleeding;
-    request.bleeding = share ? shadow.moment_bleeding : LightShadow{}.moment_bleeding;
-    request.levels = std::clamp(shadow.moment_levels, 1u, kMostMomentLevels);
-    request.anisotropy = std::clamp(shadow.moment_anisotropy, 1u, kMostMomentAnisotropy);
+    const bool share = tuning.bleeding >= 0.0f && tuning.bleeding <= kMostMomentBleeding;
+    request.bleeding = share ? tuning.bleeding : ShadowTuning::Moments{}.bleeding;
+    request.levels = std::clamp(tuning.levels, 1u, kMostMomentLevels);
+    request.anisotropy = std::clamp(tuning.anisotropy, 1u, kMostMomentAnisotropy);
     set_footprint(request);
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
     while (request.reach_texel > most_texel && request.levels + request.anisotropy > 2) {
         (request.levels > 1 ? request.levels : request.anisotropy) -= 1;
         set_footprint(request);
     }
-    request.cut = request.cut || !share || request.levels != shadow.moment_levels ||
-                  request.anisotropy != shadow.moment_anisotropy;
-    request.levels = std::max(request.levels, penumbra_levels(row, shadow, resolution_px));
+    request.cut = request.cut || !share || request.levels != tuning.levels || request.anisotropy != tuning.anisotropy;
+    request.levels = std::max(request.levels, penumbra_levels(row, light, resolution_px));
     return request;
 }
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 
-#include "components/light_shadow.h"
 #include "engine/gl/device.h"
+#include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_request.h"
 
 namespace gnomon::shadow {
@@ -19,7 +19,7 @@ inline constexpr float kMostMomentBleeding = 0.9f;
 std::uint32_t widest_penumbra_levels(float radius_texel);
 
 /// Of a row of FilterStorage::moments; of any other the default. A map that is too small for so many levels gets fewer.
-PrefilterSettings prefilter_settings(const FilterRow& row, const LightShadow& shadow, std::uint32_t resolution_px);
+PrefilterSettings prefilter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px);
 
 /// Weights of a Gaussian blur over `size` texels (odd), from the middle outward; the two sides of it sum up to 1. It is
 /// cut off at two standard deviations, half a texel beyond the last.

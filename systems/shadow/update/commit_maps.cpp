@@ -10,7 +10,7 @@ namespace {
 void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t v, bool takes_turns,
                 LightHistory& history) {
     const ShadowView& view = drawn.view(v);
-    if (!may_be_held(scene.lights[view.light].shadow) && !takes_turns) {
+    if (!may_be_held(scene.lights[view.light]) && !takes_turns) {
         history.shown.clear();
         return;
     }

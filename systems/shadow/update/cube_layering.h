@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
 
 namespace gnomon::shadow {

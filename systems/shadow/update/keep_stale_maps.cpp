@@ -51,17 +51,17 @@ bool is_others_turn(const UpdateInputs& inputs, std::size_t v, std::uint64_t fra
 /// Whether the layer is kept, and why.
 Hold hold_of(const SceneSnapshot& scene, const UpdateInputs& inputs, std::size_t v, std::uint64_t frame,
              const UpdatePlan& plan) {
-    const LightShadow& shadow = scene.lights[inputs.fitted.views[v].light].shadow;
+    const LightItem& light = scene.lights[inputs.fitted.views[v].light];
     const double error_px = plan.if_held.error_px;
     if (!std::isfinite(error_px)) return Hold::none;
-    if (may_be_held(shadow) && error_px <= static_cast<double>(shadow.refresh_error_px)) return Hold::within_error;
+    if (may_be_held(light) && error_px <= static_cast<double>(light.shadow.refresh_error_px)) return Hold::within_error;
     return is_others_turn(inputs, v, frame, plan) ? Hold::by_turn : Hold::none;
 }
 
 }  // namespace
 
-bool may_be_held(const LightShadow& shadow) {
-    return shadow.refresh_error_px > 0.0f && shadow.bias == BiasMode::automatic;
+bool may_be_held(const LightItem& light) {
+    return light.shadow.refresh_error_px > 0.0f && light.tuning.bias.mode == BiasMode::automatic;
 }
 
 Staleness staleness_if_held(const SceneSnapshot& scene, const UpdateInputs& inputs, std::size_t v,
@@ -70,7 +70,7 @@ Staleness staleness_if_held(const SceneSnapshot& scene, const UpdateInputs& inpu
     const MapAssignment& map = inputs.maps[v];
     const bool certain = static_cast<bool>(map.sheets.second);  // what sheets say would no longer be
     const bool shows_it = shown_content != 0 && history.placements[view.layer] == map.content.placement;
-    if (certain || !scene.lights[view.light].shadow.economy || !shows_it || view.layer >= history.shown.size())
+    if (certain || !scene.lights[view.light].tuning.reuse.economy || !shows_it || view.layer >= history.shown.size())
         return kUnknownStaleness;
     return staleness(scene, view, history.shown[view.layer], map.content.still, inputs.fitted.casters_of(view));
 }

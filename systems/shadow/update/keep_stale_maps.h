@@ -10,7 +10,7 @@ namespace gnomon::shadow {
 
 /// Whether a light's maps may be kept within LightShadow::refresh_error_px. An offset that is chosen by hand says
 /// nothing of what keeps a moved caster from darkening itself.
-bool may_be_held(const LightShadow& shadow);
+bool may_be_held(const LightItem& light);
 
 /// Returns what keeping the layer of view `v` would mean, whose light the store remembers as `history`. Infinite: it
 /// is not known how far casters moved since it was drawn, or the view itself moved.

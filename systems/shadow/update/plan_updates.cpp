@@ -24,7 +24,7 @@ void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, cons
         const LightHistory& history = *maps.find(light.entity);
         UpdatePlan& plan = plans[v];
         plan.content = map.content.all;
-        plan.reuse = view.lit || (light.shadow.economy && history.content[view.layer] == plan.content);
+        plan.reuse = view.lit || (light.tuning.reuse.economy && history.content[view.layer] == plan.content);
         if (plan.reuse) continue;
         plan.shown_content = history.content[view.layer];
         plan.if_held = staleness_if_held(scene, inputs, v, history, plan.shown_content);
@@ -81,7 +81,7 @@ void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, c
         }
         const std::uint64_t shown = maps.find(light.entity)->moments.content[view.layer];
         plans[v].moment_content = s.value();
-        plans[v].convert = !view.lit && (!light.shadow.economy || shown != s.value());
+        plans[v].convert = !view.lit && (!light.tuning.reuse.economy || shown != s.value());
     }
 }
 
@@ -101,7 +101,7 @@ void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapSt
             apart = apart || plans[v].still_use != StillUse::none;
         }
         if (faces == 0 || apart) continue;
-        const CubeRoute route = cube_route(scene.lights[i].shadow.cube_route, maps.device(), faces);
+        const CubeRoute route = cube_route(scene.lights[i].tuning.maps.cube_route, maps.device(), faces);
         if (route == CubeRoute::six_passes) continue;
         const gl::TargetHandle whole = maps.whole_target(maps.entry(scene.lights[i].entity));
         for (std::size_t v = range.first; v < range.end(); ++v) {

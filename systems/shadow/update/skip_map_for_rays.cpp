@@ -43,7 +43,7 @@ void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const U
         const IndexRange range = inputs.fitted.lights[i].views;
         const LightItem& light = scene.lights[i];
         const ShadowRequest& request = inputs.decisions[i].request;
-        if (range.count == 0 || !request.rays.used || !light.shadow.economy || !inputs.maps[range.first].texture)
+        if (range.count == 0 || !request.rays.used || !light.tuning.reuse.economy || !inputs.maps[range.first].texture)
             continue;
         LightHistory& history = maps.entry(light.entity);
         const std::uint64_t content = content_of(plans, range);

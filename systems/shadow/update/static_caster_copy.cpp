@@ -21,7 +21,7 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         const bool both = view.still_casters > 0 && view.still_casters < view.casters.count;
         if (!both || !assigned.texture || plan.left_to_rays || plan.reuse || assigned.sheets.second) continue;
         const LightItem& light = scene.lights[view.light];
-        if (!light.shadow.economy) continue;
+        if (!light.tuning.reuse.economy) continue;
         LightHistory& map = maps.entry(light.entity);
         map.still.layers.resize(map.targets.size());
         StillMap::Layer& layer = map.still.layers[view.layer];

@@ -46,7 +46,8 @@ protected:
                         now.rotation_ws == then.rotation_ws && now.colour == then.colour &&
                         now.intensity == then.intensity && now.range_m == then.range_m &&
                         now.inner_cone_rad == then.inner_cone_rad && now.outer_cone_rad == then.outer_cone_rad &&
-                        now.has_shadow == then.has_shadow && now.shadow == then.shadow)
+                        now.source_radius_m == then.source_radius_m && now.sun_radius_rad == then.sun_radius_rad &&
+                        now.has_shadow == then.has_shadow && now.shadow == then.shadow && now.tuning == then.tuning)
                 << what << ": " << now.name;
         }
         ASSERT_EQ(snapshot.instances.size(), fresh.instances.size()) << what;
@@ -74,15 +75,20 @@ protected:
     struct Edit {
         const char* what;
         std::function<void()> run;
+        bool shapes_lamp = false;  // the lamp's shadows follow from it
     };
     /// One of each component that says nothing of instances.
     std::vector<Edit> edits() {
         ecs::Registry& r = world.registry;
         return {
             {"intensity", [&] { r.patch<Light>(lamp, [](Light& l) { l.intensity *= 0.99f; }); }},
-            {"cone", [&] { r.patch<Light>(lamp, [](Light& l) { l.outer_cone_rad *= 0.99f; }); }},
+            {"cone", [&] { r.patch<Light>(lamp, [](Light& l) { l.outer_cone_rad *= 0.99f; }); }, true},
+            {"size", [&] { r.patch<Light>(lamp, [](Light& l) { l.source_radius_m = 0.1f; }); }, true},
             {"kind", [&] { r.patch<Light>(other, [](Light& l) { l.kind = LightKind::directional; }); }},
-            {"shadow", [&] { r.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px += 1; }); }},
+            {"shadow", [&] { r.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px += 1; }); }, true},
+            {"tuning", [&] { r.emplace<ShadowTuning>(lamp, {.kernel = {.taps = 3}}); }, true},
+            {"other tuning", [&] { r.patch<ShadowTuning>(lamp, [](ShadowTuning& t) { t.kernel.taps = 4; }); }, true},
+            {"no tuning", [&] { r.remove<ShadowTuning>(lamp); }, true},
             {"no shadow", [&] { r.remove<LightShadow>(other); }},
             {"shadow again", [&] { r.emplace<LightShadow>(other); }},
             {"camera", [&] { r.patch<Camera>(stage.camera, [](Camera& c) { c.fov_y_rad *= 0.99; }); }},
@@ -113,6 +119,43 @@ TEST_F(InPlace, LightsShadowsCamerasAndNamesLeaveInstancesAlone) {
     const auto added = world.add_mesh(kBox, {0, 0, 9}, true);
     update();
     EXPECT_GT(snapshot.list_version, lists) << "the control: " << added.index;
+}
+
+TEST_F(InPlace, TuningHoldsWhileItIsThereAndIsTheDefaultsWithoutIt) {
+    ecs::Registry& r = world.registry;
+    const auto taps = [&] { return snapshot.lights.at(0).tuning.kernel.taps; };
+    const std::uint32_t usual = ShadowTuning{}.kernel.taps;
+    EXPECT_EQ(taps(), usual);
+    r.emplace<ShadowTuning>(lamp, {.kernel = {.taps = 3}});
+    update();
+    EXPECT_EQ(taps(), 3u);
+    r.patch<ShadowTuning>(lamp, [](ShadowTuning& t) { t.kernel.taps = 4; });
+    update();
+    EXPECT_EQ(taps(), 4u);
+    r.remove<ShadowTuning>(lamp);
+    update();
+    EXPECT_EQ(taps(), usual);
+    EXPECT_EQ(snapshot.list_version, lists);
+}
+
+TEST_F(InPlace, TuningByTheDefaultsOrWithoutAShadowChangesNothing) {
+    ecs::Registry& r = world.registry;
+    const std::uint64_t version = snapshot.version;
+    r.emplace<ShadowTuning>(lamp);
+    update();
+    EXPECT_EQ(snapshot.version, version);
+    r.remove<LightShadow>(other);
+    update();
+    const std::uint64_t without = snapshot.version;
+    r.emplace<ShadowTuning>(other, {.kernel = {.taps = 3}});
+    r.patch<ShadowTuning>(other, [](ShadowTuning& t) { t.bias.mode = BiasMode::slope; });
+    update();
+    EXPECT_EQ(snapshot.version, without);
+    r.emplace<LightShadow>(other);
+    update();
+    EXPECT_GT(snapshot.version, without) << "the control";
+    EXPECT_EQ(snapshot.lights.at(2).tuning.kernel.taps, 3u);
+    expect_as_if_made_anew("a shadow again");
 }
 
 TEST_F(InPlace, AnotherLightThatComesOrGoesLeavesInstancesAloneToo) {
@@ -161,8 +204,7 @@ TEST_F(InPlace, DimmingAndNamingChangeNothingThatShadowsFollowFrom) {
     for (const Edit& edit : edits()) {
         edit.run();
         update();
-        const bool shapes = edit.what == std::string("cone") || edit.what == std::string("shadow");
-        EXPECT_EQ(snapshot.lights.at(0).shape_version > shape, shapes) << edit.what;
+        EXPECT_EQ(snapshot.lights.at(0).shape_version > shape, edit.shapes_lamp) << edit.what;
         shape = snapshot.lights.at(0).shape_version;
     }
     world.move(lamp, {1, 2, 3});
@@ -174,7 +216,9 @@ TEST_F(InPlace, WhatIsWrittenAsItWasChangesNothing) {
     const std::uint64_t version = snapshot.version;
     ecs::Registry& r = world.registry;
     r.patch<Light>(lamp, [](Light&) {});
+    r.emplace<ShadowTuning>(lamp);
     r.patch<LightShadow>(lamp, [](LightShadow&) {});
+    r.patch<ShadowTuning>(lamp, [](ShadowTuning&) {});
     r.patch<Camera>(stage.camera, [](Camera&) {});
     r.patch<Name>(lamp, [](Name&) {});
     r.patch<Name>(stage.box, [](Name& n) { n.text = "nobody asks for a box's"; });
@@ -228,6 +272,7 @@ TEST_F(InPlace, NothingIsAllocatedOnceWarm) {
         ecs::Registry& r = world.registry;
         r.patch<Light>(lamp, [&](Light& l) { l.intensity = 1.0f + 0.01f * static_cast<float>(i); });
         r.patch<LightShadow>(lamp, [&](LightShadow& s) { s.resolution_px = static_cast<std::uint32_t>(64 + i); });
+        edit_light(r, lamp, [&](ShadowTuning& t) { t.kernel.taps = static_cast<std::uint32_t>(i); });
         r.patch<Camera>(stage.camera, [&](Camera& c) { c.fov_y_rad = 0.9 + 0.001 * i; });
         r.patch<Name>(stage.box, [&](Name& n) { n.text[0] = static_cast<char>('a' + i); });
         r.patch<ShadowCaster>(stage.box, [&](ShadowCaster& c) { c.enabled = i % 2 == 0; });

@@ -61,14 +61,14 @@ void expect_share(const Traced& traced, double radius_m) {
 TEST(SoftTruth, UnderASunWithADiskIsTheShareOfTheDiskBesideTheEdge) {
     const AnalyticScene scene = half_covered(5.0);
     LightItem sun = scene.sun({0.0, 1.0, 0.0});
-    sun.shadow.sun_radius_rad = static_cast<float>(std::atan(0.2));
+    sun.sun_radius_rad = static_cast<float>(std::atan(0.2));
     expect_share(trace(scene, sun), 5.0 * 0.2);
 }
 
 TEST(SoftTruth, UnderALampWidensWithTheWayFromTheCaster) {
     const AnalyticScene scene = half_covered(3.0);
     LightItem lamp = scene.lamp({0.0, 12.0, 0.0});
-    lamp.shadow.source_radius_m = 1.0f;
+    lamp.source_radius_m = 1.0f;
     const Traced traced = trace(scene, lamp);
     double worst = 0.0;
     for (std::size_t i = 0; i < traced.hits.count(); ++i) {
@@ -94,7 +94,7 @@ TEST(SoftTruth, FewRaysWhereAllAgreeGiveWhatAllRaysGiveForFarLess) {
     scene.place_floor(20.0);
     for (int i = 0; i < 9; ++i) scene.place(scene.add_cube(), {i % 3 - 1.2, 0.9 + 0.4 * i, i / 3 - 0.8}, glm::dmat3(0.3)).visible = false;
     LightItem sun = scene.sun({0.3, 1.0, 0.2});
-    sun.shadow.sun_radius_rad = 0.03f;
+    sun.sun_radius_rad = 0.03f;
     const Traced few = trace(scene, sun), all = trace(scene, sun, {.first_few = false});
     EXPECT_EQ(all.truth.sampled, all.hits.count());
     EXPECT_LT(few.truth.sampled, all.hits.count() / 2);

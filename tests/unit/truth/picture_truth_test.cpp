@@ -136,8 +136,8 @@ TEST(TruthOfAPicture, ASourcesSizeAndTheNumberOfThreadsChangeNothing) {
     const auto scene = load(std::nullopt, 3.0);
     const PictureTruth plain = traced(*scene);
     for (LightItem& light : scene->snapshot.lights) {
-        light.shadow.source_radius_m = 0.3f;
-        light.shadow.sun_radius_rad = 0.02f;
+        light.source_radius_m = 0.3f;
+        light.sun_radius_rad = 0.02f;
     }
     TraceState state;
     const PictureTruth sized = trace_picture(scene->snapshot, scene->library, 1, state);

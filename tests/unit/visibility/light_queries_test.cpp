@@ -245,7 +245,7 @@ TEST(LightQueries, DependOnNeitherBatchesNorOrderNorThreadsNorTheTree) {
     std::vector<Place> places = random_places(scene, 5000, 5);
     for (std::size_t i = 0; i < places.size(); i += 3) places[i].radius_m = 0.2;
     for (LightItem light : lights_of(scene)) {
-        light.shadow.source_radius_m = 0.1f;
+        light.source_radius_m = 0.1f;
         const std::vector<float> answers = scene.ask(light, places);
         EXPECT_EQ(scene.ask(light, places, {.threads = 3}), answers);
         for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(scene.ask(light, places[i]), answers[i]) << i;
@@ -264,9 +264,9 @@ TEST(LightQueries, OfASourceWithASizeCountTheShareThatIsSeen) {
     scene.place(scene.add_square(), {5.0, 2.0, 0.0}, glm::dmat3({10, 0, 0}, {0, 0, -10}, {0, 1, 0}));  // x from 0
     scene.finish();
     LightItem lamp = scene.lamp({0.0, 4.0, 0.0});
-    lamp.shadow.source_radius_m = 1.0f;
+    lamp.source_radius_m = 1.0f;
     LightItem sun = scene.sun({0.0, 1.0, 0.0});
-    sun.shadow.sun_radius_rad = 0.1f;
+    sun.sun_radius_rad = 0.1f;
     const QueryOptions many{.samples = 400};
     for (const LightItem& light : {lamp, sun}) {
         EXPECT_EQ(scene.ask(light, Place{{-3.0, 0.0, 0.0}}, many), 1.0f);

@@ -4,7 +4,7 @@
 #include "systems/shadow/projection/orthographic_view.h"
 #include "systems/shadow/request/light_kinds.h"
 
-/// The three ways to fit one cascade of a sun: LightShadow::fit.
+/// The three ways to fit one cascade of a sun: ShadowFit.
 namespace gnomon::shadow {
 
 /// Which held sizes a fit may change.

@@ -61,7 +61,7 @@ DepthSpan seen_span(std::span<const glm::dvec3> points_ws, const ConsumerItem& c
 
 /// Between which view distances the cascades lie.
 DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
-    const ShadowFit fit = input.light.shadow.fit;
+    const ShadowFit fit = input.light.tuning.cascades.fit;
     DepthSpan span =
         fit == ShadowFit::stable ? stable_span(input.scene, consumer) : seen_span(input.receiver_points_ws, consumer);
     span.lowest = std::max(span.lowest, std::max(consumer.near_m, span.highest * kLeastExtent));
@@ -91,37 +91,37 @@ double seen_width_m(std::span<const glm::dvec3> points_ws, const ConsumerItem& c
 
 /// By the pixels of an earlier picture. False: nothing is known of them.
 bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const DepthSpan& whole, CascadeEnds& ends) {
-    const LightShadow& shadow = input.light.shadow;
-    if (shadow.splits != CascadeSplits::sampled || !are_splits(shadow)) return false;
-    const double width_m = shadow.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
+    const ShadowTuning::Cascades& tuning = input.light.tuning.cascades;
+    if (tuning.splits != CascadeSplits::sampled || !are_splits(tuning)) return false;
+    const double width_m = tuning.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
                                                            : seen_width_m(input.receiver_points_ws, consumer);
     const SampledSplit split{input.scene.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
-    if (shadow.fit == ShadowFit::tight) return sampled_ends(split, ends);
+    if (tuning.fit == ShadowFit::tight) return sampled_ends(split, ends);
     return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
 }
 
 /// More than one map is chosen only where depths lie so far apart that even parts of them, however small their share,
 /// leave nothing to what is near: 4.6 % wrong instead of 0.8 in a valley of kilometres (docs/cost.md).
-LightShadow with_ends_for_count(LightShadow shadow, const ShadowRequest& request) {
-    if (request.limits.max_views > 0 && shadow.splits == CascadeSplits::practical) shadow.split_lambda = 1.0f;
-    return shadow;
+ShadowTuning::Cascades with_ends_for_count(ShadowTuning::Cascades tuning, const ShadowRequest& request) {
+    if (request.limits.max_views > 0 && tuning.splits == CascadeSplits::practical) tuning.split_lambda = 1.0f;
+    return tuning;
 }
 
 CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
-    const LightShadow& shadow = input.light.shadow;
+    const ShadowTuning::Cascades& tuning = input.light.tuning.cascades;
     const DepthSpan whole = whole_span(input, consumer);
     CascadeEnds ends{};
     if (ends_by_pixels(input, consumer, whole, ends)) return ends;
     std::vector<DepthSpan>& receivers = input.scratch.depths;
     receivers.clear();
-    if (shadow.splits == CascadeSplits::seen || shadow.splits == CascadeSplits::sampled)
+    if (tuning.splits == CascadeSplits::seen || tuning.splits == CascadeSplits::sampled)
         for (const std::uint32_t r : input.receivers) {
             const math::Aabb& box = input.scene.instances[r].bounds_ws;
             const double middle = view_distance(consumer, math::centre(box));
             const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
             receivers.push_back({middle - reach, middle + reach});
         }
-    return cascade_ends(with_ends_for_count(shadow, input.request), input.request.map.view_count, whole,
+    return cascade_ends(with_ends_for_count(tuning, input.request), input.request.map.view_count, whole,
                         consumer.projection == CameraProjection::perspective, receivers);
 }
 
@@ -132,7 +132,7 @@ CascadeSlices cascade_slices(const FitInput& input) {
     const CascadeEnds wanted = wanted_ends(input, consumer);
     const std::uint32_t count = input.request.map.view_count;
     // Several consumers: all cascades serve by what they hold, none by distance.
-    const bool moves_slowly = input.light.shadow.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
+    const bool moves_slowly = input.light.tuning.cascades.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
     const double blend = static_cast<double>(input.request.map.cascade_blend);
     const GlidingEnds ends = moves_slowly ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
                                           : GlidingEnds{wanted, wanted, wanted};

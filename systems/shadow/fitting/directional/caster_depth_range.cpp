@@ -40,7 +40,7 @@ float penumbra_border_texel(const FitInput& input, double content, double aside)
 
 bool fit_cascade(const CascadeInput& input, OrthographicBox& box) {
     const FilterSettings& filter = input.light.request.map.filtering;
-    const CascadeFit fit = cascade_fit(input.light.light.shadow.fit);
+    const CascadeFit fit = cascade_fit(input.light.light.tuning.cascades.fit);
     if (!needs_distances(filter)) return fit(input, box);
     const auto radius_tan = static_cast<double>(filter.sun_radius_tan);
     // First for the depth alone: how wide penumbrae are follows from it.

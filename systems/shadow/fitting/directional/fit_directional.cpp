@@ -19,7 +19,7 @@
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 
-/// Directional light: cascades along the first consumer's view, each an orthographic view that LightShadow::fit places.
+/// Directional light: cascades along the first consumer's view, each an orthographic view that ShadowFit places.
 /// Casters nearer to the light than the depth range are flattened onto the near plane by depth clamping and cast all
 /// the same.
 namespace gnomon::shadow {
@@ -121,7 +121,8 @@ bool has_stepped(const FitInput& input) {
 void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, Stepping stepping,
                   std::vector<ShadowView>& views) {
     const bool counts_from_eye = input.request.projection.near_m > 0.0 || input.request.projection.far_m > 0.0;
-    const SunEye eye = counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.shadow) : SunEye{};
+    const SunEye eye =
+        counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.tuning.projection) : SunEye{};
     const ConsumerItem& consumer = input.scene.consumers.front();
     // Several consumers share the cascades: the last one then holds whatever any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
@@ -151,7 +152,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
                                      : orthographic_view(box, input.request.map.resolution_px);
         view.layer = i;
         view.receivers = receivers;
-        view.held = input.light.shadow.fit != ShadowFit::tight;
+        view.held = input.light.tuning.cascades.fit != ShadowFit::tight;
         view.cascade.seen_from_m = alone ? slice.holds_from_m : 0.0;
         view.cascade.seen_to_m = alone && view.held ? slice.serves_to_m : 0.0;
         view.cascade.fades_from_m = alone ? slice.fades_from_m : 0.0;

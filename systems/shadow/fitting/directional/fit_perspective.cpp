@@ -11,7 +11,7 @@
 namespace gnomon::shadow {
 
 bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::vector<ShadowView>& views) {
-    const SunEye eye = sun_eye(basis, input.receiver_points_ws, input.light.shadow);
+    const SunEye eye = sun_eye(basis, input.receiver_points_ws, input.light.tuning.projection);
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     for (const glm::dvec3& p : input.receiver_points_ws) {
         const double z = glm::dot(eye.position_ws_m - p, basis[2]);
@@ -25,7 +25,7 @@ bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::ve
     }
     const PerspectiveRange range = overridden(input.request.projection, perspective_range(nearest, farthest));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
-    const double tan_half = std::tan(0.5 * static_cast<double>(input.light.shadow.eye_angle_rad));
+    const double tan_half = std::tan(0.5 * static_cast<double>(input.light.tuning.projection.eye_angle_rad));
     const TangentRectangle square{glm::dvec2(-tan_half), glm::dvec2(tan_half)};
     views.push_back(perspective_view(eye.position_ws_m, basis, square, range, input.request.map.resolution_px,
                                      static_cast<double>(input.reach_texel)));

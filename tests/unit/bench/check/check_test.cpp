@@ -82,10 +82,11 @@ TEST(Check, HasARowForEveryKindFilterAndWayOfACube) {
     std::set<std::string> names;
     for (const CheckRowSetup& setup : check_row_setups()) {
         EXPECT_TRUE(names.insert(setup.name).second) << setup.name;
-        LightShadow shadow;
-        for (const std::string& setting : setup.settings) EXPECT_FALSE(game::apply_setting(shadow, setting)) << setting;
-        EXPECT_EQ(shadow.filter, setup.filter->id);
-        EXPECT_EQ(shadow.cube_route, setup.route);
+        game::LightSettings settings;
+        for (const std::string& setting : setup.settings)
+            EXPECT_FALSE(game::apply_setting(settings, setting)) << setting;
+        EXPECT_EQ(settings.shadow.filter, setup.filter->id);
+        EXPECT_EQ(settings.tuning.maps.cube_route, setup.route);
     }
     EXPECT_EQ(names.size(), (shadow::light_kind_table().size() - 1 + kRoutes) * shadow::filter_table().size());
 }

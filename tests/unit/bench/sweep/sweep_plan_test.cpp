@@ -18,19 +18,19 @@ namespace {
 constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
 
 /// What a row's settings make of the defaults; a setting that is none fails the test.
-LightShadow shadow_of(const SweepRow& row) {
-    LightShadow shadow;
+game::LightSettings settings_of(const SweepRow& row) {
+    game::LightSettings settings;
     for (const std::string& setting : row.settings)
-        if (const auto error = game::apply_setting(shadow, setting))
+        if (const auto error = game::apply_setting(settings, setting))
             ADD_FAILURE() << row.name << ": " << to_line(*error);
-    return shadow;
+    return settings;
 }
 
-/// Whether a row of that factor, for that kind, has a shadow that pleases.
+/// Whether a row of that factor, for that kind, has settings that please.
 template <class Pleases>
 bool covers(const std::vector<SweepRow>& plan, const std::string& factor, LightKind kind, const Pleases& pleases) {
     return std::any_of(plan.begin(), plan.end(), [&](const SweepRow& row) {
-        return row.factor == factor && holds(row.kinds, kind) && pleases(shadow_of(row));
+        return row.factor == factor && holds(row.kinds, kind) && pleases(settings_of(row));
     });
 }
 
@@ -57,7 +57,7 @@ TEST(SweepPlan, StartsWithTheDefaultsAndNoRowOfAKindIsThereTwice) {
 TEST(SweepPlan, NoRowSetsWhatTheDefaultsAreAnyway) {
     for (const SweepRow& row : sweep_plan(SweepSize::full)) {
         if (row.factor == kDefaultsRow) continue;
-        EXPECT_NE(shadow_of(row), LightShadow{}) << row.name;
+        EXPECT_NE(settings_of(row), game::LightSettings{}) << row.name;
     }
 }
 
@@ -89,45 +89,51 @@ TEST(SweepPlan, VariesOneFactorAtATimeOverAllItsValuesForEachKind) {
     for (const LightKind kind : kKinds) {
         for (const shadow::FilterRow& row : shadow::filter_table()) {
             if (row.id == LightShadow{}.filter) continue;
-            EXPECT_TRUE(covers(plan, "filter", kind, [&](const auto& s) { return s.filter == row.id; })) << row.name;
+            EXPECT_TRUE(covers(plan, "filter", kind, [&](const auto& s) { return s.shadow.filter == row.id; }))
+                << row.name;
         }
         for (std::size_t mode = 1; mode < static_cast<std::size_t>(BiasMode::count); ++mode)
             EXPECT_TRUE(covers(plan, "bias", kind, [&](const auto& s) {
-                return s.bias == static_cast<BiasMode>(mode);
+                return s.tuning.bias.mode == static_cast<BiasMode>(mode);
             })) << mode;
         for (const DepthFormat format : {DepthFormat::d24, DepthFormat::d16})
-            EXPECT_TRUE(covers(plan, "format", kind, [&](const auto& s) { return s.depth_format == format; }));
+            EXPECT_TRUE(
+                covers(plan, "format", kind, [&](const auto& s) { return s.tuning.maps.depth_format == format; }));
         for (const std::uint32_t size_px : {512u, 1024u, 2048u})
-            EXPECT_TRUE(covers(plan, "resolution", kind, [&](const auto& s) { return s.resolution_px == size_px; }));
+            EXPECT_TRUE(
+                covers(plan, "resolution", kind, [&](const auto& s) { return s.shadow.resolution_px == size_px; }));
     }
     for (const ShadowFit fit : {ShadowFit::tight, ShadowFit::stable})
-        EXPECT_TRUE(covers(plan, "fit", LightKind::directional, [&](const auto& s) { return s.fit == fit; }));
-    for (const std::uint32_t count : {1u, 2u, 8u})
         EXPECT_TRUE(
-            covers(plan, "cascades", LightKind::directional, [&](const auto& s) { return s.cascades == count; }));
+            covers(plan, "fit", LightKind::directional, [&](const auto& s) { return s.tuning.cascades.fit == fit; }));
+    for (const std::uint32_t count : {1u, 2u, 8u})
+        EXPECT_TRUE(covers(plan, "cascades", LightKind::directional,
+                           [&](const auto& s) { return s.shadow.cascades == count; }));
 }
 
 TEST(SweepPlan, CrossesTheResolutionWithFiltersBiasesAndCascades) {
     const std::vector<SweepRow> plan = sweep_plan(SweepSize::full);
     for (const std::uint32_t size_px : {512u, 1024u, 2048u}) {
         const auto at_size = [&](const auto& also) {
-            return [&, size_px](const LightShadow& s) { return s.resolution_px == size_px && also(s); };
+            return [&, size_px](const game::LightSettings& s) { return s.shadow.resolution_px == size_px && also(s); };
         };
         for (const LightKind kind : kKinds) {
             EXPECT_TRUE(covers(plan, "resolution x filter", kind,
-                               at_size([](const auto& s) { return s.filter == ShadowFilter::hard; })));
+                               at_size([](const auto& s) { return s.shadow.filter == ShadowFilter::hard; })));
             EXPECT_TRUE(covers(plan, "resolution x bias", kind,
-                               at_size([](const auto& s) { return s.bias == BiasMode::normal_offset; })));
+                               at_size([](const auto& s) { return s.tuning.bias.mode == BiasMode::normal_offset; })));
         }
         EXPECT_TRUE(covers(plan, "resolution x cascades", LightKind::directional,
-                           at_size([](const auto& s) { return s.cascades == 1; })));
+                           at_size([](const auto& s) { return s.shadow.cascades == 1; })));
     }
 }
 
 TEST(SweepPlan, GivesALightOnlyWhatItsKindKnows) {
     for (const SweepRow& row : sweep_plan(SweepSize::full)) {
-        const LightShadow shadow = shadow_of(row), defaults;
-        if (shadow.fit == defaults.fit && shadow.cascades == defaults.cascades) continue;
+        const game::LightSettings settings = settings_of(row), defaults;
+        if (settings.tuning.cascades.fit == defaults.tuning.cascades.fit &&
+            settings.shadow.cascades == defaults.shadow.cascades)
+            continue;
         EXPECT_EQ(row.kinds, only(LightKind::directional)) << row.name;
     }
     for (const LightKind kind : kKinds)
@@ -139,10 +145,10 @@ TEST(SweepPlan, GivesALightOnlyWhatItsKindKnows) {
 TEST(SweepPlan, HasWhatATutorialGivesEachKind) {
     for (const LightKind kind : kKinds)
         EXPECT_TRUE(covers(sweep_plan(SweepSize::quick), std::string(kTutorialFactor), kind, [](const auto& s) {
-            return s.resolution_px == 1024 && s.bias == BiasMode::tutorial_cosine;
+            return s.shadow.resolution_px == 1024 && s.tuning.bias.mode == BiasMode::tutorial_cosine;
         }));
     EXPECT_TRUE(covers(sweep_plan(SweepSize::quick), std::string(kTutorialFactor), LightKind::directional,
-                       [](const auto& s) { return s.resolution_px == 8428; }));
+                       [](const auto& s) { return s.shadow.resolution_px == 8428; }));
 }
 
 }  // namespace

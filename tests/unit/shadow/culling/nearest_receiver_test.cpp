@@ -308,7 +308,7 @@ Meshes lit_room(ShadowFit fit) {
     sun.intensity = 1.0f;
     sun.has_shadow = true;
     sun.shadow.resolution_px = 512;
-    sun.shadow.fit = fit;
+    sun.tuning.cascades.fit = fit;
     sun.rotation_ws = math::basis_from_back({0.3, 1.0, 0.2});
     world.scene.lights = {sun};
     return world;

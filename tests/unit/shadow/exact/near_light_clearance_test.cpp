@@ -53,14 +53,15 @@ double clearance(oracle::AnalyticScene& scene, bool whole_view = true, bool cube
     }
     LightItem light;
     light.kind = cube ? LightKind::point : LightKind::spot;
-    light.shadow = {.filter = ShadowFilter::exact_soft, .source_radius_m = kRadius_m};
+    light.shadow.filter = ShadowFilter::exact_soft;
+    light.source_radius_m = kRadius_m;
     scene.snapshot.lights = {light};
     shadow::ShadowFrame frame;
     frame.decisions.resize(1);
     frame.statuses.resize(1);
     shadow::MapSettings& map = frame.decisions[0].request.map;
     map.filter = light.shadow.filter;
-    map.filtering = shadow::filter_settings(light.shadow, 512);
+    map.filtering = shadow::filter_settings(light, 512);
     const double side = whole_view ? 1.0 : 0.5;
     frame.fitted.views = {
         shadow::perspective_view({}, glm::dmat3(1.0), {glm::dvec2(-side), glm::dvec2(side)}, {0.1, 50.0}, 512)};

@@ -172,7 +172,7 @@ TEST_P(Contract, ComesToRest) {
         for (int i = 0; i < scenes; ++i) {
             SceneSnapshot s = scene(random);
             s.lights[0].shadow.filter = ShadowFilter::pcf_grid;
-            s.lights[0].shadow.filter_size = 15;  // a border of a sixteenth of the smallest map
+            s.lights[0].tuning.kernel.size_texel = 15;  // a border of a sixteenth of the smallest map
             float& wish_px = s.lights[0].shadow.max_error_px;
             const auto size = [&] { return fitted(s).fitted.lights[0].request.map.resolution_px; };
             for (wish_px = 0.125f; wish_px < 64.0f && size() > 2 * kLeastMap_px; wish_px *= 1.1f) {
@@ -204,11 +204,11 @@ TEST_P(Contract, LeavesASizeAloneThatIsGivenOrMustNotFollowWhatIsSeen) {
         EXPECT_EQ(fitted(s).fitted.lights[0].request.map.resolution_px, 1000u);
         shadow.resolution_px = 0;
         shadow.filter = ShadowFilter::pcss;
-        shadow.source_radius_m = shadow.sun_radius_rad = 0.1f;
+        s.lights[0].source_radius_m = s.lights[0].sun_radius_rad = 0.1f;
         const ShadowFrame soft = fitted(s);
         EXPECT_EQ(soft.fitted.lights[0].request.map.resolution_px, soft.fitted.lights[0].request.limits.max_px);
         shadow.filter = ShadowFilter::hard;
-        shadow.fit = ShadowFit::stable;
+        s.lights[0].tuning.cascades.fit = ShadowFit::stable;
         const ShadowFrame stable = fitted(s);
         if (GetParam() == LightKind::directional) {
             EXPECT_EQ(stable.fitted.lights[0].request.map.resolution_px, stable.fitted.lights[0].request.limits.max_px);

@@ -174,11 +174,11 @@ TEST_F(CountedCascades, AreMoreAtOnceWhereTheWordWouldBeBroken) {
 TEST_F(CountedCascades, AreFourWhereTheirEndsOrTheirSizeAreGiven) {
     for (int i = 0; i < 3; ++i) {
         SceneSnapshot s = scene(20.0, 20.5);
-        LightShadow& shadow = s.lights[0].shadow;
-        shadow.max_error_px = 4.0f;
-        if (i == 0) shadow.resolution_px = 512;
-        if (i == 1) shadow.fit = ShadowFit::stable;
-        if (i == 2) shadow.splits = CascadeSplits::manual, shadow.split_m = {20.1f, 20.2f, 20.3f};
+        LightItem& light = s.lights[0];
+        light.shadow.max_error_px = 4.0f;
+        if (i == 0) light.shadow.resolution_px = 512;
+        if (i == 1) light.tuning.cascades.fit = ShadowFit::stable;
+        if (i == 2) light.tuning.cascades = {.splits = CascadeSplits::manual, .split_m = {20.1f, 20.2f, 20.3f}};
         EXPECT_EQ(fitted(s).fitted.lights[0].request.map.view_count, 4u) << i;
     }
 }

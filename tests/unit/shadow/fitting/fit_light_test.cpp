@@ -20,7 +20,8 @@ protected:
     /// The view whose map the point is looked up in, and the margin it keeps there, in map edges.
     /// Of faces around a local light, only the one that looks most nearly toward the point.
     const ShadowView* view_of(const ShadowFrame& frame, const SceneSnapshot& scene, const glm::dvec3& p) const {
-        const double margin = static_cast<double>(filter_settings(scene.lights[0].shadow, 512).widest_texel) / scene.lights[0].shadow.resolution_px;
+        const double margin = static_cast<double>(filter_settings(scene.lights[0], 512).widest_texel) /
+                              scene.lights[0].shadow.resolution_px;
         double deepest = 0.0;
         if (GetParam() != LightKind::directional)
             for (const ShadowView& view : frame.fitted.views)

@@ -47,9 +47,9 @@ Counts look(RandomScene& random, LightKind kind, ShadowFilter filter, ShadowFit 
         SceneSnapshot scene = random.scene(kind);
         LightItem& light = scene.lights[0];
         light.shadow.filter = filter;
-        light.shadow.fit = fit;
-        light.shadow.source_radius_m = static_cast<float>(kRadius_m);
-        light.shadow.sun_radius_rad = static_cast<float>(std::atan(kTan));
+        light.tuning.cascades.fit = fit;
+        light.source_radius_m = static_cast<float>(kRadius_m);
+        light.sun_radius_rad = static_cast<float>(std::atan(kTan));
         light.outer_cone_rad = 0.9;
         const ShadowFrame frame = fitted(scene);
         for (int k = 0; k < 4000; ++k) {

@@ -17,9 +17,9 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
-CascadeEnds ends_of(const LightShadow& shadow, std::uint32_t count, DepthSpan whole,
+CascadeEnds ends_of(const ShadowTuning::Cascades& tuning, std::uint32_t count, DepthSpan whole,
                     std::vector<DepthSpan> receivers = {}, bool perspective = true) {
-    return cascade_ends(shadow, count, whole, perspective, receivers);
+    return cascade_ends(tuning, count, whole, perspective, receivers);
 }
 
 TEST(Splits, UniformOnesAreEquallyLong) {
@@ -50,9 +50,9 @@ TEST(Splits, AFlatViewKnowsNoLogarithm) {
 }
 
 TEST(Splits, ManualOnesAreTakenAndBoundedByWhatIsSeen) {
-    const LightShadow shadow{.splits = CascadeSplits::manual, .split_m = {5.0f, 15.0f, 400.0f}};
-    EXPECT_EQ(cascade_count(shadow, 2), 4u);
-    const CascadeEnds ends = ends_of(shadow, 4, {1.0, 100.0});
+    const ShadowTuning::Cascades tuning{.splits = CascadeSplits::manual, .split_m = {5.0f, 15.0f, 400.0f}};
+    EXPECT_EQ(cascade_count({.tuning = {.cascades = tuning}}, 2), 4u);
+    const CascadeEnds ends = ends_of(tuning, 4, {1.0, 100.0});
     EXPECT_EQ(ends[1], 5.0);
     EXPECT_EQ(ends[2], 15.0);
     EXPECT_EQ(ends[3], 100.0);
@@ -80,7 +80,7 @@ TEST(Splits, OneThatIsSeenEverywhereChangesNothing) {
 TEST(Splits, AbsurdWishesAreNotTaken) {
     EXPECT_TRUE(are_splits({}));
     for (const float bad : {-0.1f, 1.1f, kNan, kInfinity}) EXPECT_FALSE(are_splits({.split_lambda = bad})) << bad;
-    for (const float bad : {-0.1f, 0.6f, kNan}) EXPECT_FALSE(are_splits({.cascade_blend = bad})) << bad;
+    for (const float bad : {-0.1f, 0.6f, kNan}) EXPECT_FALSE(are_splits({.blend = bad})) << bad;
     const auto manual = [](std::array<float, kMaxCascades - 1> distances_m) {
         return are_splits({.splits = CascadeSplits::manual, .split_m = distances_m});
     };
@@ -91,7 +91,7 @@ TEST(Splits, AbsurdWishesAreNotTaken) {
     EXPECT_FALSE(manual({-1.0f}));
     EXPECT_FALSE(manual({kNan}));
     EXPECT_FALSE(manual({1.0f, kInfinity}));
-    EXPECT_EQ(cascade_count({.cascades = 99}, 4), 8u);
+    EXPECT_EQ(cascade_count({.shadow = {.cascades = 99}}, 4), 8u);
     EXPECT_EQ(cascade_count({}, 4), 4u);
 }
 
@@ -101,10 +101,10 @@ TEST(Splits, EndsNeverFallAndStartAndEndWithTheWholeWhateverIsAsked) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
     for (int round = 0; round < 3000; ++round) {
-        LightShadow shadow;
-        shadow.splits = static_cast<CascadeSplits>(round % 6);
-        shadow.split_lambda = static_cast<float>(number(0.0, 1.0));
-        for (std::size_t i = 0; i < 3; ++i) shadow.split_m[i] = static_cast<float>(std::exp(number(-9.0, 9.0)));
+        ShadowTuning::Cascades tuning;
+        tuning.splits = static_cast<CascadeSplits>(round % 6);
+        tuning.split_lambda = static_cast<float>(number(0.0, 1.0));
+        for (std::size_t i = 0; i < 3; ++i) tuning.split_m[i] = static_cast<float>(std::exp(number(-9.0, 9.0)));
         const double low = round % 7 == 0 ? 0.0 : std::exp(number(-20.0, 20.0));
         const DepthSpan whole{low, low + (round % 11 == 0 ? 0.0 : std::exp(number(-20.0, 20.0)))};
         std::vector<DepthSpan> receivers;
@@ -112,8 +112,9 @@ TEST(Splits, EndsNeverFallAndStartAndEndWithTheWholeWhateverIsAsked) {
             const double at = number(-1.0, 2.0) * whole.highest;
             receivers.push_back({at, at + number(0.0, 1.0) * whole.highest});
         }
-        const std::uint32_t count = cascade_count(shadow, 1 + static_cast<std::uint32_t>(round) % 8);
-        const CascadeEnds ends = cascade_ends(shadow, count, whole, round % 3 != 0, receivers);
+        const std::uint32_t count =
+            cascade_count({.tuning = {.cascades = tuning}}, 1 + static_cast<std::uint32_t>(round) % 8);
+        const CascadeEnds ends = cascade_ends(tuning, count, whole, round % 3 != 0, receivers);
         EXPECT_EQ(ends[0], whole.lowest);
         EXPECT_EQ(ends[count], whole.highest);
         for (std::uint32_t i = 0; i < count; ++i) EXPECT_LE(ends[i], ends[i + 1]) << "round " << round;

@@ -8,7 +8,7 @@
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// LightShadow::projection, eye, near_m and far_m, up to the views.
+/// ShadowTuning::Projection, up to the views.
 namespace gnomon::shadow {
 namespace {
 
@@ -23,8 +23,8 @@ TEST(Projection, APerspectiveSunHasOneViewFromItsEyeThatHoldsAllThatIsSeen) {
     int views = 0;
     for (int round = 0; round < 60; ++round) {
         SceneSnapshot scene = random.scene(LightKind::directional);
-        scene.lights[0].shadow.projection = LightProjection::perspective;
-        scene.lights[0].shadow.eye_angle_rad = static_cast<float>(random.number(0.05, 2.5));
+        scene.lights[0].tuning.projection.kind = LightProjection::perspective;
+        scene.lights[0].tuning.projection.eye_angle_rad = static_cast<float>(random.number(0.05, 2.5));
         const ShadowFrame frame = fitted(scene);
         if (frame.fitted.views.empty()) continue;
         ASSERT_EQ(frame.fitted.views.size(), 1u);
@@ -48,12 +48,12 @@ TEST(Projection, APerspectiveSunHasOneViewFromItsEyeThatHoldsAllThatIsSeen) {
 TEST(Projection, TheEyeStandsAsFarFromTheMiddleAsIsAsked) {
     const glm::dmat3 basis = math::basis_from_back({0.0, 1.0, 0.0});
     const std::vector<glm::dvec3> seen = {{-3.0, 0.0, -4.0}, {3.0, 0.0, 4.0}, {1.0, 2.0, 0.0}};
-    LightShadow shadow;
-    shadow.eye_distance_m = 25.0f;
-    EXPECT_LT(glm::distance(sun_eye(basis, seen, shadow).position_ws_m, {0.0, 26.0, 0.0}), 1e-12);
-    shadow.eye_distance_m = 0.0f;
-    shadow.eye_angle_rad = 1.0471975512f;  // 60 degrees: twice the radius
-    EXPECT_NEAR(sun_eye(basis, seen, shadow).distance_m, 2.0 * std::sqrt(9.0 + 1.0 + 16.0), 1e-6);
+    ShadowTuning::Projection tuning;
+    tuning.eye_distance_m = 25.0f;
+    EXPECT_LT(glm::distance(sun_eye(basis, seen, tuning).position_ws_m, {0.0, 26.0, 0.0}), 1e-12);
+    tuning.eye_distance_m = 0.0f;
+    tuning.eye_angle_rad = 1.0471975512f;  // 60 degrees: twice the radius
+    EXPECT_NEAR(sun_eye(basis, seen, tuning).distance_m, 2.0 * std::sqrt(9.0 + 1.0 + 16.0), 1e-6);
 }
 
 TEST(Projection, WhatIsNoEyeIsNotTakenForOne) {
@@ -100,16 +100,16 @@ TEST_P(ProjectionOfKind, AGivenRangeIsThatOfEveryView) {
     int views = 0;
     for (int round = 0; round < 30; ++round) {
         SceneSnapshot scene = random.scene(GetParam());
-        LightShadow& shadow = scene.lights[0].shadow;
-        shadow.near_m = 2.0f;
-        shadow.far_m = 30.0f;
-        shadow.eye_distance_m = 20.0f;
+        ShadowTuning::Projection& tuning = scene.lights[0].tuning.projection;
+        tuning.near_m = 2.0f;
+        tuning.far_m = 30.0f;
+        tuning.eye_distance_m = 20.0f;
         const ShadowFrame frame = fitted(scene);
         for (const ShadowView& view : frame.fitted.views) {
             EXPECT_NEAR(view.depth.far_m - view.depth.near_m, 28.0, 1e-9);
             glm::dvec3 from = scene.lights[0].position_ws_m;
             if (GetParam() == LightKind::directional)
-                from = sun_eye(math::basis_from_back(scene.lights[0].rotation_ws[2]), frame.sets.receiver_points_ws, shadow)
+                from = sun_eye(math::basis_from_back(scene.lights[0].rotation_ws[2]), frame.sets.receiver_points_ws, tuning)
                            .position_ws_m;
             const glm::dvec4 start = clip_of(view, from - 2.0 * view.pose.axis_back),
                              end = clip_of(view, from - 30.0 * view.pose.axis_back);
@@ -128,16 +128,16 @@ TEST_P(ProjectionOfKind, AbsurdRangesChangeNoViewAndAreNoted) {
     ASSERT_FALSE(plain.fitted.views.empty());
     for (const auto& [near_m, far_m] :
          {std::pair(5.0f, 4.0f), {kNan, 0.0f}, {0.0f, -1.0f}, {kInfinity, 0.0f}, {2.0f, 2.0f}}) {
-        scene.lights[0].shadow.near_m = near_m;
-        scene.lights[0].shadow.far_m = far_m;
+        scene.lights[0].tuning.projection.near_m = near_m;
+        scene.lights[0].tuning.projection.far_m = far_m;
         const ShadowFrame frame = fitted(scene);
         EXPECT_EQ(frame.fitted.lights[0].request.note, Reason::range_invalid) << near_m << ", " << far_m;
         ASSERT_EQ(frame.fitted.views.size(), plain.fitted.views.size());
         for (std::size_t v = 0; v < frame.fitted.views.size(); ++v)
             EXPECT_EQ(frame.fitted.views[v].clip_from_anchor, plain.fitted.views[v].clip_from_anchor);
     }
-    scene.lights[0].shadow.near_m = 0.0f;
-    scene.lights[0].shadow.far_m = 0.5f;
+    scene.lights[0].tuning.projection.near_m = 0.0f;
+    scene.lights[0].tuning.projection.far_m = 0.5f;
     EXPECT_NE(fitted(scene).fitted.views[0].clip_from_anchor, plain.fitted.views[0].clip_from_anchor) << "a range that is one does";
 }
 
@@ -146,8 +146,8 @@ TEST_P(ProjectionOfKind, ExtremeButUsableRangesGiveFiniteViews) {
     SceneSnapshot scene = random.scene(GetParam());
     for (const auto& [near_m, far_m] :
          {std::pair(1e-38f, 0.0f), {0.0f, 1e-30f}, {1e-38f, 1e38f}, {0.0f, 1e38f}, {1e30f, 0.0f}}) {
-        scene.lights[0].shadow.near_m = near_m;
-        scene.lights[0].shadow.far_m = far_m;
+        scene.lights[0].tuning.projection.near_m = near_m;
+        scene.lights[0].tuning.projection.far_m = far_m;
         for (const ShadowView& view : fitted(scene).fitted.views)
             for (int c = 0; c < 4; ++c)
                 for (int r = 0; r < 4; ++r)
@@ -160,12 +160,12 @@ TEST_P(ProjectionOfKind, TheWishForAProjectionThatTheKindHasNotIsNotedAndItsOwnI
     SceneSnapshot scene = random.scene(GetParam());
     const bool sun = GetParam() == LightKind::directional;
     const ShadowFrame plain = fitted(scene);
-    scene.lights[0].shadow.projection = LightProjection::orthographic;
+    scene.lights[0].tuning.projection.kind = LightProjection::orthographic;
     const ShadowFrame flat = fitted(scene);
     EXPECT_EQ(flat.fitted.lights[0].request.note, sun ? Reason::none : Reason::projection_unsupported);
-    scene.lights[0].shadow.projection = LightProjection::perspective;
+    scene.lights[0].tuning.projection.kind = LightProjection::perspective;
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::none);
-    scene.lights[0].shadow.eye_angle_rad = 3.0f;
+    scene.lights[0].tuning.projection.eye_angle_rad = 3.0f;
     const ShadowFrame blind = fitted(scene);
     EXPECT_EQ(blind.fitted.lights[0].request.note, sun ? Reason::eye_invalid : Reason::none);
     for (const ShadowFrame* frame : {&flat, &blind}) {

@@ -69,8 +69,8 @@ TEST_F(LookupSignature, IsNoneWhereNothingIsToBeKept) {
     };
     EXPECT_NE(without([] {}), 0u);
     EXPECT_EQ(without([&] { light().row.filter_file = {}; }), 0u) << "no shadow";
-    EXPECT_EQ(without([&] { scene.lights[0].shadow.economy = false; }), 0u);
-    EXPECT_EQ(without([&] { scene.lights[0].shadow.keep_visibility = false; }), 0u);
+    EXPECT_EQ(without([&] { scene.lights[0].tuning.reuse.economy = false; }), 0u);
+    EXPECT_EQ(without([&] { scene.lights[0].tuning.reuse.keep_visibility = false; }), 0u);
     EXPECT_EQ(without([&] { scene.version = 0; }), 0u) << "nobody counts its changes";
     EXPECT_EQ(without([&] { frame.updates[1].hold = Hold::by_turn; }), 0u) << "casters as they were";
     // What is kept while a map changes too much to be drawn goes with the first frame that draws it.

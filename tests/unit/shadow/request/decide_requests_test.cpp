@@ -104,7 +104,7 @@ TEST_F(DemandTest, AFinerWishGetsMoreTexelsAndAnAbsurdOneStaysTotal) {
 TEST_F(DemandTest, EveryKindTakesAnisotropyAndPaysForHalfItsFootprint) {
     for (LightItem& light : scene.lights) light.shadow.filter = ShadowFilter::vsm;
     for (const ShadowRequest& d : decide()) EXPECT_EQ(d.map.moments.reach_texel, 0.0f);
-    for (LightItem& light : scene.lights) light.shadow.moment_anisotropy = 4;
+    for (LightItem& light : scene.lights) light.tuning.moments.anisotropy = 4;
     decide();
     for (std::size_t i = 0; i < demands.size(); ++i) {
         const ShadowRequest& d = demands[i];

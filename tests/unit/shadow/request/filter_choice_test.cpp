@@ -71,21 +71,24 @@ TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
     EXPECT_TRUE(leaves_filter(sun));
     EXPECT_TRUE(leaves_filter(lamp));
     const auto leaves = [](LightItem light, auto change) {
-        change(light.shadow);
+        if constexpr (std::is_invocable_v<decltype(change), ShadowTuning&>)
+            change(light.tuning);
+        else
+            change(light.shadow);
         return leaves_filter(light);
     };
     for (LightItem light : {sun, lamp}) {
         EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.max_error_px = 0.0f; })) << "nothing is said";
         EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.filter = ShadowFilter::triangles; }));
         EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.resolution_px = 512; }));
-        EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.near_m = 0.5f; }));
-        EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.far_m = 9.0f; }));
-        EXPECT_FALSE(leaves(light, [](LightShadow& s) { s.bias = BiasMode::constant; }));
+        EXPECT_FALSE(leaves(light, [](ShadowTuning& t) { t.projection.near_m = 0.5f; }));
+        EXPECT_FALSE(leaves(light, [](ShadowTuning& t) { t.projection.far_m = 9.0f; }));
+        EXPECT_FALSE(leaves(light, [](ShadowTuning& t) { t.bias.mode = BiasMode::constant; }));
         EXPECT_TRUE(leaves(light, [](LightShadow& s) { s.cascades = 2; }));
     }
-    EXPECT_FALSE(leaves(sun, [](LightShadow& s) { s.projection = LightProjection::perspective; }));
-    EXPECT_FALSE(leaves(sun, [](LightShadow& s) { s.fit = ShadowFit::stable; }));
-    EXPECT_TRUE(leaves(lamp, [](LightShadow& s) { s.fit = ShadowFit::stable; })) << "of suns alone";
+    EXPECT_FALSE(leaves(sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::perspective; }));
+    EXPECT_FALSE(leaves(sun, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; }));
+    EXPECT_TRUE(leaves(lamp, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; })) << "of suns alone";
     const HeldFilter keeping{kKeepingFilter, 2.0};
     EXPECT_EQ(filter_to_fit(lamp, nullptr), kUsualFilter);
     EXPECT_EQ(filter_to_fit(lamp, &keeping), kKeepingFilter);

@@ -53,13 +53,15 @@ struct Surface {
     double weight;  // of the blurred texels
 };
 
+LightItem tuned(const ShadowTuning::Moments& moments) { return {.tuning = {.moments = moments}}; }
+
 /// One filter in one format.
 class Store {
 public:
     virtual ~Store() = default;
     Store(ShadowFilter filter, std::uint32_t bits, float exponent = 0.0f, float negative = 0.0f)
         : demand_(prefilter_settings(filter_row(filter),
-                                {.filter = filter, .moment_bits = bits, .moment_exponent = exponent, .moment_negative_exponent = negative}, 1024)) {}
+                                tuned({.bits = bits, .exponent = exponent, .negative_exponent = negative}), 1024)) {}
 
     /// What is stored of these surfaces, each step rounded to the format: texels, blurred along u, then along v.
     vec4 stored(const std::vector<Surface>& surfaces) const {
@@ -265,12 +267,12 @@ TEST(PrefilterSettings, CutsWhatIsAbsurdAndSaysSo) {
     const PrefilterSettings usual = prefilter_settings(evsm4, {}, 1024);
     EXPECT_FALSE(usual.cut);
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const LightShadow absurd[] = {{.moment_bits = 24},          {.moment_exponent = nan},        {.moment_exponent = -1.0f},
-                                  {.moment_exponent = 43.0f},   {.moment_negative_exponent = nan}, {.moment_bleeding = nan},
-                                  {.moment_bleeding = 1.0f},    {.moment_levels = 0},            {.moment_levels = 5},
-                                  {.moment_anisotropy = 0},     {.moment_anisotropy = 17}};
-    for (const LightShadow& shadow : absurd) {
-        const PrefilterSettings demand = prefilter_settings(evsm4, shadow, 1024);
+    const ShadowTuning::Moments absurd[] = {
+        {.bits = 24},      {.exponent = nan},  {.exponent = -1.0f}, {.exponent = 43.0f}, {.negative_exponent = nan},
+        {.bleeding = nan}, {.bleeding = 1.0f}, {.levels = 0},       {.levels = 5},       {.anisotropy = 0},
+        {.anisotropy = 17}};
+    for (const ShadowTuning::Moments& moments : absurd) {
+        const PrefilterSettings demand = prefilter_settings(evsm4, tuned(moments), 1024);
         EXPECT_TRUE(demand.cut);
         EXPECT_TRUE(demand.settings.x > 0.0f && demand.settings.x <= 42.0f);
         EXPECT_TRUE(demand.settings.y > 0.0f && demand.settings.y <= 42.0f);
@@ -278,12 +280,13 @@ TEST(PrefilterSettings, CutsWhatIsAbsurdAndSaysSo) {
         EXPECT_TRUE(demand.levels >= 1 && demand.levels <= kMostMomentLevels);
         EXPECT_TRUE(demand.anisotropy >= 1 && demand.anisotropy <= kMostMomentAnisotropy);
     }
-    EXPECT_EQ(prefilter_settings(filter_row(ShadowFilter::hard), absurd[0], 1024), PrefilterSettings{}) << "not its business";
+    EXPECT_EQ(prefilter_settings(filter_row(ShadowFilter::hard), tuned(absurd[0]), 1024), PrefilterSettings{})
+        << "not its business";
 }
 
 TEST(PrefilterSettings, WidensTheFilterByWhatAPixelMayCoverAndFitsTheMap) {
     const FilterRow& vsm = filter_row(ShadowFilter::vsm);
-    const LightShadow widest{.moment_levels = kMostMomentLevels, .moment_anisotropy = kMostMomentAnisotropy};
+    const LightItem widest = tuned({.levels = kMostMomentLevels, .anisotropy = kMostMomentAnisotropy});
     EXPECT_EQ(prefilter_settings(vsm, {}, 1024).reach_texel, 0.0f);
     const float reach = prefilter_settings(vsm, widest, 1024).reach_texel;
     EXPECT_GE(reach, 1.5f * 8.0f - 1.0f + 0.5f * 16.0f);
@@ -298,22 +301,21 @@ TEST(PrefilterSettings, WidensTheFilterByWhatAPixelMayCoverAndFitsTheMap) {
 TEST(PrefilterSettings, HasALevelForEveryPenumbraOfASourceWithASizeAndNoMoreThanAskedForOfAnyOther) {
     const FilterRow& soft = filter_row(ShadowFilter::pcss_moments);
     EXPECT_EQ(prefilter_settings(soft, {}, 1024).levels, 1u);
-    EXPECT_EQ(prefilter_settings(soft, {.moment_levels = 3}, 1024).levels, 3u);
-    for (const auto field : {&LightShadow::source_radius_m, &LightShadow::sun_radius_rad}) {
-        LightShadow shadow{.filter = ShadowFilter::pcss_moments};
-        shadow.*field = 0.02f;
+    EXPECT_EQ(prefilter_settings(soft, tuned({.levels = 3}), 1024).levels, 3u);
+    for (const LightKind kind : {LightKind::directional, LightKind::spot}) {
+        LightItem light{.kind = kind, .source_radius_m = 0.02f, .sun_radius_rad = 0.02f};
         for (const std::uint32_t size : {16u, 64u, 512u, 1024u, 4096u}) {
-            const PrefilterSettings demand = prefilter_settings(soft, shadow, size);
-            const float widest = filter_settings(shadow, size).most_spread_texel;
+            const PrefilterSettings demand = prefilter_settings(soft, light, size);
+            const float widest = filter_settings(soft, light, size).most_spread_texel;
             const auto coarsest = static_cast<float>(1u << (demand.levels - 1));
             EXPECT_TRUE(coarsest <= widest && widest < 2.0f * coarsest) << size;
             EXPECT_EQ(demand.reach_texel, 0.0f) << "the bias is for what is read, not for the widest";
             EXPECT_FALSE(demand.cut);
         }
-        EXPECT_EQ(prefilter_settings(filter_row(ShadowFilter::moments), shadow, 1024).levels, 1u);
+        EXPECT_EQ(prefilter_settings(filter_row(ShadowFilter::moments), light, 1024).levels, 1u);
         for (const float absurd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1.0f}) {
-            shadow.*field = absurd;
-            EXPECT_EQ(prefilter_settings(soft, shadow, 1024).levels, 1u) << absurd;
+            (kind == LightKind::directional ? light.sun_radius_rad : light.source_radius_m) = absurd;
+            EXPECT_EQ(prefilter_settings(soft, light, 1024).levels, 1u) << absurd;
         }
     }
 }

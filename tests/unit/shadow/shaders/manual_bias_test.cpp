@@ -122,12 +122,12 @@ TEST_F(ManualBias, StaysFiniteWhereLightGrazes) {
         }
 }
 
-shadow::LightingLight published(const LightShadow& settings) {
+shadow::LightingLight published(const ShadowTuning::Bias& bias) {
     SceneSnapshot scene;
     scene.consumers.resize(1);
     scene.lights.resize(1);
     scene.lights[0].kind = LightKind::directional;
-    scene.lights[0].shadow = settings;
+    scene.lights[0].tuning.bias = bias;
     shadow::ShadowFrame frame;
     frame.decisions.resize(1);
     frame.decisions[0].request.map.resolution_px = 64;
@@ -147,19 +147,19 @@ shadow::LightingLight published(const LightShadow& settings) {
 }
 
 TEST(ManualBiasSettings, ReachTheShaderAndAbsurdOnesCountAsTheDefaults) {
-    const shadow::LightingLight good = published({.bias = BiasMode::slope, .bias_m = 0.5f, .bias_texel = 3.0f});
+    const shadow::LightingLight good = published({.mode = BiasMode::slope, .offset_m = 0.5f, .offset_texel = 3.0f});
     EXPECT_TRUE(good.row.manual_bias);
     EXPECT_EQ(good.record.options.y, static_cast<int>(BiasMode::slope));
     EXPECT_EQ(good.record.bias.x, 0.5f);
     EXPECT_EQ(good.record.bias.z, 3.0f);
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN(), kMost = std::numeric_limits<float>::infinity();
     for (const float absurd : {-1.0f, kNone, kMost}) {
-        const auto light = published({.bias = BiasMode::slope, .bias_m = absurd, .bias_texel = absurd});
-        EXPECT_EQ(light.record.bias.x, LightShadow{}.bias_m);
-        EXPECT_EQ(light.record.bias.z, LightShadow{}.bias_texel);
+        const auto light = published({.mode = BiasMode::slope, .offset_m = absurd, .offset_texel = absurd});
+        EXPECT_EQ(light.record.bias.x, ShadowTuning::Bias{}.offset_m);
+        EXPECT_EQ(light.record.bias.z, ShadowTuning::Bias{}.offset_texel);
     }
-    EXPECT_FALSE(published({.bias_m = 0.5f}).row.manual_bias);
-    EXPECT_FALSE(published({.bias = BiasMode::count}).row.manual_bias) << "no mode at all";
+    EXPECT_FALSE(published({.offset_m = 0.5f}).row.manual_bias);
+    EXPECT_FALSE(published({.mode = BiasMode::count}).row.manual_bias) << "no mode at all";
 }
 
 }  // namespace

@@ -15,9 +15,9 @@ TEST(Presets, AreFastDefaultAndHighAndMadeOfSettingsThatExist) {
         const Preset* preset = find_preset(name);
         ASSERT_TRUE(preset) << name;
         for (const char* setting : preset->settings) {
-            LightShadow shadow;
-            EXPECT_FALSE(apply_setting(shadow, setting)) << setting;
-            EXPECT_NE(shadow, LightShadow{}) << setting << " is the default, and says nothing";
+            LightSettings settings;
+            EXPECT_FALSE(apply_setting(settings, setting)) << setting;
+            EXPECT_NE(settings, LightSettings{}) << setting << " is the default, and says nothing";
         }
     }
     EXPECT_FALSE(find_preset("faster"));
@@ -25,15 +25,15 @@ TEST(Presets, AreFastDefaultAndHighAndMadeOfSettingsThatExist) {
 }
 
 TEST(Presets, TheDefaultIsTheComponentsOwn) {
-    LightShadow shadow;
-    apply_preset(*find_preset("default"), shadow);
-    EXPECT_EQ(shadow, LightShadow{});
+    LightSettings settings;
+    apply_preset(*find_preset("default"), settings);
+    EXPECT_EQ(settings, LightSettings{});
 }
 
 TEST(Presets, OneAfterTheOtherIsAsTheLastAlone) {
     for (const Preset& first : presets())
         for (const Preset& last : presets()) {
-            LightShadow both, alone;
+            LightSettings both, alone;
             apply_preset(first, both);
             apply_preset(last, both);
             apply_preset(last, alone);
@@ -43,22 +43,22 @@ TEST(Presets, OneAfterTheOtherIsAsTheLastAlone) {
 }
 
 TEST(Presets, LeaveAloneWhatNoneOfThemSets) {
-    LightShadow shadow;
-    ASSERT_FALSE(apply_setting(shadow, "max_error_px=3"));
-    ASSERT_FALSE(apply_setting(shadow, "bias_m=0.25"));
+    LightSettings settings;
+    ASSERT_FALSE(apply_setting(settings, "max_error_px=3"));
+    ASSERT_FALSE(apply_setting(settings, "bias_m=0.25"));
     for (const Preset& preset : presets()) {
-        apply_preset(preset, shadow);
-        EXPECT_EQ(shadow.max_error_px, 3.0f) << preset.name;
-        EXPECT_EQ(shadow.bias_m, 0.25f) << preset.name;
-        EXPECT_EQ(preset_of(shadow), &preset);
+        apply_preset(preset, settings);
+        EXPECT_EQ(settings.shadow.max_error_px, 3.0f) << preset.name;
+        EXPECT_EQ(settings.tuning.bias.offset_m, 0.25f) << preset.name;
+        EXPECT_EQ(preset_of(settings), &preset);
     }
 }
 
 TEST(Presets, ASettingOfTheirsThatWasChangedIsNoPreset) {
-    LightShadow shadow;
-    EXPECT_EQ(preset_of(shadow), find_preset("default"));
-    ASSERT_FALSE(apply_setting(shadow, "resolution=777"));
-    EXPECT_EQ(preset_of(shadow), nullptr);
+    LightSettings settings;
+    EXPECT_EQ(preset_of(settings), find_preset("default"));
+    ASSERT_FALSE(apply_setting(settings, "resolution=777"));
+    EXPECT_EQ(preset_of(settings), nullptr);
 }
 
 TEST(Presets, AreListedWithTheirSettings) {

@@ -10,7 +10,7 @@
 #include "tests/unit/shadow/fitting/directional/cascade_waste.h"
 #include "tests/unit/shadow/random_scene.h"
 
-/// What LightShadow::fit promises, mode by mode.
+/// What each ShadowFit promises.
 namespace gnomon::shadow {
 namespace {
 
@@ -33,22 +33,23 @@ class CascadeFitTest : public ::testing::TestWithParam<ShadowFit> {
 protected:
     SceneSnapshot scene_of(RandomScene& random) {
         SceneSnapshot scene = random.scene(LightKind::directional);
-        scene.lights[0].shadow.fit = GetParam();
+        scene.lights[0].tuning.cascades.fit = GetParam();
         return scene;
     }
 };
 
 TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneItFadesInto) {
     RandomScene random(print_seed());
-    const double margin = static_cast<double>(filter_settings({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
+    const double margin =
+        static_cast<double>(filter_settings({.shadow = {.filter = ShadowFilter::pcf_grid}}, 512).widest_texel) / 512.0;
     int points = 0, fading = 0;
     for (int round = 0; round < 150; ++round) {
         SceneSnapshot scene = scene_of(random);
-        LightShadow& shadow = scene.lights[0].shadow;
-        shadow.cascades = 1 + static_cast<std::uint32_t>(round) % 8;
-        shadow.splits = static_cast<CascadeSplits>(round % 6);
-        shadow.split_m = {12.0f, 16.0f, 20.0f};
-        shadow.cascade_blend = 0.2f;
+        scene.lights[0].shadow.cascades = 1 + static_cast<std::uint32_t>(round) % 8;
+        ShadowTuning::Cascades& tuning = scene.lights[0].tuning.cascades;
+        tuning.splits = static_cast<CascadeSplits>(round % 6);
+        tuning.split_m = {12.0f, 16.0f, 20.0f};
+        tuning.blend = 0.2f;
         const ShadowFrame frame = fitted(scene);
         if (frame.fitted.views.empty()) continue;
         for (const InstanceItem& receiver : scene.instances)
@@ -80,7 +81,8 @@ TEST_P(CascadeFitTest, EveryVisiblePointLiesInTheCascadeThatServesItAndInTheOneI
 
 TEST_P(CascadeFitTest, AHistoryOfAnythingLosesNoPoint) {
     RandomScene random(print_seed());
-    const double margin = static_cast<double>(filter_settings({.filter = ShadowFilter::pcf_grid}, 512).widest_texel) / 512.0;
+    const double margin =
+        static_cast<double>(filter_settings({.shadow = {.filter = ShadowFilter::pcf_grid}}, 512).widest_texel) / 512.0;
     History history;
     int points = 0;
     for (int round = 0; round < 100; ++round) {
@@ -113,7 +115,7 @@ TEST_P(CascadeFitTest, CascadesAreAsManyAsAskedForAndAtMostEight) {
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::cascades_clamped);
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.map.view_count, 8u);
     scene.lights[0].shadow.cascades = 2;
-    scene.lights[0].shadow.splits = CascadeSplits::manual;
+    scene.lights[0].tuning.cascades.splits = CascadeSplits::manual;
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::splits_invalid) << "no distance is given";
 }
 
@@ -129,7 +131,7 @@ double median_waste(ShadowFit mode) {
     std::vector<double> wastes;
     for (int round = 0; round < 1000; ++round) {
         SceneSnapshot scene = random.scene(LightKind::directional);
-        scene.lights[0].shadow.fit = mode;
+        scene.lights[0].tuning.cascades.fit = mode;
         const ShadowFrame frame = fitted(scene);
         for (const ShadowView& view : frame.fitted.views) wastes.push_back(waste(scene, frame, view));
     }
@@ -150,7 +152,7 @@ TEST(CascadeWaste, AStableMapIsItsSphereAndAPlaceToMove) {
     RandomScene random(print_seed());
     for (int round = 0; round < 300; ++round) {
         SceneSnapshot scene = random.scene(LightKind::directional);
-        scene.lights[0].shadow.fit = ShadowFit::stable;
+        scene.lights[0].tuning.cascades.fit = ShadowFit::stable;
         const ShadowFrame frame = fitted(scene);
         for (std::size_t v = 0; v < frame.fitted.views.size(); ++v) {
             const ShadowView& view = frame.fitted.views[v];
@@ -174,7 +176,7 @@ SceneSnapshot street(ShadowFit mode) {
     scene.consumers[0].rotation_ws = math::basis_from_back({0.3, 0.1, 1.0});
     scene.consumers[0].fov_y_rad = 0.9;
     scene.lights[0].rotation_ws = math::basis_from_back({0.4, 1.0, -0.3});
-    scene.lights[0].shadow.fit = mode;
+    scene.lights[0].tuning.cascades.fit = mode;
     scene.lights[0].shadow.resolution_px = 1024;
     return scene;
 }

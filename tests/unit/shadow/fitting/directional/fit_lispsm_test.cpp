@@ -34,8 +34,8 @@ SceneSnapshot floor_scene(double angle_rad, float warp) {
     light.has_shadow = true;
     light.shadow.resolution_px = 1024;
     light.shadow.cascades = 1;
-    light.shadow.fit = ShadowFit::tight;
-    light.shadow.warp = warp;
+    light.tuning.cascades.fit = ShadowFit::tight;
+    light.tuning.cascades.warp = warp;
     const glm::dvec3 along = -camera.rotation_ws[2], up = camera.rotation_ws[1];
     // The light's own turn about its axis must not matter, so that it may be any.
     light.rotation_ws = math::basis_from_back(along * std::cos(angle_rad) + up * std::sin(angle_rad));
@@ -110,9 +110,9 @@ TEST(WarpedFit, TheWorstTexelIsHardlyEverLargerThanWithoutAWarp) {
     for (int i = 0; i < 400; ++i) {
         SceneSnapshot scene = random.scene(LightKind::directional);
         scene.lights[0].shadow.cascades = 1;
-        scene.lights[0].shadow.fit = ShadowFit::tight;
+        scene.lights[0].tuning.cascades.fit = ShadowFit::tight;
         const ShadowFrame flat = fitted(scene);
-        scene.lights[0].shadow.warp = 1.0f;
+        scene.lights[0].tuning.cascades.warp = 1.0f;
         const ShadowFrame frame = fitted(scene);
         if (frame.fitted.views.empty()) continue;
         warped += frame.fitted.views[0].plane.warp != glm::dvec2(0.0) ? 1 : 0;
@@ -128,7 +128,7 @@ TEST(WarpedFit, TheWorstTexelIsHardlyEverLargerThanWithoutAWarp) {
 TEST(WarpedFit, WhatCannotBeWarpedSaysSo) {
     SceneSnapshot scene = floor_scene(1.5, 1.0f);
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::none);
-    scene.lights[0].shadow.fit = ShadowFit::stable;
+    scene.lights[0].tuning.cascades.fit = ShadowFit::stable;
     EXPECT_EQ(fitted(scene).fitted.lights[0].request.note, Reason::warp_unsupported);
     EXPECT_EQ(fitted(scene).fitted.views.at(0).plane.warp, glm::dvec2(0.0));
     scene = floor_scene(1.5, 2.0f);

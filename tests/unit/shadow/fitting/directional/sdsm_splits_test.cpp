@@ -181,7 +181,7 @@ struct TwoFits {
 TEST(SampledDepths, AreWantedByASunWithCascadesThatAsksForThem) {
     SceneSnapshot scene = two_suns();
     EXPECT_FALSE(TwoFits(4).want(scene));
-    scene.lights[1].shadow.splits = CascadeSplits::sampled;
+    scene.lights[1].tuning.cascades.splits = CascadeSplits::sampled;
     EXPECT_TRUE(TwoFits(4).want(scene));
     EXPECT_FALSE(TwoFits(1).want(scene)) << "one cascade has no end to choose";
     TwoFits unseen(4), eye(4);
@@ -195,8 +195,8 @@ TEST(SampledDepths, AreWantedByASunWithCascadesThatAsksForThem) {
 
 TEST(SampledDepths, AreNotWantedWhereSplitsFallBackToTheDefault) {
     SceneSnapshot scene = two_suns();
-    scene.lights[0].shadow.splits = CascadeSplits::sampled;
-    scene.lights[0].shadow.split_lambda = -1.0f;
+    scene.lights[0].tuning.cascades.splits = CascadeSplits::sampled;
+    scene.lights[0].tuning.cascades.split_lambda = -1.0f;
     EXPECT_FALSE(TwoFits(4).want(scene));
 }
 

@@ -91,8 +91,8 @@ TEST(LocalFit, NearAndFarHoldCastersAndReceiversWithinTwoSteps) {
 TEST(LocalFit, DepthsCoarserThanTexelsAreReported) {
     const auto note = [](DepthFormat format, float near_m) {
         SceneSnapshot s = floor_and_posts(LightKind::spot);
-        s.lights[0].shadow.depth_format = format;
-        s.lights[0].shadow.near_m = near_m;
+        s.lights[0].tuning.maps.depth_format = format;
+        s.lights[0].tuning.projection.near_m = near_m;
         return fitted(s).fitted.lights[0].request.note;
     };
     EXPECT_EQ(note(DepthFormat::d16, 0.0f), Reason::none) << "fitted from 4 to 5 m";
@@ -157,7 +157,7 @@ TEST(LocalFit, ACameraThatBobsAcrossAStepMovesNothing) {
 /// How often near changes while a thing goes between the floor and a metre before the light, five times in 300 frames.
 int near_changes(LightKind kind, DepthFormat format) {
     SceneSnapshot s = floor_and_posts(kind);
-    s.lights[0].shadow.depth_format = format;
+    s.lights[0].tuning.maps.depth_format = format;
     s.instances.push_back(instance(box({0.4, 1.5, 0.0}, 0.2), true));
     History held;
     int changes = 0;

@@ -1,0 +1,130 @@
+#include <algorithm>
+#include <array>
+
+#include "components/light.h"
+#include "sample_game/support/settings/filter_settings.h"
+#include "sample_game/support/settings/setting_parsers.h"
+#include "sample_game/support/settings/setting_rows.h"
+
+namespace gnomon::game {
+
+template <>
+inline constexpr std::array<std::string_view, 4> kWords<CasterFaces>{"automatic", "front", "back", "both"};
+
+namespace {
+
+// Larger than any texture OpenGL devices make; the shadow system clamps to the device's own limit and reports it.
+constexpr std::uint32_t kMaxResolution_px = 65536;
+constexpr double kMaxError_px = 1.0e4;
+constexpr double kSliderResolution_px = 4096.0, kSliderError_px = 16.0, kSliderSource_m = 0.5, kSliderSun_deg = 3.0;
+constexpr double kMostSun_deg = 30.0;  // kMostSunRadius_rad
+
+bool set_max_error(LightSettings& settings, std::string_view text) {
+    float& error_px = settings.shadow.max_error_px;
+    if (text == kAutomatic) error_px = 0.0f;
+    if (text == kAutomatic) return true;
+    const auto value = read_number(text);
+    if (!value || !(static_cast<float>(*value) > 0.0f && *value <= kMaxError_px)) return false;
+    error_px = static_cast<float>(*value);
+    return true;
+}
+
+std::string get_max_error(const LightSettings& settings) {
+    const float error_px = settings.shadow.max_error_px;
+    return error_px > 0.0f ? number_text(error_px) : std::string(kAutomatic);
+}
+
+bool set_sun_radius(LightSettings& settings, std::string_view text) {
+    const auto value_deg = read_number(text);
+    if (!value_deg || !(*value_deg >= 0.0 && *value_deg <= kMostSun_deg)) return false;
+    settings.sun_radius_rad = std::min(static_cast<float>(*value_deg * kDegree_rad), kMostSunRadius_rad);
+    return true;
+}
+
+using S = LightShadow;
+template <auto field>
+using Shadow = Field<&LightSettings::shadow, field>;
+constexpr std::array kShadowRows{
+    LightSetting{.key = "enabled",
+                 .values = "on | off",
+                 .meaning = "whether the light casts shadows",
+                 .set = set_switch<Shadow<&S::enabled>>,
+                 .get = get_switch<Shadow<&S::enabled>>,
+                 .editor = kToggle},
+    LightSetting{.key = "filter",
+                 .values = "automatic | a filter, see below",
+                 .meaning = "how the map is read; automatic: triangles, or exact where only that keeps max_error_px",
+                 .set = set_filter,
+                 .get = get_filter,
+                 .editor = kChoice,
+                 .choice = filter_name},
+    LightSetting{.key = "max_error_px",
+                 .values = "automatic | above 0 ... 10000 (px)",
+                 .meaning = "how far a shadow edge may be off on screen; automatic: 1, as far as usual maps keep it",
+                 .set = set_max_error,
+                 .get = get_max_error,
+                 .editor = kNumber,
+                 .slider_most = kSliderError_px},
+    LightSetting{.key = "resolution",
+                 .values = "0 ... 65536 (px)",
+                 .meaning = "edge of one map or cube face; 0: chosen by the system",
+                 .set = set_count<Shadow<&S::resolution_px>, 0, kMaxResolution_px>,
+                 .get = get_count<Shadow<&S::resolution_px>>,
+                 .editor = kNumber,
+                 .slider_most = kSliderResolution_px,
+                 .whole = true},
+    LightSetting{.key = "cascades",
+                 .values = "0 ... 8",
+                 .meaning = "of a sun; 0: four, or fewer that keep max_error_px",
+                 .set = set_count<Shadow<&S::cascades>, 0, kMaxCascades>,
+                 .get = get_count<Shadow<&S::cascades>>,
+                 .editor = kNumber,
+                 .slider_most = kMaxCascades,
+                 .whole = true},
+    LightSetting{.key = "refresh_error_px",
+                 .values = "0 ... 100 (px)",
+                 .meaning = "how much farther off it may be instead of drawing again what moves; 0: not",
+                 .set = set_up_to<Shadow<&S::refresh_error_px>, 100>,
+                 .get = get_float<Shadow<&S::refresh_error_px>>,
+                 .editor = kNumber,
+                 .slider_most = kSliderError_px},
+    LightSetting{.key = "caster_faces",
+                 .values = "automatic | front | back | both",
+                 .meaning = "which faces of closed casters are drawn; of all others both",
+                 .set = set_word<Shadow<&S::caster_faces>>,
+                 .get = get_word<Shadow<&S::caster_faces>>,
+                 .editor = kChoice,
+                 .choice = word<CasterFaces>},
+    LightSetting{.key = "layers",
+                 .values = "0 ... 255",
+                 .meaning = "a bit per layer: casters and receivers that share none cast and take no shadow",
+                 .set = set_count<Shadow<&S::layers>, 0, kAllShadowLayers>,
+                 .get = get_count<Shadow<&S::layers>>,
+                 .editor = kNumber,
+                 .slider_most = kAllShadowLayers,
+                 .whole = true},
+};
+
+constexpr std::array kSizeRows{
+    LightSetting{.key = "source_radius_m",
+                 .values = "0 ... 1e4 (m)",
+                 .meaning = "radius of a spot's or a point's source, for the pcss filters; 0: a point",
+                 .set = set_up_to<Field<&LightSettings::source_radius_m>, static_cast<int>(kMostSourceRadius_m)>,
+                 .get = get_float<Field<&LightSettings::source_radius_m>>,
+                 .editor = kNumber,
+                 .slider_most = kSliderSource_m},
+    LightSetting{.key = "sun_radius_deg",
+                 .values = "0 ... 30 (degrees)",
+                 .meaning = "angular radius of a sun's disk, for the pcss filters; the real one's: 0.2665; 0: a point",
+                 .set = set_sun_radius,
+                 .get = get_degrees<Field<&LightSettings::sun_radius_rad>>,
+                 .editor = kNumber,
+                 .slider_most = kSliderSun_deg},
+};
+
+}  // namespace
+
+std::span<const LightSetting> shadow_rows() { return kShadowRows; }
+std::span<const LightSetting> size_rows() { return kSizeRows; }
+
+}  // namespace gnomon::game
