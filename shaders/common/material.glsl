@@ -10,15 +10,14 @@ layout(std140, binding = 2) uniform MaterialBlock {
 layout(binding = 0) uniform sampler2D base_colour_texture;
 
 #ifdef COLOURED
-in vec4 fragment_colour;   // of the vertices, between them
+layout(location = 2) in vec4 fragment_colour;   // of the vertices, between them
+#else
+const vec4 fragment_colour = vec4(1.0);
 #endif
 
 vec4 material_colour(vec2 uv) {
     vec4 colour = material.has_texture > 0.5 ? material.base_colour * texture(base_colour_texture, uv) : material.base_colour;
-#ifdef COLOURED
-    colour *= fragment_colour;
-#endif
-    return colour;
+    return colour * fragment_colour;
 }
 
 // Whether the mask cuts the surface out at `uv`. The finest level decides at any distance, as the surface's own edges do:
@@ -27,8 +26,5 @@ bool cut_out(vec2 uv) {
     if (material.alpha_cutoff < 0.0) return false;
     float alpha = material.base_colour.a;
     if (material.has_texture > 0.5) alpha *= textureLod(base_colour_texture, uv, 0.0).a;
-#ifdef COLOURED
-    alpha *= fragment_colour.a;
-#endif
-    return alpha < material.alpha_cutoff;
+    return alpha * fragment_colour.a < material.alpha_cutoff;
 }

@@ -3,6 +3,7 @@
 // C++ twin: RayMask in systems/extract/ray_masks.h.
 layout(std430, binding = 7) readonly buffer RayMaskBuffer { uint ray_masks[]; };
 
+const bool kHasMasks = true;
 const uint kNoMaskTexture = 0xffffffffu;
 const uint kWrapRepeat = 0u, kWrapMirror = 1u;   // else clamped; assets::TextureWrap
 
@@ -63,4 +64,19 @@ bool is_there(uint mask, uint uvs, vec3 weights) {
     if (m.coloured)
         alpha *= weights.x * corner_alpha(uvs, 0u) + weights.y * corner_alpha(uvs, 1u) + weights.z * corner_alpha(uvs, 2u);
     return alpha >= m.cutoff;
+}
+
+// Area of a mask's texels on a triangle, twice.
+float mask_area_texel2(RayMask mask, uint uvs) {
+    vec2 size = vec2(mask.width, mask.height), corner = mask_uv(uvs);
+    vec2 ab = size * (mask_uv(uvs + 2u) - corner), ac = size * (mask_uv(uvs + 4u) - corner);
+    return abs(ab.x * ac.y - ab.y * ac.x);
+}
+
+// Whether what the mask leaves of a triangle is as wide as the map's texels, on the average. Else it lies between texels as often as
+// under them, and a test of the triangles that these show would lose it; what the nearest texel says has the right share of it.
+// `area_m2`: the triangle's across the ray, twice.
+bool is_resolved(uint at, uint uvs, float area_m2, float texel_m2) {
+    RayMask mask = ray_mask(at);
+    return mask.texels == kNoMaskTexture || mask_area_texel2(mask, uvs) * texel_m2 <= mask.chord_texel * mask.chord_texel * area_m2;
 }

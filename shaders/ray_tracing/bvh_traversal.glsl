@@ -1,5 +1,5 @@
-// Whether anything that casts stands in a ray's way: the walk through both trees. Bring CameraBlock. RAY_MASKS is defined if some of
-// what casts is masked.
+// Whether anything that casts stands in a ray's way: the walk through both trees. Bring CameraBlock. RAY_MASKS names the file
+// that reads the casters' masks.
 // Floats lead, and decide wherever they are sure; the few triangles that they are not sure of are noted and decided in double at the
 // end. One loop inside another finds the next leaf, before what is in it is tested: neighbouring pixels, which go in step, then do the
 // same at the same time, and software devices run every branch of the innermost loop for all.
@@ -9,9 +9,7 @@
 #include "ray_tracing/ray_box.glsl"
 #include "ray_tracing/ray_triangle.glsl"
 #include "ray_tracing/ray_triangle_f64.glsl"
-#ifdef RAY_MASKS
-#include "ray_tracing/alpha_mask.glsl"
-#endif
+#include RAY_MASKS
 
 struct ShadowRay {
     dvec3 from_ca;   // from the camera's anchor
@@ -77,9 +75,7 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
             int verdict = meets_triangle(from_model * t.a + origin, from_model * t.b + origin, from_model * t.c + origin,
                                          ray.end_m, error_m);
             if (t.triangle == exact.receiver.y && item.instance == exact.receiver.x) verdict = kMisses;
-#ifdef RAY_MASKS
-            if (verdict == kMeets && t.mask != kOpaque) verdict = kUnsure;
-#endif
+            if (kHasMasks && verdict == kMeets && t.mask != kOpaque) verdict = kUnsure;
             if (verdict == kUnsure) unsure[unsure_count++] = uvec2(slot, first + i);
             blocked = verdict == kMeets;
         }
@@ -98,9 +94,7 @@ bool blocks_exactly(ShadowRay ray, uvec2 slots) {
     float error_m = ray.error_m + units * (item.reach_m + largest_side(vec3(ray.from_ca)));
     ExactHit hit = meets_exactly(ray.along, ray.last, origin_m + exact_image(record, t.a), origin_m + exact_image(record, t.b),
                                  origin_m + exact_image(record, t.c), error_m);
-#ifdef RAY_MASKS
-    if (hit.met && t.mask != kOpaque) return is_there(t.mask, t.uvs, hit.weights);
-#endif
+    if (kHasMasks && hit.met && t.mask != kOpaque) return is_there(t.mask, t.uvs, hit.weights);
     return hit.met;
 }
 

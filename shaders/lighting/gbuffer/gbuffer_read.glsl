@@ -1,4 +1,5 @@
 // The surface buffers as the light passes read them.
+#include "shadow/lookup/row_flags.glsl"
 #include "common/view_distance.glsl"
 #include "common/pixel_ray.glsl"
 #include "common/view_vector.glsl"
@@ -9,9 +10,7 @@ layout(binding = 0) uniform sampler2D surface_depth;
 layout(binding = 1) uniform sampler2D surface_colour;
 layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
 layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
-#ifdef SHADOW_RAYS
 layout(binding = 6) uniform usampler2D surface_places;     // see lighting/gbuffer/visible_triangle.glsl
-#endif
 
 struct Surface {
     bool exists;
@@ -24,9 +23,7 @@ struct Surface {
     float shadow_layers;  // those it receives, as an integer
     bool unlit;           // shows its colour whatever light falls on it
     float error_m;        // how far position_ca may be off the true surface
-#ifdef SHADOW_RAYS
-    uvec4 place;          // packed
-#endif
+    uvec4 place;          // packed; for rays
 };
 
 vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel, view_distance(depth)); }
@@ -58,8 +55,6 @@ Surface read_surface(ivec2 pixel) {
     s.shadow_layers = m.b * 255.0;
     s.unlit = m.a > 0.5;
     s.error_m = surface_error_m(s.position_ca);
-#ifdef SHADOW_RAYS
-    s.place = texelFetch(surface_places, pixel, 0);
-#endif
+    if (kAsksRays) s.place = texelFetch(surface_places, pixel, 0);
     return s;
 }

@@ -1,4 +1,6 @@
-// What the picture's pixels saw of the light when it was last looked up: systems/lighting/kept_visibility.h.
+// The fraction of the light that reaches a surface, as the picture's pixels saw it when it was last looked up:
+// systems/lighting/kept_visibility.h.
+#include "lighting/lights/light_sample.glsl"
 layout(binding = 4) uniform sampler2D kept_visibility;
 // C++ twin: KeptRecord in systems/lighting/lighting_system.h.
 layout(std140, binding = 6) uniform KeptBlock {
@@ -11,3 +13,5 @@ float kept_share(ivec2 pixel) {
     bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, kept.area.zw));
     return inside ? texelFetch(kept_visibility, texel, 0).r : 0.0;
 }
+
+float visible_share(Surface surface, LightSample incoming) { return kept_share(ivec2(gl_FragCoord.xy)); }

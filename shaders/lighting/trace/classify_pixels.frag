@@ -13,7 +13,7 @@ layout(location = 0) out uint verdict_out;
 
 int verdict_of(ivec2 pixel, Surface surface) {
     LightSample incoming = light_at(surface.position_ca);
-    if (!incoming.reaches || dot(surface.geometric_normal, incoming.to_light) <= 0.0) return kCertainlyDark;
+    if (is_unreached(surface.geometric_normal, incoming)) return kCertainlyDark;
     SurfacePlace place = unpacked_place(surface.place);
     if (!takes_shadow(received_layers(instance_record(place.instance)))) return kCertainlyLit;
     SeenPlace seen = seen_place(pixel, place);

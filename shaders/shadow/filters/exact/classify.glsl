@@ -11,21 +11,14 @@ const int kCertainlyLit = 0, kCertainlyDark = 1, kUncertain = 2;
 // By how much facets that are not drawn may depart from a depth, FlatFacets, as a share of that depth less the far end's; the map of
 // a sun is cleared to it.
 float sheet_floor_share(SheetPlace place) {
-#ifdef LIGHT_DIRECTIONAL
-    return 0.0;
-#else
+    if (kIsSun) return 0.0;
     // Along a walk 1/z changes by no more than this share of itself in half a texel.
     float share = 0.5 * kFloorTangent * max(light.views[place.view].axis_u.w, light.views[place.view].axis_v.w);
     return kDepartureFactor * share * (1.0 + 2.0 * share);
-#endif
 }
 
 float sheet_floor(SheetPlace place, float depth) {
-#ifdef LIGHT_DIRECTIONAL
-    return 0.0;
-#else
-    return sheet_floor_share(place) * (depth - light.views[place.view].numeric.z);
-#endif
+    return kIsSun ? 0.0 : sheet_floor_share(place) * (depth - light.views[place.view].numeric.z);
 }
 
 // `receiver_casts`: the receiver's own surface is among the casters of the map; else the nearest of those, too, may not lie
@@ -49,15 +42,16 @@ float sheet_reach(SheetPlace place) {
     vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
     float shown = max(first_depth(place), bounds.x);
     float rounding = place.error + kRoundings * kReachUnits * kUnitRoundoff * max(shown, place.depth);
-#ifdef LIGHT_DIRECTIONAL
-    float nearest = shown + bounds.y + rounding;
-    float reach = (nearest - place.depth) * light.views[place.view].axis_back.w;
-#else
-    // Of what stands there, not of what is shown: d departs by no more than share * (d - alpha).
-    float share = min(sheet_floor_share(place), kMostFloorShare), alpha = light.views[place.view].numeric.z;
-    float nearest = shown + max(bounds.y, (shown - alpha) * share / (1.0 - share)) + rounding;
-    float reach = share < kMostFloorShare ? (nearest - place.depth + rounding) / (nearest - alpha) : kNoReach;
-#endif
+    float nearest, reach;
+    if (kIsSun) {
+        nearest = shown + bounds.y + rounding;
+        reach = (nearest - place.depth) * light.views[place.view].axis_back.w;
+    } else {
+        // Of what stands there, not of what is shown: d departs by no more than share * (d - alpha).
+        float share = min(sheet_floor_share(place), kMostFloorShare), alpha = light.views[place.view].numeric.z;
+        nearest = shown + max(bounds.y, (shown - alpha) * share / (1.0 - share)) + rounding;
+        reach = share < kMostFloorShare ? (nearest - place.depth + rounding) / (nearest - alpha) : kNoReach;
+    }
     // What lies before the near plane counts as on it.
     return nearest < 1.0 ? max(reach, 0.0) * (1.0 + kRoundings * kReachUnits * kUnitRoundoff) : kNoReach;
 }

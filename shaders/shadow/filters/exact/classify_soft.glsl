@@ -13,19 +13,14 @@ const int kMostSquares = 256;        // of one walk: then rays are as cheap
 
 // Whether the cone stays in what the map holds, or is beyond it nearer to the light than any caster that is not in the map.
 bool is_held(SheetPlace place, SourceCone cone, float reach_texel) {
-#ifdef SHEETS_WITHOUT_MARGINS
-    return true;
-#endif
+    if (!kHasMargins) return true;
     float size = float(textureSize(sheet_bounds, 0).x);
     vec2 low = place.at_texel, high = size - place.at_texel;
     float aside = min(min(low.x, low.y), min(high.x, high.y)) - place.off_texel - kConeSlack_texel;
-#ifdef LIGHT_DIRECTIONAL
-    return light.moments.x > 0.0 && reach_texel <= min(aside, light.spread.w);
-#else
+    if (kIsSun) return light.moments.x > 0.0 && reach_texel <= min(aside, light.spread.w);
     float leaves = min(place.depth - place.error + max(aside, 0.0) / cone.texels, 1.0);
     float radius_m = light.radiance.w, z_m = cone.alpha_beta.y / (leaves - cone.alpha_beta.x);
     return aside > 0.0 && (z_m + radius_m) * cone.stretch + radius_m < light.moments.y * (1.0 - kConeRounding);
-#endif
 }
 
 vec2 ends_of_leaf(SheetPlace place, SourceCone cone) {

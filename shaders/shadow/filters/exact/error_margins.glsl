@@ -2,10 +2,12 @@
 // SHEETS_WITHOUT_MARGINS: none of them, to show in tests that they are needed.
 #include "common/float_rounding.glsl"
 #ifdef SHEETS_WITHOUT_MARGINS
+const bool kHasMargins = false;
 const float kRoundings = 0.0;
 const float kTexelHalf = 0.5;
 const float kDepartureFactor = 1.0;
 #else
+const bool kHasMargins = true;
 const float kRoundings = 1.0;         // share of all that follows from rounding
 const float kTexelHalf = 0.516;       // half of a texel, and how far off a receiver's place may be, in texels
 const float kDepartureFactor = 1.13;

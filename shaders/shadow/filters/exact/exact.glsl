@@ -7,7 +7,7 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
     return lit_along(position_ca, way_to_light(position_ca), reach, error_m, receiver);
 }
 
-#ifdef SHADOW_SHEETS
+#if SHADOW_SHEETS
 #include "shadow/filters/exact/classification.glsl"
 
 // `error_m`: how far position_ca may be off the surface.
@@ -19,5 +19,7 @@ int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
 float uncertain_reach(vec3 position_ca, float error_m) {
     return sheet_reach(sheet_place(position_ca, error_m));
 }
+#else
+#include "shadow/filters/exact/no_map.glsl"
 #endif
 #include "shadow/filters/exact/classify_or_trace.glsl"

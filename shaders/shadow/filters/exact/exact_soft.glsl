@@ -22,7 +22,7 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
     return rays > 0 ? float(lit) / float(rays) : 0.0;
 }
 
-#ifdef SHADOW_SHEETS
+#if SHADOW_SHEETS
 #include "shadow/filters/exact/classification.glsl"
 #include "shadow/filters/exact/classify_soft.glsl"
 
@@ -32,5 +32,7 @@ int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
 }
 
 float uncertain_reach(vec3 position_ca, float error_m) { return kNoEnd; }
+#else
+#include "shadow/filters/exact/no_map.glsl"
 #endif
 #include "shadow/filters/exact/classify_or_trace.glsl"

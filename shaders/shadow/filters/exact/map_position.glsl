@@ -16,9 +16,7 @@ struct SheetPlace {
     float depth, error;
     vec2 at_texel;   // from the map's corner, and how far off that may be
     float off_texel;
-#ifdef SHADOW_CUBE
-    vec3 direction;  // from the light, turned back
-#endif
+    vec3 direction;  // from the light, turned back; of a cube
 };
 
 float sheet_size() { return float(textureSize(sheet_bounds, 0).x); }
@@ -75,13 +73,13 @@ SheetPlace place_in_view(int i, vec3 position_ca, float error_m) {
     const float kUnits = kProjectedUnits + 2.0;
     vec4 summed = vec4(off_m + kUnits * kUnitRoundoff * abs(p), kUnits * kUnitRoundoff);
     vec4 projected = m * vec4(p, 1.0), off = absolute(m) * summed;
-#ifdef LIGHT_DIRECTIONAL
     bool is_before = true;   // along parallel rays w is 1
     vec3 map = projected.xyz, error = off.xyz;
-#else
-    bool is_before = projected.w > 16.0 * off.w;
-    vec3 map = projected.xyz / projected.w, error = (off.xyz + abs(map) * off.w) / projected.w;
-#endif
+    if (!kIsSun) {
+        is_before = projected.w > 16.0 * off.w;
+        map = projected.xyz / projected.w;
+        error = (off.xyz + abs(map) * off.w) / projected.w;
+    }
     int layer = int(light.views[i].numeric.w);
     SheetPlace place = place_of(map.xy * sheet_size(), max(error.x, error.y) * sheet_size(), i, layer, map.z, error.z);
     place.is_held = is_before && all(lessThanEqual(abs(map - 0.5), 0.5 - kRoundings * error));

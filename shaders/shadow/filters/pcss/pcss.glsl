@@ -115,9 +115,7 @@ float shadow_filter(ShadowPoint point) {
     float split = two ? sqrt(found.before.x * found.before.y) : 0.0;
     float radius_texel = min(found.before.x, reach) * texels;
     bool narrow = !two && radius_texel < kLeastPenumbra_texel;
-#ifdef SHADOW_SHOWN
     blurred_texel = min(max(found.before.x, found.before.y), reach) * source_stretch(point.tangent) * point.source_texel;
-#endif
     float lit = lit_by_votes(point, radius_texel, narrow);
     if (!narrow) lit = 1.0;
     for (int layer = 0; layer < (narrow ? 0 : (two ? 2 : 1)); ++layer) {

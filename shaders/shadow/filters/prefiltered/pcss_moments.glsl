@@ -4,14 +4,11 @@
 // Without a size it is moments.glsl. Prefiltered: SHADOW_MOMENTS, and SHADOW_FOOTPRINT with a size.
 #include "shadow/filters/prefiltered/moments.glsl"
 
-#ifdef SHADOW_MOMENTS
+#ifndef PREFILTER_PASS   // which has no receivers
 #define SHADOW_SOFT_MOMENTS 1
 
 float lit_by_footprint(ShadowPoint point) { return moments_lit(shadow_moments(point), shadow_share(point), light.moments); }
 
-#ifndef SHADOW_FOOTPRINT
-float lit_by_moments(ShadowPoint point) { return lit_by_footprint(point); }
-#else
 // What the sampler blends of a level varies by a quarter of its texel's square, each way: 1/12 within the texel, 1/6 from
 // texel to texel. So does a disk whose radius that texel is; the blur of the map itself adds as much as one of this radius,
 // squared.
@@ -68,16 +65,13 @@ float lit_by_disk(ShadowPoint point, vec2 radius_texel) {
 }
 
 float lit_by_moments(ShadowPoint point) {
-    if (light.radiance.w == 0.0) return lit_by_footprint(point);   // mipmaps are for the pixel's footprint
+    if (!kFootprint || light.radiance.w == 0.0) return lit_by_footprint(point);   // mipmaps, if any, are for the pixel's footprint
     point.slope = shadow_slope(point, point.normal);
     vec2 cone_texel = point.source_texel * source_stretch(point.tangent);
     float reach_texel = source_reach_texel(point.source_texel, point.tangent, point.reference);
     float before = casters_before(point, sqrt(cone_texel.x * cone_texel.y), reach_texel);
     vec2 radius_texel = min(before * cone_texel, reach_texel);
-#ifdef SHADOW_SHOWN
     blurred_texel = radius_texel;
-#endif
     return lit_by_disk(point, radius_texel * (1.0 + kWiderPerBleeding * light.moment_sampling.x));
 }
-#endif
 #endif

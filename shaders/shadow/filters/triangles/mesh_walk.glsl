@@ -1,13 +1,11 @@
 // Whether a triangle that a texel shows, or one beside it in its mesh, stands between a receiver and its light: the casters'
-// own corners decide, so that no texel's size enters. RAY_MASKS: some of them are masked.
+// own corners decide, so that no texel's size enters. RAY_MASKS names the file that reads their masks.
 #include "common/float_rounding.glsl"
 #include "common/instances.glsl"
 #include "common/view_vector.glsl"
 #include "shadow/filters/triangles/triangle_buffer.glsl"
 #include "shadow/lookup/light_vector.glsl"
-#ifdef RAY_MASKS
-#include "ray_tracing/alpha_mask.glsl"
-#endif
+#include RAY_MASKS
 
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
 const uint kNowhere = 0xfffffffdu;   // where a walk that begins has come from
@@ -32,30 +30,13 @@ float error_along_view_m(vec3 position_ca, vec3 normal, float error_m) {
     return error_m / max(abs(dot(normal, normalize(to_camera(position_ca)))), kNormalError_rad);
 }
 
-#ifdef RAY_MASKS
-// Area of a mask's texels on a triangle, twice.
-float mask_area_texel2(RayMask mask, uint uvs) {
-    vec2 size = vec2(mask.width, mask.height), corner = mask_uv(uvs);
-    vec2 ab = size * (mask_uv(uvs + 2u) - corner), ac = size * (mask_uv(uvs + 4u) - corner);
-    return abs(ab.x * ac.y - ab.y * ac.x);
-}
-
-// Whether what the mask leaves of a triangle is as wide as the map's texels, on the average. Else it lies between texels as often as
-// under them, and a test of the triangles that these show would lose it; what the nearest texel says has the right share of it.
-// `area_m2`: the triangle's across the ray, twice.
-bool is_resolved(CasterTriangle t, float area_m2, float texel_m2) {
-    RayMask mask = ray_mask(t.across_bc);
-    return mask.texels == kNoMaskTexture || mask_area_texel2(mask, t.across_ca) * texel_m2 <= mask.chord_texel * mask.chord_texel * area_m2;
-}
-
 // Of a masked triangle before the receiver. It has no sheet to walk: what lies beside it shows in other texels.
 int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2) {
-    if (!is_resolved(t, area_m2, texel_m2)) return kUnknown;
+    if (!is_resolved(t.across_bc, t.across_ca, area_m2, texel_m2)) return kUnknown;
     if (min(inside.x, min(inside.y, inside.z)) < 0.0) return kPasses;
     vec3 weights = vec3(inside.y, inside.z, inside.x) / (inside.x + inside.y + inside.z);
     return is_there(t.across_bc, t.across_ca, weights) ? kBlocked : kPasses;
 }
-#endif
 
 // One of four triangles that texels show, by its bit.
 uvec2 shown_at(FourTriangles shown, int bits) {
@@ -120,12 +101,10 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         else if (met) verdict = darkens ? kBlocked : kPasses;
         else if (next == kNoTriangle || (steps == kMostStepsBeyond && folds > 0)) verdict = kPasses;
         bool ends = verdict != kUnknown || at.y == kNoTriangle || steps == kMostSteps;
-#ifdef RAY_MASKS
-        if (t.across_ab == kMaskedTriangle) {
+        if (kHasMasks && t.across_ab == kMaskedTriangle) {
             verdict = behind > rounding ? masked_verdict(t, inside, abs(dot(normal, ray)) / length(ray), texel_area_m2(texel, to_light)) : kPasses;
             ends = true;
         }
-#endif
         if (at.y == kNoTriangle) verdict = kUnknown;
         blocked = verdict == kBlocked;
         unknown = unknown || (ends && verdict == kUnknown);

@@ -34,21 +34,24 @@ int different(FourTexels four, bvec4 may, FourTriangles shown) {
 #ifdef LEAVE_UNDECIDED
 // Set where texels do not agree, while the first draw of lighting/lights/light.frag asks.
 bool shadow_undecided = false;
-#endif
 
+float shadow_filter(ShadowPoint point) {
+    FourTexels four = four_texels(point);
+    bool lit = !any(may_darken(point, four));
+    shadow_undecided = shadow_undecided || !(lit || four.all_dark);
+    return lit ? 1.0 : 0.0;
+}
+#else
 // Loops, because software devices run both sides of an if, all of it, but of a loop that is not needed one round; and what is tested
 // is found first, because they take as many rounds as the slowest of neighbouring pixels.
 float shadow_filter(ShadowPoint point) {
     FourTexels four = four_texels(point);
     bvec4 may = may_darken(point, four);
     bool lit = !any(may);
-#ifdef LEAVE_UNDECIDED
-    shadow_undecided = shadow_undecided || !(lit || four.all_dark);
-    return lit ? 1.0 : 0.0;
-#endif
+    float error_m = error_along_view_m(point.position_ca, point.normal, point.error_m);
     for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
         FourTriangles shown = shadow_triangles_around(point, four.corner);
-        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.normal, point.error_m, shadow_texel_sides(point));
+        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.normal, error_m, shadow_texel_sides(point));
         bool unknown = verdict == kUnknown;
         lit = verdict != kBlocked;
         for (int votes = unknown && lit ? 1 : 0; votes > 0; --votes) {
@@ -58,3 +61,4 @@ float shadow_filter(ShadowPoint point) {
     }
     return lit ? 1.0 : 0.0;
 }
+#endif

@@ -17,19 +17,15 @@ struct Bias {
     float depth;            // then add this to its reversed depth
 };
 
-#ifdef SHADOW_DEPTHS
 // How far off its plane a receiver seems to a filter that carries the plane to the texels around it, up to a texel away along
 // u and v: by as much as its normal is off. lateral: |n_u|, |n_v|; cosine: of the angle between normal and light.
 float carried_error_m(vec2 texel_m, vec2 lateral, float cosine) {
     float least_cosine = max(cosine - kNormalError_rad, kNormalError_rad);
     return kNormalError_rad * dot(texel_m, 1.0 + (lateral + kNormalError_rad) / least_cosine);
 }
-#endif
 
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS) || defined(SHADOW_FOOTPRINT)
 // What of the offset rounding and snapping need: as much everywhere on the plane, where the rest is a share of the depth.
 float plane_lift(ViewRecord view, vec2 slope) { return view.numeric.x + kRasterSnap_texel * (abs(slope.x) + abs(slope.y)); }
-#endif
 
 // Tests take a share of an offset, to show that less is not enough.
 #ifdef SHADOW_BIAS_SHARE

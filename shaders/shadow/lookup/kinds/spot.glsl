@@ -1,15 +1,5 @@
 // Spot light: one perspective view; for a wide cone, faces of a cube around it; while one fades into the other, both, the
 // faces first.
-#include "shadow/lookup/light_block.glsl"
-#include "shadow/lookup/bias/automatic.glsl"
-#ifdef SHADOW_MANUAL_BIAS
-#include "shadow/lookup/bias/manual.glsl"
-#endif
-#ifdef SHADOW_SHOWN
-#include "shadow/lookup/lookup_debug.glsl"
-#endif
-#include "shadow/lookup/tap_radius.glsl"
-#include "shadow/lookup/light_size.glsl"
 #include "shadow/lookup/kinds/map_2d.glsl"
 
 vec3 from_anchor(int i, vec3 position_ca) { return position_ca + light.views[i].anchor_from_camera.xyz; }
@@ -26,31 +16,21 @@ ShadowPoint point_in_view(int i, vec3 position_ca, vec3 normal, float error_m, f
     vec3 n_map = normal * map_axes;
     vec3 position_map = position_la * map_axes;
     float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_aa);
-#ifdef SHADOW_DEPTHS
-    rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
-#endif
+    if (kReadsDepths) rounding_m += carried_error_m(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, abs(n_map.xy), -dot(normal, normalize(position_la)));
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * -position_map.z, length(position_ca));
     float reach = reach_texel + max(spread.x, spread.y);
     Bias bias = perspective_bias(view, n_map, abs(n_map.xy), max(-n_map.z, 0.0), position_map, reach, rounding_m);
-#ifdef SHADOW_MANUAL_BIAS
-    if (light.options.y != 0) bias = manual_bias(perspective_place(view, normal, position_la, -position_map.z));
-#endif
+    if (kManualBias && light.options.y != 0) bias = manual_bias(perspective_place(view, normal, position_la, -position_map.z));
     vec3 moved = position_aa + normal * bias.along_normal_m;
     ShadowPoint point = point_2d(i, view.map_from_anchor * vec4(moved, 1.0), bias.depth, 0.0);
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_FOOTPRINT)
     point.source_texel = lamp_source_texel(view);
     point.tangent = vec2(position_map.x, position_map.y) / -position_map.z;
-#endif
     point.spread_texel = spread;
     point.position_ca = position_ca;
-#ifdef SHADOW_SHOWN
     point.facts = facts_perspective(view, bias, length(position_la), -position_map.z);
-#endif
     return point;
 }
 
-#ifdef SHADOW_MOMENTS
-#include "shadow/passes/prefilter/linear_distance.glsl"
 float shadow_share(ShadowPoint point) {
     ViewRecord view = light.views[point.view];
     return perspective_share(point.reference, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
@@ -59,7 +39,6 @@ float depth_at_share(ShadowPoint point, float share) {
     ViewRecord view = light.views[point.view];
     return perspective_depth(share, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
 }
-#endif
 
 // The face that looks most nearly along the direction; -1: none. A face without a view casts nothing that is seen.
 int face_toward(int faces, vec3 position_la) {
@@ -100,7 +79,6 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_
     return point_in_view_or_none(serving_view(lookup, position_ca), position_ca, normal, error_m, reach_texel);
 }
 
-#ifdef SHADOW_FADES
 // Where one of the two has no view, it has nothing to fade.
 float shadow_fade_share(ShadowPoint first, float reach_texel) {
     return has_single_view() && light.options.x > 1 ? light.cone.z : 0.0;
@@ -108,4 +86,3 @@ float shadow_fade_share(ShadowPoint first, float reach_texel) {
 
 // A face without a view darkens nothing, as the faces alone will not.
 bool shadow_fades_into(ShadowPoint second) { return true; }
-#endif

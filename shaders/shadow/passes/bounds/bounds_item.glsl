@@ -44,10 +44,11 @@ bool is_before_light(Corner c) { return c.place.w > 16.0 * c.error.w && c.place.
 
 // AS_POINTS: a point over each item, instead of a quad.
 #ifdef AS_POINTS
-const int kVertices = 1;
+const bool kAsPoints = true;
 #else
-const int kVertices = 6;
+const bool kAsPoints = false;
 #endif
+const int kVertices = kAsPoints ? 1 : 6;
 
 // A corner of a quad's two triangles: (-1, -1) to (1, 1).
 vec2 quad_corner(int vertex) {
@@ -59,14 +60,11 @@ vec4 at_texel(vec2 texel) { return vec4(texel / map_size() * 2.0 - 1.0, 0.5, 1.0
 
 // A quad's corner, or the middle of the point that covers all between two corners of the map.
 vec4 box_at(vec2 from, vec2 to, vec2 corner) {
-#ifdef AS_POINTS
+    if (!kAsPoints) return at_texel(mix(from, to, corner * 0.5 + 0.5));
     const float kSnapped_texel = 0.02;   // the middle is snapped, to 2^-8 and to a float of the map's size, and so may the sides be
     from = clamp(from, 0.0, map_size());
     to = clamp(to, 0.0, map_size());
     gl_PointSize = max(to.x - from.x, to.y - from.y) + kSnapped_texel;
     return at_texel(0.5 * (from + to));
-#else
-    return at_texel(mix(from, to, corner * 0.5 + 0.5));
-#endif
 }
 vec4 nowhere() { return vec4(2.0, 2.0, 0.5, 1.0); }

@@ -67,7 +67,7 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
     const float kBoxSlack = 0.014, kSlantedSlack = 0.02;   // by which a quad is larger than it need be: it is snapped, too
     vec2 from = clamp(box_texel.xy - kBoxSlack, 0.0, size), to = clamp(box_texel.zw + kBoxSlack, 0.0, size);
     if (any(greaterThanEqual(from, to))) return nowhere();
-#ifndef AS_POINTS
+    if (kAsPoints) return box_at(from, to, corner);
     vec2 side = q - p;
     if (dot(r - q, r - q) > dot(side, side)) side = r - q;
     if (dot(p - r, p - r) > dot(side, side)) side = p - r;
@@ -84,7 +84,6 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
             return at_texel(along * at.x + across * at.y);
         }
     }
-#endif
     return box_at(from, to, corner);
 }
 
@@ -95,9 +94,7 @@ void main() {
     gl_Position = nowhere();
     edge_ab = edge_bc = edge_ca = depth_plane = inverse_w = box_texel = errors = vec4(0.0);
     nearest = 0.0;
-#ifdef AS_POINTS
-    gl_PointSize = 1.0;
-#endif
+    if (kAsPoints) gl_PointSize = 1.0;
     if (is_outside(a, b, c)) return;
     gl_Position = covering(a, b, c, quad_corner(gl_VertexID));
     vec4 error = max(a.error, max(b.error, c.error));

@@ -22,7 +22,7 @@ vec4 covering(vec2 p, vec2 q, float half_side, vec2 corner) {
     const float kSlack = 0.02;   // the quad is snapped, too
     float pad = half_side + kSlack, slanted_pad = 1.4142136 * half_side + kSlack;
     vec2 low = min(p, q) - pad, high = max(p, q) + pad;
-#ifndef AS_POINTS
+    if (kAsPoints) return box_at(low, high, corner);
     vec2 side = q - p;
     float length_texel = length(side);
     vec2 straight = high - low;
@@ -31,7 +31,6 @@ vec4 covering(vec2 p, vec2 q, float half_side, vec2 corner) {
         vec2 along = side / length_texel, across = vec2(-along.y, along.x);
         return at_texel(0.5 * (p + q) + along * (0.5 * corner.x * slanted.x) + across * (0.5 * corner.y * slanted.y));
     }
-#endif
     return box_at(low, high, corner);
 }
 
@@ -43,9 +42,7 @@ void main() {
     vec4 error = max(a.error, b.error) + kRoundings * rounded;
     vec2 corner = quad_corner(gl_VertexID);
     gl_Position = nowhere();
-#ifdef AS_POINTS
-    gl_PointSize = 1.0;
-#endif
+    if (kAsPoints) gl_PointSize = 1.0;
     ends_texel = vec4(0.0);
     end_depths = vec2(0.0);
     half_texel = 0.0;

@@ -2,6 +2,7 @@
 // border its outermost texels go on; of a cube, what its neighbours show there. CUBE, PERSPECTIVE: what holds the depths.
 #include "shadow/passes/prefilter/prefilter_block.glsl"
 #include "shadow/passes/prefilter/linear_distance.glsl"
+#define PREFILTER_PASS 1
 #include "row.glsl"
 layout(location = 0) out vec4 moments_out;
 

@@ -1,0 +1,9 @@
+// Flat maps of which filters read results of comparing.
+layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
+
+// Result of one comparison, `offset_texel` texels beside the receiver.
+float shadow_tap(ShadowPoint point, vec2 offset_texel) {
+    float reference = point.map.z;
+    if (kManualBias) reference = clamp(reference + dot(point.slope, offset_texel), 0.0, 1.0);
+    return texture(shadow_map, vec4(point.map.xy + offset_texel * point.texel_uv, point.layer, reference));
+}
