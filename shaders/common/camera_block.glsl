@@ -1,5 +1,6 @@
 // C++ twin: CameraRecord in systems/shadow/frame/types.h.
-layout(std140, binding = 0) uniform CameraBlock {
+#include "common/bindings.glsl"
+layout(std140, binding = kCameraBlock) uniform CameraBlock {
     mat4 clip_from_anchor;   // anchor: the camera's position; axes: the world's
     vec4 anchor_high;        // xyz
     vec4 anchor_low;         // xyz

@@ -1,5 +1,6 @@
 // C++ twin: MaterialRecord in systems/extract/gpu_scene.h.
-layout(std140, binding = 2) uniform MaterialBlock {
+#include "common/bindings.glsl"
+layout(std140, binding = kMaterialBlock) uniform MaterialBlock {
     vec4 base_colour;
     vec4 emissive;        // w: 1: unlit
     float metallic;
@@ -7,10 +8,10 @@ layout(std140, binding = 2) uniform MaterialBlock {
     float alpha_cutoff;   // below 0: not masked
     float has_texture;
 } material;
-layout(binding = 0) uniform sampler2D base_colour_texture;
+layout(binding = kBaseColourUnit) uniform sampler2D base_colour_texture;
 
 #ifdef COLOURED
-layout(location = 2) in vec4 fragment_colour;   // of the vertices, between them
+layout(location = kColourVarying) in vec4 fragment_colour;   // of the vertices, between them
 #else
 const vec4 fragment_colour = vec4(1.0);
 #endif

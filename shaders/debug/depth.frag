@@ -1,4 +1,5 @@
 // Depth maps as grey tiles: black at near, white at far, linear in metres. What was never drawn (depth 0) is blue.
+#include "common/bindings.glsl"
 const int kMaxTiles = 8;
 struct Tile {
     vec4 place;   // left, bottom and edge in pixels; w: layer
@@ -8,12 +9,12 @@ struct Tile {
     vec4 forward;
 };
 // C++ twins: DepthTiles and DepthTile in systems/debug/depth_tiles.h.
-layout(std140, binding = 0) uniform DepthTiles {
+layout(std140, binding = kFlatViewBlock) uniform DepthTiles {
     ivec4 options;   // x: tiles
     Tile tiles[kMaxTiles];
 };
-layout(binding = 0) uniform sampler2DArray flat_maps;
-layout(binding = 1) uniform samplerCube cube_map;
+layout(binding = kFlatMapsUnit) uniform sampler2DArray flat_maps;
+layout(binding = kCubeMapUnit) uniform samplerCube cube_map;
 layout(location = 0) out vec4 colour_out;
 const vec3 kBackground = vec3(0.01), kNothing = vec3(0.02, 0.05, 0.25);   // linear
 

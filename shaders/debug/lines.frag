@@ -1,5 +1,6 @@
 // Lines in the world, fainter where surfaces hide them.
-layout(binding = 0) uniform sampler2D surface_depth;
+#include "common/bindings.glsl"
+layout(binding = kSurfaceDepthUnit) uniform sampler2D surface_depth;
 flat in vec3 line_colour;
 layout(location = 0) out vec4 colour_out;
 const float kHidden = 0.25;      // what is left of a hidden line

@@ -1,5 +1,6 @@
 // What debug views of a light's lookups share: the light's own lookup, at every surface that makes one. A view defines
 // show_lookup(), which is told of each lookup and of its share in what the surface gets: 1, then what it fades into.
+#include "common/bindings.glsl"
 #include "lighting/gbuffer/gbuffer_read.glsl"
 #include "row.glsl"
 #include "shadow/lookup/light_block.glsl"
@@ -9,7 +10,7 @@ void show_lookup(ShadowPoint point, vec3 normal, float share);
 #include "lighting/lights/light_sample.glsl"
 #include "lighting/lights/surface_visibility.glsl"
 // C++ twin: ShownScale in systems/debug/shown_scale.h.
-layout(std140, binding = 5) uniform ShownScale {
+layout(std140, binding = kShownScaleBlock) uniform ShownScale {
     vec4 colours[8];   // rgb: linear; w: the length it stands for, metres
     ivec4 options;     // x: the only map to be shown, below 0: all; y: colours that stand for lengths
 } scale;

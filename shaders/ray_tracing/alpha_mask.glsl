@@ -1,7 +1,8 @@
 // Whether a masked material is there at a point of a triangle, at its texture's finest level, as the depth passes have it; the
 // float twin of engine/rays/alpha_mask.cpp. Textures of many materials at once: their alpha lies in one buffer, a byte each.
 // C++ twin: RayMask in systems/extract/ray_masks.h.
-layout(std430, binding = 7) readonly buffer RayMaskBuffer { uint ray_masks[]; };
+#include "common/bindings.glsl"
+layout(std430, binding = kMaskBuffer) readonly buffer RayMaskBuffer { uint ray_masks[]; };
 
 const bool kHasMasks = true;
 const uint kNoMaskTexture = 0xffffffffu;

@@ -1,6 +1,7 @@
 // What rays are asked of: a tree over the instances that cast, and one over the triangles of each mesh, in the mesh's own
 // space. No positions of the world: the upper tree is relative to an anchor, given as two floats.
 // C++ twins: RayTop and RayInstance in systems/visibility/ray_records.h, BvhNode and BvhTriangle in engine/rays.
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 
 // Nodes lie in the order of a walk: from node n to n + 1 where its box is met, else to `skip`.
@@ -41,10 +42,10 @@ struct RayTop {
 };
 // As texels, since software devices fetch four numbers at once from those: two a node, three a triangle, five an instance; the upper
 // tree's head takes two, its nodes follow.
-layout(binding = 10) uniform usamplerBuffer ray_nodes;
-layout(binding = 11) uniform usamplerBuffer ray_triangles;
-layout(binding = 12) uniform usamplerBuffer ray_upper;
-layout(binding = 13) uniform usamplerBuffer ray_instances;
+layout(binding = kRayNodeUnit) uniform usamplerBuffer ray_nodes;
+layout(binding = kRayTriangleUnit) uniform usamplerBuffer ray_triangles;
+layout(binding = kRayTopUnit) uniform usamplerBuffer ray_upper;
+layout(binding = kRayInstanceUnit) uniform usamplerBuffer ray_instances;
 
 RayNode node_of(uvec4 low, uvec4 high) { return RayNode(uintBitsToFloat(low.xyz), low.w, uintBitsToFloat(high.xyz), high.w); }
 

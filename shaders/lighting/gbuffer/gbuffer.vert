@@ -1,12 +1,13 @@
 // Surfaces as the camera sees them. What the fragment shader does not read of the outputs, the linker drops.
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"
 #include "common/vertex_colour.glsl"
-layout(location = 0) in vec3 position_ms;
-layout(location = 1) in vec3 normal_ms;
-layout(location = 2) in vec2 uv;
-layout(location = 3) in uvec2 draw_item;   // instance, first triangle
-layout(location = 2) out vec4 fragment_colour;
+layout(location = kPositionAttribute) in vec3 position_ms;
+layout(location = kNormalAttribute) in vec3 normal_ms;
+layout(location = kUvAttribute) in vec2 uv;
+layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance, first triangle
+layout(location = kColourVarying) out vec4 fragment_colour;
 out vec3 fragment_position_ca;
 out vec3 fragment_normal;
 out vec2 fragment_uv;

@@ -1,4 +1,5 @@
 // The surface buffers as the light passes read them.
+#include "common/bindings.glsl"
 #include "shadow/lookup/row_flags.glsl"
 #include "common/view_distance.glsl"
 #include "common/pixel_ray.glsl"
@@ -6,11 +7,11 @@
 #include "common/unit.glsl"
 #include "common/octahedral.glsl"
 #include "common/float_rounding.glsl"
-layout(binding = 0) uniform sampler2D surface_depth;
-layout(binding = 1) uniform sampler2D surface_colour;
-layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
-layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
-layout(binding = 6) uniform usampler2D surface_places;     // see lighting/gbuffer/visible_triangle.glsl
+layout(binding = kSurfaceDepthUnit) uniform sampler2D surface_depth;
+layout(binding = kSurfaceColourUnit) uniform sampler2D surface_colour;
+layout(binding = kSurfaceNormalUnit) uniform sampler2D surface_normals;     // shading normal, geometric normal
+layout(binding = kSurfaceMaterialUnit) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
+layout(binding = kSurfacePlaceUnit) uniform usampler2D surface_places;     // see lighting/gbuffer/visible_triangle.glsl
 
 struct Surface {
     bool exists;

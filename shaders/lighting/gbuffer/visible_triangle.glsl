@@ -1,8 +1,9 @@
 // Which triangle a pixel shows, as the surface pass says it for lights that are asked by rays; what follows from that is found out
 // where it is asked for, since many fragments of small triangles are drawn for one that stays.
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "lighting/gbuffer/triangle_normals.glsl"
-layout(binding = 9) uniform usamplerBuffer scene_vertices;   // two texels each, position first
+layout(binding = kVertexUnit) uniform usamplerBuffer scene_vertices;   // two texels each, position first
 
 struct SurfacePlace {
     float interpolated_m;        // along the view, as the rasteriser says

@@ -1,6 +1,7 @@
 // Light from everywhere; never shadowed. Brighter from above, as under a sky.
 // C++ twin: AmbientRecord in systems/lighting/lighting_system.h.
-layout(std140, binding = 3) uniform AmbientBlock {
+#include "common/bindings.glsl"
+layout(std140, binding = kAmbientBlock) uniform AmbientBlock {
     vec4 sky;      // rgb: lux from above, times w; w: what the picture holds of a radiance of 1
     vec4 ground;   // rgb: lux from below, times sky.w; w: what the picture holds of an exposed radiance of 1 that is shown unlit
 } ambient;

@@ -1,9 +1,10 @@
 // The fraction of the light that reaches a surface, as the picture's pixels saw it when it was last looked up:
 // systems/lighting/kept_visibility.h.
+#include "common/bindings.glsl"
 #include "lighting/lights/light_sample.glsl"
-layout(binding = 4) uniform sampler2D kept_visibility;
+layout(binding = kKeptVisibilityUnit) uniform sampler2D kept_visibility;
 // C++ twin: KeptRecord in systems/lighting/lighting_system.h.
-layout(std140, binding = 6) uniform KeptBlock {
+layout(std140, binding = kKeptBlock) uniform KeptBlock {
     ivec4 area;   // of the picture: first pixel, and size
 } kept;
 

@@ -1,5 +1,6 @@
 // What radiance is multiplied by before the tone curve.
-layout(std140, binding = 4) uniform ExposureBlock {
+#include "common/bindings.glsl"
+layout(std140, binding = kExposureBlock) uniform ExposureBlock {
     vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum. z: the radiance that 1 in the picture stands for. w: scale
                      // where nothing lit is seen to follow from
 };

@@ -1,8 +1,9 @@
 // Logarithm of luminance where there is a lit surface, with its weight; the mip chain averages both.
+#include "common/bindings.glsl"
 #include "lighting/post/exposure.glsl"
 #include "lighting/post/picture_sum.glsl"
-layout(binding = 0) uniform sampler2D surface_depth;
-layout(binding = 1) uniform sampler2D picture;
+layout(binding = kMeteredDepthUnit) uniform sampler2D surface_depth;
+layout(binding = kMeteredPictureUnit) uniform sampler2D picture;
 layout(location = 0) out vec2 sum_out;
 const float kSide = 256.0;   // edge of this target, kLuminanceSide_px in systems/lighting/lighting_targets.cpp
 

@@ -1,10 +1,11 @@
 // Exposure and tone curve, and the sky behind everything. The target encodes sRGB.
+#include "common/bindings.glsl"
 #include "lighting/post/sky.glsl"
 #include "lighting/post/exposure.glsl"
 #include "lighting/post/tone_curve.glsl"
-layout(binding = 0) uniform sampler2D picture;
-layout(binding = 1) uniform sampler2D luminance_sum;
-layout(binding = 2) uniform sampler2D surface_depth;
+layout(binding = kPictureUnit) uniform sampler2D picture;
+layout(binding = kLuminanceUnit) uniform sampler2D luminance_sum;
+layout(binding = kPictureDepthUnit) uniform sampler2D surface_depth;
 layout(location = 0) out vec4 colour_out;
 
 void main() {

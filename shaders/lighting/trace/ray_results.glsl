@@ -1,8 +1,9 @@
 // The fraction of the light that reaches a surface, as it was found of each pixel: by its light's map, or by a ray.
+#include "common/bindings.glsl"
 #include "shadow/lookup/shadow_layers.glsl"
 #include "lighting/lights/light_sample.glsl"
-layout(binding = 5) uniform usampler2D verdicts;   // lighting/trace/classify_pixels.frag
-layout(binding = 7) uniform sampler2D answers;     // of the rays, in the order of their list
+layout(binding = kVerdictUnit) uniform usampler2D verdicts;   // lighting/trace/classify_pixels.frag
+layout(binding = kAnswerUnit) uniform sampler2D answers;     // of the rays, in the order of their list
 #include "lighting/trace/ray_list_layout.glsl"
 
 float found_visibility(ivec2 pixel) {

@@ -1,4 +1,5 @@
 // C++ twins: LightRecord and ViewRecord in systems/shadow/frame/types.h.
+#include "common/bindings.glsl"
 const int kMaxViews = 8;
 struct ViewRecord {
     mat4 map_from_anchor;   // texture coordinates and reversed depth, before division by w
@@ -8,14 +9,21 @@ struct ViewRecord {
     vec4 numeric;           // x: rounding of depth, in depth units; y: metres that a caster may have moved since the map was drawn; z: alpha (see bias/automatic.glsl), or view distance from which a cascade fades; w: layer of the map, -1: there is none, since nothing can darken what the view serves
     vec4 anchor_from_camera;   // xyz: camera anchor minus the view's; add to go from camera-anchored to view-anchored; w: view distance where it has faded, and the next cascade serves
 };
-layout(std140, binding = 1) uniform LightBlock {
-    vec4 position;             // xyz: from the camera's anchor (spot, point), or along the view that a sun's maps are fitted to (directional); w: range in metres, 0: unlimited; or how far along it the camera stands
-    vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its shadow layers, 0 to 255
-    vec4 radiance;             // rgb: lux (directional) or candela; w: size of the source, see shadow/lookup/light_size.glsl
-    vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's cube faces; or a point's: the quaternion cube_turn()
-    ivec4 options;             // x: views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view distance; w: bit per layer that a view has
-    vec4 bias;                 // x: metres, z: texels of a manual bias; y: share of a cascade that fades
-    ivec4 filtering;           // x: texels along a grid's edge; y: taps; z: 1 to bail early; w: 1 if seeds come from the world
+layout(std140, binding = kLightBlock) uniform LightBlock {
+    vec4 position;             // xyz: position from the camera's anchor (spot, point), or direction of view that a
+                               // sun's maps are fitted to; w: range, metres, 0: unlimited; of a sun how far along that
+                               // direction the camera stands
+    vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its
+                               // shadow layers, 0 to 255
+    vec4 radiance;             // rgb: lux (directional) or candela; w: size of the source
+                               // (shadow/lookup/light_size.glsl)
+    vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's
+                               // cube faces; of a point light the quaternion cube_turn()
+    ivec4 options;             // x: number of views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view
+                               // distance; w: a bit per layer that has a view
+    vec4 bias;                 // manual bias: x: metres, z: texels; y: share of a cascade that fades
+    ivec4 filtering;           // x: texels along a grid's edge; y: number of taps; z: 1: bails early; w: 1: seeds come
+                               // from the world
     vec4 spread;               // see shadow/lookup/tap_radius.glsl
     ivec4 seed_cell;           // see shadow/filters/disk/noise_seed.glsl
     vec4 seed_place;

@@ -1,7 +1,8 @@
 // Whether a receiver is certainly lit or certainly dark, by what a texel's sheets say of all of it (docs/exact.md). Bring the
 // light's kind first, with SHADOW_DEPTHS.
+#include "common/bindings.glsl"
 #include "shadow/filters/exact/map_position.glsl"
-layout(binding = 7) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles
+layout(binding = kSecondDepthUnit) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles
 
 const float kNoReach = 3.0e38;        // kNoEnd: all the way
 const float kReachUnits = 16.0;       // kStoredUnits, and what a reach is computed by

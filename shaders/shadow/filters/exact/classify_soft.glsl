@@ -1,8 +1,9 @@
 // Whether a receiver is certainly lit by all of a source with a size, or certainly dark to all of it (docs/exact.md, "A source
 // with a size"). Bring shadow/filters/exact/classify.glsl.
+#include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 #include "shadow/filters/exact/light_cone.glsl"
-layout(std430, binding = 2) readonly buffer SheetEndBuffer { vec2 sheet_ends[]; };
+layout(std430, binding = kPyramidBuffer) readonly buffer SheetEndBuffer { vec2 sheet_ends[]; };
 
 const int kOfLit = 0, kOfDark = 1;   // see ends_of_texel()
 // What the receiver's place, the rasteriser and the texels' own widening may take from a distance across the map, and rounding

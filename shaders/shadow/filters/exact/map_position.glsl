@@ -1,8 +1,9 @@
 // Where in a light's map of sheets a receiver lies, and how far off that may be. Bring the light's kind first, with SHADOW_DEPTHS; its
 // serving_views() says which views to ask. No more of their records is read than that takes: software devices fetch every number of a
 // uniform block anew for each few pixels.
+#include "common/bindings.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
-layout(binding = 8) uniform sampler2DArray sheet_bounds;   // nearest contour, departure
+layout(binding = kBoundsUnit) uniform sampler2DArray sheet_bounds;   // nearest contour, departure
 
 // How far from its texel's middle a receiver's place may lie: what kTexelHalf has left beside the rasteriser's 2^-8.
 const float kMostAside_texel = 0.508;

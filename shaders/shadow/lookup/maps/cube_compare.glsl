@@ -1,5 +1,6 @@
-// Cubes of which filters read results of comparing.
-layout(binding = 4) uniform samplerCubeShadow shadow_map;
+// Cubes, for filters that read results of comparing.
+#include "common/bindings.glsl"
+layout(binding = kShadowMapUnit) uniform samplerCubeShadow shadow_map;
 
 // A tap that leaves the face is compared by the depth of the face it lands on.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {

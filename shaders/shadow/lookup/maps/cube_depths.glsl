@@ -1,5 +1,6 @@
-// Cubes of which filters read depths.
-layout(binding = 4) uniform samplerCube shadow_map;
+// Cubes, for filters that read depths.
+#include "common/bindings.glsl"
+layout(binding = kShadowMapUnit) uniform samplerCube shadow_map;
 
 float face_size() { return float(textureSize(shadow_map, 0).x); }
 

@@ -1,5 +1,6 @@
-// Prefiltered cubes: one level of their mipmaps, or two.
-layout(binding = 4) uniform samplerCube shadow_map;
+// Prefiltered cubes: reading one level of their mipmaps, or between two.
+#include "common/bindings.glsl"
+layout(binding = kShadowMapUnit) uniform samplerCube shadow_map;
 
 // The sampler blends across seams; where the neighbour was not drawn it must not. texels: of the map, per one that is read.
 vec2 kept_tangent(vec2 tangent, mat3 axes, float texels) {

@@ -1,7 +1,8 @@
-// Cubes of which filters read depths, and the triangles that texels show.
+// Cubes, for filters that read depths and the triangles that texels show.
+#include "common/bindings.glsl"
 #include "shadow/lookup/maps/cube_depths.glsl"
 #include "shadow/filters/triangles/gathered_ids.glsl"
-layout(binding = 5) uniform usamplerCube shadow_triangles;   // see shadow/filters/triangles/mesh_walk.glsl
+layout(binding = kShownTriangleUnit) uniform usamplerCube shadow_triangles;   // see shadow/filters/triangles/mesh_walk.glsl
 
 // What these four show.
 FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {

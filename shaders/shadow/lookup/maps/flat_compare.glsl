@@ -1,5 +1,6 @@
-// Flat maps of which filters read results of comparing.
-layout(binding = 4) uniform sampler2DArrayShadow shadow_map;
+// Flat maps, for filters that read results of comparing.
+#include "common/bindings.glsl"
+layout(binding = kShadowMapUnit) uniform sampler2DArrayShadow shadow_map;
 
 // Result of one comparison, `offset_texel` texels beside the receiver.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {

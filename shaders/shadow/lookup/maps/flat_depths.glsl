@@ -1,5 +1,6 @@
-// Flat maps of which filters read depths.
-layout(binding = 4) uniform sampler2DArray shadow_map;
+// Flat maps, for filters that read depths.
+#include "common/bindings.glsl"
+layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_map;
 
 // In texels; the middle of the first is at 1/2.
 vec2 shadow_place(ShadowPoint point) { return point.map.xy / point.texel_uv; }

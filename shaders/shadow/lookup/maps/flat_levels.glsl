@@ -1,5 +1,6 @@
-// Flat prefiltered maps: one level of their mipmaps, or two.
-layout(binding = 4) uniform sampler2DArray shadow_map;
+// Flat prefiltered maps: reading one level of their mipmaps, or between two.
+#include "common/bindings.glsl"
+layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_map;
 
 // So many texels beside the point, of one level of its mipmaps or between two.
 vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {

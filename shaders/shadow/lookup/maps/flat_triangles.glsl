@@ -1,7 +1,8 @@
-// Flat maps of which filters read depths, and the triangles that texels show.
+// Flat maps, for filters that read depths and the triangles that texels show.
+#include "common/bindings.glsl"
 #include "shadow/lookup/maps/flat_depths.glsl"
 #include "shadow/filters/triangles/gathered_ids.glsl"
-layout(binding = 5) uniform usampler2DArray shadow_triangles;   // see shadow/filters/triangles/mesh_walk.glsl
+layout(binding = kShownTriangleUnit) uniform usampler2DArray shadow_triangles;   // see shadow/filters/triangles/mesh_walk.glsl
 
 // What the four texels around a corner show.
 FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {

@@ -1,13 +1,14 @@
 // What passes over sheets pull: a triangle or an edge, as it is projected, and how far rounding may have taken it.
 // C++ twin: SheetItem in systems/shadow/exact/bounds_items.h.
+#include "common/bindings.glsl"
 #include "common/position_error.glsl"
 #include "shadow/passes/depth/depth_view_block.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
 struct SheetItem {
     uint instance, a, b, c;   // vertices of the common buffer
 };
-layout(binding = 12) uniform usamplerBuffer sheet_items;
-layout(binding = 13) uniform usamplerBuffer scene_vertices;   // two texels each, position first
+layout(binding = kBoundsItemUnit) uniform usamplerBuffer sheet_items;
+layout(binding = kBoundsVertexUnit) uniform usamplerBuffer scene_vertices;   // two texels each, position first
 
 SheetItem sheet_item(int place) {
     uvec4 item = texelFetch(sheet_items, place);

@@ -1,5 +1,6 @@
 // Opaque casters: the rasteriser's depth is all there is. Masked ones drop what is cut out.
 // TRIANGLES: and which triangle of which instance is shown (shadow/filters/triangles/mesh_walk.glsl).
+#include "common/bindings.glsl"
 #ifdef TRIANGLES
 #include "shadow/passes/depth/shown_triangle.glsl"
 layout(location = 0) out uvec2 triangle_out;
@@ -9,7 +10,7 @@ void write_triangle() {}
 #endif
 #ifdef MASKED
 #include "common/material.glsl"
-layout(location = 1) in vec2 fragment_uv;
+layout(location = kUvVarying) in vec2 fragment_uv;
 void main() {
     if (cut_out(fragment_uv)) discard;
     write_triangle();

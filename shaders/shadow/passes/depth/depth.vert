@@ -8,15 +8,16 @@ void send_to(uint face) { gl_Layer = int(face); }
 #else
 void send_to(uint face) {}
 #endif
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "common/vertex_colour.glsl"
 #include "shadow/passes/depth/depth_view_block.glsl"
-layout(location = 0) in vec3 position_ms;
-layout(location = 2) in vec2 uv;
-layout(location = 3) in uvec2 draw_item;   // instance; face (LAYERED) in the lowest three bits, first triangle of the draw above
-layout(location = 0) flat out uvec2 item_out;
-layout(location = 1) out vec2 uv_out;
-layout(location = 2) out vec4 colour_out;
+layout(location = kPositionAttribute) in vec3 position_ms;
+layout(location = kUvAttribute) in vec2 uv;
+layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance; face (LAYERED) in the lowest three bits, first triangle of the draw above
+layout(location = kItemVarying) flat out uvec2 item_out;
+layout(location = kUvVarying) out vec2 uv_out;
+layout(location = kColourVarying) out vec4 colour_out;
 
 void main() {
     uint face = draw_item.y & 7u;

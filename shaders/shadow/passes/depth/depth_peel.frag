@@ -1,6 +1,7 @@
 // Depth of the casters behind the nearest: all but the triangles that another map shows (Everitt 2001, "Interactive
 // order-independent transparency", by triangles instead of depths: no offset decides what is behind).
-layout(binding = 0) uniform usampler2DArray nearest_triangles;
+#include "common/bindings.glsl"
+layout(binding = kNearestTriangleUnit) uniform usampler2DArray nearest_triangles;
 #include "shadow/passes/depth/shown_triangle.glsl"
 
 void main() {

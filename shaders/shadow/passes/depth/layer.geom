@@ -1,12 +1,13 @@
 // Sends each triangle to the face of the cube that its draw item names.
+#include "common/bindings.glsl"
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
-layout(location = 0) flat in uvec2 item_in[];
-layout(location = 1) in vec2 uv_in[];
-layout(location = 2) in vec4 colour_in[];
-layout(location = 0) flat out uvec2 item_out;
-layout(location = 1) out vec2 uv_out;
-layout(location = 2) out vec4 colour_out;
+layout(location = kItemVarying) flat in uvec2 item_in[];
+layout(location = kUvVarying) in vec2 uv_in[];
+layout(location = kColourVarying) in vec4 colour_in[];
+layout(location = kItemVarying) flat out uvec2 item_out;
+layout(location = kUvVarying) out vec2 uv_out;
+layout(location = kColourVarying) out vec4 colour_out;
 
 void main() {
     for (int i = 0; i < 3; ++i) {

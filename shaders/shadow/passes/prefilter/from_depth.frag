@@ -1,5 +1,6 @@
 // First pass over a view of a prefiltered map: what its filter makes of depths (moments_of), blurred along u. Beyond the map's
 // border its outermost texels go on; of a cube, what its neighbours show there. CUBE, PERSPECTIVE: what holds the depths.
+#include "common/bindings.glsl"
 #include "shadow/passes/prefilter/prefilter_block.glsl"
 #include "shadow/passes/prefilter/linear_distance.glsl"
 #define PREFILTER_PASS 1
@@ -8,7 +9,7 @@ layout(location = 0) out vec4 moments_out;
 
 #ifdef CUBE
 #include "shadow/lookup/cube_faces.glsl"
-layout(binding = 0) uniform samplerCube depth_map;
+layout(binding = kPrefilterSourceUnit) uniform samplerCube depth_map;
 
 bool was_drawn(vec3 direction) { return (moment.place.w >> face_of(direction) & 1) != 0; }
 
@@ -26,7 +27,7 @@ float share_at(ivec2 texel) {
     return depth > 0.0 ? perspective_share(depth, length(direction) / largest(direction), moment.range) : 1.0;
 }
 #else
-layout(binding = 0) uniform sampler2DArray depth_map;
+layout(binding = kPrefilterSourceUnit) uniform sampler2DArray depth_map;
 
 float share_at(ivec2 texel) {
     ivec2 inside = clamp(texel, ivec2(0), textureSize(depth_map, 0).xy - 1);
