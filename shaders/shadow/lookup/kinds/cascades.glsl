@@ -1,4 +1,4 @@
-// Cascades of a directional light, near to far. Bring map_2d.glsl, cascade_bias() and cascade_range_m() first.
+// Cascades of a directional light, near to far. Requires map_2d.glsl, cascade_bias() and cascade_range_m().
 ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ViewRecord view = light.views[i];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
@@ -18,7 +18,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
     point.spread_texel = spread;
     point.position_ca = position_ca;
     point.facts = facts_orthographic(view, bias, cascade_range_m(view, position_la));
-    // A cascade draws only what can darken its own depth range: before it, the next one knows better.
+    // A cascade draws only what can darken its own depth range: points before it are served by the next one.
     point.covered = point.covered && projected.z <= projected.w;
     return point;
 }
@@ -26,7 +26,7 @@ ShadowPoint point_in_cascade(int i, vec3 position_ca, vec3 normal, float error_m
 float shadow_share(ShadowPoint point) { return orthographic_share(point.reference); }
 float depth_at_share(ShadowPoint point, float share) { return 1.0 - share; }
 
-// Along the view that the cascades are fitted to.
+// Returns a position's distance along the view that the cascades are fitted to, metres.
 float fitted_distance_m(vec3 position_ca) { return dot(position_ca, light.position.xyz) + light.position.w; }
 
 int cascade_at(float distance_m) {
@@ -35,12 +35,12 @@ int cascade_at(float distance_m) {
     return i;
 }
 
-// 0 up to the last part of a cascade's slice, then rising to 1 where that ends.
+// Returns 0 up to the last part of a cascade's slice, then a share that rises to 1 where that ends.
 float share_between(float start_m, float end_m, float distance_m) {
     return end_m > start_m ? clamp((distance_m - start_m) / (end_m - start_m), 0.0, 1.0) : 1.0;
 }
 
-// The same toward the border of its map, which is `nearest` away, in parts of the map.
+// Returns a share that rises to 1 toward the border of the map. nearest: distance from it, in parts of the map.
 float share_near_border(float nearest, float blend) { return clamp(1.0 - nearest / blend, 0.0, 1.0); }
 
 float share_at(int i, float distance_m) {
@@ -53,12 +53,12 @@ float share_toward_border(ShadowPoint point) {
     return share_near_border(min(min(inside.x - reads.x, inside.y - reads.y), inside.z), light.bias.y);
 }
 
-// Of a place: the first cascade that may serve it, and the last; the first of these whose map holds it does.
+// Returns the first cascade that may serve a place, and the last. The first of these with the place in its map serves it.
 ivec2 serving_views(vec3 position_ca) {
     return ivec2(light.options.z != 0 ? cascade_at(fitted_distance_m(position_ca)) : 0, light.options.x - 1);
 }
 
-// The cascade of the last lookup; a second one goes on after it.
+// Cascade of the last lookup. A second lookup starts after it.
 int found_cascade;
 
 ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
@@ -79,5 +79,5 @@ float shadow_fade_share(ShadowPoint first, float reach_texel) {
     return light.options.z != 0 ? share : min(share, share_toward_border(first));
 }
 
-// Where the next cascade's map does not hold the point, there is nothing to fade into.
+// Returns whether the next cascade's map holds the point. Where it does not, there is nothing to fade into.
 bool shadow_fades_into(ShadowPoint second) { return second.covered; }

@@ -1,5 +1,5 @@
-// Directional light: orthographic views (cascades), near to far. A point is served by the first whose map holds it, or,
-// where maps are meant to stay while the camera moves, by the one of its distance along the view.
+// Directional light: orthographic views (cascades), near to far. The first with a point in its map serves it. Where
+// maps are meant to stay while the camera moves, the cascade of the point's view distance serves it.
 #include "shadow/lookup/kinds/map_2d.glsl"
 
 Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, float reach_texel, float error_m) {

@@ -1,4 +1,5 @@
-// What the kinds with flat maps share: where a point lies in a map. SHADOW_FLAT_MAP names the file that reads the map.
+// Lookup in a flat map, for all kinds that have one: where a point lies in it. SHADOW_FLAT_MAP names the file that
+// reads the map.
 #include "shadow/lookup/row_flags.glsl"
 #include "shadow/lookup/light_block.glsl"
 #include "shadow/lookup/bias/automatic.glsl"
@@ -14,15 +15,16 @@ struct ShadowPoint {
     vec3 map;           // u, v, biased reference depth
     float layer;
     float reference;    // map.z
-    vec2 slope;         // of the receiver's plane: reversed depth per texel along u and v; 0 if taps are not compared on it
+    vec2 slope;         // slope of the receiver's plane: reversed depth per texel along u and v; 0 if taps are not
+                        // compared on it
     vec2 texel_uv;
     vec2 spread_texel;  // half-width of a disk of taps
     vec2 source_texel;  // see shadow/lookup/light_size.glsl
-    vec2 tangent;       // of its direction in a perspective view; 0: of a sun
+    vec2 tangent;       // tangent of its direction in a perspective view; 0: a sun's map
     float reads_texel;  // how far from it texels are read
-    vec3 position_ca;   // what was asked for
-    float error_m;      // how far position_ca may be off
-    vec3 normal;        // of the receiver
+    vec3 position_ca;   // from the camera's anchor, as it was given
+    float error_m;      // how far position_ca may be off, metres
+    vec3 normal;        // the receiver's
     LookupFacts facts;
 };
 
@@ -30,8 +32,8 @@ vec3 row_xyz(mat4 m, int row) { return vec3(m[0][row], m[1][row], m[2][row]); }
 
 #include SHADOW_FLAT_MAP
 
-// A plane stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
-// It is the biased receiver's plane, but for plane_lift().
+// Returns the slope of the biased receiver's plane, less plane_lift(): reversed depth per texel along u and v. A plane
+// stays one under any projection: its slope follows from how u, v and depth change along two of its directions.
 vec2 shadow_slope(ShadowPoint point, vec3 normal) {
     mat4 map_from_anchor = light.views[point.view].map_from_anchor;
     vec3 along_w = row_xyz(map_from_anchor, 3);
@@ -47,20 +49,20 @@ vec2 shadow_slope(ShadowPoint point, vec3 normal) {
     return slope + plane_lift(light.views[point.view], slope) * vec2(dot(over_u, along_w), dot(over_v, along_w));
 }
 
-// Whether it has to be looked up; else it is lit.
+// Returns whether the point has to be looked up. If not, it is lit.
 bool may_be_dark(ShadowPoint point) { return point.covered && point.layer >= 0.0; }
 
-// Which of the light's maps serves the point; -1: none.
+// Returns the layer of the map that serves the point; -1: none.
 int shadow_layer(ShadowPoint point) { return point.covered ? int(point.layer) : -1; }
 
-// Where the point lies in the map, in texels from its corner.
+// Returns where the point lies in the map, texels from its corner.
 vec2 shadow_texel(ShadowPoint point) { return point.map.xy / point.texel_uv; }
 
-// Tangent of a texel's side where directions count (a cube); a flat map does not tell what lies toward the light.
+// Returns the tangent of a texel's side of a cube. 0: a flat map, which does not tell what lies toward the light.
 float shadow_texel_tan() { return 0.0; }
 
-// Beyond the far plane depth is negative: not covered. Before the near plane it is clamped onto it.
-// Nearer than `margin_texel` to the border a filter would read past it: not covered.
+// Returns the point's place in a map. Beyond the far plane depth is negative: not covered. Before the near plane it is
+// clamped onto it. Nearer than `margin_texel` to the border a filter would read past it: not covered.
 ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_texel) {
     ShadowPoint point;
     point.view = view;

@@ -1,5 +1,5 @@
-// Point light: a cube of up to six perspective views with common near and far. A face stores projected depth of
-// its own axis, so the lookup needs only the largest coordinate, z. SHADOW_CUBE_MAP names the file that reads the map.
+// Point light: a cube of up to six perspective views with common near and far. A face stores projected depth of its own
+// axis, so the lookup needs only the largest coordinate, z. SHADOW_CUBE_MAP names the file that reads the map.
 #define SHADOW_CUBE 1
 #include "shadow/lookup/row_flags.glsl"
 #include "shadow/lookup/light_block.glsl"
@@ -13,31 +13,32 @@
 
 struct ShadowPoint {
     bool covered;
-    vec3 position;        // from the light, after the bias moved it
-    vec3 step_u, step_v;  // one texel on the receiver's face, in metres at its distance
+    vec3 position;        // from the light, after the bias moved it, metres
+    vec3 step_u, step_v;  // one texel on the receiver's face, at its distance, metres
     float bias_depth;
     float reference;      // biased depth
-    vec2 slope;           // of the receiver's plane: reversed depth per texel along u and v
-    vec3 plane;           // the receiver's, where dot(plane, position) is 1, if taps are compared on it
+    vec2 slope;           // slope of the receiver's plane: reversed depth per texel along u and v
+    vec3 plane;           // the receiver's plane, where dot(plane, position) is 1, if taps are compared on it
     vec2 spread_texel;    // half-width of a disk of taps
     vec2 source_texel;    // see shadow/lookup/light_size.glsl
-    vec2 tangent;         // of its direction along the face's axes
-    float reach_texel;    // what the bias is for
-    vec3 position_ca;     // what was asked for
-    float error_m;        // how far position_ca may be off
-    vec3 normal;          // of the receiver
+    vec2 tangent;         // tangent of its direction along the face's axes
+    float reach_texel;    // reach that the bias serves
+    vec3 position_ca;     // from the camera's anchor, as it was given
+    float error_m;        // how far position_ca may be off, metres
+    vec3 normal;          // the receiver's
     LookupFacts facts;
 };
 
-// How far the light lies from the receiver's plane; more than rounding.
+// Returns the light's distance from the receiver's plane, metres: at least what rounding makes of it.
 float light_from_plane_m(ShadowPoint point, vec3 normal) {
     return max(-dot(normal, point.position), kNormalError_rad * length(point.position));
 }
 
-// A face that was not drawn has no caster where it would be seen; it may hold anything.
+// Returns whether the face that a direction falls on was drawn. A face that was not has no caster that is seen, and may
+// hold anything.
 bool is_drawn(vec3 direction) { return (light.options.w >> face_of(direction) & 1) != 0; }
 
-// From the world's axes to the cube's.
+// Turns a vector from the world's axes to the cube's.
 vec3 turned_back(vec3 v) {
     vec3 axis = vec3(light.cone.x, light.cone.y, light.cone.z);
     return v + 2.0 * cross(axis, cross(axis, v) - light.cone.w * v);
@@ -45,8 +46,8 @@ vec3 turned_back(vec3 v) {
 
 #include SHADOW_CUBE_MAP
 
-// 1 / z is linear in the tangents on any plane, see perspective_bias(); this one is the biased receiver's, but for
-// plane_lift().
+// Returns the slope of the biased receiver's plane, less plane_lift(). 1 / z is linear in the tangents on any plane:
+// see perspective_bias().
 vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
     vec3 normal = turned_back(normal_ws);
     ViewRecord view = light.views[0];
@@ -57,7 +58,7 @@ vec2 shadow_slope(ShadowPoint point, vec3 normal_ws) {
     return slope * (1.0 - plane_lift(view, slope) * z_m / biased);
 }
 
-// How much longer the way from the light is than its part along the face's axis; the least of that within reach.
+// Returns how much longer the way from the light is than its part along the face's axis: the least within reach.
 float shadow_stretch(ShadowPoint point) {
     vec3 direction = point.position / largest(point.position);
     float stretch = length(direction);
@@ -75,27 +76,28 @@ float depth_at_share(ShadowPoint point, float share) {
     return perspective_depth(share, shadow_stretch(point), share_range(view.numeric.z, view.axis_back.w, kCubeCorner));
 }
 
-// What the neighbour stores is half a texel of its own off the middle that is asked for.
+// Returns the reach that the bias serves near a seam. What the neighbour stores is up to half a texel of its own beside
+// the middle that is read.
 float seam_texel(float reach_texel) { return kReadsDepths ? max(reach_texel, 0.5) : reach_texel; }
 
 bool may_be_dark(ShadowPoint point) { return point.covered; }
 
-// The face that serves the point, in OpenGL's order; -1: none.
+// Returns the face that serves the point, in OpenGL's order; -1: none.
 int shadow_layer(ShadowPoint point) {
     vec3 back = face_axes(point.position)[2];
     int face = int(dot(abs(back), vec3(0.0, 2.0, 4.0))) + (back.x + back.y + back.z > 0.0 ? 1 : 0);
     return point.covered && is_drawn(point.position) ? face : -1;
 }
 
-// Where the point lies in its face, in texels from a corner.
+// Returns where the point lies in its face, texels from a corner.
 vec2 shadow_texel(ShadowPoint point) {
-    float scale = 1.0 / largest(point.position);   // lest squares overflow
+    float scale = 1.0 / largest(point.position);   // against overflow of squares
     vec3 position = point.position * scale, u = point.step_u * scale, v = point.step_v * scale;
     vec2 from_middle = vec2(dot(position, u) / dot(u, u), dot(position, v) / dot(v, v));
     return from_middle + 0.5 * vec2(textureSize(shadow_map, 0));
 }
 
-// Tangent of a texel's side: how much nearer to the light an offset along a direction brings a tap.
+// Returns the tangent of a texel's side: how much nearer to the light an offset along a direction brings a tap.
 float shadow_texel_tan() { return light.views[0].axis_u.w; }
 
 ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float error_m, float reach_texel) {
@@ -105,11 +107,11 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal_ws, float err
     mat3 map_axes = face_axes(position_la);
     vec3 axis_u = map_axes[0], axis_v = map_axes[1];
     float rounding_m = error_m + view.numeric.y + kPositionRounding * length(position_la);
-    // Near a seam some taps land on the neighbour, whose axes see the plane's other tangents: take all three.
+    // Near a seam some taps land on the neighbour. Its axes see the plane's other tangents: all three count.
     vec3 n_map = normal * map_axes;
     float z_m = largest(position_la);
     float second = max(abs(dot(position_la, axis_u)), abs(dot(position_la, axis_v)));
-    // Its texels are larger there, by the share that the tap lies beyond the seam.
+    // The neighbour's texels are larger by the share that the tap lies beyond the seam.
     vec2 tangents = abs(n_map.xy);
     float leaving = max(-n_map.z, 0.0);
     vec2 spread = shadow_spread(vec2(view.axis_u.w, view.axis_v.w) * z_m, length(position_ca));
@@ -161,7 +163,7 @@ ShadowPoint on_receiver_plane(ShadowPoint point, vec3 normal_ws) {
     return point;
 }
 
-// Each direction has one face: nothing fades.
+// Returns 0: each direction has one face, and nothing fades.
 float shadow_fade_share(ShadowPoint first, float reach_texel) { return 0.0; }
 
 bool shadow_fades_into(ShadowPoint second) { return false; }

@@ -1,10 +1,11 @@
-// Spot light: one perspective view; for a wide cone, faces of a cube around it; while one fades into the other, both, the
-// faces first.
+// Spot light: one perspective view, or for a wide cone the faces of a cube around it. While one fades into the other,
+// it has both, the faces first.
 #include "shadow/lookup/kinds/map_2d.glsl"
 
 vec3 from_anchor(int i, vec3 position_ca) { return position_ca + light.views[i].anchor_from_camera.xyz; }
 
-// The light stands behind the anchor, as far as the anchor lies along the view: where w is that of the origin. At it, by 0.
+// Returns a position from the light. The light stands behind the anchor, as far as the anchor lies along the view:
+// where w is that of the origin. If the anchor is at the light, that is 0.
 vec3 from_light(int i, vec3 position_ca) {
     return from_anchor(i, position_ca) - light.views[i].axis_back.xyz * light.views[i].map_from_anchor[3][3];
 }
@@ -40,7 +41,8 @@ float depth_at_share(ShadowPoint point, float share) {
     return perspective_depth(share, 1.0, share_range(view.numeric.z, view.axis_back.w, 1.0));
 }
 
-// The face that looks most nearly along the direction; -1: none. A face without a view casts nothing that is seen.
+// Returns the face that looks most nearly along the direction; -1: none. A face without a view has no caster that is
+// seen.
 int face_toward(int faces, vec3 position_la) {
     int best = -1;
     float deepest = 0.0;
@@ -62,14 +64,14 @@ ShadowPoint point_in_view_or_none(int i, vec3 position_ca, vec3 normal, float er
 
 bool has_single_view() { return light.cone.z < 1.0 && (light.cone.z == 0.0 || (light.options.w & 32) != 0); }
 
-// -1: none.
+// Returns the view that serves a place; -1: none.
 int serving_view(int lookup, vec3 position_ca) {
     int view = light.options.x - 1;
     if (lookup > 0 || !has_single_view()) view = face_toward(light.options.x - lookup, from_light(0, position_ca));
     return view;
 }
 
-// Of a place: the first view that may serve it, and the last.
+// Returns the first view that may serve a place, and the last.
 ivec2 serving_views(vec3 position_ca) {
     int view = serving_view(0, position_ca);
     return ivec2(view, view);
@@ -79,10 +81,10 @@ ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_
     return point_in_view_or_none(serving_view(lookup, position_ca), position_ca, normal, error_m, reach_texel);
 }
 
-// Where one of the two has no view, it has nothing to fade.
+// Returns the share of the single view; 0 where either it or the faces have no view.
 float shadow_fade_share(ShadowPoint first, float reach_texel) {
     return has_single_view() && light.options.x > 1 ? light.cone.z : 0.0;
 }
 
-// A face without a view darkens nothing, as the faces alone will not.
+// Returns true: a face without a view darkens nothing, as when the faces are alone.
 bool shadow_fades_into(ShadowPoint second) { return true; }

@@ -1,16 +1,16 @@
-// Prefiltered cubes of which a lookup takes what a pixel covers, by mipmaps.
+// Prefiltered cubes, where a lookup reads as many texels as a pixel covers, by mipmaps.
 #include "shadow/lookup/maps/cube_levels.glsl"
 #include "shadow/passes/prefilter/pixel_footprint.glsl"
 
-// From a step in the world to one in texels of the face.
+// Turns a step in the world into one in texels of the face.
 vec2 step_in_face(ShadowPoint point, vec3 step_ws) {
     vec3 step_m = turned_back(step_ws) * face_axes(point.position);
     vec2 step_tan = (vec2(step_m.x, step_m.y) + point.tangent * step_m.z) / largest(point.position);
     return shortened(step_tan / light.views[0].axis_u.w);
 }
 
-// Taps along the longer side of the pixel's footprint, as wide as its shorter one: a sampler would leave the face as it pleases
-// and not know which faces were drawn. Most pixels need one.
+// Returns the moments over the pixel's footprint: taps along its longer side, as wide as its shorter one. A sampler
+// would leave the face, and does not know which faces were drawn. Most pixels need one tap.
 vec4 shadow_moments(ShadowPoint point) {
     vec2 right = step_in_face(point, step_right(point.position_ca, point.normal));
     vec2 up = step_in_face(point, step_up(point.position_ca, point.normal));

@@ -2,7 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform samplerCube shadow_map;
 
-// The sampler blends across seams; where the neighbour was not drawn it must not. texels: of the map, per one that is read.
+// Keeps a lookup from blending across a seam where the neighbour was not drawn. texels: of the map, per texel of the
+// level that is read.
 vec2 kept_tangent(vec2 tangent, mat3 axes, float texels) {
     float inner = 1.0 - texels / float(textureSize(shadow_map, 0).x);
     for (int i = 0; i < 2; ++i) {
@@ -13,7 +14,7 @@ vec2 kept_tangent(vec2 tangent, mat3 axes, float texels) {
     return tangent;
 }
 
-// So many texels beside the point, of one level of its mipmaps or between two.
+// Returns the moments some texels beside the point, of one level of the mipmaps or between two.
 vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {
     mat3 axes = face_axes(point.position);
     vec2 offset = offset_texel * (2.0 / float(textureSize(shadow_map, 0).x));
@@ -21,7 +22,7 @@ vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {
     return textureLod(shadow_map, axes * vec3(tangent, -1.0), level);
 }
 
-// For a lookup of texels within `reach` of it: before all of its plane there.
+// Moves the reference before all of the receiver's plane within `reach_texel`, for a lookup of texels that far.
 ShadowPoint before_plane(ShadowPoint point, float reach_texel) {
     point.reference += reach_texel * (abs(point.slope.x) + abs(point.slope.y));
     point.reach_texel = reach_texel;

@@ -4,7 +4,7 @@
 #include "shadow/filters/triangles/gathered_ids.glsl"
 layout(binding = kShownTriangleUnit) uniform usamplerCube shadow_triangles;   // see shadow/filters/triangles/mesh_walk.glsl
 
-// What these four show.
+// Returns what the four texels around a corner show.
 FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     FourTriangles shown;
     shown.instance = shown.triangle = uvec4(0u);
@@ -22,5 +22,5 @@ FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     return shown;
 }
 
-// Of a texel: tangents.
+// Returns the sides of a texel, tangents.
 vec2 shadow_texel_sides(ShadowPoint point) { return vec2(light.views[0].axis_u.w, light.views[0].axis_v.w); }

@@ -2,7 +2,7 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform sampler2DArrayShadow shadow_map;
 
-// Result of one comparison, `offset_texel` texels beside the receiver.
+// Returns the result of one comparison, `offset_texel` texels beside the receiver.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     float reference = point.map.z;
     if (kManualBias) reference = clamp(reference + dot(point.slope, offset_texel), 0.0, 1.0);

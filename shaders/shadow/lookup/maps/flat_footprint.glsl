@@ -1,4 +1,4 @@
-// Flat prefiltered maps of which a lookup takes what a pixel covers, by mipmaps or anisotropy.
+// Flat prefiltered maps, where a lookup reads as many texels as a pixel covers, by mipmaps or anisotropy.
 #include "shadow/lookup/maps/flat_levels.glsl"
 #include "shadow/passes/prefilter/pixel_footprint.glsl"
 

@@ -4,7 +4,7 @@
 #include "shadow/filters/triangles/gathered_ids.glsl"
 layout(binding = kShownTriangleUnit) uniform usampler2DArray shadow_triangles;   // see shadow/filters/triangles/mesh_walk.glsl
 
-// What the four texels around a corner show.
+// Returns what the four texels around a corner show.
 FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     vec3 at = vec3(corner * point.texel_uv, point.layer);
     FourTriangles shown;
@@ -13,5 +13,5 @@ FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     return shown;
 }
 
-// Of a texel: metres, or tangents from a lamp.
+// Returns the sides of a texel: metres, or tangents from a lamp.
 vec2 shadow_texel_sides(ShadowPoint point) { return vec2(light.views[point.view].axis_u.w, light.views[point.view].axis_v.w); }

@@ -1,8 +1,9 @@
-// A light that is looked up in its map.
-// Filters that read depths compare on the receiver's own plane: of the offset, only what snapping and rounding need is left.
+// Visibility of a light by its map.
+// shadow_bias_texel() is the reach that the bias serves, texels. Filters that read depths compare on the receiver's own
+// plane: only what snapping and rounding need is left of the offset.
 float shadow_bias_texel() { return kReadsDepths ? 0.0 : SHADOW_REACH_TEXEL; }
 
-// As its taps are compared.
+// Moves the point as its taps are compared.
 ShadowPoint compared_point(ShadowPoint point, vec3 normal) {
     if (kManualBias && point.covered && compares_on_plane()) point = on_receiver_plane(point, normal);
     return point;
@@ -21,7 +22,8 @@ float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
     float reach_texel = shadow_bias_texel();
     float visible = 1.0, share = 1.0;
     int lookup = 0;
-    // Where the first lookup fades into a second one, two rounds. A loop, because software devices run both sides of an `if`.
+    // Two rounds where the first lookup fades into a second one. It is a loop, because software devices run both sides
+    // of an `if`.
     do {
         ShadowPoint point = shadow_point(lookup, position_ca, normal, error_m, reach_texel);
         float found = filtered(point, normal, error_m);

@@ -1,5 +1,5 @@
-// A light whose casters are asked by rays.
-// Of a place that is exactly on a triangle of an instance.
+// Visibility of a light by rays.
+// shadow_visibility_at() is of a place that is exactly on a triangle of an instance.
 float shadow_visibility_at(dvec3 position_ca, vec3 normal, uvec2 receiver) { return shadow_traced(position_ca, normal, 0.0, receiver); }
 
 float shadow_visibility(vec3 position_ca, vec3 normal, float error_m) {
