@@ -1,4 +1,5 @@
-// Both in one, where no list of rays is kept. Bring shadow_ray(), certainty() and uncertain_reach().
+// Returns the share of the light by the map where it is certain, else by rays: where no list of rays is kept. Requires
+// shadow_ray(), certainty() and uncertain_reach().
 float shadow_traced(dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
     vec3 rounded_ca = vec3(position_ca);
     float rounded_m = error_m + kUnitRoundoff * length(rounded_ca);

@@ -1,17 +1,17 @@
-// The cone between a place and a source with a size, as a map shows it: straight lines stay straight there, so that it is one,
-// and widens with depth.
+// Cone between a place and a source with a size, as a map shows it. Straight lines stay straight there: it remains a
+// cone, and widens with depth.
 const float kMostStretch = 2.5;   // C++ twin: systems/shadow/request/occluder_pyramid.h
 struct SourceCone {
     bool is_known;
-    float texels;         // its radius per unit of depth, at most
+    float texels;         // most of its radius per unit of depth
     float stretch;        // how much longer the way is than its part along the view's axis
     float steepest;       // see ends_of_texel()
     float texel_tan;
     vec2 alpha_beta;      // depth = alpha + beta / distance along the axis; of a lamp
 };
 
-// The source faces the place, so that away from the axis its picture is longer toward it by 1 / cos, and its nearer half
-// stands nearer than its middle.
+// Returns the cone to a lamp. The source faces the place. Away from the axis its picture is therefore longer toward it
+// by 1 / cos, and its nearer half stands nearer than its middle.
 SourceCone lamp_cone(ViewRecord view, vec2 tangent, float z_m) {
     float radius_m = light.radiance.w, stretch = sqrt(1.0 + dot(tangent, tangent));
     float nearer = radius_m * sqrt(max(1.0 - 1.0 / (stretch * stretch), 0.0)) / z_m;

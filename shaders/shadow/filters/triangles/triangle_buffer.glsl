@@ -1,5 +1,5 @@
-// The casters' triangles, read as texels for what common/instance_buffer.glsl says. bench/glsl_on_cpu/overrides has a twin of this file, for what
-// is compiled as C++.
+// The casters' triangles, read as texels for the reason in common/instance_buffer.glsl. bench/glsl_on_cpu/overrides has
+// a twin of this file for text that is compiled as C++.
 #include "common/bindings.glsl"
 #include "shadow/filters/triangles/triangle_record.glsl"
 layout(binding = kCasterTriangleUnit) uniform usamplerBuffer caster_triangles;    // a corner and what lies across each

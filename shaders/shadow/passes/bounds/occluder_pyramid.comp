@@ -1,5 +1,5 @@
-// One level of what sources with a size ask for: of squares of kEndsAcross² texels (CUBE: of a cube's face), or, OF_LEVEL, of
-// so many squares of the level below, the nearest.
+// One level of the pyramid that sources with a size read: the nearest depths of squares of kEndsAcross² texels (CUBE:
+// of a cube's face). OF_LEVEL: of as many squares of the level below.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -8,7 +8,8 @@ layout(std140, binding = kPyramidBlock) uniform EndsBlock {
     vec4 axis_u, axis_v, axis_back;   // of a cube's face
     ivec4 from;                       // x: where the level below begins; y: its side; z: layer of the map
     ivec4 to;                         // x, y: the same of this level
-    vec4 numbers;                     // x: tangent of a texel's side, 0: parallel light; y: alpha (see bias/automatic.glsl); z: see ends_of_texel()
+    vec4 numbers;                     // x: tangent of a texel's side, 0: parallel light; y: alpha (see
+                                      // bias/automatic.glsl); z: see ends_of_texel()
 } ends;
 layout(std430, binding = kPyramidBuffer) buffer SheetEndBuffer { vec2 sheet_ends[]; };
 

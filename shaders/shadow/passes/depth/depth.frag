@@ -1,5 +1,5 @@
-// Opaque casters: the rasteriser's depth is all there is. Masked ones drop what is cut out.
-// TRIANGLES: and which triangle of which instance is shown (shadow/filters/triangles/mesh_walk.glsl).
+// Depth of casters, which the rasteriser writes. Masked casters drop what is cut out. TRIANGLES: writes the triangle
+// that is shown, too, and its instance (shadow/filters/triangles/mesh_walk.glsl).
 #include "common/bindings.glsl"
 #ifdef TRIANGLES
 #include "shadow/passes/depth/shown_triangle.glsl"

@@ -1,7 +1,7 @@
-// Depth of casters as a light sees them. Needs neither normals nor shading.
-// LAYERED: one pass for all faces of a cube; each draw item names its face. This stage sends it there (LAYER_BY_VERTEX),
-// or layer.geom does.
-// What the fragment shader does not read of the outputs, the linker drops.
+// Depth of casters as a light sees them. Requires neither normals nor shading.
+// LAYERED: one pass for all faces of a cube; each draw item names its face. This stage sends it there
+// (LAYER_BY_VERTEX), or layer.geom does.
+// The linker drops outputs that the fragment shader does not read.
 #ifdef LAYER_BY_VERTEX
 #extension GL_ARB_shader_viewport_layer_array : require
 void send_to(uint face) { gl_Layer = int(face); }
@@ -14,7 +14,8 @@ void send_to(uint face) {}
 #include "shadow/passes/depth/depth_view_block.glsl"
 layout(location = kPositionAttribute) in vec3 position_ms;
 layout(location = kUvAttribute) in vec2 uv;
-layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance; face (LAYERED) in the lowest three bits, first triangle of the draw above
+layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance; face (LAYERED) in the lowest three bits, first
+                                                            // triangle of the draw above
 layout(location = kItemVarying) flat out uvec2 item_out;
 layout(location = kUvVarying) out vec2 uv_out;
 layout(location = kColourVarying) out vec4 colour_out;

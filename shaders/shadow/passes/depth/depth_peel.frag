@@ -1,5 +1,5 @@
-// Depth of the casters behind the nearest: all but the triangles that another map shows (Everitt 2001, "Interactive
-// order-independent transparency", by triangles instead of depths: no offset decides what is behind).
+// Depth of the casters behind the nearest: all but the triangles that another map shows. It follows Everitt 2001,
+// "Interactive order-independent transparency", by triangles instead of depths: no offset decides what is behind.
 #include "common/bindings.glsl"
 layout(binding = kNearestTriangleUnit) uniform usampler2DArray nearest_triangles;
 #include "shadow/passes/depth/shown_triangle.glsl"

@@ -6,7 +6,7 @@ struct DepthView {
     vec4 anchor_low;    // xyz; w: layer of the map
 };
 #ifdef LAYERED
-layout(std140, binding = kDepthViewBlock) uniform DepthViewsBlock { DepthView depth_views[6]; };   // by face
+layout(std140, binding = kDepthViewBlock) uniform DepthViewsBlock { DepthView depth_views[6]; };   // per face
 DepthView depth_view_of(uint face) { return depth_views[face]; }
 #else
 layout(std140, binding = kDepthViewBlock) uniform DepthViewBlock {

@@ -1,5 +1,5 @@
-// First pass over a view of a prefiltered map: what its filter makes of depths (moments_of), blurred along u. Beyond the map's
-// border its outermost texels go on; of a cube, what its neighbours show there. CUBE, PERSPECTIVE: what holds the depths.
+// First pass over a view of a prefiltered map: moments_of() its depths, blurred along u. Beyond the map's border its
+// outermost texels go on; of a cube, what its neighbours show there. CUBE, PERSPECTIVE: the map that holds the depths.
 #include "common/bindings.glsl"
 #include "shadow/passes/prefilter/prefilter_block.glsl"
 #include "shadow/passes/prefilter/linear_distance.glsl"
@@ -17,7 +17,8 @@ vec3 direction_to(vec2 tangent) {
     return mat3(moment.axis_u.xyz, moment.axis_v.xyz, moment.axis_back.xyz) * vec3(tangent, -1.0);
 }
 
-// Where the neighbour was not drawn, nobody sees what lies there: this face goes on.
+// Returns the share of the range at a texel. Where the neighbour was not drawn, nothing is seen there: this face goes
+// on.
 float share_at(ivec2 texel) {
     float size = float(textureSize(depth_map, 0).x);
     vec2 tangent = (vec2(texel) + 0.5) / size * 2.0 - 1.0;
