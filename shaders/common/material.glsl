@@ -21,8 +21,8 @@ vec4 material_colour(vec2 uv) {
     return colour * fragment_colour;
 }
 
-// Whether the mask cuts the surface out at `uv`. The finest level decides at any distance, as the surface's own edges do:
-// coarser ones are averages, by which thin leaves vanish, dense ones close up, and every edge moves.
+// Returns whether the mask cuts the surface out at `uv`. The finest level decides at any distance, as the surface's own
+// edges do. Coarser ones are averages, by which thin leaves vanish, dense ones close up, and every edge moves.
 bool cut_out(vec2 uv) {
     if (material.alpha_cutoff < 0.0) return false;
     float alpha = material.base_colour.a;

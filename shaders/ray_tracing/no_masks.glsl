@@ -1,4 +1,4 @@
-// Casters without masks: all of a triangle is there. In place of ray_tracing/alpha_mask.glsl.
+// Casters without masks: all of a triangle is there. It takes the place of ray_tracing/alpha_mask.glsl.
 const bool kHasMasks = false;
 
 bool is_there(uint mask, uint uvs, vec3 weights) { return true; }

@@ -1,5 +1,5 @@
-// Fills the surface buffers, and starts the picture with what needs no light pass: ambient and emitted light. UNLIT: what is shown as
-// it is.
+// Fills the surface buffers, and starts the picture with what requires no light pass: ambient and emitted light. UNLIT:
+// the colour as it is.
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"
 #include "common/material.glsl"
@@ -14,7 +14,7 @@ layout(location = 0) out vec4 colour_out;
 layout(location = 1) out vec4 normals_out;
 layout(location = 2) out vec4 material_out;
 layout(location = 3) out vec4 picture_out;
-#ifdef WRITE_PLACES   // for lights that are asked by rays
+#ifdef WRITE_PLACES   // for lights by rays
 #include "lighting/gbuffer/visible_triangle.glsl"
 flat in uint corner;
 layout(location = 4) out uvec4 place_out;

@@ -1,4 +1,4 @@
-// Surfaces as the camera sees them. What the fragment shader does not read of the outputs, the linker drops.
+// Surfaces as the camera sees them. The linker drops outputs that the fragment shader does not read.
 #include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"

@@ -1,4 +1,4 @@
-// The surface buffers as the light passes read them.
+// Surface buffers as the light passes read them.
 #include "common/bindings.glsl"
 #include "shadow/lookup/row_flags.glsl"
 #include "common/view_distance.glsl"
@@ -15,22 +15,23 @@ layout(binding = kSurfacePlaceUnit) uniform usampler2D surface_places;     // se
 
 struct Surface {
     bool exists;
-    vec3 position_ca;     // from the camera's anchor
+    vec3 position_ca;     // from the camera's anchor, metres
     vec3 to_viewer;
     vec3 shading_normal;
     vec3 geometric_normal;
     vec3 colour;
     float metallic, roughness;
-    float shadow_layers;  // those it receives, as an integer
-    bool unlit;           // shows its colour whatever light falls on it
-    float error_m;        // how far position_ca may be off the true surface
+    float shadow_layers;  // layers with shadows that fall on it, as an integer
+    bool unlit;           // shows its colour in any light
+    float error_m;        // how far position_ca may be off the true surface, metres
     uvec4 place;          // packed; for rays
 };
 
 vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel, view_distance(depth)); }
 
-// Rebuilding rounds; and the rasteriser may have moved corners by half a sub-pixel step (2^-9 pixel) each way, so by half its diagonal.
-const float kHalfDiagonal = 0.70711;   // of a square, of its side
+// Returns how far a position rebuilt from depth may be off, metres. Rebuilding rounds. The rasteriser may have moved
+// corners by half a sub-pixel step (2^-9 pixel) each way: by half its diagonal.
+const float kHalfDiagonal = 0.70711;   // of a square, in sides
 float surface_error_m(vec3 position_ca) {
     bool orthographic = camera.back.w > 0.5;
     float distance_m = length(position_ca);

@@ -1,4 +1,4 @@
-// What one light adds to a blended surface. The same visibility include as the deferred passes.
+// Light that one light adds to a blended surface, by the same visibility as in the deferred passes.
 #define BLENDED_RECEIVER 1
 #include "lighting/lights/blended_surface.glsl"
 #include "lighting/post/picture_sum.glsl"

@@ -1,4 +1,4 @@
-// A surface that blends, as a fragment shows it.
+// Blended surface as a fragment shows it.
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"
 #include "common/material.glsl"

@@ -1,6 +1,6 @@
-// One light over its screen rectangle: visibility times BRDF, added to the picture. VISIBLE_SHARE names the file that says the visibility:
-// looked up, found before, or kept from an earlier frame.
-// LEAVE_UNDECIDED: not at pixels for which the filter takes long. SOME_UNLIT: surfaces may be unlit.
+// One light over its screen rectangle: visibility times BRDF, added to the picture. VISIBLE_SHARE names the file that
+// gives the visibility: looked up, found before, or kept from an earlier frame.
+// LEAVE_UNDECIDED: leaves out pixels for which the filter takes long. SOME_UNLIT: surfaces may be unlit.
 #include "lighting/gbuffer/gbuffer_read.glsl"
 #include "row.glsl"
 #include "shadow/lookup/light_block.glsl"

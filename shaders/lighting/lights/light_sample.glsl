@@ -31,7 +31,7 @@ LightSample light_at(vec3 position_ca) {
     return s;
 }
 
-// Whether a surface faces away from the light, or lies outside its range or cone.
+// Returns whether a surface faces away from the light, or lies outside its range or cone.
 bool is_unreached(vec3 geometric_normal, LightSample incoming) {
     return !incoming.reaches || dot(geometric_normal, incoming.to_light) <= 0.0;
 }

@@ -1,4 +1,4 @@
-// What a surface shows without any light's pass: ambient and emitted light, or, UNLIT, its colour as it is.
+// Picture of a surface without any light's pass: ambient and emitted light. UNLIT: its colour as it is.
 #include "common/material.glsl"
 #include "lighting/lights/ambient.glsl"
 #include "lighting/post/picture_sum.glsl"

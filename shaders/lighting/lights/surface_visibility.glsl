@@ -1,4 +1,4 @@
-// The fraction of the light that reaches a surface: 0 where it faces away or lies outside range or cone.
+// Fraction of the light that reaches a surface. 0: it faces away or lies outside range or cone.
 #include "shadow/lookup/shadow_layers.glsl"
 #include "lighting/lights/light_sample.glsl"
 #if SHADOW_RAYS

@@ -1,4 +1,4 @@
-// One light over its screen rectangle: its visibility alone. VISIBLE_SHARE as in light.frag.
+// One light over its screen rectangle: its visibility alone. VISIBLE_SHARE: as in light.frag.
 #include "lighting/gbuffer/gbuffer_read.glsl"
 #include "row.glsl"
 #include "shadow/lookup/light_block.glsl"

@@ -1,4 +1,4 @@
-// The fraction of the light that reaches a surface, as the picture's pixels saw it when it was last looked up:
+// Fraction of the light that reaches a surface, as the picture's pixels saw it when it was last looked up:
 // systems/lighting/kept_visibility.h.
 #include "common/bindings.glsl"
 #include "lighting/lights/light_sample.glsl"
@@ -8,7 +8,7 @@ layout(std140, binding = kKeptBlock) uniform KeptBlock {
     ivec4 area;   // of the picture: first pixel, and size
 } kept;
 
-// 0 beyond the area, which the light does not reach.
+// Returns the kept share; 0 beyond the area, which the light does not reach.
 float kept_share(ivec2 pixel) {
     ivec2 texel = pixel - kept.area.xy;
     bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, kept.area.zw));

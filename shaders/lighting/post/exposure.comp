@@ -1,4 +1,4 @@
-// Puts the exposure where it can be read back: systems/lighting/exposure_meter.h.
+// Writes the exposure where it can be read back: systems/lighting/exposure_meter.h.
 #include "common/bindings.glsl"
 #include "lighting/post/exposure.glsl"
 layout(local_size_x = 1) in;

@@ -14,7 +14,7 @@ void main() {
     // Blended surfaces may stand before the sky: what they let through is in the picture's alpha.
     vec4 seen = texelFetch(picture, pixel, 0);
     if (texelFetch(surface_depth, pixel, 0).r == 0.0) seen.rgb += (1.0 - clamp(seen.a, 0.0, 1.0)) * sky_radiance(view_direction(pixel));
-    // What is unlit is shown as it is, by any exposure.
+    // Unlit surfaces are shown as they are, by any exposure.
     float unlit = clamp(seen.a - 1.0, 0.0, 1.0);
     vec3 mapped = tone_curve(seen.rgb * mix(scale, 1.0 / ambient.ground.w, unlit));
     colour_out = vec4(min(mapped, vec3(1.0)), 1.0);

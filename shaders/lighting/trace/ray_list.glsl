@@ -1,4 +1,4 @@
-// Pixels of one light for rays: those of which its map is not certain. C++ twin: systems/lighting/ray_list.cpp.
+// Pixels of one light for rays: pixels that its map is not certain of. C++ twin: systems/lighting/ray_list.cpp.
 #include "common/bindings.glsl"
 layout(std430, binding = kRayListBuffer) buffer RayListBuffer {
     uint ray_count;

@@ -1,4 +1,4 @@
-// The fraction of the light that reaches a surface, as it was found of each pixel: by its light's map, or by a ray.
+// Fraction of the light that reaches a surface, as it was found of each pixel: by its light's map, or by a ray.
 #include "common/bindings.glsl"
 #include "shadow/lookup/shadow_layers.glsl"
 #include "lighting/lights/light_sample.glsl"
