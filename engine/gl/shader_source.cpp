@@ -30,7 +30,7 @@ std::optional<std::string_view> included(std::string_view line) {
     return line;
 }
 
-/// The text between the quotes that a text starts with; nothing if it starts with none.
+/// Returns the text between the quotes that a text starts with; nothing if it starts with none.
 std::optional<std::string_view> quoted(std::string_view text) {
     text = without_leading_blanks(text);
     if (!take(text, "\"")) return std::nullopt;
@@ -39,14 +39,14 @@ std::optional<std::string_view> quoted(std::string_view text) {
     return text.substr(0, end);
 }
 
-/// The name that a text starts with after a blank; nothing if it starts with none.
+/// Returns the name that a text starts with after a blank; nothing if it starts with none.
 std::optional<std::string_view> name_after_blank(std::string_view text) {
     const std::string_view rest = without_leading_blanks(text);
     if (rest.size() == text.size() || rest.empty() || rest.front() < 'A' || rest.front() > 'Z') return std::nullopt;
     return rest.substr(0, rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
 }
 
-/// Whether a define  NAME "path"  names a file.
+/// Returns whether a define names a file:  NAME "path" .
 bool names_file(std::string_view define) { return define.find('"') != std::string_view::npos; }
 
 class Expansion {
@@ -89,8 +89,8 @@ private:
         return std::nullopt;
     }
 
-    /// The path that a line includes, in quotes or by the name of a define. The name itself if no define gives it a
-    /// path.
+    /// Returns the path that a line includes, in quotes or by the name of a define; the name itself if no define gives
+    /// it a path.
     std::optional<std::string_view> included_path(std::string_view line) const {
         const auto rest = included(line);
         if (!rest) return std::nullopt;

@@ -36,14 +36,14 @@ bool adds_to_picture(RowOutput output) {
     return output == RowOutput::picture || output == RowOutput::kept || output == RowOutput::decided;
 }
 
-/// What says the share of a light that a surface sees, under shaders/.
+/// Returns the file under shaders/ that gives the share of a light that a surface sees.
 std::string_view visible_share_file(RowOutput output, bool found_before) {
     if (output == RowOutput::kept || output == RowOutput::kept_visibility)
         return "lighting/lights/visibility_cache.glsl";
     return found_before ? "lighting/trace/ray_results.glsl" : "lighting/lights/surface_visibility.glsl";
 }
 
-/// What draws a light over its rectangle, under shaders/.
+/// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
 std::string_view fragment_file(RowOutput output) {
     const bool is_share = output == RowOutput::visibility || output == RowOutput::kept_visibility;
     return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";

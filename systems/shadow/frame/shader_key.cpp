@@ -6,7 +6,7 @@ namespace {
 
 std::string flag(std::string_view name, bool is_set) { return std::string(name) + (is_set ? " 1" : " 0"); }
 
-/// What a lookup reads of the row's map: the last part of a file's name in shaders/shadow/lookup/maps.
+/// Returns what a lookup reads of the row's map: the last part of a file's name in shaders/shadow/lookup/maps.
 std::string_view map_reading(const ProgramRow& row) {
     if (row.footprint) return "footprint";
     if (row.moments) return "moments";

@@ -27,13 +27,13 @@ static_assert(bindings::kDrawItemAttribute == gl::kDrawItemAttribute);
 
 constexpr std::string_view kTable = "common/bindings.glsl";
 
-/// Pieces of a text that a pattern finds.
+/// Returns the pieces of a text that a pattern finds.
 std::vector<std::string> found(const std::string& text, const char* pattern) {
     const std::regex expression(pattern);
     return {std::sregex_token_iterator(text.begin(), text.end(), expression), {}};
 }
 
-/// Bindings that a shader gives by a number, and inputs of a vertex shader.
+/// Returns the bindings that a shader gives by a number, and the inputs of a vertex shader.
 std::vector<std::string> spelt_in_shader(const std::string& text, bool vertex) {
     std::vector<std::string> spelt = found(text, "binding\\s*=\\s*[0-9]+");
     if (vertex)
@@ -41,7 +41,7 @@ std::vector<std::string> spelt_in_shader(const std::string& text, bool vertex) {
     return spelt;
 }
 
-/// Commands that bind something to a number, and constants that name one.
+/// Returns commands that bind something to a number, and constants that name one.
 std::vector<std::string> spelt_in_code(const std::string& text) {
     return found(text, "Bind(Uniforms|Storage|Texture|Texels)\\{\\s*[0-9]+|k\\w*(Unit|Binding|Attribute) = [0-9]+");
 }
