@@ -1,4 +1,4 @@
-// C++ twin: CameraRecord in systems/shadow/frame/types.h.
+// C++ twin: CameraRecord in systems/shadow/frame/lighting_inputs.h.
 #include "common/bindings.glsl"
 layout(std140, binding = kCameraBlock) uniform CameraBlock {
     mat4 clip_from_anchor;   // anchor: the camera's position; axes: the world's

@@ -1,4 +1,4 @@
-// C++ twins: LightRecord and ViewRecord in systems/shadow/frame/types.h.
+// C++ twins: LightRecord and ViewRecord in systems/shadow/frame/lighting_inputs.h.
 #include "common/bindings.glsl"
 const int kMaxViews = 8;
 struct ViewRecord {

@@ -1,8 +1,8 @@
-// C++ twin: DepthViewRecord in systems/shadow/frame/types.h.
+// C++ twin: DepthViewRecord in systems/shadow/frame/pass_inputs.h.
 #include "common/bindings.glsl"
 struct DepthView {
     mat4 clip_from_anchor;
-    vec4 anchor_high;   // xyz; w: texels along an edge of the map (shadow/exact)
+    vec4 anchor_high;   // xyz; w: texels along an edge of the map (shaders/shadow/passes/bounds)
     vec4 anchor_low;    // xyz; w: layer of the map
 };
 #ifdef LAYERED
