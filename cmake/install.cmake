@@ -56,6 +56,8 @@ install(TARGETS gnomon_components gnomon_systems EXPORT GnomonTargets ARCHIVE DE
 # headers found when the build is configured would have to be looked for anew at every start.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/components ${PROJECT_SOURCE_DIR}/systems DESTINATION ${GNOMON_INCLUDE_DIR}
   FILES_MATCHING PATTERN "*.h")
+# Made by shaders/CMakeLists.txt; no file set, whose folders may not lie in each other.
+install(FILES ${PROJECT_BINARY_DIR}/generated/shaders/bindings.h DESTINATION ${GNOMON_INCLUDE_DIR}/shaders)
 add_custom_target(gnomon_installed DEPENDS gnomon_engine gnomon_shaders gnomon_systems)
 install(EXPORT GnomonTargets NAMESPACE Gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR})
 

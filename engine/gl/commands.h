@@ -140,10 +140,13 @@ struct ClearBuffer {
     bool operator==(const ClearBuffer&) const = default;
 };
 
+/// Attribute locations of vertex layout "mesh". shaders/common/bindings.glsl has the same.
+inline constexpr std::uint32_t kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kDrawItemAttribute = 3;
+
 /// Binds the vertex layout "mesh".
-/// - vertices: {vec3 position, vec3 normal, vec2 uv} (32 bytes), attribute locations 0, 1, 2
+/// - vertices: {vec3 position, vec3 normal, vec2 uv} (32 bytes)
 /// - indices: uint32
-/// - draw_items: uvec2 {instance, first_triangle} per instance, attribute location 3, divisor 1
+/// - draw_items: uvec2 {instance, first_triangle} per instance, divisor 1
 struct BindMeshes {
     BufferHandle vertices{}, indices{}, draw_items{};
     bool operator==(const BindMeshes&) const = default;

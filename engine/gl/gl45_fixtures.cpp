@@ -5,7 +5,6 @@
 namespace gnomon::gl {
 namespace {
 
-constexpr GLuint kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kItemAttribute = 3;
 constexpr GLuint kNormalOffset = 3 * sizeof(float), kUvOffset = 6 * sizeof(float);
 constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // available to lists; cleared before each
 
@@ -25,11 +24,11 @@ GlFixtures make_fixtures() {
     glVertexArrayAttribFormat(layout, kPositionAttribute, 3, GL_FLOAT, GL_FALSE, 0);
     glVertexArrayAttribFormat(layout, kNormalAttribute, 3, GL_FLOAT, GL_FALSE, kNormalOffset);
     glVertexArrayAttribFormat(layout, kUvAttribute, 2, GL_FLOAT, GL_FALSE, kUvOffset);
-    glVertexArrayAttribIFormat(layout, kItemAttribute, 2, GL_UNSIGNED_INT, 0);
-    for (const GLuint attribute : {kPositionAttribute, kNormalAttribute, kUvAttribute, kItemAttribute}) {
+    glVertexArrayAttribIFormat(layout, kDrawItemAttribute, 2, GL_UNSIGNED_INT, 0);
+    for (const GLuint attribute : {kPositionAttribute, kNormalAttribute, kUvAttribute, kDrawItemAttribute}) {
         glEnableVertexArrayAttrib(layout, attribute);
         glVertexArrayAttribBinding(layout, attribute,
-                                   attribute == kItemAttribute ? GlFixtures::kItemSlot : GlFixtures::kVertexSlot);
+                                   attribute == kDrawItemAttribute ? GlFixtures::kItemSlot : GlFixtures::kVertexSlot);
     }
     glVertexArrayBindingDivisor(layout, GlFixtures::kItemSlot, 1);
     set_gl_label(GL_VERTEX_ARRAY, fixtures.mesh_layout, "mesh layout");

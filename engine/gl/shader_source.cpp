@@ -21,22 +21,38 @@ bool take(std::string_view& text, std::string_view word) {
     return true;
 }
 
-/// Returns the path in a line  #include "path" ; nothing for other lines.
-std::optional<std::string_view> included_path(std::string_view line) {
+/// Returns what follows  #include  in a line; nothing for other lines.
+std::optional<std::string_view> included(std::string_view line) {
     line = without_leading_blanks(line);
     if (!take(line, "#")) return std::nullopt;
     line = without_leading_blanks(line);
     if (!take(line, "include")) return std::nullopt;
-    line = without_leading_blanks(line);
-    if (!take(line, "\"")) return std::nullopt;
-    const std::size_t end = line.find('"');
-    if (end == std::string_view::npos) return std::nullopt;
-    return line.substr(0, end);
+    return line;
 }
+
+/// Returns the text between the quotes that a text starts with; nothing if it starts with none.
+std::optional<std::string_view> quoted(std::string_view text) {
+    text = without_leading_blanks(text);
+    if (!take(text, "\"")) return std::nullopt;
+    const std::size_t end = text.find('"');
+    if (end == std::string_view::npos) return std::nullopt;
+    return text.substr(0, end);
+}
+
+/// Returns the name that a text starts with after a blank; nothing if it starts with none.
+std::optional<std::string_view> name_after_blank(std::string_view text) {
+    const std::string_view rest = without_leading_blanks(text);
+    if (rest.size() == text.size() || rest.empty() || rest.front() < 'A' || rest.front() > 'Z') return std::nullopt;
+    return rest.substr(0, rest.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789"));
+}
+
+/// Returns whether a define names a file:  NAME "path" .
+bool names_file(std::string_view define) { return define.find('"') != std::string_view::npos; }
 
 class Expansion {
 public:
-    explicit Expansion(std::span<const ShaderFile> files) : files_(files), states_(files.size(), State::unseen) {}
+    Expansion(std::span<const ShaderFile> files, std::span<const std::string> defines)
+        : files_(files), defines_(defines), states_(files.size(), State::unseen) {}
 
     std::optional<Error> add(std::string_view path, std::string_view from, std::size_t from_line) {
         const auto file =
@@ -73,6 +89,20 @@ private:
         return std::nullopt;
     }
 
+    /// Returns the path that a line includes, in quotes or by the name of a define; the name itself if no define gives
+    /// it a path.
+    std::optional<std::string_view> included_path(std::string_view line) const {
+        const auto rest = included(line);
+        if (!rest) return std::nullopt;
+        if (const auto path = quoted(*rest)) return path;
+        const auto name = name_after_blank(*rest);
+        if (!name) return std::nullopt;
+        for (const std::string_view define : defines_)
+            if (define.starts_with(*name) && define.substr(name->size()).starts_with(' '))
+                if (const auto path = quoted(define.substr(name->size()))) return path;
+        return name;
+    }
+
     void begin_line(std::size_t line, std::size_t number, std::string_view path) {
         text.append("#line ").append(std::to_string(line)).append(" ").append(std::to_string(number));
         text.append("  // ").append(path).append("\n");
@@ -95,6 +125,7 @@ private:
     }
 
     std::span<const ShaderFile> files_;
+    std::span<const std::string> defines_;
     std::vector<State> states_;
 };
 
@@ -102,9 +133,10 @@ private:
 
 Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string_view path,
                                   std::span<const std::string> defines) {
-    Expansion expansion(files);
+    Expansion expansion(files, defines);
     expansion.text = "#version 450 core\n";
-    for (const std::string& define : defines) expansion.text.append("#define ").append(define).append("\n");
+    for (const std::string& define : defines)
+        if (!names_file(define)) expansion.text.append("#define ").append(define).append("\n");
     if (auto error = expansion.add(path, {}, 0)) return *std::move(error);
     return std::move(expansion.text);
 }

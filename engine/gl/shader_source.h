@@ -15,7 +15,8 @@ struct ShaderFile {
 };
 
 /// Expands `path`. Prepends "#version 450 core", then one #define per entry of `defines` ("NAME value"). Replaces each
-/// line  #include "x.glsl"  by that file, once per expansion, even inside an inactive #if. Adds #line directives; their
+/// line  #include "x.glsl"  by that file, once per expansion, even inside an inactive #if. A define  NAME "path"  makes
+/// #include NAME  include that file. It is not written as a #define: GLSL has no quotes. Adds #line directives; their
 /// second number is the file's index in `files`. Errors: missing file, include cycle (rules "shader.missing",
 /// "shader.cycle").
 Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string_view path,

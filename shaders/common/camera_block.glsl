@@ -1,10 +1,11 @@
-// C++ twin: CameraRecord in systems/shadow/frame/types.h.
-layout(std140, binding = 0) uniform CameraBlock {
+// C++ twin: CameraRecord in systems/shadow/frame/lighting_inputs.h.
+#include "common/bindings.glsl"
+layout(std140, binding = kCameraBlock) uniform CameraBlock {
     mat4 clip_from_anchor;   // anchor: the camera's position; axes: the world's
     vec4 anchor_high;        // xyz
     vec4 anchor_low;         // xyz
-    vec4 right;              // w: tangent of the half angle in x (orthographic: half width in metres)
-    vec4 up;                 // w: the same in y
-    vec4 back;               // w: 1 for orthographic
-    vec4 unproject;          // x, y: see view_distance(); zw: viewport in pixels
+    vec4 right;              // xyz: axis; w: tangent of the half angle in x (orthographic: half width, metres)
+    vec4 up;                 // xyz: axis; w: the same in y
+    vec4 back;               // xyz: axis; w: 1 for orthographic
+    vec4 unproject;          // x, y: see view_distance(); zw: size of the viewport, pixels
 } camera;

@@ -1,5 +1,6 @@
 // C++ twin: MaterialRecord in systems/extract/gpu_scene.h.
-layout(std140, binding = 2) uniform MaterialBlock {
+#include "common/bindings.glsl"
+layout(std140, binding = kMaterialBlock) uniform MaterialBlock {
     vec4 base_colour;
     vec4 emissive;        // w: 1: unlit
     float metallic;
@@ -7,28 +8,24 @@ layout(std140, binding = 2) uniform MaterialBlock {
     float alpha_cutoff;   // below 0: not masked
     float has_texture;
 } material;
-layout(binding = 0) uniform sampler2D base_colour_texture;
+layout(binding = kBaseColourUnit) uniform sampler2D base_colour_texture;
 
 #ifdef COLOURED
-in vec4 fragment_colour;   // of the vertices, between them
+layout(location = kColourVarying) in vec4 fragment_colour;   // of the vertices, between them
+#else
+const vec4 fragment_colour = vec4(1.0);
 #endif
 
 vec4 material_colour(vec2 uv) {
     vec4 colour = material.has_texture > 0.5 ? material.base_colour * texture(base_colour_texture, uv) : material.base_colour;
-#ifdef COLOURED
-    colour *= fragment_colour;
-#endif
-    return colour;
+    return colour * fragment_colour;
 }
 
-// Whether the mask cuts the surface out at `uv`. The finest level decides at any distance, as the surface's own edges do:
-// coarser ones are averages, by which thin leaves vanish, dense ones close up, and every edge moves.
+// Returns whether the mask cuts the surface out at `uv`. The finest level decides at any distance, as the surface's own
+// edges do. Coarser ones are averages, by which thin leaves vanish, dense ones close up, and every edge moves.
 bool cut_out(vec2 uv) {
     if (material.alpha_cutoff < 0.0) return false;
     float alpha = material.base_colour.a;
     if (material.has_texture > 0.5) alpha *= textureLod(base_colour_texture, uv, 0.0).a;
-#ifdef COLOURED
-    alpha *= fragment_colour.a;
-#endif
-    return alpha < material.alpha_cutoff;
+    return alpha * fragment_colour.a < material.alpha_cutoff;
 }

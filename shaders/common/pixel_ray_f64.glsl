@@ -1,7 +1,7 @@
-// Where a pixel's centre looks, in double.
+// Line that a pixel's centre sees, in double.
 #include "common/camera_block.glsl"
 
-// From `origin` on, one metre along the view for each unit of t.
+// Line from `origin` on, one metre along the view for each unit of t.
 struct PixelRay {
     dvec3 origin, along;
 };

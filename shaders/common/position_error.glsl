@@ -1,4 +1,5 @@
-// How far off position_from_anchor() may be, along each axis. C++ twins of the constants: systems/shadow/exact/error_margins.h.
+// Bound on how far off position_from_anchor() may be, along each axis, metres. C++ twins of the constants:
+// systems/shadow/exact/error_margins.h.
 #include "common/instances.glsl"
 #include "common/float_rounding.glsl"
 const float kPlacedUnits = 6.0;            // of 2^-24, of what is added: basis, products, translation and anchor

@@ -1,6 +1,7 @@
 #include "common/camera_block.glsl"
 
-// Depth d of a perspective view is (y / z) - x, of an orthographic one (x - z) / y.
+// Returns the distance along the view of a reversed depth d, metres.
+// Perspective: d = (y / z) - x. Orthographic: d = (x - z) / y.
 float view_distance(float depth) {
     bool orthographic = camera.back.w > 0.5;
     return orthographic ? camera.unproject.x - depth * camera.unproject.y

@@ -1,4 +1,4 @@
-// From a point to where it is seen from: all the way to a camera, a unit toward an orthographic one.
+// Returns the way from a point to the camera, metres; toward an orthographic one a unit vector.
 #include "common/camera_block.glsl"
 
 vec3 to_camera(vec3 position_ca) { return camera.back.w > 0.5 ? camera.back.xyz : -position_ca; }

@@ -1,4 +1,4 @@
-// How far the bias moves the receiver before it is compared, on the scale of colours.
+// Distance by which the bias moves the receiver before it is compared, on the scale of colours.
 #include "debug/lookup.glsl"
 const float kStrength = 0.9;   // of what is shown; the rest is the picture
 vec4 seen = vec4(0.0);

@@ -1,4 +1,5 @@
-// Tints what each map of a light serves; where one fades into the next, by their shares. What no map serves stays as it is.
+// Tint of what each map of a light serves; where one fades into the next, by their shares. What no map serves stays as
+// it is.
 #include "debug/lookup.glsl"
 const float kTint = 0.4;   // of what is shown; the rest is the picture
 vec4 tint = vec4(0.0);

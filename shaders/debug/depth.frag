@@ -1,23 +1,25 @@
 // Depth maps as grey tiles: black at near, white at far, linear in metres. What was never drawn (depth 0) is blue.
+#include "common/bindings.glsl"
 const int kMaxTiles = 8;
 struct Tile {
-    vec4 place;   // left, bottom and edge in pixels; w: layer
-    vec4 depth;   // near and far in metres; alpha and beta of a perspective map, beta 0: orthographic
-    vec4 right;   // axes of a cube's face; 0 for a flat map
+    vec4 place;   // left, bottom and edge, pixels; w: layer
+    vec4 depth;   // near and far, metres; alpha and beta of a perspective map, beta 0: orthographic
+    vec4 right;   // axes of a cube's face; 0: a flat map
     vec4 up;
     vec4 forward;
 };
 // C++ twins: DepthTiles and DepthTile in systems/debug/depth_tiles.h.
-layout(std140, binding = 0) uniform DepthTiles {
-    ivec4 options;   // x: tiles
+layout(std140, binding = kFlatViewBlock) uniform DepthTiles {
+    ivec4 options;   // x: number of tiles
     Tile tiles[kMaxTiles];
 };
-layout(binding = 0) uniform sampler2DArray flat_maps;
-layout(binding = 1) uniform samplerCube cube_map;
+layout(binding = kFlatMapsUnit) uniform sampler2DArray flat_maps;
+layout(binding = kCubeMapUnit) uniform samplerCube cube_map;
 layout(location = 0) out vec4 colour_out;
 const vec3 kBackground = vec3(0.01), kNothing = vec3(0.02, 0.05, 0.25);   // linear
 
-// 0 at near, 1 at far. Reversed depth: orthographic maps hold 1 at near; perspective ones alpha + beta / distance.
+// Returns the share of the range: 0 at near, 1 at far. Depth is reversed: orthographic maps hold 1 at near, perspective
+// ones alpha + beta / distance.
 float share_of_range(Tile tile, float depth) {
     if (tile.depth.w == 0.0) return 1.0 - depth;
     float distance_m = tile.depth.w / max(depth - tile.depth.z, 1e-30);
@@ -30,7 +32,8 @@ float stored_depth(Tile tile, vec2 at) {
     return textureLod(cube_map, tile.forward.xyz + tangent.x * tile.right.xyz + tangent.y * tile.up.xyz, 0.0).r;
 }
 
-// The target encodes sRGB (IEC 61966-2-1): undone here, so that the byte shown is 255 times the share.
+// Returns the linear value that the target encodes as `encoded`, sRGB (IEC 61966-2-1): the byte shown is 255 times the
+// share.
 float linear_from_srgb(float encoded) {
     return encoded <= 0.04045 ? encoded / 12.92 : pow((encoded + 0.055) / 1.055, 2.4);
 }

@@ -1,11 +1,12 @@
 // Lines in the world, two vertices each.
+#include "common/bindings.glsl"
 #include "common/camera_block.glsl"
 // C++ twin: LineVertex in systems/debug/lines.h.
 struct LineVertex {
     vec4 position_ca;   // from the camera's anchor, metres
     vec4 colour;        // linear
 };
-layout(std430, binding = 0) readonly buffer LineBuffer { LineVertex line_vertices[]; };
+layout(std430, binding = kLineBuffer) readonly buffer LineBuffer { LineVertex line_vertices[]; };
 flat out vec3 line_colour;
 
 void main() {

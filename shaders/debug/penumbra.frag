@@ -1,5 +1,5 @@
-// How wide the filter blurs the edge of a shadow, across the light at the receiver, on the scale of colours. A filter whose
-// width varies says what it found; where it found nothing to blur, nothing is shown.
+// Width by which the filter blurs the edge of a shadow, across the light at the receiver, on the scale of colours. A
+// filter of varying width tells what it found; where it found nothing to blur, nothing is shown.
 #include "debug/lookup.glsl"
 const float kStrength = 0.9;   // of what is shown; the rest is the picture
 vec4 seen = vec4(0.0);

@@ -1,13 +1,13 @@
-// The texels that serve a pixel, as a chequerboard over the picture, in the map's colour. Where they are too small on screen
-// to be told apart, their mean.
+// Texels that serve a pixel, as a chequerboard over the picture, in the map's colour. Where they are too small on
+// screen to be told apart, their mean.
 #include "debug/lookup.glsl"
 const float kStrength = 0.5;                              // of what is shown; the rest is the picture
 const float kPlain_texel = 0.5, kClear_texel = 0.25;      // per pixel: nothing is told apart, everything is
 const float kDark = 0.25;
 int layer = -1;
-vec2 place = vec2(0.0);   // in texels
+vec2 place = vec2(0.0);   // texels
 
-// What the first lookup fades into is not shown: two grids at once show neither.
+// Keeps the first lookup. What it fades into is not shown: two grids at once show neither.
 void show_lookup(ShadowPoint point, vec3 normal, float share) {
     if (share < 1.0) return;
     layer = shadow_layer(point);

@@ -1,8 +1,10 @@
-// Whether a masked material is there at a point of a triangle, at its texture's finest level, as the depth passes have it; the
-// float twin of engine/rays/alpha_mask.cpp. Textures of many materials at once: their alpha lies in one buffer, a byte each.
-// C++ twin: RayMask in systems/extract/ray_masks.h.
-layout(std430, binding = 7) readonly buffer RayMaskBuffer { uint ray_masks[]; };
+// Whether a masked material is there at a point of a triangle, at its texture's finest level, as the depth passes have
+// it. It is the float twin of engine/rays/alpha_mask.cpp. Textures of many materials lie in one buffer: their alpha, a
+// byte each. C++ twin: RayMask in systems/extract/ray_masks.h.
+#include "common/bindings.glsl"
+layout(std430, binding = kMaskBuffer) readonly buffer RayMaskBuffer { uint ray_masks[]; };
 
+const bool kHasMasks = true;
 const uint kNoMaskTexture = 0xffffffffu;
 const uint kWrapRepeat = 0u, kWrapMirror = 1u;   // else clamped; assets::TextureWrap
 
@@ -13,7 +15,7 @@ struct RayMask {
     uint wrap_u, wrap_v;
     bool linear;
     bool coloured;           // triangles have the alpha of their corners behind their coordinates
-    float chord_texel;       // how wide what it leaves is, on the average
+    float chord_texel;       // how wide what it leaves is, on average, texels
 };
 
 RayMask ray_mask(uint at) {
@@ -26,7 +28,7 @@ vec2 mask_uv(uint at) { return vec2(uintBitsToFloat(ray_masks[at]), uintBitsToFl
 
 float corner_alpha(uint uvs, uint corner) { return uintBitsToFloat(ray_masks[uvs + 6u + corner]); }
 
-// `texel` is a whole number.
+// Returns a texel's number within the texture. `texel`: a whole number.
 uint wrapped_texel(float texel, uint size, uint wrap) {
     float edge = float(size);
     if (wrap == kWrapRepeat) return uint(clamp(texel - edge * floor(texel / edge), 0.0, edge - 1.0));
@@ -54,7 +56,7 @@ float sampled_alpha(RayMask mask, vec2 uv) {
     return mix(rows.x, rows.y, part.x);
 }
 
-// `mask` and `uvs` as a RayTriangle has them.
+// Returns whether the material is there. `mask` and `uvs`: as a RayTriangle has them.
 bool is_there(uint mask, uint uvs, vec3 weights) {
     RayMask m = ray_mask(mask);
     float alpha = m.alpha;
@@ -63,4 +65,19 @@ bool is_there(uint mask, uint uvs, vec3 weights) {
     if (m.coloured)
         alpha *= weights.x * corner_alpha(uvs, 0u) + weights.y * corner_alpha(uvs, 1u) + weights.z * corner_alpha(uvs, 2u);
     return alpha >= m.cutoff;
+}
+
+// Returns twice the area of a mask's texels on a triangle.
+float mask_area_texel2(RayMask mask, uint uvs) {
+    vec2 size = vec2(mask.width, mask.height), corner = mask_uv(uvs);
+    vec2 ab = size * (mask_uv(uvs + 2u) - corner), ac = size * (mask_uv(uvs + 4u) - corner);
+    return abs(ab.x * ac.y - ab.y * ac.x);
+}
+
+// Returns whether what the mask leaves of a triangle is on average as wide as the map's texels. If it is not, it lies
+// between texels as often as under them, and a test of the triangles that these show would lose it. What the nearest
+// texel tells has the right share of it. `area_m2`: twice the triangle's area across the ray.
+bool is_resolved(uint at, uint uvs, float area_m2, float texel_m2) {
+    RayMask mask = ray_mask(at);
+    return mask.texels == kNoMaskTexture || mask_area_texel2(mask, uvs) * texel_m2 <= mask.chord_texel * mask.chord_texel * area_m2;
 }

@@ -1,14 +1,15 @@
-// What rays are asked of: a tree over the instances that cast, and one over the triangles of each mesh, in the mesh's own
-// space. No positions of the world: the upper tree is relative to an anchor, given as two floats.
-// C++ twins: RayTop and RayInstance in systems/visibility/ray_records.h, BvhNode and BvhTriangle in engine/rays.
+// Trees that rays walk: one over the instances that cast, and one over the triangles of each mesh, in the mesh's own
+// space. There are no positions of the world: the upper tree is relative to an anchor, given as two floats. C++ twins:
+// RayTop and RayInstance in systems/visibility/ray_records.h, BvhNode and BvhTriangle in engine/rays.
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 
-// Nodes lie in the order of a walk: from node n to n + 1 where its box is met, else to `skip`.
+// Node in the order of a walk: from node n to n + 1 where its box is met, else to `skip`.
 struct RayNode {
     vec3 low;
     uint skip;
     vec3 high;
-    uint leaf;       // its first slot * 16 + how many; 0: not a leaf
+    uint leaf;       // its first slot * 16 + number of slots; 0: not a leaf
 };
 struct RayTriangle {
     vec3 a;
@@ -18,33 +19,33 @@ struct RayTriangle {
     vec3 c;
     uint uvs;        // its texture coordinates there
 };
-// By slot of the upper tree: an instance, or part of a large one's mesh.
+// Slot of the upper tree: an instance, or part of a large one's mesh.
 struct RayInstance {
     vec3 to_model_x;      // image of the world's x axis in the mesh's space
     uint first_node;
     vec3 to_model_y;
-    uint end_node;        // of the nodes, from the mesh's first on, to be walked
+    uint end_node;        // end of the nodes to be walked, from the mesh's first on
     vec3 to_model_z;
     uint first_slot;      // of its mesh's triangles
     float slack_per_m;    // by which boxes of its mesh are widened, per metre of what is rounded
-    float reach_m;        // how far its corners lie from its own origin, along any axis
+    float reach_m;        // how far its corners lie from its own origin, along any axis, metres
     uint instance;        // of `instances`
     uint layers;          // of light that it darkens
-    uint begin_node;      // of those nodes
+    uint begin_node;      // first of those nodes
 };
-// What the upper tree is relative to.
+// Head of the upper tree: its anchor and size.
 struct RayTop {
     vec3 anchor_high;
     uint nodes;
     vec3 anchor_low;
-    float reach_m;        // farthest side of a box from the anchor, along any axis
+    float reach_m;        // farthest side of a box from the anchor, along any axis, metres
 };
-// As texels, since software devices fetch four numbers at once from those: two a node, three a triangle, five an instance; the upper
-// tree's head takes two, its nodes follow.
-layout(binding = 10) uniform usamplerBuffer ray_nodes;
-layout(binding = 11) uniform usamplerBuffer ray_triangles;
-layout(binding = 12) uniform usamplerBuffer ray_upper;
-layout(binding = 13) uniform usamplerBuffer ray_instances;
+// Texels, since software devices fetch four numbers at once from those: two per node, three per triangle, five per
+// instance. The upper tree's head takes two, its nodes follow.
+layout(binding = kRayNodeUnit) uniform usamplerBuffer ray_nodes;
+layout(binding = kRayTriangleUnit) uniform usamplerBuffer ray_triangles;
+layout(binding = kRayTopUnit) uniform usamplerBuffer ray_upper;
+layout(binding = kRayInstanceUnit) uniform usamplerBuffer ray_instances;
 
 RayNode node_of(uvec4 low, uvec4 high) { return RayNode(uintBitsToFloat(low.xyz), low.w, uintBitsToFloat(high.xyz), high.w); }
 

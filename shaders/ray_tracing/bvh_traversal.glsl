@@ -1,55 +1,57 @@
-// Whether anything that casts stands in a ray's way: the walk through both trees. Bring CameraBlock. RAY_MASKS is defined if some of
-// what casts is masked.
-// Floats lead, and decide wherever they are sure; the few triangles that they are not sure of are noted and decided in double at the
-// end. One loop inside another finds the next leaf, before what is in it is tested: neighbouring pixels, which go in step, then do the
-// same at the same time, and software devices run every branch of the innermost loop for all.
+// Whether anything that casts stands in a ray's way: the walk through both trees. Requires CameraBlock. RAY_MASKS names
+// the file that reads the casters' masks.
+// Floats lead, and decide wherever they are sure. The few triangles that they are not sure of are noted and decided in
+// double at the end.
+// A loop inside another finds the next leaf, before what is in it is tested. Neighbouring pixels, which go in step,
+// then do the same at the same time. Software devices run every branch of the innermost loop for all.
 #include "common/camera_block.glsl"
 #include "common/instances_f64.glsl"
 #include "ray_tracing/bvh_buffers.glsl"
 #include "ray_tracing/ray_box.glsl"
 #include "ray_tracing/ray_triangle.glsl"
 #include "ray_tracing/ray_triangle_f64.glsl"
-#ifdef RAY_MASKS
-#include "ray_tracing/alpha_mask.glsl"
-#endif
+#include RAY_MASKS
 
 struct ShadowRay {
-    dvec3 from_ca;   // from the camera's anchor
+    dvec3 from_ca;   // from the camera's anchor, metres
     dvec3 along;
-    float last;      // it ends there, times `along`; kNoEnd: nowhere
+    float last;      // its end, times `along`; kNoEnd: nowhere
     float reach;     // from there on nothing is known to stand in its way: boxes beyond are not walked
-    float error_m;   // how far its beginning may be off the receiver's surface
-    uvec2 receiver;  // instance and triangle of that; kNoReceiver: not known
+    float error_m;   // how far its beginning may be off the receiver's surface, metres
+    uvec2 receiver;  // instance and triangle of that surface; kNoReceiver: not known
     uint layers;     // of the light
 };
-// How far a place may be off its triangle's plane, of an instance's reach: 2^-35 along each axis of the normal (lighting/gbuffer/surface_position_f64.glsl),
-// as far from its corner as twice the reach along each axis, is 6 times that; twice as much for bases that stretch.
+// Distance that a place may be off its triangle's plane, in reaches of its instance. The normal is right to 2^-35 along
+// each axis (lighting/gbuffer/surface_position_f64.glsl). A place may lie as far from its corner as twice the reach
+// along each axis: that makes 6 times 2^-35. Bases that stretch make it twice as much.
 const float kPlacedRelative = 12.0 * 2.9103830e-11;
 const uvec2 kNoReceiver = uvec2(0xffffffffu);
 
-// The same in floats.
+// Ray in floats.
 struct FloatRay {
     vec3 from_ca, along;
-    mat3 to_frame;   // whose z axis is the ray
-    float end_m;     // where it ends in that; kNoEnd: nowhere
+    mat3 to_frame;   // with the ray as its z axis
+    float end_m;     // its end in that, metres; kNoEnd: nowhere
 };
 
-// Its first two axes after Duff et al., "Building an orthonormal basis, revisited" (2017).
+// Returns a frame with z as its third axis; the first two after Duff et al., "Building an orthonormal basis, revisited"
+// (2017).
 mat3 ray_frame(vec3 z) {
     float side = z.z < 0.0 ? -1.0 : 1.0, a = -1.0 / (side + z.z), b = z.x * z.y * a;
     vec3 x = vec3(1.0 + side * z.x * z.x * a, side * b, -side * z.x), y = vec3(b, side + z.y * z.y * a, -z.y);
     return transpose(mat3(x, y, z));
 }
 
-// Triangles that floats are not sure of, or that a mask has to decide: slots of instances and of triangles. Where they come to be more
-// than a leaf leaves room for, they are decided before the walk goes on.
+// Triangles that floats are not sure of, or that a mask has to decide: slots of instances and of triangles. Where there
+// are more than a leaf leaves room for, they are decided before the walk goes on.
 const int kMostUnsure = 16, kMostInLeaf = 8;   // kMostSlots in engine/rays/bvh.h
 uvec2 unsure[kMostUnsure];
 int unsure_count = 0;
 
 float largest_side(vec3 v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); }
 
-// From node n of its mesh on, until something blocks, it is through, or there is no room for what is not sure.
+// Walks a mesh from node n on, until something blocks, it is through, or there is no room for what is not sure. Returns
+// whether something blocks.
 bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, inout uint n) {
     InstanceRecord record = instance_record(item.instance);
     vec3 high = vec3(record.basis_x.w, record.basis_y.w, record.basis_z.w);
@@ -77,9 +79,7 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
             int verdict = meets_triangle(from_model * t.a + origin, from_model * t.b + origin, from_model * t.c + origin,
                                          ray.end_m, error_m);
             if (t.triangle == exact.receiver.y && item.instance == exact.receiver.x) verdict = kMisses;
-#ifdef RAY_MASKS
-            if (verdict == kMeets && t.mask != kOpaque) verdict = kUnsure;
-#endif
+            if (kHasMasks && verdict == kMeets && t.mask != kOpaque) verdict = kUnsure;
             if (verdict == kUnsure) unsure[unsure_count++] = uvec2(slot, first + i);
             blocked = verdict == kMeets;
         }
@@ -87,20 +87,19 @@ bool mesh_blocks(ShadowRay exact, FloatRay ray, uint slot, RayInstance item, ino
     return blocked;
 }
 
-// What floats left open.
+// Returns whether a triangle that floats left open blocks the ray.
 bool blocks_exactly(ShadowRay ray, uvec2 slots) {
     RayInstance item = ray_instance(slots.x);
     RayTriangle t = ray_triangle(slots.y);
     InstanceRecord record = instance_record(item.instance);
     dvec3 origin_m = exact_origin(record, camera.anchor_high.xyz, camera.anchor_low.xyz) - ray.from_ca;
-    // Bases are floats, the receiver's and the caster's: so far may planes that are one be apart. Within one instance they are the same.
+    // Bases are floats, the receiver's and the caster's: planes that are one may be so far apart. Within one instance
+    // they are the same.
     float units = item.instance == ray.receiver.x ? kPlacedRelative : 4.0 * kUnitRoundoff;
     float error_m = ray.error_m + units * (item.reach_m + largest_side(vec3(ray.from_ca)));
     ExactHit hit = meets_exactly(ray.along, ray.last, origin_m + exact_image(record, t.a), origin_m + exact_image(record, t.b),
                                  origin_m + exact_image(record, t.c), error_m);
-#ifdef RAY_MASKS
-    if (hit.met && t.mask != kOpaque) return is_there(t.mask, t.uvs, hit.weights);
-#endif
+    if (kHasMasks && hit.met && t.mask != kOpaque) return is_there(t.mask, t.uvs, hit.weights);
     return hit.met;
 }
 
@@ -112,7 +111,7 @@ bool ray_blocked(ShadowRay exact) {
     precise vec3 from_top = ray.from_ca + ((camera.anchor_high.xyz - head.anchor_high) + (camera.anchor_low.xyz - head.anchor_low));
     float rounded_m = largest_side(from_top) + largest_side(ray.from_ca) + head.reach_m;
     BoxRay boxes = box_ray(from_top, ray.along, kBoxUnits * kUnitRoundoff * rounded_m);
-    uint top = 0u, n = 0u, leaf = 0u;   // of the upper tree; node of the mesh in it, and which that is
+    uint top = 0u, n = 0u, leaf = 0u;   // of the upper tree; node of the mesh in it, and its leaf
     bool blocked = false, through = false;
     while (!blocked && !through) {
         unsure_count = 0;

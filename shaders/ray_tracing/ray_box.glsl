@@ -1,10 +1,11 @@
-// Whether a ray meets boxes. It may be said to where it does not, never the other way round.
+// Whether a ray meets boxes. It may count as met where it is not, never the other way round.
 
-// What is rounded on the way, in units of 2^-24 of the largest coordinate: where the ray begins (4), its direction over the
-// way there (4), each slab's distance (3, on up to three times that coordinate), and the least direction below (2).
+// Rounding on the way, in units of 2^-24 of the largest coordinate:
+// where the ray begins (4); its direction over the way there (4); each slab's distance (3, on up to three times that
+// coordinate); the least direction below (2).
 const float kBoxUnits = 32.0;
-// A component of the direction below this share of the largest moves no point of the way by more than the slack holds, and its
-// inverse is finite.
+// Least component of the direction, as a share of the largest. A smaller one moves no point of the way by more than the
+// slack holds, and its inverse is finite.
 const float kLeastAlong = 5.9604645e-8;   // 2^-24
 
 const float kNoEnd = 3.0e38;   // from here on a ray's last t stands for no end
@@ -20,7 +21,7 @@ BoxRay box_ray(vec3 from, vec3 along, float slack) {
     return BoxRay(from + slack, from - slack, 1.0 / kept);
 }
 
-// For t in [0, last].
+// Returns whether the ray meets a box for t in [0, last].
 bool meets_box(BoxRay ray, vec3 low, vec3 high, float last) {
     vec3 one = (low - ray.from_low) * ray.inverse, other = (high - ray.from_high) * ray.inverse;
     vec3 first = min(one, other), end = max(one, other);

@@ -1,19 +1,22 @@
-// What floats can say about a ray and a triangle, as judge() in engine/rays/occlusion.cpp does. What they cannot is left to
-// ray_tracing/ray_triangle_f64.glsl.
+// Verdict of floats on a ray and a triangle, as by judge() in engine/rays/occlusion.cpp. What they leave open is left
+// to ray_tracing/ray_triangle_f64.glsl.
 #include "common/float_rounding.glsl"
 
 const int kMisses = 0, kMeets = 1, kUnsure = 2;
 
-// A corner in the ray's frame: the frame's axes (4 units), their product with the instance's basis (3), its product with the corner
-// and their sum (4), each times the square root of three, as rows of three are summed; its origin, less (2 for itself, 7); the last sum.
+// Rounding of a corner in the ray's frame, in units of 2^-24:
+// the frame's axes (4); their product with the instance's basis (3); its product with the corner and their sum (4).
+// Each counts times the square root of three, as rows of three are summed.
+// Added to these: its origin, less (2 for itself, 7); the last sum.
 const float kPlaceUnits = 24.0;
-// Of a product of two coordinates and a difference of two such; of a sum of three of these times a third coordinate.
+// Rounding of a product of two coordinates and a difference of two such; of a sum of three of these times a third
+// coordinate.
 const float kSideUnits = 6.0, kHeightUnits = 6.0;
-// Of the way's length: a square root and a product, and of what is compared with it.
+// Rounding of the way's length: a square root and a product, and of what is compared with it.
 const float kEndUnits = 6.0;
 
-// Corners are given in the ray's own frame: it begins in the origin and runs along z, to end_m; each may be off by error_m. Whether
-// the ray meets the triangle behind its beginning and before its end; or neither is certain.
+// Returns whether the ray meets the triangle behind its beginning and before its end, or kUnsure. Corners are given in
+// the ray's own frame: it begins in the origin and runs along z, to end_m. Each may be off by error_m.
 int meets_triangle(vec3 a, vec3 b, vec3 c, float end_m, float error_m) {
     // Twice the areas that the sides span with the ray, seen along it.
     vec3 sides = vec3(b.x * c.y - b.y * c.x, c.x * a.y - c.y * a.x, a.x * b.y - a.y * b.x);

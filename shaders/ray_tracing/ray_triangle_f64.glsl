@@ -1,12 +1,12 @@
-// Whether a ray meets a triangle, whose corners are relative to where the ray begins, in double: the twin of
+// Whether a ray meets a triangle, in double, with corners relative to where the ray begins: the twin of
 // engine/rays/exact_triangle.h.
 struct ExactHit {
     bool met;
     vec3 weights;   // of the corners
 };
 
-// Antisymmetric in p and q to the last bit: no ray slips between two triangles with a common edge. `precise`, for a fused product
-// would be rounded otherwise the other way round.
+// Returns the side of an edge on which the ray passes. It is antisymmetric in p and q to the last bit: no ray slips
+// between two triangles with a common edge. `precise`: a fused product would be rounded otherwise the other way round.
 double exact_side_of_edge(dvec3 along, dvec3 p, dvec3 q) {
     precise dvec3 edge = q - p, sum = p + q;
     precise double x = edge.y * sum.z - edge.z * sum.y;
@@ -16,8 +16,9 @@ double exact_side_of_edge(dvec3 along, dvec3 p, dvec3 q) {
     return side;
 }
 
-// At t in (0, last) times `along`. A triangle whose plane holds the ray's beginning to within error_m is where the ray is, and does
-// not stand in its way: a line meets a plane once. Not a number, or no area: not met.
+// Returns whether the ray meets the triangle at t in (0, last) times `along`. A triangle is where the ray is if its
+// plane holds the ray's beginning to within error_m. It then does not stand in its way: a line meets a plane once. Not
+// a number, or no area: not met.
 ExactHit meets_exactly(dvec3 along, float last, dvec3 a, dvec3 b, dvec3 c, float error_m) {
     dvec3 sides = dvec3(exact_side_of_edge(along, b, c), exact_side_of_edge(along, c, a), exact_side_of_edge(along, a, b));
     dvec3 normal = cross(b - a, c - a);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/lighting/lighting_system.h"
 
@@ -44,9 +45,10 @@ bool DebugPainter::record_flat(const Drawing& drawing, const ViewRow& row, const
     list.update(block_.handle(), 0, std::span<const std::byte>(drawing.block));
     list.add(gl::BeginPass{.target = target, .viewport = area});
     list.add(gl::SetPipeline{{.program = used}});
-    list.add(gl::BindUniforms{0, block_.handle(), 0, static_cast<std::uint32_t>(drawing.block.size())});
+    list.add(gl::BindUniforms{bindings::kFlatViewBlock, block_.handle(), 0,
+                              static_cast<std::uint32_t>(drawing.block.size())});
     for (std::uint32_t unit = 0; unit < drawing.maps.size(); ++unit)
-        if (drawing.maps[unit]) list.add(gl::BindTexture{unit, drawing.maps[unit], raw_});
+        if (drawing.maps[unit]) list.add(gl::BindTexture{bindings::kFlatMapsUnit + unit, drawing.maps[unit], raw_});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     return true;
@@ -63,7 +65,7 @@ bool DebugPainter::record_lines(const Drawing& drawing, const ViewRow& row, cons
     list.add(gl::SetScissor{area});
     list.add(gl::SetPipeline{{.program = used, .blend = gl::Blend::alpha}});
     picture.bind_surface_textures(list);
-    list.add(gl::BindStorage{0, lines_.handle()});
+    list.add(gl::BindStorage{bindings::kLineBuffer, lines_.handle()});
     list.add(gl::DrawLines{static_cast<std::uint32_t>(drawing.lines.size())});
     list.add(gl::EndPass{});
     return true;

@@ -61,8 +61,8 @@ struct LineVertex {
 static_assert(sizeof(LineVertex) == 32);
 
 struct Drawing {
-    std::vector<std::byte> block = {};  // flat, lookups: the shader's uniform block, binding 0 or 5; not empty
-    /// Flat: units 0 and 1, read raw, without comparison or filter; {0}: not bound.
+    std::vector<std::byte> block = {};  // flat, lookups: the shader's uniform block; not empty
+    /// Flat: texture units from bindings::kFlatMapsUnit on, read raw, without comparison or filter; {0}: not bound.
     std::array<gl::TextureHandle, 2> maps{};
     std::uint32_t light = 0;             // lookups: index into SceneSnapshot::lights
     std::vector<LineVertex> lines = {};  // lines: two per line

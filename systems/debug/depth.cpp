@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "shaders/bindings.h"
 #include "systems/debug/debug_view.h"
 #include "systems/debug/depth_tiles.h"
 #include "systems/debug/words.h"
@@ -9,7 +10,8 @@
 namespace gnomon::debug {
 namespace {
 
-constexpr std::size_t kFlatUnit = 0, kCubeUnit = 1;  // bindings in shaders/debug/depth.frag
+constexpr std::size_t kCube =
+    bindings::kCubeMapUnit - bindings::kFlatMapsUnit;  // in Drawing::maps; a flat map is the first
 
 }  // namespace
 
@@ -20,9 +22,9 @@ std::optional<Drawing> draw_depth(const ViewInput& input) {
     Drawing drawing;
     for (const std::size_t v : requested_views(input, *light)) {
         const shadow::ShadowView& view = input.frame.fitted.views[v];
-        const std::size_t unit = view.projection == shadow::ViewProjection::cube_face ? kCubeUnit : kFlatUnit;
+        const std::size_t map = view.projection == shadow::ViewProjection::cube_face ? kCube : 0;
         views.push_back(view);
-        drawing.maps[unit] = input.frame.maps[v].texture;
+        drawing.maps[map] = input.frame.maps[v].texture;
     }
     gl::Rect below_title = input.area;
     if (below_title.height > 2 * kLine_px) below_title.height -= kLine_px;

@@ -42,12 +42,6 @@ void append_plane_normals(std::span<const assets::Vertex> vertices, std::span<co
 /// and GGX with D <= 1 / (pi alpha^2), V n.l <= 1 / (2 alpha), F <= 1.
 float most_reflected(const assets::Material& material);
 
-/// Texture units of shaders/common/instance_buffer.glsl and shaders/lighting/gbuffer/triangle_normals.glsl, above all
-/// units for maps and rays.
-inline constexpr std::uint32_t kInstanceUnit = 14, kTriangleNormalUnit = 15;
-/// Texture unit of shaders/common/vertex_colour.glsl, unused by passes over meshes.
-inline constexpr std::uint32_t kColourUnit = 3;
-
 /// Meshes, materials, textures and instance records on the device. Owns its objects.
 class GpuScene {
 public:
@@ -112,11 +106,11 @@ public:
     gl::BufferHandle vertices() const { return vertices_; }
     gl::BufferHandle indices() const { return indices_; }
     /// Returns a buffer of vec4 per vertex, white for meshes without colours; {0}: no mesh has colours. Read as texels
-    /// at kColourUnit by programs compiled with COLOURED.
+    /// at bindings::kColourUnit by programs compiled with COLOURED.
     gl::BufferHandle colours() const { return colours_; }
-    /// Returns an InstanceRecord per slot, read as texels at kInstanceUnit.
+    /// Returns an InstanceRecord per slot, read as texels at bindings::kInstanceUnit.
     gl::BufferHandle instances() const { return instances_; }
-    /// Returns a vec4 per triangle of `indices`, in model space, read as texels at kTriangleNormalUnit.
+    /// Returns a vec4 per triangle of `indices`, in model space, read as texels at bindings::kTriangleNormalUnit.
     gl::BufferHandle triangle_normals() const { return triangle_normals_; }
     /// Returns a CasterTriangle per triangle of `indices`, read as texels; {0} until provided.
     gl::BufferHandle caster_triangles() const { return caster_triangles_; }

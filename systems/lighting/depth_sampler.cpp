@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/lighting_inputs.h"
@@ -42,9 +43,9 @@ void DepthSampler::record(const Picture& picture, gl::CommandList& list) {
     list.add(gl::BeginGroup{"view distances"});
     list.add(gl::BeginTimer{kDepthTimer});
     list.add(gl::ClearBuffer{bins_, 0, kBytes});
-    list.add(gl::BindUniforms{0, picture.uniforms, 0, sizeof(shadow::CameraRecord)});
-    list.add(gl::BindTexture{0, picture.depth, picture.sampler});
-    list.add(gl::BindStorage{0, bins_});
+    list.add(gl::BindUniforms{bindings::kCameraBlock, picture.uniforms, 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, picture.depth, picture.sampler});
+    list.add(gl::BindStorage{bindings::kDepthBinBuffer, bins_});
     list.add(gl::Dispatch{program_, tiles(picture.size_px.x), tiles(picture.size_px.y)});
     counts_.record(bins_, picture.camera, list);
     list.add(gl::EndTimer{kDepthTimer});

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/lighting/lighting_system.h"
 
@@ -31,9 +32,10 @@ void ExposureMeter::record(const Picture& picture, gl::CommandList& list) {
     if (!prepare()) return retry_.failed(frames_);
     if (!scales_.has_room()) return;
     list.add(gl::BeginGroup{"exposure to read"});
-    list.add(gl::BindTexture{1, picture.luminance, picture.sampler});
-    list.add(gl::BindUniforms{4, picture.uniforms, picture.exposure_offset, sizeof(ExposureRecord)});
-    list.add(gl::BindStorage{0, scale_of_});
+    list.add(gl::BindTexture{bindings::kLuminanceUnit, picture.luminance, picture.sampler});
+    list.add(
+        gl::BindUniforms{bindings::kExposureBlock, picture.uniforms, picture.exposure_offset, sizeof(ExposureRecord)});
+    list.add(gl::BindStorage{bindings::kExposureBuffer, scale_of_});
     list.add(gl::Dispatch{program_});
     scales_.record(scale_of_, picture.camera, list);
     list.add(gl::EndGroup{});

@@ -36,6 +36,19 @@ bool adds_to_picture(RowOutput output) {
     return output == RowOutput::picture || output == RowOutput::kept || output == RowOutput::decided;
 }
 
+/// Returns the file under shaders/ that gives the share of a light that a surface sees.
+std::string_view visible_share_file(RowOutput output, bool found_before) {
+    if (output == RowOutput::kept || output == RowOutput::kept_visibility)
+        return "lighting/lights/visibility_cache.glsl";
+    return found_before ? "lighting/trace/ray_results.glsl" : "lighting/lights/surface_visibility.glsl";
+}
+
+/// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
+std::string_view fragment_file(RowOutput output) {
+    const bool is_share = output == RowOutput::visibility || output == RowOutput::kept_visibility;
+    return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";
+}
+
 }  // namespace
 
 LightPrograms::~LightPrograms() {
@@ -103,29 +116,25 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, 
     if (!is_due(entry)) return entry.program;
 
     std::vector<std::string> defines = shadow::program_defines(row);
-    if (row.filter_file.empty() && row.sheets) defines.emplace_back("SHADOW_FOUND 1");
-    const bool kept = output == RowOutput::kept || output == RowOutput::kept_visibility;
-    if (kept) defines.emplace_back("READ_KEPT 1");
-    if (output == RowOutput::visibility || output == RowOutput::kept_visibility)
-        defines.emplace_back("WRITE_VISIBILITY 1");
-    if (output == RowOutput::blended) defines.emplace_back("LIGHT_PASS 1");
+    const bool found_before = row.filter_file.empty() && row.sheets;
+    defines.push_back("VISIBLE_SHARE \"" + std::string(visible_share_file(output, found_before)) + "\"");
     if (output == RowOutput::blended && coloured_) defines.emplace_back("COLOURED 1");
     if (output == RowOutput::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
     if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
-    const std::string label =
-        std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) + " " +
-        std::string(row.kind_define) + " " + std::string(row.filter_file) + (row.manual_bias ? " manual bias" : "") +
-        (row.filter_file.empty() && row.sheets ? "as found" : "") + (found.some_unlit ? " some unlit" : "");
+    const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
+                              " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
+                              (row.manual_bias ? " manual bias" : "") + (found_before ? "as found" : "") +
+                              (found.some_unlit ? " some unlit" : "");
     if (output == RowOutput::blended)
-        make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended.frag", defines, &row);
+        make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended_light.frag", defines, &row);
     else if (output == RowOutput::verdicts)
         make(entry, label, "common/fullscreen.vert", "lighting/trace/classify_pixels.frag", defines, &row);
     else if (output == RowOutput::rays)
         make(entry, label, "lighting/trace/trace_pixels.vert", "lighting/trace/trace_pixels.frag", defines, &row);
     else
-        make(entry, label, "common/fullscreen.vert", fragment.empty() ? "lighting/lights/light.frag" : fragment,
-             defines, &row);
+        make(entry, label, "common/fullscreen.vert", fragment.empty() ? fragment_file(output) : fragment, defines,
+             &row);
     return entry.program;
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/math/frustum.h"
+#include "shaders/bindings.h"
 #include "systems/extract/instance_order.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_timers.h"
@@ -179,18 +180,19 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
 }
 
 void LightingSystem::bind_scene(const GpuScene& gpu, gl::CommandList& list) const {
-    list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
-    list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
-    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
-    list.add(gl::BindTexels{kTriangleNormalUnit, gpu.triangle_normals()});
-    if (gpu.colours()) list.add(gl::BindTexels{kColourUnit, gpu.colours()});
+    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindUniforms{bindings::kAmbientBlock, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
+    list.add(gl::BindTexels{bindings::kInstanceUnit, gpu.instances()});
+    list.add(gl::BindTexels{bindings::kTriangleNormalUnit, gpu.triangle_normals()});
+    if (gpu.colours()) list.add(gl::BindTexels{bindings::kColourUnit, gpu.colours()});
     list.add(gl::BindMeshes{gpu.vertices(), gpu.indices(), items_.handle()});
 }
 
 void LightingSystem::bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const {
     const GpuScene::MaterialInfo& info = gpu.material(material);
-    list.add(gl::BindTexture{0, info.texture, info.sampler});
-    list.add(gl::BindUniforms{2, gpu.material_uniforms(), info.uniform_offset, sizeof(MaterialRecord)});
+    list.add(gl::BindTexture{bindings::kBaseColourUnit, info.texture, info.sampler});
+    list.add(gl::BindUniforms{bindings::kMaterialBlock, gpu.material_uniforms(), info.uniform_offset,
+                              sizeof(MaterialRecord)});
 }
 
 gl::ProgramHandle LightingSystem::surface_program(bool unlit) {
@@ -227,11 +229,11 @@ void LightingSystem::record_surfaces(const GpuScene& gpu, gl::CommandList& list)
 }
 
 void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
-    list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
-    list.add(gl::BindTexture{0, targets_.depth, point_sampler_});
-    list.add(gl::BindTexture{1, targets_.colour, point_sampler_});
-    list.add(gl::BindTexture{2, targets_.normals, point_sampler_});
-    list.add(gl::BindTexture{3, targets_.material, point_sampler_});
+    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, targets_.depth, point_sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceColourUnit, targets_.colour, point_sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, targets_.normals, point_sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, targets_.material, point_sampler_});
 }
 
 void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
@@ -279,20 +281,20 @@ void LightingSystem::record_finish(gl::CommandList& list) {
     list.add(gl::BeginPass{targets_.luminance_target, {0, 0, side, side}, false, 0.0f, false, {}});
     list.add(gl::SetPipeline{
         {programs_.luminance(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
-    list.add(gl::BindTexture{0, targets_.depth, point_sampler_});
-    list.add(gl::BindTexture{1, targets_.light_sum, point_sampler_});
-    list.add(gl::BindUniforms{4, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
+    list.add(gl::BindTexture{bindings::kMeteredDepthUnit, targets_.depth, point_sampler_});
+    list.add(gl::BindTexture{bindings::kMeteredPictureUnit, targets_.light_sum, point_sampler_});
+    list.add(gl::BindUniforms{bindings::kExposureBlock, uniforms_.handle(), exposure_offset_, sizeof(ExposureRecord)});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::GenerateMips{targets_.luminance});
     list.add(gl::BeginPass{targets_.picture_target, viewport(), false, 0.0f, false, {}});
     list.add(gl::SetPipeline{
         {programs_.tonemap(), gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
-    list.add(gl::BindTexture{0, targets_.light_sum, point_sampler_});
-    list.add(gl::BindTexture{1, targets_.luminance, mip_sampler_});
-    list.add(gl::BindTexture{2, targets_.depth, point_sampler_});
-    list.add(gl::BindUniforms{0, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
-    list.add(gl::BindUniforms{3, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
+    list.add(gl::BindTexture{bindings::kPictureUnit, targets_.light_sum, point_sampler_});
+    list.add(gl::BindTexture{bindings::kLuminanceUnit, targets_.luminance, mip_sampler_});
+    list.add(gl::BindTexture{bindings::kPictureDepthUnit, targets_.depth, point_sampler_});
+    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindUniforms{bindings::kAmbientBlock, uniforms_.handle(), ambient_offset_, sizeof(AmbientRecord)});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{kFinishTimer});
@@ -370,7 +372,7 @@ bool LightingSystem::record_lookups(const Lookups& lookups, const GpuScene& gpu,
     list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::alpha}});
     bind_surface_textures(list);
     bind_light({program, item.map, item.triangles, rays ? item.plain.sampler : item.sampler}, lookups.light, gpu, list);
-    list.add(gl::BindUniforms{5, lookups.block, 0, lookups.block_size});
+    list.add(gl::BindUniforms{bindings::kShownScaleBlock, lookups.block, 0, lookups.block_size});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
     return true;

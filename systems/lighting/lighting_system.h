@@ -80,7 +80,7 @@ public:
         std::uint32_t light;        // index into inputs.lights
         std::string_view fragment;  // shader that includes debug/lookup.glsl; outlives this system
         gl::Rect area;              // part of the picture
-        gl::BufferHandle block;     // the shader's own, binding 5
+        gl::BufferHandle block;     // the shader's own, at bindings::kShownScaleBlock
         std::uint32_t block_size;
     };
     /// Records it, blended over the picture; nothing if the light has no map. Returns false if impossible.

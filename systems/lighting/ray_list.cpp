@@ -1,5 +1,7 @@
 #include "systems/lighting/ray_list.h"
 
+#include "shaders/bindings.h"
+
 #include <algorithm>
 #include <bit>
 #include <span>
@@ -7,10 +9,6 @@
 namespace gnomon::lighting {
 namespace {
 
-/// Binding in shaders/lighting/trace/ray_list.glsl.
-constexpr std::uint32_t kBinding = 1;
-/// Units in shaders/lighting/trace/ray_results.glsl.
-constexpr std::uint32_t kVerdictUnit = 5, kAnswerUnit = 7;
 constexpr std::uint64_t kWord = sizeof(std::uint32_t);
 /// Number of vertices of two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
@@ -79,7 +77,7 @@ bool RayList::provide(bool wanted, glm::uvec2 size_px, gl::TextureHandle depth) 
 
 void RayList::begin_verdicts(gl::CommandList& list) const {
     list.add(gl::ClearBuffer{pixels_, 0, kWord});
-    list.add(gl::BindStorage{kBinding, pixels_});
+    list.add(gl::BindStorage{bindings::kRayListBuffer, pixels_});
     list.add(gl::BeginPass{verdict_target_, area_of(size_px_), false, 0.0f, false, {}});
 }
 
@@ -93,13 +91,13 @@ void RayList::record_rays(gl::ProgramHandle program, gl::CommandList& list) cons
 }
 
 void RayList::bind_answers(gl::CommandList& list) const {
-    list.add(gl::BindTexture{kVerdictUnit, verdicts_, {}});
-    list.add(gl::BindTexture{kAnswerUnit, answers_, {}});
+    list.add(gl::BindTexture{bindings::kVerdictUnit, verdicts_, {}});
+    list.add(gl::BindTexture{bindings::kAnswerUnit, answers_, {}});
 }
 
 void RayList::unbind_answers(gl::CommandList& list) const {
-    list.add(gl::BindTexture{kVerdictUnit, {}, {}});
-    list.add(gl::BindTexture{kAnswerUnit, {}, {}});
+    list.add(gl::BindTexture{bindings::kVerdictUnit, {}, {}});
+    list.add(gl::BindTexture{bindings::kAnswerUnit, {}, {}});
 }
 
 }  // namespace gnomon::lighting

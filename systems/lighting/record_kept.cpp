@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/core/signature.h"
+#include "shaders/bindings.h"
 #include "systems/lighting/lighting_system.h"
 
 /// Cached visibility of lights: conditions, recording and report.
@@ -69,10 +70,11 @@ void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity e
 }
 
 void LightingSystem::bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const {
-    list.add(
-        gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
-    list.add(gl::BindUniforms{6, uniforms_.handle(), kept_offset_ + index * kept_stride_, sizeof(KeptRecord)});
-    list.add(gl::BindTexture{4, pass.kept.texture, point_sampler_});
+    list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + index * light_stride_,
+                              sizeof(shadow::LightRecord)});
+    list.add(gl::BindUniforms{bindings::kKeptBlock, uniforms_.handle(), kept_offset_ + index * kept_stride_,
+                              sizeof(KeptRecord)});
+    list.add(gl::BindTexture{bindings::kKeptVisibilityUnit, pass.kept.texture, point_sampler_});
 }
 
 void LightingSystem::record_kept(const LightPass& pass, std::uint32_t index, const shadow::LightingLight& light,

@@ -1,3 +1,4 @@
+#include "shaders/bindings.h"
 #include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
 #include "systems/lighting/report_lacks.h"
@@ -6,31 +7,31 @@
 namespace gnomon::lighting {
 
 void LightingSystem::bind_rays(const visibility::RayBuffers& rays, const GpuScene& gpu, gl::CommandList& list) const {
-    list.add(gl::BindTexture{6, targets_.places, point_sampler_});
-    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
-    list.add(gl::BindTexels{kTriangleNormalUnit, gpu.triangle_normals()});
-    list.add(gl::BindTexels{9, gpu.vertices()});
-    list.add(gl::BindTexels{10, rays.nodes});
-    list.add(gl::BindTexels{11, rays.triangles});
-    list.add(gl::BindTexels{12, rays.top});
-    list.add(gl::BindTexels{13, rays.instances});
-    if (rays.masks) list.add(gl::BindStorage{7, rays.masks});
+    list.add(gl::BindTexture{bindings::kSurfacePlaceUnit, targets_.places, point_sampler_});
+    list.add(gl::BindTexels{bindings::kInstanceUnit, gpu.instances()});
+    list.add(gl::BindTexels{bindings::kTriangleNormalUnit, gpu.triangle_normals()});
+    list.add(gl::BindTexels{bindings::kVertexUnit, gpu.vertices()});
+    list.add(gl::BindTexels{bindings::kRayNodeUnit, rays.nodes});
+    list.add(gl::BindTexels{bindings::kRayTriangleUnit, rays.triangles});
+    list.add(gl::BindTexels{bindings::kRayTopUnit, rays.top});
+    list.add(gl::BindTexels{bindings::kRayInstanceUnit, rays.instances});
+    if (rays.masks) list.add(gl::BindStorage{bindings::kMaskBuffer, rays.masks});
 }
 
 void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, const GpuScene& gpu,
                                 gl::CommandList& list) const {
-    list.add(
-        gl::BindUniforms{1, uniforms_.handle(), lights_offset_ + index * light_stride_, sizeof(shadow::LightRecord)});
-    if (light.map) list.add(gl::BindTexture{4, light.map, light.sampler});
-    if (light.second) list.add(gl::BindTexture{7, light.second, {}});
-    if (light.bounds) list.add(gl::BindTexture{8, light.bounds, {}});
-    if (light.ends) list.add(gl::BindStorage{2, light.ends});
+    list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + index * light_stride_,
+                              sizeof(shadow::LightRecord)});
+    if (light.map) list.add(gl::BindTexture{bindings::kShadowMapUnit, light.map, light.sampler});
+    if (light.second) list.add(gl::BindTexture{bindings::kSecondDepthUnit, light.second, {}});
+    if (light.bounds) list.add(gl::BindTexture{bindings::kBoundsUnit, light.bounds, {}});
+    if (light.ends) list.add(gl::BindStorage{bindings::kPyramidBuffer, light.ends});
     if (light.rays.nodes) bind_rays(light.rays, gpu, list);
     if (!light.triangles) return;
-    list.add(gl::BindTexture{5, light.triangles, {}});
-    list.add(gl::BindTexels{9, gpu.caster_triangles()});
-    list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
-    if (gpu.caster_masks()) list.add(gl::BindStorage{7, gpu.caster_masks()});
+    list.add(gl::BindTexture{bindings::kShownTriangleUnit, light.triangles, {}});
+    list.add(gl::BindTexels{bindings::kCasterTriangleUnit, gpu.caster_triangles()});
+    list.add(gl::BindTexels{bindings::kInstanceUnit, gpu.instances()});
+    if (gpu.caster_masks()) list.add(gl::BindStorage{bindings::kMaskBuffer, gpu.caster_masks()});
 }
 
 /// Chooses the program: the light's own row, otherwise one tap of its map, otherwise the light without shadow.

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 
+#include "shaders/bindings.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/shadow/frame/pass_inputs.h"
 
@@ -69,7 +70,8 @@ void MapContents::draw(const gl::CommandList& list, const gl::RecordingDevice& d
             layers_[{copy->destination.id, layer}] = layers_[{copy->source.id, layer}];
         }
         if (const auto* b = std::get_if<gl::BindUniforms>(&command); b && b->binding == 0) bound.view = *b;
-        if (const auto* b = std::get_if<gl::BindTexels>(&command); b && b->unit == kInstanceUnit) bound.instances = *b;
+        if (const auto* b = std::get_if<gl::BindTexels>(&command); b && b->unit == bindings::kInstanceUnit)
+            bound.instances = *b;
         if (const auto* b = std::get_if<gl::BindMeshes>(&command)) bound.meshes = *b;
         if (const auto* p = std::get_if<gl::SetPipeline>(&command)) bound.pipeline = p->state;
         const auto* draw = std::get_if<gl::DrawMeshes>(&command);

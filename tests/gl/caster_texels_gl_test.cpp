@@ -1,6 +1,7 @@
 #include <bit>
 #include <random>
 
+#include "shaders/bindings.h"
 #include "systems/extract/gpu_scene.h"
 #include "tests/gl/probe_fixture.h"
 #include "tests/unit/math/random_seed.h"
@@ -69,8 +70,8 @@ TEST_F(CasterTexels, ShadersReadWhatWasWritten) {
 
     gl::CommandList list;
     list.add(gl::BindTexels{9, texels_of(triangles)});
-    list.add(gl::BindTexels{kInstanceUnit, texels_of(instances)});
-    list.add(gl::BindTexels{kTriangleNormalUnit, texels_of(normals)});
+    list.add(gl::BindTexels{bindings::kInstanceUnit, texels_of(instances)});
+    list.add(gl::BindTexels{bindings::kTriangleNormalUnit, texels_of(normals)});
     EXPECT_EQ(probed<std::uint32_t>(kProbe, kRecords, written.size(), std::move(list)), written);
 }
 

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "engine/gl/shader_source.h"
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/shadow/publish/publish_lights.h"
@@ -119,8 +120,8 @@ protected:
         list.add(gl::BindUniforms{0, block, 0, sizeof record});
         list.add(gl::BindStorage{1, places});
         list.add(gl::BindTexels{9, gpu.vertices()});
-        list.add(gl::BindTexels{kInstanceUnit, gpu.instances()});
-        list.add(gl::BindTexels{kTriangleNormalUnit, gpu.triangle_normals()});
+        list.add(gl::BindTexels{bindings::kInstanceUnit, gpu.instances()});
+        list.add(gl::BindTexels{bindings::kTriangleNormalUnit, gpu.triangle_normals()});
         list.add(gl::DrawTriangle{});
         list.add(gl::EndPass{});
         run(list);

@@ -220,8 +220,8 @@ private:
                        (receivers_cast ? "true" : "false")) +
             "));\n}\n";
         files.push_back({"verdict.frag", text});
-        std::vector<std::string> defines{"SHADOWED 1", "SHADOW_DEPTHS 1", "SHADOW_REACH_TEXEL 0.0",
-                                         std::string(row.define) + " 1"};
+        std::vector<std::string> defines = shadow::program_defines(
+            {.kind_define = row.define, .kind_file = row.file, .filter_file = {}, .depths = true});
         if (!margins) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
         if (ask == Ask::source_without_reach) defines.emplace_back("SHEETS_WITHOUT_REACH 1");
         const auto vertex = gl::expand_shader(files, "common/fullscreen.vert", defines);

@@ -108,7 +108,14 @@ protected:
         gl::ProgramHandle& program = programs_[static_cast<std::size_t>(kind)];
         if (program) return program;
         const auto& kind_row = shadow::light_kind_row(kind);
-        const std::string row = "#include \"" + std::string(kind_row.file) + "\"\n#include \"" + std::string(row_.file) + "\"\n";
+        const shadow::ProgramRow program_row{.kind_define = kind_row.define,
+                                             .kind_file = kind_row.file,
+                                             .filter_file = row_.file,
+                                             .reach_texel = filtering().reach_texel,
+                                             .depths = reads_depths(),
+                                             .triangles = reads_triangles(),
+                                             .moments = reads_moments()};
+        const std::string row = shadow::row_glsl(program_row);
         const std::string fragment =
             "#include \"row.glsl\"\n#include \"shadow/lookup/visibility.glsl\"\n"
             "layout(std430, binding = 7) readonly buffer Probes { vec4 probes[]; };\n"
@@ -119,11 +126,7 @@ protected:
         files.push_back({"probe.frag", fragment});
         const std::string diamond = diamond_file();
         files.push_back({kDiamond.file, diamond});
-        std::vector<std::string> defines{"SHADOWED 1",
-                                         "SHADOW_REACH_TEXEL " + std::to_string(filtering(kind).reach_texel)};
-        if (reads_depths()) defines.emplace_back("SHADOW_DEPTHS 1");
-        if (reads_moments()) defines.emplace_back("SHADOW_MOMENTS 1");
-        if (reads_triangles()) defines.emplace_back("SHADOW_TRIANGLES 1");
+        const std::vector<std::string> defines = shadow::program_defines(program_row);
         const auto vertex = gl::expand_shader(files, "common/fullscreen.vert", defines);
         const auto expanded = gl::expand_shader(files, "probe.frag", defines);
         if (!vertex || !expanded) {

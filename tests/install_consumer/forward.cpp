@@ -10,6 +10,7 @@
 #include "engine/gl/device_gl45.h"
 #include "own_context.h"
 #include "own_renderer.h"
+#include "shaders/bindings.h"
 #include "systems/after_submission.h"
 
 namespace {
@@ -54,49 +55,47 @@ void main() {
 // [fragment]
 
 // [draw]
-/// Draws with light `light` as Gnomon published it; the blocks' bindings are 0 and 1, the map's texture unit 4.
+/// Draws with light `light` as Gnomon published it.
 struct OwnBuffers {
     GLuint camera = make_buffer(sizeof(shadow::CameraRecord)), light = make_buffer(sizeof(shadow::LightRecord));
 };
 void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const OwnBuffers& buffers,
           const shadow::LightingInputs& inputs, const shadow::LightingLight& light, const glm::dvec3& camera_ws) {
-    constexpr GLuint kCameraBinding = 0, kLightBinding = 1, kMapUnit = 4;
     const glm::vec3 camera(camera_ws);
     glUseProgram(program);
     glUniform3f(glGetUniformLocation(program, "camera_ws"), camera.x, camera.y, camera.z);
     glNamedBufferSubData(buffers.light, 0, sizeof light.record, &light.record);
-    glBindBufferBase(GL_UNIFORM_BUFFER, kLightBinding, buffers.light);
-    glBindTextureUnit(kMapUnit, gl::gl_name(device, light.map));
-    glBindSampler(kMapUnit, gl::gl_name(device, light.sampler));
+    glBindBufferBase(GL_UNIFORM_BUFFER, bindings::kLightBlock, buffers.light);
+    glBindTextureUnit(bindings::kShadowMapUnit, gl::gl_name(device, light.map));
+    glBindSampler(bindings::kShadowMapUnit, gl::gl_name(device, light.sampler));
     if (light.row.footprint || light.row.triangles || light.row.rays) {
         glNamedBufferSubData(buffers.camera, 0, sizeof inputs.camera, &inputs.camera);
-        glBindBufferBase(GL_UNIFORM_BUFFER, kCameraBinding, buffers.camera);
+        glBindBufferBase(GL_UNIFORM_BUFFER, bindings::kCameraBlock, buffers.camera);
     }
     if (light.row.triangles || light.row.rays)
-        glBindTextureUnit(kInstanceUnit, gl::gl_texels_name(device, scene.instances()));
+        glBindTextureUnit(bindings::kInstanceUnit, gl::gl_texels_name(device, scene.instances()));
     if (light.row.triangles) {
-        constexpr GLuint kTrianglesUnit = 5, kCasterTriangles = 9;
-        glBindTextureUnit(kTrianglesUnit, gl::gl_name(device, light.triangles));
-        glBindSampler(kTrianglesUnit, 0);
-        glBindTextureUnit(kCasterTriangles, gl::gl_texels_name(device, scene.caster_triangles()));
-        constexpr GLuint kMasks = 7;
+        glBindTextureUnit(bindings::kShownTriangleUnit, gl::gl_name(device, light.triangles));
+        glBindSampler(bindings::kShownTriangleUnit, 0);
+        glBindTextureUnit(bindings::kCasterTriangleUnit, gl::gl_texels_name(device, scene.caster_triangles()));
         if (light.row.ray_masks)
-            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMasks, gl::gl_name(device, scene.caster_masks()));
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings::kMaskBuffer,
+                             gl::gl_name(device, scene.caster_masks()));
     }
     if (light.row.rays) {
         const visibility::RayBuffers& rays = light.rays;
-        GLuint unit = 10;
+        GLuint unit = bindings::kRayNodeUnit;
         for (const gl::BufferHandle texels : {rays.nodes, rays.triangles, rays.top, rays.instances})
             glBindTextureUnit(unit++, gl::gl_texels_name(device, texels));
-        constexpr GLuint kMasks = 7;
-        if (light.row.ray_masks) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kMasks, gl::gl_name(device, rays.masks));
+        if (light.row.ray_masks)
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings::kMaskBuffer, gl::gl_name(device, rays.masks));
     }
     if (light.row.sheets) {
-        constexpr GLuint kSecond = 7, kBounds = 8, kEnds = 2;
-        glBindTextureUnit(kSecond, gl::gl_name(device, light.second));
-        glBindTextureUnit(kBounds, gl::gl_name(device, light.bounds));
-        for (const GLuint unit : {kSecond, kBounds}) glBindSampler(unit, 0);
-        if (light.ends) glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kEnds, gl::gl_name(device, light.ends));
+        glBindTextureUnit(bindings::kSecondDepthUnit, gl::gl_name(device, light.second));
+        glBindTextureUnit(bindings::kBoundsUnit, gl::gl_name(device, light.bounds));
+        for (const GLuint unit : {bindings::kSecondDepthUnit, bindings::kBoundsUnit}) glBindSampler(unit, 0);
+        if (light.ends)
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, bindings::kPyramidBuffer, gl::gl_name(device, light.ends));
     }
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "components/mesh_ref.h"
+#include "shaders/bindings.h"
 #include "tests/system/frame_fixture.h"
 
 /// What cannot be used is left out, reported, and comes back when mended; nobody else notices.
@@ -113,7 +114,8 @@ TEST_F(BadEntities, AnotherThatMovesInTheFrameOfAFaultIsStillUploaded) {
     EXPECT_EQ(item(victim), nullptr);
     gl::BufferHandle instances{};
     for (const gl::Command& c : frame->commands().commands)
-        if (const auto* b = std::get_if<gl::BindTexels>(&c); b && b->unit == kInstanceUnit) instances = b->buffer;
+        if (const auto* b = std::get_if<gl::BindTexels>(&c); b && b->unit == bindings::kInstanceUnit)
+            instances = b->buffer;
     InstanceRecord record;
     std::memcpy(&record, device.buffer_bytes(instances).data() + slot_of(stage.box) * sizeof record, sizeof record);
     EXPECT_EQ(record.basis_x_high_x[3], 0.25f);

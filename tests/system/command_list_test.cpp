@@ -1,3 +1,4 @@
+#include "shaders/bindings.h"
 #include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/publish/publish_lights.h"
 #include "tests/system/frame_fixture.h"
@@ -68,7 +69,7 @@ std::vector<gl::Command> CommandListTest::expected() const {
         BeginTimer{0},
         BeginPass{target("shadow map lamp"), map, true, 0.0f, false, {}},
         BindUniforms{0, views, 0, 96},
-        BindTexels{kInstanceUnit, instances},
+        BindTexels{bindings::kInstanceUnit, instances},
         BindMeshes{vertices, indices, depth_items},
         SetPipeline{depth_state},
         DrawMeshes{kBoxFirst, kBoxCount, 4, 0, 1},
@@ -84,8 +85,8 @@ std::vector<gl::Command> CommandListTest::expected() const {
         SetPipeline{surface},
         BindUniforms{0, uniforms, 0, 160},
         BindUniforms{3, uniforms, kAlign, 32},
-        BindTexels{kInstanceUnit, instances},
-        BindTexels{kTriangleNormalUnit, normals},
+        BindTexels{bindings::kInstanceUnit, instances},
+        BindTexels{bindings::kTriangleNormalUnit, normals},
         BindMeshes{vertices, indices, items},
         BindTexture{0, texture("white"), sampler("scene texture")},
         BindUniforms{2, materials, 0, 48},

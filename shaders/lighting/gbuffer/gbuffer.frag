@@ -1,15 +1,11 @@
-// Fills the surface buffers, and starts the picture with what needs no light pass: ambient and emitted light. UNLIT: what is shown as
-// it is.
+// Fills the surface buffers, and starts the picture with what requires no light pass: ambient and emitted light. UNLIT:
+// the colour as it is.
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"
 #include "common/material.glsl"
 #include "common/octahedral.glsl"
 #include "lighting/gbuffer/triangle_normals.glsl"
-#include "lighting/lights/ambient.glsl"
-#include "lighting/post/picture_sum.glsl"
-#ifdef UNLIT
-#include "lighting/post/tone_curve.glsl"
-#endif
+#include "lighting/lights/own_light.glsl"
 in vec3 fragment_position_ca;
 in vec3 fragment_normal;
 in vec2 fragment_uv;
@@ -18,10 +14,16 @@ layout(location = 0) out vec4 colour_out;
 layout(location = 1) out vec4 normals_out;
 layout(location = 2) out vec4 material_out;
 layout(location = 3) out vec4 picture_out;
-#ifdef WRITE_PLACES   // for lights that are asked by rays
+#ifdef WRITE_PLACES   // for lights by rays
 #include "lighting/gbuffer/visible_triangle.glsl"
 flat in uint corner;
 layout(location = 4) out uvec4 place_out;
+void write_place(uint triangle) {
+    float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
+    place_out = packed_place(SurfacePlace(interpolated_m, corner, fragment_item.x, triangle));
+}
+#else
+void write_place(uint triangle) {}
 #endif
 
 void main() {
@@ -34,13 +36,6 @@ void main() {
     colour_out = vec4(colour.rgb, 1.0);
     normals_out = vec4(octahedral_from_unit(shading), octahedral_from_unit(geometric));
     material_out = vec4(material.metallic, material.roughness, received_layers(instance) / 255.0, material.emissive.w);
-#ifdef UNLIT
-    picture_out = vec4(ambient.ground.w * exposed_as(colour.rgb), 2.0);
-#else
-    picture_out = vec4(in_picture(ambient_light(colour.rgb, shading) + material.emissive.rgb * ambient.sky.w), 1.0);
-#endif
-#ifdef WRITE_PLACES
-    float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);
-    place_out = packed_place(SurfacePlace(interpolated_m, corner, fragment_item.x, triangle));
-#endif
+    picture_out = vec4(own_light(colour.rgb, shading), kUnlit ? 2.0 : 1.0);
+    write_place(triangle);
 }

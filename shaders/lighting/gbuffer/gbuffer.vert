@@ -1,21 +1,18 @@
-// Surfaces as the camera sees them.
+// Surfaces as the camera sees them. The linker drops outputs that the fragment shader does not read.
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "common/camera_block.glsl"
-layout(location = 0) in vec3 position_ms;
-layout(location = 1) in vec3 normal_ms;
-layout(location = 2) in vec2 uv;
-layout(location = 3) in uvec2 draw_item;   // instance, first triangle
-#ifdef COLOURED
 #include "common/vertex_colour.glsl"
-out vec4 fragment_colour;
-#endif
+layout(location = kPositionAttribute) in vec3 position_ms;
+layout(location = kNormalAttribute) in vec3 normal_ms;
+layout(location = kUvAttribute) in vec2 uv;
+layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance, first triangle
+layout(location = kColourVarying) out vec4 fragment_colour;
 out vec3 fragment_position_ca;
 out vec3 fragment_normal;
 out vec2 fragment_uv;
 flat out uvec2 fragment_item;
-#if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
 flat out uint corner;   // a vertex of the triangle, for lighting/gbuffer/visible_triangle.glsl
-#endif
 
 void main() {
     InstanceRecord instance = instance_record(draw_item.x);
@@ -23,12 +20,8 @@ void main() {
     fragment_position_ca = position_ca;
     fragment_normal = normal_from_model(instance, normal_ms);
     fragment_uv = uv;
-#ifdef COLOURED
     fragment_colour = vertex_colour();
-#endif
     fragment_item = draw_item;
-#if defined(WRITE_PLACES) || defined(SHADOW_RAYS)
     corner = uint(gl_VertexID);
-#endif
     gl_Position = camera.clip_from_anchor * vec4(position_ca, 1.0);
 }

@@ -1,38 +1,37 @@
-// The surface buffers as the light passes read them.
+// Surface buffers as the light passes read them.
+#include "common/bindings.glsl"
+#include "shadow/lookup/row_flags.glsl"
 #include "common/view_distance.glsl"
 #include "common/pixel_ray.glsl"
 #include "common/view_vector.glsl"
 #include "common/unit.glsl"
 #include "common/octahedral.glsl"
 #include "common/float_rounding.glsl"
-layout(binding = 0) uniform sampler2D surface_depth;
-layout(binding = 1) uniform sampler2D surface_colour;
-layout(binding = 2) uniform sampler2D surface_normals;     // shading normal, geometric normal
-layout(binding = 3) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
-#ifdef SHADOW_RAYS
-layout(binding = 6) uniform usampler2D surface_places;     // see lighting/gbuffer/visible_triangle.glsl
-#endif
+layout(binding = kSurfaceDepthUnit) uniform sampler2D surface_depth;
+layout(binding = kSurfaceColourUnit) uniform sampler2D surface_colour;
+layout(binding = kSurfaceNormalUnit) uniform sampler2D surface_normals;     // shading normal, geometric normal
+layout(binding = kSurfaceMaterialUnit) uniform sampler2D surface_material;    // metallic, roughness, shadow layers / 255, unlit
+layout(binding = kSurfacePlaceUnit) uniform usampler2D surface_places;     // see lighting/gbuffer/visible_triangle.glsl
 
 struct Surface {
     bool exists;
-    vec3 position_ca;     // from the camera's anchor
+    vec3 position_ca;     // from the camera's anchor, metres
     vec3 to_viewer;
     vec3 shading_normal;
     vec3 geometric_normal;
     vec3 colour;
     float metallic, roughness;
-    float shadow_layers;  // those it receives, as an integer
-    bool unlit;           // shows its colour whatever light falls on it
-    float error_m;        // how far position_ca may be off the true surface
-#ifdef SHADOW_RAYS
-    uvec4 place;          // packed
-#endif
+    float shadow_layers;  // layers with shadows that fall on it, as an integer
+    bool unlit;           // shows its colour in any light
+    float error_m;        // how far position_ca may be off the true surface, metres
+    uvec4 place;          // packed; for rays
 };
 
 vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel, view_distance(depth)); }
 
-// Rebuilding rounds; and the rasteriser may have moved corners by half a sub-pixel step (2^-9 pixel) each way, so by half its diagonal.
-const float kHalfDiagonal = 0.70711;   // of a square, of its side
+// Returns how far a position rebuilt from depth may be off, metres. Rebuilding rounds. The rasteriser may have moved
+// corners by half a sub-pixel step (2^-9 pixel) each way: by half its diagonal.
+const float kHalfDiagonal = 0.70711;   // of a square, in sides
 float surface_error_m(vec3 position_ca) {
     bool orthographic = camera.back.w > 0.5;
     float distance_m = length(position_ca);
@@ -58,8 +57,6 @@ Surface read_surface(ivec2 pixel) {
     s.shadow_layers = m.b * 255.0;
     s.unlit = m.a > 0.5;
     s.error_m = surface_error_m(s.position_ca);
-#ifdef SHADOW_RAYS
-    s.place = texelFetch(surface_places, pixel, 0);
-#endif
+    if (kAsksRays) s.place = texelFetch(surface_places, pixel, 0);
     return s;
 }

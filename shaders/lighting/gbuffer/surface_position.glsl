@@ -1,26 +1,29 @@
-// Where on a triangle's plane a pixel's centre looks, in float, and how far off that may be: what a map of sheets is asked about. What
-// the rasteriser interpolates would not do, as said in lighting/gbuffer/surface_position_f64.glsl.
+// Place on a triangle's plane that a pixel's centre sees, in float, and how far off that may be. A map of sheets judges
+// that place. What the rasteriser interpolates is too far off: lighting/gbuffer/surface_position_f64.glsl.
 #include "common/pixel_ray.glsl"
 #include "common/position_error.glsl"
 #include "lighting/gbuffer/visible_triangle.glsl"
 
 struct SeenPlace {
     vec3 position_ca;
-    float error_m;      // how far off, in any direction
+    float error_m;      // how far off, in any direction, metres
 };
 const float kAnywhere_m = 1e30;
 
-// Unit roundoffs. Of a number of normal_from_model(): the model's own, two of a cross product's, one of the product, two of the sums.
-// Of a scalar product, and the difference that is multiplied. Of a number of pixel_line(): ndc, two products, sums.
+// Rounding, unit roundoffs.
+// A number of normal_from_model(): the model's own, two of a cross product's, one of the product, two of the sums.
+// A scalar product, and the difference that is multiplied.
+// A number of pixel_line(): ndc, two products, sums.
 const float kNormalUnits = 6.0, kProductUnits = 4.0, kLineUnits = 5.0;
 
-// The products that normal_from_model() adds, all as if they had one sign.
+// Returns the products that normal_from_model() adds, all as if they had one sign.
 vec3 normal_products(InstanceRecord instance, vec3 normal_ms) {
     vec3 x = abs(instance.basis_x.xyz), y = abs(instance.basis_y.xyz), z = abs(instance.basis_z.xyz), n = abs(normal_ms);
     return (y.yzx * z.zxy + y.zxy * z.yzx) * n.x + (z.yzx * x.zxy + z.zxy * x.yzx) * n.y + (x.yzx * y.zxy + x.zxy * y.yzx) * n.z;
 }
 
-// Number by number, since axes of walls and grounds are often the world's, and what is 0 is not rounded.
+// Returns the place and its error. Each number counts by itself: axes of walls and grounds are often the world's, and
+// what is 0 is not rounded.
 SeenPlace seen_place(ivec2 pixel, SurfacePlace place) {
     InstanceRecord instance = instance_record(place.instance);
     vec3 normal_ms = triangle_normal(place.triangle).xyz, corner_ms = vertex_position(place.corner);

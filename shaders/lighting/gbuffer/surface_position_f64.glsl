@@ -1,13 +1,14 @@
-// Where on a triangle a pixel's centre looks, in double. What the rasteriser interpolates is off by its snapping of vertices, which
-// a slanted plane carries into depth, and by more than a float's rounding.
+// Place on a triangle that a pixel's centre sees, in double. What the rasteriser interpolates is off by its snapping of
+// vertices, which a slanted plane carries into depth, and by more than a float's rounding.
 #include "common/pixel_ray_f64.glsl"
 #include "common/instances_f64.glsl"
 #include "lighting/gbuffer/visible_triangle.glsl"
 
 const double kResidualStep = 5.83215702303235e-11lf;   // 2^-25 / 511
 
-// Of the model, right to 2^-35 along each axis: append_plane_normals() in systems/extract/gpu_scene.h. A float's normal would leave a
-// place off its plane by as much as the next triangle bends away beside a terminator.
+// Returns the normal of a triangle's plane in the model, right to 2^-35 along each axis: append_plane_normals() in
+// systems/extract/gpu_scene.h. A float's normal would leave a place off its plane by as much as the next triangle bends
+// away beside a terminator.
 dvec3 plane_normal(uint triangle) {
     vec4 rounded = triangle_normal(triangle);
     int bits = int(texelFetch(normal_texels, int(triangle)).w);
@@ -15,7 +16,7 @@ dvec3 plane_normal(uint triangle) {
     return dvec3(rounded.xyz) + dvec3(residual) * kResidualStep;
 }
 
-// Where the pixel's ray meets the triangle's plane.
+// Returns where the pixel's ray meets the triangle's plane, from the camera's anchor, metres.
 dvec3 exact_place(ivec2 pixel, SurfacePlace place) {
     InstanceRecord instance = instance_record(place.instance);
     PixelRay ray = pixel_ray(pixel);

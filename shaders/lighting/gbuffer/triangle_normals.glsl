@@ -1,8 +1,9 @@
-// The two normals of a fragment. The geometric one comes from the triangle's own plane, computed once on the
-// CPU in double: screen-space derivatives would be noisy on large triangles and the bias rests on it.
+// Two normals of a fragment. The geometric one comes from the triangle's own plane, computed once on the CPU in double.
+// Screen-space derivatives would be noisy on large triangles, and the bias rests on it.
+#include "common/bindings.glsl"
 #include "common/view_vector.glsl"
 #include "common/unit.glsl"
-layout(binding = 15) uniform usamplerBuffer normal_texels;   // of each triangle
+layout(binding = kTriangleNormalUnit) uniform usamplerBuffer normal_texels;   // per triangle
 
 vec4 triangle_normal(uint triangle) { return uintBitsToFloat(texelFetch(normal_texels, int(triangle))); }
 

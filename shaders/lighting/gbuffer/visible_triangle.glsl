@@ -1,11 +1,12 @@
-// Which triangle a pixel shows, as the surface pass says it for lights that are asked by rays; what follows from that is found out
-// where it is asked for, since many fragments of small triangles are drawn for one that stays.
+// Triangle that a pixel shows, as the surface pass writes it for lights by rays. What follows from it is computed where
+// it is needed: of many fragments of small triangles only one stays.
+#include "common/bindings.glsl"
 #include "common/instances.glsl"
 #include "lighting/gbuffer/triangle_normals.glsl"
-layout(binding = 9) uniform usamplerBuffer scene_vertices;   // two texels each, position first
+layout(binding = kVertexUnit) uniform usamplerBuffer scene_vertices;   // two texels each, position first
 
 struct SurfacePlace {
-    float interpolated_m;        // along the view, as the rasteriser says
+    float interpolated_m;        // along the view, by the rasteriser, metres
     uint corner;                 // a vertex of the triangle
     uint instance, triangle;
 };
@@ -15,12 +16,12 @@ uvec4 packed_place(SurfacePlace place) {
 }
 SurfacePlace unpacked_place(uvec4 place) { return SurfacePlace(uintBitsToFloat(place.x), place.y, place.z, place.w); }
 
-// As rays know it.
+// Returns the receiver as rays name it: instance, triangle.
 uvec2 receiver_of(SurfacePlace place) { return uvec2(place.instance, place.triangle); }
 
 vec3 vertex_position(uint vertex) { return uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz); }
 
-// What a plane says of the distance is believed unless it is seen edge-on or is none.
+// Returns whether the plane's distance is used: not where it is seen edge-on or there is none.
 bool is_believed(float distance_m, float interpolated_m) {
     const float kMostOff = 0.5;   // of the distance
     return abs(distance_m - interpolated_m) <= kMostOff * interpolated_m;

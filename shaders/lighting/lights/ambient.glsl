@@ -1,8 +1,10 @@
-// Light from everywhere; never shadowed. Brighter from above, as under a sky.
-// C++ twin: AmbientRecord in systems/lighting/lighting_system.h.
-layout(std140, binding = 3) uniform AmbientBlock {
-    vec4 sky;      // rgb: lux from above, times w; w: what the picture holds of a radiance of 1
-    vec4 ground;   // rgb: lux from below, times sky.w; w: what the picture holds of an exposed radiance of 1 that is shown unlit
+// Light from everywhere; never shadowed. It is brighter from above, as under a sky. C++ twin: AmbientRecord in
+// systems/lighting/lighting_system.h.
+#include "common/bindings.glsl"
+layout(std140, binding = kAmbientBlock) uniform AmbientBlock {
+    vec4 sky;      // rgb: lux from above, times w; w: what the picture holds for a radiance of 1
+    vec4 ground;   // rgb: lux from below, times sky.w; w: what the picture holds for an exposed radiance of 1 that is
+                   // shown unlit
 } ambient;
 
 vec3 ambient_light(vec3 colour, vec3 normal) {

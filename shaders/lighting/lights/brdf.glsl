@@ -4,7 +4,8 @@ const float kPi = 3.14159265358979;
 vec3 brdf_times_cosine(vec3 colour, float metallic, float roughness, vec3 n, vec3 v, vec3 l) {
     float n_l = max(dot(n, l), 0.0);
     float n_v = max(abs(dot(n, v)), 1e-4);
-    // Units are rounded: a product of two may be above 1, where the power below has no value and the distribution may divide by 0.
+    // Units are rounded: a product of two may be above 1, where the power below has no value and the distribution may
+    // divide by 0.
     vec3 between = l + v;
     vec3 h = dot(between, between) > 0.0 ? normalize(between) : n;
     float n_h = clamp(dot(n, h), 0.0, 1.0);

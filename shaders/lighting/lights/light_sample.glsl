@@ -1,4 +1,6 @@
 // Direction and strength of one light at a point, as KHR_lights_punctual defines them.
+#include "shadow/lookup/row_flags.glsl"
+
 struct LightSample {
     vec3 to_light;     // unit
     vec3 radiance;     // lux at a surface facing the light, times ambient.sky.w; 0 outside range and cone
@@ -6,12 +8,8 @@ struct LightSample {
 };
 
 LightSample light_at(vec3 position_ca) {
+    if (kIsSun) return LightSample(light.to_light.xyz, light.radiance.rgb, true);
     LightSample s;
-#ifdef LIGHT_DIRECTIONAL
-    s.to_light = light.to_light.xyz;
-    s.radiance = light.radiance.rgb;
-    s.reaches = true;
-#else
     vec3 offset = light.position.xyz - position_ca;
     float distance_m = length(offset);
     s.to_light = offset / max(distance_m, 1e-30);
@@ -22,14 +20,18 @@ LightSample light_at(vec3 position_ca) {
         float x = distance_m / range_m;
         falloff *= clamp(1.0 - x * x * x * x, 0.0, 1.0);
     }
-#ifdef LIGHT_SPOT
-    float cosine = dot(s.to_light, light.to_light.xyz);
-    float edge = clamp((cosine - light.cone.x) * light.cone.y, 0.0, 1.0);
-    s.reaches = s.reaches && cosine > light.cone.x;
-    falloff *= edge * edge;
-#endif
+    if (kIsSpot) {
+        float cosine = dot(s.to_light, light.to_light.xyz);
+        float edge = clamp((cosine - light.cone.x) * light.cone.y, 0.0, 1.0);
+        s.reaches = s.reaches && cosine > light.cone.x;
+        falloff *= edge * edge;
+    }
     const float kMost_lx = 1e30;   // what a surface reflects of it is finite
     s.radiance = s.reaches ? min(light.radiance.rgb * falloff, vec3(kMost_lx)) : vec3(0.0);
-#endif
     return s;
+}
+
+// Returns whether a surface faces away from the light, or lies outside its range or cone.
+bool is_unreached(vec3 geometric_normal, LightSample incoming) {
+    return !incoming.reaches || dot(geometric_normal, incoming.to_light) <= 0.0;
 }

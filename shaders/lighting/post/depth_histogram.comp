@@ -1,15 +1,16 @@
-// Counts the picture's pixels by their distance along the view, in bins that are fixed to the metre: bin i begins at
+// Counts the picture's pixels by their distance along the view, in bins that are fixed to the metre. Bin i begins at
 // 2^(i / 4 - 24) m. C++ twin: systems/extract/sampled_depths.h.
+#include "common/bindings.glsl"
 #include "common/view_distance.glsl"
 layout(local_size_x = 16, local_size_y = 16) in;
-layout(binding = 0) uniform sampler2D surface_depth;
-layout(std430, binding = 0) buffer DepthBinBuffer { uint depth_bins[]; };
-const uint kBins = 256;   // one to an invocation
+layout(binding = kSurfaceDepthUnit) uniform sampler2D surface_depth;
+layout(std430, binding = kDepthBinBuffer) buffer DepthBinBuffer { uint depth_bins[]; };
+const uint kBins = 256;   // one per invocation
 const int kFirstOctave = -24;
 const int kSide = 4;      // pixels of an invocation, to either side: kTile_px in systems/lighting/depth_sampler.cpp
 shared uint counted[kBins];
 
-// From the bits of the number, so that every device puts it into the same bin.
+// Returns the bin of a distance from the bits of the number: every device puts it into the same bin.
 int bin_of(float distance_m) {
     uint bits = floatBitsToUint(distance_m);
     int octave = int(bits >> 23) - 127;

@@ -1,10 +1,11 @@
-// What radiance is multiplied by before the tone curve.
-layout(std140, binding = 4) uniform ExposureBlock {
-    vec4 exposure;   // x: scale; below 0: automatic. y: top mip of luminance_sum. z: the radiance that 1 in the picture stands for. w: scale
-                     // where nothing lit is seen to follow from
+// Factor of radiance before the tone curve.
+#include "common/bindings.glsl"
+layout(std140, binding = kExposureBlock) uniform ExposureBlock {
+    vec4 exposure;   // x: scale, below 0: automatic; y: top mip of luminance_sum; z: radiance that 1 in the picture
+                     // stands for; w: scale where nothing lit is seen
 };
 
-// So that the logarithmic mean of what is seen becomes middle grey.
+// Returns the factor by which the logarithmic mean of what is seen becomes middle grey.
 float exposure_scale(sampler2D luminance_sum) {
     if (exposure.x >= 0.0) return exposure.x;
     vec2 sum = textureLod(luminance_sum, vec2(0.5), exposure.y).rg;

@@ -1,4 +1,5 @@
-// What shows where there is no surface: the ambient light's own source, brighter toward the horizon, the ground's below it.
+// Picture where there is no surface: the ambient light's own source, brighter toward the horizon, and the ground's
+// below it.
 #include "common/camera_block.glsl"
 #include "lighting/lights/ambient.glsl"
 

@@ -1,13 +1,14 @@
-// Verdicts from here on are places in the list of those that rays decide; below, they are shadow/filters/exact/classify.glsl's.
+// First verdict that is a place in the list of pixels for rays. Verdicts below are
+// shadow/filters/exact/classify.glsl's.
 const uint kListed = 2u;
 
-// The rays of a list are drawn block by block, so that those that lie together in it go in step, be it eight or more at a time; as a
-// picture about as wide as it is high, since a quad's two triangles both draw what lies along its diagonal. C++ twin:
-// systems/lighting/ray_list.cpp.
+// Block of pixels in which the rays of a list are drawn. Rays that lie together in it go in step, be it eight or more
+// at a time. The picture is about as wide as it is high, since a quad's two triangles both draw what lies along its
+// diagonal. C++ twin: systems/lighting/ray_list.cpp.
 const ivec2 kListBlock = ivec2(4, 2);
 const int kInBlock = kListBlock.x * kListBlock.y;
 
-// A power of two, for as many places as the other picture has pixels.
+// Returns the width of the list's picture, a power of two, for as many places as the other picture has pixels.
 int list_width(ivec2 picture) { return max(1 << (findMSB(picture.x * picture.y) + 1) / 2, kListBlock.x); }
 
 int list_rows(int places, int width) {
@@ -20,7 +21,8 @@ int list_place(ivec2 texel, int width) {
     return (block.y * (width / kListBlock.x) + block.x) * kInBlock + inside.y * kListBlock.x + inside.x;
 }
 
-// Software devices divide whole numbers one by one. This division has no remainder, which floats would round.
+// Returns the texel of a place. Software devices divide whole numbers one by one. This division has no remainder, which
+// floats would round.
 ivec2 list_texel(int place, int width) {
     int block = place / kInBlock, inside = place % kInBlock, across = width / kListBlock.x, x = block & across - 1;
     int y = int(float(block - x) / float(across));

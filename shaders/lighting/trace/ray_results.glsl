@@ -1,10 +1,19 @@
-// What was found of a pixel: by its light's map, or by a ray.
-layout(binding = 5) uniform usampler2D verdicts;   // lighting/trace/classify_pixels.frag
-layout(binding = 7) uniform sampler2D answers;     // of the rays, in the order of their list
+// Fraction of the light that reaches a surface, as it was found of each pixel: by its light's map, or by a ray.
+#include "common/bindings.glsl"
+#include "shadow/lookup/shadow_layers.glsl"
+#include "lighting/lights/light_sample.glsl"
+layout(binding = kVerdictUnit) uniform usampler2D verdicts;   // lighting/trace/classify_pixels.frag
+layout(binding = kAnswerUnit) uniform sampler2D answers;     // of the rays, in the order of their list
 #include "lighting/trace/ray_list_layout.glsl"
 
 float found_visibility(ivec2 pixel) {
     uint verdict = texelFetch(verdicts, pixel, 0).x;
     float answer = texelFetch(answers, list_texel(int(max(verdict, kListed) - kListed), textureSize(answers, 0).x), 0).x;
     return verdict < kListed ? 1.0 - float(verdict) : answer;
+}
+
+float visible_share(Surface surface, LightSample incoming) {
+    if (is_unreached(surface.geometric_normal, incoming)) return 0.0;
+    if (!takes_shadow(surface.shadow_layers)) return 1.0;
+    return found_visibility(ivec2(gl_FragCoord.xy));
 }

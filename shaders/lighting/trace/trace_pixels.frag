@@ -1,4 +1,4 @@
-// The rays of a list, one after the other.
+// Rays of a list, one after the other.
 #include "lighting/gbuffer/gbuffer_read.glsl"
 #include "lighting/gbuffer/surface_position.glsl"
 #include "lighting/gbuffer/surface_position_f64.glsl"

@@ -1,4 +1,4 @@
-// As many rows as the list of rays fills.
+// Quad over as many rows as the list of rays fills.
 #include "common/camera_block.glsl"
 #include "lighting/trace/ray_list_layout.glsl"
 #include "lighting/trace/ray_list.glsl"

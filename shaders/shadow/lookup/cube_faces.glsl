@@ -1,7 +1,7 @@
-// OpenGL's cube: which face a direction falls on, and how that face lies.
+// Faces of OpenGL's cube: which one a direction falls on, and how it lies.
 float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
-// In OpenGL's order.
+// Returns the number of the face that a direction falls on, in OpenGL's order.
 int face_of(vec3 direction) {
     vec3 size = abs(direction);
     bool x_major = size.x >= size.y && size.x >= size.z;
@@ -10,7 +10,7 @@ int face_of(vec3 direction) {
     return (x_major ? 0 : (y_major ? 2 : 4)) + (along < 0.0 ? 1 : 0);
 }
 
-// The face of OpenGL's table that a direction falls on; axes as cube_face() has them.
+// Returns the axes (u, v, back) of the face that a direction falls on, by OpenGL's table. C++ twin: cube_face().
 mat3 face_axes(vec3 direction) {
     vec3 size = abs(direction);
     if (size.x >= size.y && size.x >= size.z) {

@@ -1,18 +1,14 @@
-// From a point to the light: all the way to where a lamp's shadows are looked for, a unit toward a sun.
+// Returns the way from a point to the light: of a lamp to the place from which its shadows are looked for, metres; of a
+// sun a unit vector.
 vec3 toward_light(vec3 position_ca) {
-#ifdef LIGHT_DIRECTIONAL
-    return light.to_light.xyz;
-#else
+    if (kIsSun) return light.to_light.xyz;
     precise vec3 lamp_ca = light.position.xyz + light.low.xyz;
     return lamp_ca - position_ca;
-#endif
 }
 
-// Area of a texel, across the light, of what stands so far from it; `texel`: its sides, metres of a sun's, else tangents.
+// Returns the area of a texel across the light at that distance, m². `texel`: its sides, metres of a sun's map, else
+// tangents.
 float texel_area_m2(vec2 texel, vec3 toward_light_m) {
-#ifdef LIGHT_DIRECTIONAL
-    return texel.x * texel.y;
-#else
+    if (kIsSun) return texel.x * texel.y;
     return texel.x * texel.y * dot(toward_light_m, toward_light_m);
-#endif
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "engine/math/projection.h"
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -14,8 +15,6 @@ namespace {
 
 /// Corners of a quad's two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
-/// Texture units of shaders/shadow/passes/bounds/bounds_item.glsl.
-constexpr std::uint32_t kItemUnit = 12, kVertexUnit = 13;
 static_assert(sizeof(assets::Vertex) == 2 * gl::kTexelBytes && sizeof(SheetItem) == gl::kTexelBytes);
 /// Nothing ends there: behind all that depth can be.
 constexpr float kNoContour = -1.0f;
@@ -131,10 +130,10 @@ void SheetRecorder::record_view(const PassInputs& in, const View& drawn, std::ui
     list.add(gl::BeginTimer{shadow_timer(view.light)});
     list.add(gl::BeginPass{
         map.sheets.bounds_target, {0, 0, size, size}, false, 0.0f, true, {kNoContour, cleared, 0.0f, 0.0f}});
-    list.add(gl::BindUniforms{0, view_records_.handle(), offset, sizeof(DepthViewRecord)});
-    list.add(gl::BindTexels{kInstanceUnit, in.gpu.instances()});
-    list.add(gl::BindTexels{kVertexUnit, in.gpu.vertices()});
-    list.add(gl::BindTexels{kItemUnit, items_.handle()});
+    list.add(gl::BindUniforms{bindings::kDepthViewBlock, view_records_.handle(), offset, sizeof(DepthViewRecord)});
+    list.add(gl::BindTexels{bindings::kInstanceUnit, in.gpu.instances()});
+    list.add(gl::BindTexels{bindings::kBoundsVertexUnit, in.gpu.vertices()});
+    list.add(gl::BindTexels{bindings::kBoundsItemUnit, items_.handle()});
     for (std::size_t which = 0; which < kPrograms; ++which) {
         const std::uint32_t first = drawn.first[which], count = drawn.count[which];
         if (count == 0) continue;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -13,9 +14,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// In shaders/shadow/passes/bounds/occluder_pyramid.comp: squares that a work group makes along an edge, and what it
-/// reads.
-constexpr std::uint32_t kGroup = 8, kBoundsUnit = 8, kMapUnit = 4, kEndsBinding = 2;
+/// In shaders/shadow/passes/bounds/occluder_pyramid.comp: squares that a work group makes along an edge.
+constexpr std::uint32_t kGroup = 8;
 
 bool has_ends(const DrawnViews& drawn, std::size_t v) { return drawn.is_drawn(v) && drawn.maps[v].sheets.ends; }
 
@@ -117,14 +117,14 @@ void EndsRecorder::record_view(const PassInputs& in, std::size_t v, std::uint32_
     const MapAssignment& map = in.drawn.maps[v];
     list.add(gl::BeginGroup{{"sheet ends", in.scene.lights[view.light].name, std::to_string(view.layer)}});
     list.add(gl::BeginTimer{shadow_timer(view.light)});
-    list.add(gl::BindTexture{kMapUnit, map.texture, {}});
-    list.add(gl::BindTexture{kBoundsUnit, map.sheets.bounds, {}});
-    list.add(gl::BindStorage{kEndsBinding, map.sheets.ends});
+    list.add(gl::BindTexture{bindings::kShadowMapUnit, map.texture, {}});
+    list.add(gl::BindTexture{bindings::kBoundsUnit, map.sheets.bounds, {}});
+    list.add(gl::BindStorage{bindings::kPyramidBuffer, map.sheets.ends});
     Source source = first_source(view);
     EndsLevel level = first_ends(map.size_px);
     for (;; level = next_ends(level), source = Source::level) {
         const std::uint32_t groups = (level.side + kGroup - 1) / kGroup;
-        list.add(gl::BindUniforms{0, records_.handle(), offset, sizeof(EndsRecord)});
+        list.add(gl::BindUniforms{bindings::kPyramidBlock, records_.handle(), offset, sizeof(EndsRecord)});
         list.add(gl::Dispatch{programs_[static_cast<std::size_t>(source)].program, groups, groups});
         offset += aligned(sizeof(EndsRecord), device_.info().uniform_alignment);
         if (level.side == 1) break;

@@ -2,20 +2,41 @@
 
 namespace gnomon::shadow {
 
+namespace {
+
+std::string flag(std::string_view name, bool is_set) { return std::string(name) + (is_set ? " 1" : " 0"); }
+
+/// Returns what a lookup reads of the row's map: the last part of a file's name in shaders/shadow/lookup/maps.
+std::string_view map_reading(const ProgramRow& row) {
+    if (row.footprint) return "footprint";
+    if (row.moments) return "moments";
+    if (row.triangles) return "triangles";
+    return row.depths ? "depths" : "compare";
+}
+
+std::string file(std::string_view name, const std::string& path) { return std::string(name) + " \"" + path + "\""; }
+
+}  // namespace
+
 std::vector<std::string> program_defines(const ProgramRow& row) {
-    std::vector<std::string> defines{std::string(row.kind_define) + " 1"};
-    if (row.filter_file.empty()) return defines;
-    defines.emplace_back("SHADOWED 1");
+    const bool is_shadowed = !row.filter_file.empty();
+    std::vector<std::string> defines;
+    for (const std::string_view kind : {"LIGHT_DIRECTIONAL", "LIGHT_SPOT", "LIGHT_POINT"})
+        defines.push_back(flag(kind, kind == row.kind_define));
     defines.push_back("SHADOW_REACH_TEXEL " + std::to_string(row.reach_texel));
-    if (row.depths) defines.emplace_back("SHADOW_DEPTHS 1");
-    if (row.moments) defines.emplace_back("SHADOW_MOMENTS 1");
-    if (row.footprint) defines.emplace_back("SHADOW_FOOTPRINT 1");
-    if (row.triangles) defines.emplace_back("SHADOW_TRIANGLES 1");
-    if (row.sheets) defines.emplace_back("SHADOW_SHEETS 1");
-    if (row.rays) defines.emplace_back("SHADOW_RAYS 1");
-    if (row.ray_masks) defines.emplace_back("RAY_MASKS 1");
-    if (row.fades) defines.emplace_back("SHADOW_FADES 1");
-    if (row.manual_bias) defines.emplace_back("SHADOW_MANUAL_BIAS 1");
+    defines.push_back(flag("SHADOW_DEPTHS", row.depths));
+    defines.push_back(flag("SHADOW_MOMENTS", row.moments));
+    defines.push_back(flag("SHADOW_FOOTPRINT", row.footprint));
+    defines.push_back(flag("SHADOW_SHEETS", row.sheets));
+    defines.push_back(flag("SHADOW_RAYS", row.rays));
+    defines.push_back(flag("SHADOW_FADES", row.fades));
+    defines.push_back(flag("SHADOW_MANUAL_BIAS", row.manual_bias));
+    defines.push_back(file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"));
+    const std::string reading(map_reading(row));
+    defines.push_back(file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_" + reading + ".glsl"));
+    defines.push_back(file("SHADOW_CUBE_MAP", "shadow/lookup/maps/cube_" + reading + ".glsl"));
+    const std::string answer = !is_shadowed ? "unshadowed" : (row.rays ? "by_rays" : "by_map");
+    defines.push_back(file("SHADOW_VISIBILITY", "shadow/lookup/visibility/" + answer + ".glsl"));
     return defines;
 }
 
@@ -25,6 +46,7 @@ std::string row_glsl(const ProgramRow& row) {
     if (row.footprint || row.triangles || row.rays) text += "#include \"common/camera_block.glsl\"\n";
     for (const std::string_view file : {row.kind_file, row.filter_file})
         text += "#include \"" + std::string(file) + "\"\n";
+    if (row.moments) text += "#include \"shadow/filters/prefiltered/without_bleeding.glsl\"\n";
     return text;
 }
 

@@ -23,12 +23,13 @@ struct ProgramRow {
     bool operator==(const ProgramRow&) const = default;
 };
 
-/// All that the row's shaders have to be compiled with, each "NAME value", whoever's they are. What a shader writes
-/// besides (lighting/light_programs.h) is its own affair.
+/// Returns all defines that the row's shaders require, in any program: "NAME value". Each is always given: a flag as 0
+/// or 1, a file to include as a path in quotes (engine/gl/shader_source.h). lighting/light_programs.h adds the
+/// outputs'.
 std::vector<std::string> program_defines(const ProgramRow& row);
 
-/// What they include as "row.glsl": the kind's file and the filter's, and the camera's block where those read it. Empty
-/// if the light is unshadowed.
+/// Returns the text that they include as "row.glsl": the kind's file and the filter's, and the camera's block where
+/// those read it. Empty if the light is unshadowed.
 std::string row_glsl(const ProgramRow& row);
 
 }  // namespace gnomon::shadow

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/math/projection.h"
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/extract/instance_order.h"
 #include "systems/frame_timers.h"
@@ -180,8 +181,9 @@ void DepthRecorder::draw_run(const GpuScene& gpu, const MeshRun& meshes, const g
         first_item += meshes.items_per_draw;
         if (run.mask && way_.sheets) return;
         if (run.mask) {
-            list.add(gl::BindTexture{0, run.mask->texture, run.mask->sampler});
-            list.add(gl::BindUniforms{2, gpu.material_uniforms(), run.mask->uniform_offset, sizeof(MaterialRecord)});
+            list.add(gl::BindTexture{bindings::kBaseColourUnit, run.mask->texture, run.mask->sampler});
+            list.add(gl::BindUniforms{bindings::kMaterialBlock, gpu.material_uniforms(), run.mask->uniform_offset,
+                                      sizeof(MaterialRecord)});
         }
         const gl::PipelineState state = run.mask ? depth_state(programs_[which(way_, true)]) : opaque;
         if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
@@ -222,10 +224,10 @@ void DepthRecorder::begin_pass_into(gl::TargetHandle target, const PassInputs& i
     const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
     list.add(gl::BeginPass{target, {0, 0, size, size}, clear, 0.0f, false, {}});
     const std::size_t records = pass.layered ? kFaces : 1;
-    list.add(gl::BindUniforms{0, views_.handle(), pass.uniform_offset,
+    list.add(gl::BindUniforms{bindings::kDepthViewBlock, views_.handle(), pass.uniform_offset,
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
-    list.add(gl::BindTexels{kInstanceUnit, in.gpu.instances()});
-    if (in.gpu.colours()) list.add(gl::BindTexels{kColourUnit, in.gpu.colours()});
+    list.add(gl::BindTexels{bindings::kInstanceUnit, in.gpu.instances()});
+    if (in.gpu.colours()) list.add(gl::BindTexels{bindings::kColourUnit, in.gpu.colours()});
     list.add(gl::BindMeshes{in.gpu.vertices(), in.gpu.indices(), items_.handle()});
 }
 
@@ -260,11 +262,11 @@ void DepthRecorder::peel(const PassInputs& in, const Pass& pass, gl::CommandList
     const MapAssignment& map = in.drawn.maps[pass.first];
     pipeline_ = {};
     begin_pass_into(map.sheets.second_target, in, pass, true, list);
-    list.add(gl::BindTexture{0, map.triangles, {}});
+    list.add(gl::BindTexture{bindings::kNearestTriangleUnit, map.triangles, {}});
     const Way way{in.drawn.updates[pass.first].route, true, true, true};
     draw(in, pass, way, pass.still, list, report);
     draw(in, pass, way, pass.moving, list, report);
-    list.add(gl::BindTexture{0, {}, {}});
+    list.add(gl::BindTexture{bindings::kNearestTriangleUnit, {}, {}});
     list.add(gl::EndPass{});
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <string>
 
+#include "shaders/bindings.h"
 #include "shaders/embedded.h"
 #include "systems/frame_timers.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -40,7 +41,7 @@ void draw_whole(gl::TargetHandle target, std::uint32_t width, std::uint32_t heig
     const gl::Rect whole{0, 0, static_cast<std::int32_t>(width), static_cast<std::int32_t>(height)};
     list.add(gl::BeginPass{target, whole, false, 0.0f, false, {}});
     list.add(gl::SetPipeline{{program, gl::CullMode::none, false, gl::DepthTest::off, false, false, gl::Blend::off}});
-    list.add(gl::BindTexture{0, source, {}});
+    list.add(gl::BindTexture{bindings::kPrefilterSourceUnit, source, {}});
     list.add(gl::DrawTriangle{});
     list.add(gl::EndPass{});
 }
@@ -129,7 +130,7 @@ void MomentRecorder::record_view(const PassInputs& in, std::size_t v, std::uint3
     const MapSettings& settings = in.drawn.request_of(v).map;
     list.add(gl::BeginGroup{{"moments", in.scene.lights[view.light].name, std::to_string(view.layer)}});
     list.add(gl::BeginTimer{shadow_timer(view.light)});
-    list.add(gl::BindUniforms{0, records_.handle(), offset, sizeof(MomentRecord)});
+    list.add(gl::BindUniforms{bindings::kPrefilterBlock, records_.handle(), offset, sizeof(MomentRecord)});
     const gl::ProgramHandle first = program(filter_row(settings.filter).file, source_of(view));
     const PrefilteredMaps& made = map.prefiltered;
     if (made.scratch) {

@@ -1,4 +1,5 @@
 gnomon_tests(NAME unit_gl LABEL unit SOURCES
+  gl/bindings_test.cpp
   gl/commands_test.cpp
   gl/descriptions_test.cpp
   gl/recording_device_test.cpp

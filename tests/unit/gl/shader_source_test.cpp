@@ -21,6 +21,7 @@ constexpr std::array kFiles = {
     ShaderFile{"broken.glsl", "a;\nb;\n#include \"no/such.glsl\"\n"},
     ShaderFile{"comment.glsl", "// #include \"no/such.glsl\"\n#include <no/such.glsl>\n#included \"no\"\nend;\n"},
     ShaderFile{"empty.glsl", ""},
+    ShaderFile{"chosen.glsl", "#include PART\nend;\n"},
 };
 
 Result<std::string> expand(std::string_view path, std::vector<std::string> defines = {}) {
@@ -49,6 +50,26 @@ TEST(ShaderSource, IncludesAreReplacedOnceAndLinesStayTrue) {
               "#line 3 1  // top.glsl\n"
               "#line 4 1  // top.glsl\n"
               "last;\n");
+}
+
+TEST(ShaderSource, ADefineNamesTheFileToInclude) {
+    const auto text = expand("chosen.glsl", {"PART_OF 1", "PART \"lib/b.glsl\""});
+    ASSERT_TRUE(text);
+    EXPECT_EQ(text.value(),
+              "#version 450 core\n"
+              "#define PART_OF 1\n"
+              "#line 1 10  // chosen.glsl\n"
+              "#line 1 3  // lib/b.glsl\n"
+              "in_b;\n"
+              "#line 2 10  // chosen.glsl\n"
+              "end;\n");
+    for (const std::vector<std::string>& without :
+         {std::vector<std::string>{}, {"PART 1"}, {"PART_OF \"lib/b.glsl\""}}) {
+        const auto missing = expand("chosen.glsl", without);
+        ASSERT_FALSE(missing);
+        EXPECT_EQ(missing.error().rule, "shader.missing");
+        EXPECT_THAT(missing.error().message, HasSubstr("\"PART\""));
+    }
 }
 
 TEST(ShaderSource, AnEmptyFileExpandsToItsHeaderOnly) {

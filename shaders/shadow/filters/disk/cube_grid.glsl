@@ -1,5 +1,5 @@
-// 4 x 4 x 4 taps around the point, as LearnOpenGL's cubes are filtered. On a flat map the third dimension shows nothing:
-// 4 x 4 taps.
+// 4 x 4 x 4 taps around the point, as LearnOpenGL's cubes are filtered. On a flat map the third dimension shows
+// nothing: 4 x 4 taps.
 #include "shadow/filters/disk/cube_offsets.glsl"
 
 vec4 filter_setup(ShadowPoint point) { return vec4(0.0); }

@@ -1,12 +1,12 @@
 // Two shares of 1 that differ from point to point without a pattern: by the pixel, or by the cell of the world.
-// light.seed_cell: the camera's cell; light.seed_place: its place in that cell, in cells; w: cells per metre.
+// light.seed_cell: the camera's cell. light.seed_place: xyz: its place in that cell, cells; w: cells per metre.
 // The lattice's axes are those of systems/shadow/publish/noise_cell.cpp, and wrap after 2^24 cells as there.
 const vec3 kSeedAxisX = vec3(-0.6666666667, 0.1333333333, 0.7333333333);
 const vec3 kSeedAxisY = vec3(0.6666666667, -0.3333333333, 0.6666666667);
 const vec3 kSeedAxisZ = vec3(0.3333333333, 0.9333333333, 0.1333333333);
 const float kSeedCells = 16777216.0;
 
-// Every bit of the result depends on every bit of x (multiply and xor-shift).
+// Returns a number with every bit dependent on every bit of x (multiply and xor-shift).
 uint scrambled(uint x) {
     x ^= x >> 16;
     x *= 0x7feb352du;

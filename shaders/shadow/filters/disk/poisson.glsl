@@ -1,4 +1,4 @@
-// The first points of a Poisson disk, equal weights.
+// First points of a Poisson disk, equal weights.
 #include "shadow/filters/disk/poisson_disk.glsl"
 
 vec4 filter_setup(ShadowPoint point) { return vec4(0.0); }

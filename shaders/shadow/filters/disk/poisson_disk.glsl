@@ -1,6 +1,7 @@
-// A Poisson disk of 32 points, progressive: the first n are one, too. Each next point is the one of the lattice of 1/64 in
-// the unit disk that lies farthest from those before, or, where that is less, 0.3 beyond its own image in the rim
-// (farthest-point sampling, Eldar et al. 1997). tests/unit/shadow/shaders/poisson_disk_test.cpp computes them again.
+// Poisson disk of 32 points, progressive: the first n are one, too. Each next point is the one of the lattice of 1/64
+// in the unit disk that lies farthest from those before. Where that is less, it lies 0.3 beyond its own image in the
+// rim (farthest-point sampling, Eldar et al. 1997). tests/unit/shadow/shaders/poisson_disk_test.cpp computes them
+// again.
 const vec2 kDisk[32] = {
     vec2(0.5, 0.25), vec2(-0.515625, -0.265625), vec2(-0.328125, 0.609375), vec2(0.3125, -0.625),
     vec2(0.25, 0.796875), vec2(-0.8125, 0.25), vec2(0.796875, -0.265625), vec2(-0.25, -0.8125),

@@ -1,10 +1,10 @@
-// The first points of a Poisson disk, turned by another angle at each point: bands become noise.
+// First points of a Poisson disk, turned by another angle at each point: bands become noise.
 #include "shadow/filters/disk/poisson_disk.glsl"
 #include "shadow/filters/disk/noise_seed.glsl"
 
 const float kTurn_rad = 6.283185307;
 
-// The turn's cosine and sine.
+// Returns the turn's cosine and sine.
 vec4 filter_setup(ShadowPoint point) {
     float angle_rad = kTurn_rad * shadow_seed(point).x;
     return vec4(cos(angle_rad), sin(angle_rad), 0.0, 0.0);

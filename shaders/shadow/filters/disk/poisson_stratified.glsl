@@ -1,4 +1,4 @@
-// Other points of the disk at each receiver, one in each of as many rings of equal area as there are taps.
+// Other points of the disk at each receiver, a point in each of as many rings of equal area as there are taps.
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
 

@@ -1,5 +1,5 @@
-// Points of the unit disk, one in each of `count` rings of equal area, in steps of the golden angle; the seed (two shares
-// of 1) moves them within their ring, and turns all. The higher i, the farther out.
+// Points of the unit disk, a point in each of `count` rings of equal area, in steps of the golden angle. The seed (two
+// shares of 1) moves them within their ring, and turns all. The higher i, the farther out.
 const float kTurn_rad = 6.283185307;
 const float kGolden = 0.6180339887;
 

@@ -1,35 +1,29 @@
-// Whether a receiver is certainly lit or certainly dark, by what a texel's sheets say of all of it (docs/exact.md). Bring the
-// light's kind first, with SHADOW_DEPTHS.
+// Whether a receiver is certainly lit or certainly dark, by what the sheets of a texel tell of all of it
+// (docs/exact.md). Requires the light's kind, with SHADOW_DEPTHS.
+#include "common/bindings.glsl"
 #include "shadow/filters/exact/map_position.glsl"
-layout(binding = 7) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles
+layout(binding = kSecondDepthUnit) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles
 
 const float kNoReach = 3.0e38;        // kNoEnd: all the way
 const float kReachUnits = 16.0;       // kStoredUnits, and what a reach is computed by
-const float kMostFloorShare = 0.5;    // of wider texels nothing is said
+const float kMostFloorShare = 0.5;    // share above which a wide texel tells nothing
 const int kCertainlyLit = 0, kCertainlyDark = 1, kUncertain = 2;
 
-// By how much facets that are not drawn may depart from a depth, FlatFacets, as a share of that depth less the far end's; the map of
-// a sun is cleared to it.
+// Returns by how much facets that are not drawn may depart from a depth, as a share of that depth less the far end's:
+// FlatFacets. A sun's map is cleared to it.
 float sheet_floor_share(SheetPlace place) {
-#ifdef LIGHT_DIRECTIONAL
-    return 0.0;
-#else
+    if (kIsSun) return 0.0;
     // Along a walk 1/z changes by no more than this share of itself in half a texel.
     float share = 0.5 * kFloorTangent * max(light.views[place.view].axis_u.w, light.views[place.view].axis_v.w);
     return kDepartureFactor * share * (1.0 + 2.0 * share);
-#endif
 }
 
 float sheet_floor(SheetPlace place, float depth) {
-#ifdef LIGHT_DIRECTIONAL
-    return 0.0;
-#else
-    return sheet_floor_share(place) * (depth - light.views[place.view].numeric.z);
-#endif
+    return kIsSun ? 0.0 : sheet_floor_share(place) * (depth - light.views[place.view].numeric.z);
 }
 
-// `receiver_casts`: the receiver's own surface is among the casters of the map; else the nearest of those, too, may not lie
-// before it.
+// Returns the verdict on a place. `receiver_casts`: the receiver's own surface is among the map's casters. If not, the
+// nearest caster, too, may not lie before it.
 int sheet_verdict(SheetPlace place, bool receiver_casts) {
     if (place.is_open) return kCertainlyLit;
     if (!place.is_known) return kUncertain;
@@ -42,22 +36,23 @@ int sheet_verdict(SheetPlace place, bool receiver_casts) {
     return place.depth - off > max(receiver_casts ? second : first, contour) ? kCertainlyLit : kUncertain;
 }
 
-// How far toward the light anything may stand before a receiver, as a share of that way (a sun: in metres): no farther than what its
-// texel shows, or where a sheet ends there, and what sheets depart by from that.
+// Returns how far toward the light anything may stand before a receiver, as a share of that way (sun: metres). It
+// stands no farther than what its texel shows, or where a sheet ends there, and what sheets depart by from that.
 float sheet_reach(SheetPlace place) {
     if (!place.is_known) return kNoReach;
     vec2 bounds = texelFetch(sheet_bounds, place.texel, 0).xy;
     float shown = max(first_depth(place), bounds.x);
     float rounding = place.error + kRoundings * kReachUnits * kUnitRoundoff * max(shown, place.depth);
-#ifdef LIGHT_DIRECTIONAL
-    float nearest = shown + bounds.y + rounding;
-    float reach = (nearest - place.depth) * light.views[place.view].axis_back.w;
-#else
-    // Of what stands there, not of what is shown: d departs by no more than share * (d - alpha).
-    float share = min(sheet_floor_share(place), kMostFloorShare), alpha = light.views[place.view].numeric.z;
-    float nearest = shown + max(bounds.y, (shown - alpha) * share / (1.0 - share)) + rounding;
-    float reach = share < kMostFloorShare ? (nearest - place.depth + rounding) / (nearest - alpha) : kNoReach;
-#endif
+    float nearest, reach;
+    if (kIsSun) {
+        nearest = shown + bounds.y + rounding;
+        reach = (nearest - place.depth) * light.views[place.view].axis_back.w;
+    } else {
+        // The bound is of what stands there, not of what is shown: d departs by no more than share * (d - alpha).
+        float share = min(sheet_floor_share(place), kMostFloorShare), alpha = light.views[place.view].numeric.z;
+        nearest = shown + max(bounds.y, (shown - alpha) * share / (1.0 - share)) + rounding;
+        reach = share < kMostFloorShare ? (nearest - place.depth + rounding) / (nearest - alpha) : kNoReach;
+    }
     // What lies before the near plane counts as on it.
     return nearest < 1.0 ? max(reach, 0.0) * (1.0 + kRoundings * kReachUnits * kUnitRoundoff) : kNoReach;
 }

@@ -1,31 +1,28 @@
-// Whether a receiver is certainly lit by all of a source with a size, or certainly dark to all of it (docs/exact.md, "A source
-// with a size"). Bring shadow/filters/exact/classify.glsl.
+// Whether a receiver is certainly lit by all of a source with a size, or certainly dark to all of it. See
+// docs/exact.md, "A source with a size". Requires shadow/filters/exact/classify.glsl.
+#include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 #include "shadow/filters/exact/light_cone.glsl"
-layout(std430, binding = 2) readonly buffer SheetEndBuffer { vec2 sheet_ends[]; };
+layout(std430, binding = kPyramidBuffer) readonly buffer SheetEndBuffer { vec2 sheet_ends[]; };
 
 const int kOfLit = 0, kOfDark = 1;   // see ends_of_texel()
-// What the receiver's place, the rasteriser and the texels' own widening may take from a distance across the map, and rounding
-// from a quotient.
+// Largest distance across the map that the receiver's place, the rasteriser and the texels' own widening take; largest
+// share that rounding takes of a quotient.
 const float kConeSlack_texel = 0.05, kConeRounding = 1e-5;
 const int kMostLevels = 8;           // 4^8 texels
-const int kMostSquares = 256;        // of one walk: then rays are as cheap
+const int kMostSquares = 256;        // of one walk; beyond them rays cost no more
 
-// Whether the cone stays in what the map holds, or is beyond it nearer to the light than any caster that is not in the map.
+// Returns whether the cone stays in what the map holds, or leaves it nearer to the light than any caster that the map
+// lacks.
 bool is_held(SheetPlace place, SourceCone cone, float reach_texel) {
-#ifdef SHEETS_WITHOUT_MARGINS
-    return true;
-#endif
+    if (!kHasMargins) return true;
     float size = float(textureSize(sheet_bounds, 0).x);
     vec2 low = place.at_texel, high = size - place.at_texel;
     float aside = min(min(low.x, low.y), min(high.x, high.y)) - place.off_texel - kConeSlack_texel;
-#ifdef LIGHT_DIRECTIONAL
-    return light.moments.x > 0.0 && reach_texel <= min(aside, light.spread.w);
-#else
+    if (kIsSun) return light.moments.x > 0.0 && reach_texel <= min(aside, light.spread.w);
     float leaves = min(place.depth - place.error + max(aside, 0.0) / cone.texels, 1.0);
     float radius_m = light.radiance.w, z_m = cone.alpha_beta.y / (leaves - cone.alpha_beta.x);
     return aside > 0.0 && (z_m + radius_m) * cone.stretch + radius_m < light.moments.y * (1.0 - kConeRounding);
-#endif
 }
 
 vec2 ends_of_leaf(SheetPlace place, SourceCone cone) {
@@ -33,8 +30,9 @@ vec2 ends_of_leaf(SheetPlace place, SourceCone cone) {
     return ends_of_texel(first_depth(place), bounds, cone.texel_tan, cone.alpha_beta.x, cone.steepest);
 }
 
-// Whether no square holds anything of that kind (kOfLit, kOfDark) as near to the light as the cone is above it: from squares that
-// hold all of the cone down to those that do not tell, in the order in which they lie in each other.
+// Returns whether no square holds anything of that kind (kOfLit, kOfDark) as near to the light as the cone is above it.
+// The walk begins with squares that hold all of the cone and ends with squares that decide. It takes them in the order
+// in which they lie in each other.
 bool is_cone_free(SheetPlace place, SourceCone cone, float reach_texel, int kind) {
     int first[kMostLevels + 1], side[kMostLevels + 1];
     first[0] = 0;
@@ -47,7 +45,7 @@ bool is_cone_free(SheetPlace place, SourceCone cone, float reach_texel, int kind
         side[++levels] = next;
     }
     int before = place.texel.z * squares, top = 0;
-    float across = 1.0;   // of a square of that level, in texels
+    float across = 1.0;   // side of a square of that level, texels
     for (; top < levels && across < 2.0 * reach_texel; ++top) across *= float(kEndsAcross);
     ivec2 low = clamp(ivec2(floor((place.at_texel - reach_texel) / across)), ivec2(0), ivec2(side[top] - 1));
     ivec2 high = clamp(ivec2(floor((place.at_texel + reach_texel) / across)), ivec2(0), ivec2(side[top] - 1));

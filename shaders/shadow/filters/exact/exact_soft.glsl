@@ -1,10 +1,11 @@
-// The same for a source with a size: the share of it that is seen, by as many rays as asked for. SHADOW_SHEETS: unless the
-// light's map is certain that it is seen whole or not at all (docs/exact.md, "A source with a size").
+// Shadows of a source with a size: the share of it that is seen, by light.filtering.y rays. SHADOW_SHEETS: where the
+// light's map is not certain that it is seen whole or not at all (docs/exact.md, "A source with a size").
 #include "shadow/filters/exact/shadow_ray.glsl"
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
 
-// Of those rays that leave the surface, along `normal`; the middle's reach says nothing of the others'.
+// Returns the share of rays that reach the light, among rays that leave the surface along `normal`. The middle's reach
+// tells nothing of the others'.
 float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
     dvec3 middle = way_to_light(position_ca);
     vec3 toward = normalize(vec3(middle));
@@ -22,15 +23,17 @@ float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uve
     return rays > 0 ? float(lit) / float(rays) : 0.0;
 }
 
-#ifdef SHADOW_SHEETS
+#if SHADOW_SHEETS
 #include "shadow/filters/exact/classification.glsl"
 #include "shadow/filters/exact/classify_soft.glsl"
 
-// `error_m`: how far position_ca may be off the surface.
+// Returns the map's verdict. `error_m`: how far position_ca may be off the surface.
 int certainty(vec3 position_ca, float error_m, uvec2 receiver) {
     return soft_verdict(sheet_place(position_ca, error_m), position_ca, receiver_casts(receiver));
 }
 
 float uncertain_reach(vec3 position_ca, float error_m) { return kNoEnd; }
+#else
+#include "shadow/filters/exact/no_map.glsl"
 #endif
 #include "shadow/filters/exact/classify_or_trace.glsl"

@@ -1,24 +1,17 @@
-// The cone between a place and a source with a size, as a map shows it: straight lines stay straight there, so that it is one,
-// and widens with depth.
+// Cone between a place and a source with a size, as a map shows it. Straight lines stay straight there: it remains a
+// cone, and widens with depth.
 const float kMostStretch = 2.5;   // C++ twin: systems/shadow/request/occluder_pyramid.h
 struct SourceCone {
     bool is_known;
-    float texels;         // its radius per unit of depth, at most
+    float texels;         // most of its radius per unit of depth
     float stretch;        // how much longer the way is than its part along the view's axis
     float steepest;       // see ends_of_texel()
     float texel_tan;
     vec2 alpha_beta;      // depth = alpha + beta / distance along the axis; of a lamp
 };
 
-#ifdef LIGHT_DIRECTIONAL
-SourceCone source_cone(SheetPlace place, vec3 position_ca) {
-    vec2 texels = sun_source_texel(light.views[place.view]);
-    float most = max(texels.x, texels.y);
-    return SourceCone(true, most, 1.0, 1.0 / most, 0.0, vec2(0.0));
-}
-#else
-// The source faces the place, so that away from the axis its picture is longer toward it by 1 / cos, and its nearer half
-// stands nearer than its middle.
+// Returns the cone to a lamp. The source faces the place. Away from the axis its picture is therefore longer toward it
+// by 1 / cos, and its nearer half stands nearer than its middle.
 SourceCone lamp_cone(ViewRecord view, vec2 tangent, float z_m) {
     float radius_m = light.radiance.w, stretch = sqrt(1.0 + dot(tangent, tangent));
     float nearer = radius_m * sqrt(max(1.0 - 1.0 / (stretch * stretch), 0.0)) / z_m;
@@ -31,18 +24,24 @@ SourceCone lamp_cone(ViewRecord view, vec2 tangent, float z_m) {
 }
 
 #ifdef SHADOW_CUBE
-SourceCone source_cone(SheetPlace place, vec3 position_ca) {
+SourceCone cone_to_lamp(SheetPlace place, vec3 position_ca) {
     ViewRecord view = light.views[0];
     vec3 p = turned_back(position_ca + view.anchor_from_camera.xyz);
     mat3 axes = face_axes(p);
     return lamp_cone(view, vec2(dot(p, axes[0]), dot(p, axes[1])) / largest(p), largest(p));
 }
 #else
-SourceCone source_cone(SheetPlace place, vec3 position_ca) {
+SourceCone cone_to_lamp(SheetPlace place, vec3 position_ca) {
     ViewRecord view = light.views[place.view];
     vec3 p = position_ca + view.anchor_from_camera.xyz;
     float z_m = -dot(p, view.axis_back.xyz);
     return lamp_cone(view, vec2(dot(p, view.axis_u.xyz), dot(p, view.axis_v.xyz)) / z_m, z_m);
 }
 #endif
-#endif
+
+SourceCone source_cone(SheetPlace place, vec3 position_ca) {
+    if (!kIsSun) return cone_to_lamp(place, position_ca);
+    vec2 texels = sun_source_texel(light.views[place.view]);
+    float most = max(texels.x, texels.y);
+    return SourceCone(true, most, 1.0, 1.0 / most, 0.0, vec2(0.0));
+}

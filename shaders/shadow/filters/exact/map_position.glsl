@@ -1,10 +1,12 @@
-// Where in a light's map of sheets a receiver lies, and how far off that may be. Bring the light's kind first, with SHADOW_DEPTHS; its
-// serving_views() says which views to ask. No more of their records is read than that takes: software devices fetch every number of a
-// uniform block anew for each few pixels.
+// Where a receiver lies in a light's map of sheets, and how far off that may be. Requires the light's kind, with
+// SHADOW_DEPTHS; its serving_views() tells which views to read. It reads no more of their records than needed: software
+// devices fetch every number of a uniform block anew for each few pixels.
+#include "common/bindings.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
-layout(binding = 8) uniform sampler2DArray sheet_bounds;   // nearest contour, departure
+layout(binding = kBoundsUnit) uniform sampler2DArray sheet_bounds;   // nearest contour, departure
 
-// How far from its texel's middle a receiver's place may lie: what kTexelHalf has left beside the rasteriser's 2^-8.
+// Farthest that a receiver's place may lie from its texel's middle: what kTexelHalf leaves beside the rasteriser's
+// 2^-8.
 const float kMostAside_texel = 0.508;
 
 struct SheetPlace {
@@ -16,14 +18,12 @@ struct SheetPlace {
     float depth, error;
     vec2 at_texel;   // from the map's corner, and how far off that may be
     float off_texel;
-#ifdef SHADOW_CUBE
-    vec3 direction;  // from the light, turned back
-#endif
+    vec3 direction;  // from the light, turned back; of a cube
 };
 
 float sheet_size() { return float(textureSize(sheet_bounds, 0).x); }
 
-// As far as the middle of its texel tells.
+// Returns the place, known as far as the middle of its texel tells.
 SheetPlace place_of(vec2 place, float error_texel, int view, int layer, float depth, float error) {
     vec2 texel = clamp(floor(place), 0.0, sheet_size() - 1.0);
     vec2 aside = abs(place - texel - 0.5);
@@ -44,7 +44,7 @@ SheetPlace sheet_place(vec3 position_ca, float error_m) {
     ViewRecord view = light.views[0];
     vec3 position_la = position_ca + view.anchor_from_camera.xyz;
     vec3 p = turned_back(position_la);
-    const float kTurnUnits = 20.0;   // the turn, and the faces' own axes and matrices
+    const float kTurnUnits = 20.0;   // rounding of the turn, and of the faces' own axes and matrices
     float off_m = error_m + kUnitRoundoff * (largest(view.anchor_from_camera.xyz) + kTurnUnits * largest(p));
     mat3 axes = face_axes(p);
     float z_m = largest(p);
@@ -60,7 +60,7 @@ SheetPlace sheet_place(vec3 position_ca, float error_m) {
     return place;
 }
 
-// Of the texel's middle.
+// Returns the first depth at the texel's middle.
 float first_depth(SheetPlace place) {
     vec2 tangent = (vec2(place.texel.xy) + 0.5) / sheet_size() * 2.0 - 1.0;
     return textureLod(shadow_map, face_axes(place.direction) * vec3(tangent, -1.0), 0.0).x;
@@ -75,13 +75,13 @@ SheetPlace place_in_view(int i, vec3 position_ca, float error_m) {
     const float kUnits = kProjectedUnits + 2.0;
     vec4 summed = vec4(off_m + kUnits * kUnitRoundoff * abs(p), kUnits * kUnitRoundoff);
     vec4 projected = m * vec4(p, 1.0), off = absolute(m) * summed;
-#ifdef LIGHT_DIRECTIONAL
     bool is_before = true;   // along parallel rays w is 1
     vec3 map = projected.xyz, error = off.xyz;
-#else
-    bool is_before = projected.w > 16.0 * off.w;
-    vec3 map = projected.xyz / projected.w, error = (off.xyz + abs(map) * off.w) / projected.w;
-#endif
+    if (!kIsSun) {
+        is_before = projected.w > 16.0 * off.w;
+        map = projected.xyz / projected.w;
+        error = (off.xyz + abs(map) * off.w) / projected.w;
+    }
     int layer = int(light.views[i].numeric.w);
     SheetPlace place = place_of(map.xy * sheet_size(), max(error.x, error.y) * sheet_size(), i, layer, map.z, error.z);
     place.is_held = is_before && all(lessThanEqual(abs(map - 0.5), 0.5 - kRoundings * error));
@@ -101,6 +101,6 @@ SheetPlace sheet_place(vec3 position_ca, float error_m) {
     return place;
 }
 
-// Of the texel's middle.
+// Returns the first depth at the texel's middle.
 float first_depth(SheetPlace place) { return texelFetch(shadow_map, place.texel, 0).x; }
 #endif

@@ -1,2 +1,2 @@
-// One tap, nearest texel.
+// Hard shadows: one tap, nearest texel.
 float shadow_filter(ShadowPoint point) { return shadow_tap(point, vec2(0.0)); }

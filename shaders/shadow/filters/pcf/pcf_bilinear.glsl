@@ -1,12 +1,12 @@
-// The mean of a square of hardware 2x2 taps a texel apart, in the fewest fetches: n x n such taps weigh n + 1 texels a
-// side, (1 - s) 1 1 ... 1 s, and the sampler's own blend gives any two neighbours any weights (Sigg and Hadwiger 2005).
+// Mean of a square of hardware 2x2 taps a texel apart, in the fewest fetches. n x n such taps weigh n + 1 texels a
+// side, (1 - s) 1 1 ... 1 s. The sampler's own blend gives any two neighbours any weights (Sigg and Hadwiger 2005).
 vec4 filter_setup(ShadowPoint point) { return vec4(fract(shadow_texel(point) - 0.5), 0.0, 0.0); }
 
 int fetches_a_side() { return (light.filtering.x + 1) / 2; }
 
 int filter_taps() { return fetches_a_side() * fetches_a_side(); }
 
-// Offset and weight of fetch j along an axis on which the point lies `share` of a texel past a texel's centre.
+// Returns offset and weight of fetch j along an axis. The point lies `share` of a texel past a texel's centre there.
 vec2 fetch_along(float share, int j) {
     float low = j == 0 ? 1.0 - share : 1.0;
     float high = j == fetches_a_side() - 1 ? share : 1.0;

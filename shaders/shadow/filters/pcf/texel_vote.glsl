@@ -1,15 +1,16 @@
-// Every texel says whether the receiver's plane is lit at its middle: what four around the receiver agree on, and how
-// sixteen vote, near ones outvoting far ones. Reads depths: SHADOW_DEPTHS.
+// Votes of texels: each tells whether the receiver's plane is lit at its middle. What four around the receiver agree
+// on, and how sixteen vote, near ones outvoting far ones. Requires SHADOW_DEPTHS.
 
 // Width of the votes: a bar as wide as a texel just holds half of them, 2 Phi(1 / (2 sigma)) - 1 = 1/2, and is kept.
 const float kVotes_texel = 0.7413;
-// A curved mesh bends between texels: this share of the bend counts for the receiver, by measurement (docs/accuracy.md).
+// Share of a curved mesh's bend between texels that counts for the receiver, by measurement (docs/accuracy.md).
 const float kBendShare = 0.25;
-// The bend is no reason for more than a nearest tap would have allowed for the slope.
+// Most slopes that a bend adds: no more than a nearest tap would have allowed for the slope.
 const float kMostSlope_texel = 0.5;
 
-// Shadowed where what is stored stands above the receiver's plane, and above the receiver too when it is carried on to
-// it by its own slope. The first alone is wrong in creases: there the neighbouring plane runs out below the receiver.
+// Returns 0 where what is stored stands above the receiver's plane, and above the receiver, too, carried on to it by
+// its own slope; else 1. The first condition alone is wrong in creases: there the neighbouring plane runs out below the
+// receiver.
 float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
     vec2 aside = middle - place;
     if (point.reference + dot(point.slope, aside) >= stored) return 1.0;
@@ -20,9 +21,9 @@ float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
     return point.reference + allowed >= stored + dot(rise, abs(aside)) ? 1.0 : 0.0;
 }
 
-// By how much more votes than not say lit, -1 to 1; at the edge 0, rising by 1 over kVotes_texel * sqrt(pi / 2) texels.
-// `rows`: 4, or 0 for none; a loop, because software devices run both sides of an if, all of it, but of
-// a loop that is not needed one round.
+// Returns by how much more votes tell lit than dark, -1 to 1. At the edge it is 0, and it rises by 1 over kVotes_texel
+// * sqrt(pi / 2) texels. `rows`: 4, or 0 for none. It is a loop, because software devices run both sides of an if in
+// full, but no round of a loop that is not needed.
 float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
     float lit = 0.0, all_votes = 0.0;
     for (int y = -2; y < rows - 2; ++y)
@@ -36,7 +37,7 @@ float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
     return all_votes > 0.0 ? (2.0 * lit - all_votes) / all_votes : 0.0;
 }
 
-// The four texels around the receiver, in textureGather's order: (-,+) (+,+) (+,-) (-,-).
+// Four texels around the receiver, in textureGather's order: (-,+) (+,+) (+,-) (-,-).
 struct FourTexels {
     vec2 place, corner;    // the receiver's, and the corner between them
     vec4 stored, plane;    // depth, and the receiver's plane at their middles

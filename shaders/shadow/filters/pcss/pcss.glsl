@@ -1,45 +1,47 @@
-// Shadows as soft as the source is large (percentage-closer soft shadows, Fernando 2005): a search finds how far before the
-// receiver its casters are, so how wide its penumbra; then as wide a disk of taps says how much of the source they hide.
+// Shadows as soft as the source is large (percentage-closer soft shadows, Fernando 2005). A search finds how far before
+// the receiver its casters are, and thus how wide its penumbra is. Then a disk of taps, as wide, tells how much of the
+// source they hide.
 // A texel counts only if what it shows stands above the receiver's plane, and within the cone from the receiver to the
-// source (light_size.glsl): high casters that lie too far aside darken nothing, nor does the wall that the receiver meets.
-// Lengths along the map are held in the depth at which the cone is as wide. Where the penumbra is narrower than a texel
-// votes tell where its middle is; of a source without a size they decide.
+// source (light_size.glsl). High casters that lie too far aside darken nothing, nor does the wall that the receiver
+// meets.
+// Lengths along the map are held in the depth at which the cone is as wide. Where the penumbra is narrower than a
+// texel, votes tell where its middle is. If the source has no size, they decide.
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
 #include "shadow/filters/pcf/texel_vote.glsl"
 
-// Penumbrae of a smaller radius are left to votes, which tell how far away the edge is up to about a texel.
+// Least radius of a penumbra. Narrower ones are left to votes, which tell how far away the edge is up to about a texel.
 const float kLeastPenumbra_texel = 0.75;
-// Where four texels agree, the edge is this far away at least.
+// Least distance of the edge where four texels agree.
 const float kAgreed_texel = 0.5;
-// From votes to texels, see lit_by_sixteen().
+// Texels per vote: see lit_by_sixteen().
 const float kTexelPerVotes = 0.9291;
-// A smooth step is as steep as the share of a disk beside an edge if it is wider than the disk by so much.
+// Width of a smooth step that is as steep as the share of a disk beside an edge, in widths of the disk.
 const float kDiskStep = 1.13;
-// The search looks at all scales alike, since a low caster's cone is a small part of a high one's.
+// Taps of the search per octave: it looks at all scales alike, since a low caster's cone is a small part of a high
+// one's.
 const float kSearchTapsPerOctave = 4.0;
-// From this on, since a penumbra of this radius is as good as none.
+// Least radius of the search: a penumbra of this radius is as good as none.
 const float kLeastSearch_texel = 0.5;
-// Casters whose heights differ by no more than this are one, for which one disk does.
+// Ratio of heights up to which casters are one, for which one disk does.
 const float kSameLayer = 2.0;
-// A caster this many times farther aside than its cone is wide has no edge in the penumbra.
+// Distance aside, in widths of its cone, from which a caster has no edge in the penumbra.
 const float kFarAside = 3.0;
-// What stands at no less than this share of the mean height before the receiver is the caster that the disk is for: it may
-// lean away from the receiver.
+// Least share of the mean height at which a caster counts as the disk's own: it may lean away from the receiver.
 const float kSameCaster = 0.7;
-// Of the disk's taps these come first, the outermost: where all of them are dark, or lit and the search found nothing
-// between them, so are the others.
+// Number of the disk's outermost taps, which come first. Where all of them are dark, or lit and the search found
+// nothing between them, so are the others.
 const int kRimTaps = 8;
 // Taps per texel of the penumbra's radius: the disk has more texels, but a straight edge crosses no more of its rings.
 const float kTapsPerTexel = 4.0;
 
-// Texels from the receiver, at depth 1 of the cone.
+// Returns a place of the disk as texels from the receiver, at depth 1 of the cone.
 vec2 on_map(ShadowPoint point, vec2 disk) {
     float stretch = 1.0 / (source_stretch(point.tangent) + 1.0);
     return point.source_texel * (disk + point.tangent * (dot(point.tangent, disk) * stretch));
 }
 
-// How far, in depth, what is stored there stands before the receiver; 0 where it is not above the receiver's plane.
+// Returns how far, in depth, what is stored there stands before the receiver. 0: it is not above the receiver's plane.
 float stands_before(ShadowPoint point, vec2 place, vec2 offset_texel) {
     vec2 middle = floor(place + offset_texel) + 0.5;
     float stored = shadow_depth(point, middle);
@@ -47,14 +49,15 @@ float stands_before(ShadowPoint point, vec2 place, vec2 offset_texel) {
     return above ? max(stored - point.reference, 0.0) : 0.0;
 }
 
-// Casters of two heights, since a low one's shadow is sharp also where a high one's is not. In the order they are found.
+// Casters of two heights, in the order in which they are found: a low one's shadow is sharp also where a high one's is
+// not.
 struct Casters {
-    vec2 before;    // mean distance before the receiver, in depth; those whose cones hold the receiver count most
+    vec2 before;    // mean distance before the receiver, in depth; casters with the receiver in their cones count most
     vec2 weights;   // 0: there is none
     float aside;    // of the nearest, in radii of its own cone
 };
 
-// `reach`: the widest cone, in depth; `octaves`: from penumbrae that votes decide up to it.
+// Finds the casters. `reach`: the widest cone, in depth. `octaves`: from penumbrae that votes decide up to it.
 Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, float octaves) {
     Casters found;
     found.before = found.weights = vec2(0.0);
@@ -76,8 +79,8 @@ Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, floa
     return found;
 }
 
-// How much of the source is seen past the casters that stand `before` the receiver: the disk's radius, in depth. Those that
-// stand less than `from` do not count; what stands `to` or more hides what is below.
+// Returns how much of the source is seen past the casters that stand `before` the receiver: the disk's radius, in
+// depth. Casters that stand less than `from` do not count. What stands `to` or more hides what is below.
 float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float before, float from, float to, bool clear_inside) {
     float lit = 0.0;
     float known = 0.0;
@@ -92,7 +95,7 @@ float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float befo
     return known > 0.0 ? lit / known : 1.0;
 }
 
-// A penumbra around the edge that sixteen texels vote for. Unless `asked`, the cheaper of both.
+// Returns a penumbra around the edge that sixteen texels vote for. If not `asked`, it may leave the votes out.
 float lit_by_votes(ShadowPoint point, float radius_texel, bool asked) {
     FourTexels four = four_texels(point);
     bool agreed = (four.all_lit || four.all_dark) && radius_texel < kAgreed_texel;
@@ -115,9 +118,7 @@ float shadow_filter(ShadowPoint point) {
     float split = two ? sqrt(found.before.x * found.before.y) : 0.0;
     float radius_texel = min(found.before.x, reach) * texels;
     bool narrow = !two && radius_texel < kLeastPenumbra_texel;
-#ifdef SHADOW_SHOWN
     blurred_texel = min(max(found.before.x, found.before.y), reach) * source_stretch(point.tangent) * point.source_texel;
-#endif
     float lit = lit_by_votes(point, radius_texel, narrow);
     if (!narrow) lit = 1.0;
     for (int layer = 0; layer < (narrow ? 0 : (two ? 2 : 1)); ++layer) {

@@ -1,5 +1,5 @@
-// The same of exponentially warped distances: what lies far behind the nearest caster counts the less
-// (Lauritzen and McCool 2008). Prefiltered: SHADOW_MOMENTS.
+// Variance shadow map of exponentially warped distances: what lies far behind the nearest caster counts the less
+// (Lauritzen and McCool 2008).
 #include "shadow/passes/prefilter/chebyshev.glsl"
 #include "shadow/passes/prefilter/exponential_warp.glsl"
 

@@ -1,11 +1,10 @@
-// Moment shadow map: of all distributions with the four stored moments, the one that darkens the receiver least (Peters and
-// Klein 2015). It has three places, one of them the receiver's; this finds the other two and what they weigh.
-// Prefiltered: SHADOW_MOMENTS.
+// Moment shadow map: the distribution with the four stored moments that darkens the receiver least (Peters and Klein
+// 2015). It has three places: the receiver's and two others. This finds the two and what they weigh.
 
 #include "common/float_rounding.glsl"
 
-// Powers of s in [-1,1]. In 16 bits, settings.w = 1, they are stored in combinations that fill [0,1] and lose less by rounding
-// (the same paper).
+// Powers of s in [-1,1]. In 16 bits, settings.w = 1, they are stored in combinations that fill [0,1] and lose less by
+// rounding (the same paper).
 const float kRoot3 = 1.7320508;
 
 vec4 packed_moments(vec4 b) {
@@ -23,10 +22,12 @@ vec4 moments_of(float share, vec4 settings) {
     return settings.w > 0.0 ? packed_moments(powers) : powers;
 }
 
-// Those of a distribution that is nowhere single (1 / (pi sqrt(1 - s^2))): a share of it makes rounded moments possible ones.
+// Moments of a distribution that is nowhere single (1 / (pi sqrt(1 - s^2))): a share of them makes rounded moments
+// possible ones.
 const vec4 kSpreadMoments = vec4(0.0, 0.5, 0.0, 0.375);
 
-// Polynomial c.x + c.y s + c.z s^2 of which E[p q] = q(place) for every polynomial q of degree 2 (Cholesky, of the Hankel matrix).
+// Returns the polynomial c.x + c.y s + c.z s^2 with E[p q] = q(place) for every polynomial q of degree 2 (Cholesky, of
+// the Hankel matrix).
 vec3 kernel_at(float place, vec4 b) {
     float d1 = max(b.y - b.x * b.x, 1e-12);
     float l21 = (b.z - b.x * b.y) / d1;
@@ -37,7 +38,7 @@ vec3 kernel_at(float place, vec4 b) {
     return vec3(1.0 - b.x * c1 - b.y * y2, c1, y2);
 }
 
-// The two places where it is 0, the lesser first; far away instead of infinitely far.
+// The next function returns the two places where the polynomial is 0, the lesser first. kFar stands for infinitely far.
 const float kFar = 1e4;
 const float kLeastWeight = 1e-6;   // what weighs less lies anywhere
 vec2 roots(vec3 c) {
@@ -48,20 +49,21 @@ vec2 roots(vec3 c) {
     return vec2(min(one, other), max(one, other));
 }
 
-// Nothing was drawn where all is stored at the far end, but for rounding: of the blur's weights, half a unit each of 31 of them
-// and of their sums, twice; or of 16 bits, half a step of the first and third number, twice. What lies so near to the far
-// end is told apart by none of them.
+// Value of the first moment from which nothing was drawn: all is stored at the far end, up to rounding. In 32 bits
+// rounding is half a unit of each of 31 weights of the blur and of their sums, twice. In 16 bits it is half a step of
+// the first and third number, twice. What lies so near to the far end cannot be told apart.
 const float kEmpty = 1.0 - 128.0 * kUnitRoundoff, kEmpty16 = 1.0 - 1.0 / 16384.0;
 bool shows_nothing(vec4 b, vec4 settings) { return b.x >= (settings.w > 0.0 ? kEmpty16 : kEmpty); }
 
-// x: how much of what is stored lies before the share, at least; y: where, on average; the share itself, if nothing does.
+// Returns x: least share of what is stored that lies before `share`; y: where it lies on average, or `share` if nothing
+// does.
 vec2 moments_before(vec4 moments, float share, vec4 settings) {
     vec4 stored = settings.w > 0.0 ? unpacked_moments(moments) : moments;
     if (shows_nothing(stored, settings)) return vec2(0.0, share);
     vec4 b = mix(stored, kSpreadMoments, settings.z);
     float place = 2.0 * share - 1.0;
     vec3 c = kernel_at(place, b);
-    float own = clamp(1.0 / (c.x + place * (c.y + place * c.z)), 0.0, 1.0);   // what the receiver's place weighs
+    float own = clamp(1.0 / (c.x + place * (c.y + place * c.z)), 0.0, 1.0);   // weight of the receiver's place
     vec2 other = roots(c);
     if (place <= other.x) return vec2(0.0, share);
     float others = b.x - own * place;

@@ -1,29 +1,26 @@
-// Shadows as soft as the source is large, out of moments.glsl's map: its mipmaps are what a search looks at and what a
-// penumbra is read from (after Yang et al. 2010 and Peters et al. 2016). Each level tells how much of a region lies before
-// the receiver, and how far before it: casters whose cone is about as wide as the region are those that hide the source.
-// Without a size it is moments.glsl. Prefiltered: SHADOW_MOMENTS, and SHADOW_FOOTPRINT with a size.
+// Shadows as soft as the source is large, out of moments.glsl's map. Its mipmaps serve the search, and the penumbra is
+// read from them (after Yang et al. 2010 and Peters et al. 2016). Each level tells how much of a region lies before the
+// receiver, and how far before it. Casters with a cone about as wide as the region are the ones that hide the source.
+// Without a size it is moments.glsl. With a size it requires SHADOW_FOOTPRINT.
 #include "shadow/filters/prefiltered/moments.glsl"
 
-#ifdef SHADOW_MOMENTS
+#ifndef PREFILTER_PASS   // the pass that prefilters maps has no receivers
 #define SHADOW_SOFT_MOMENTS 1
 
 float lit_by_footprint(ShadowPoint point) { return moments_lit(shadow_moments(point), shadow_share(point), light.moments); }
 
-#ifndef SHADOW_FOOTPRINT
-float lit_by_moments(ShadowPoint point) { return lit_by_footprint(point); }
-#else
-// What the sampler blends of a level varies by a quarter of its texel's square, each way: 1/12 within the texel, 1/6 from
-// texel to texel. So does a disk whose radius that texel is; the blur of the map itself adds as much as one of this radius,
-// squared.
+// Square of the radius of the disk that varies as much as the blur of the map itself. What the sampler blends of a
+// level varies by a quarter of its texel's square, each way. 1/12 comes from within the texel, 1/6 from texel to texel.
+// So does a disk with that texel as its radius.
 const float kBlur_texel2 = 1.47;
 // Texels of its own that a lookup in a level reads to each side.
 const float kLevelReach = 1.5;
-// What is taken for dark makes penumbrae narrower; the disk that is read is wider by this per share of light.
+// Growth of the disk that is read, per share of light that counts as dark: that makes penumbrae narrower.
 const float kWiderPerBleeding = 1.25;
 
 float reach_of_level(float level) { return kLevelReach * exp2(ceil(level)) + 1.0; }
 
-// moments_before() the point. Nothing lies before what its bias takes to the range's near end.
+// Returns moments_before() of the point. Nothing lies before what its bias takes to the range's near end.
 vec2 stored_before(ShadowPoint point, vec4 moments) {
     float share = shadow_share(point);
     return share > 0.0 ? moments_before(moments, share, light.moments) : vec2(0.0);
@@ -31,8 +28,8 @@ vec2 stored_before(ShadowPoint point, vec4 moments) {
 
 float level_of_disk(float radius_texel) { return 0.5 * log2(max(radius_texel * radius_texel - kBlur_texel2, 1.0)); }
 
-// How far before the receiver its casters stand, in depth; 0: there are none. cone_texel: texels that a cone is wide, per
-// unit of that; reach_texel: of the widest cone.
+// Returns how far before the receiver its casters stand, in depth. 0: there are none. cone_texel: width of a cone,
+// texels per unit of depth. reach_texel: of the widest cone.
 float casters_before(ShadowPoint point, float cone_texel, float reach_texel) {
     float weights = 0.0, sum = 0.0;
     int level = 0;
@@ -49,8 +46,8 @@ float casters_before(ShadowPoint point, float cone_texel, float reach_texel) {
     return weights > 0.0 ? sum / weights : 0.0;
 }
 
-// Over an ellipse of these radii along u and v: four lookups, a level finer than one of that width, since what one sees
-// moves with its texels' borders.
+// Returns the light over an ellipse of these radii along u and v: four lookups, a level finer than one of that width.
+// What a single lookup sees would move with its texels' borders.
 float lit_by_disk(ShadowPoint point, vec2 radius_texel) {
     float narrow = level_of_disk(min(radius_texel.x, radius_texel.y)), wide = level_of_disk(max(radius_texel.x, radius_texel.y));
     float level = min(narrow, max(wide - 1.0, 0.0));
@@ -68,16 +65,13 @@ float lit_by_disk(ShadowPoint point, vec2 radius_texel) {
 }
 
 float lit_by_moments(ShadowPoint point) {
-    if (light.radiance.w == 0.0) return lit_by_footprint(point);   // mipmaps are for the pixel's footprint
+    if (!kFootprint || light.radiance.w == 0.0) return lit_by_footprint(point);   // mipmaps, if any, serve the pixel's footprint
     point.slope = shadow_slope(point, point.normal);
     vec2 cone_texel = point.source_texel * source_stretch(point.tangent);
     float reach_texel = source_reach_texel(point.source_texel, point.tangent, point.reference);
     float before = casters_before(point, sqrt(cone_texel.x * cone_texel.y), reach_texel);
     vec2 radius_texel = min(before * cone_texel, reach_texel);
-#ifdef SHADOW_SHOWN
     blurred_texel = radius_texel;
-#endif
     return lit_by_disk(point, radius_texel * (1.0 + kWiderPerBleeding * light.moment_sampling.x));
 }
-#endif
 #endif

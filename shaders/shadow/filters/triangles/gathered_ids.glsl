@@ -1,4 +1,5 @@
-// What four texels show, in textureGather's order: (-,+) (+,+) (+,-) (-,-). See shadow/filters/triangles/mesh_walk.glsl.
+// Triangles that four texels show, in textureGather's order: (-,+) (+,+) (+,-) (-,-). See
+// shadow/filters/triangles/mesh_walk.glsl.
 struct FourTriangles {
     uvec4 instance, triangle;
 };

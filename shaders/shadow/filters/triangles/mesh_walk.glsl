@@ -1,24 +1,22 @@
-// Whether a triangle that a texel shows, or one beside it in its mesh, stands between a receiver and its light: the casters'
-// own corners decide, so that no texel's size enters. RAY_MASKS: some of them are masked.
+// Whether a triangle that a texel shows, or a neighbour of it in its mesh, stands between a receiver and its light. The
+// casters' own corners decide: no texel's size enters. RAY_MASKS names the file that reads their masks.
 #include "common/float_rounding.glsl"
 #include "common/instances.glsl"
 #include "common/view_vector.glsl"
 #include "shadow/filters/triangles/triangle_buffer.glsl"
 #include "shadow/lookup/light_vector.glsl"
-#ifdef RAY_MASKS
-#include "ray_tracing/alpha_mask.glsl"
-#endif
+#include RAY_MASKS
 
 const uint kNoTriangle = 0xffffffffu, kMaskedTriangle = 0xfffffffeu;
-const uint kNowhere = 0xfffffffdu;   // where a walk that begins has come from
+const uint kNowhere = 0xfffffffdu;   // the triangle before the first of a walk
 const int kPasses = 0, kBlocked = 1, kUnknown = 2;
-// A texel's triangle and the one above the receiver are neighbours, or few apart: meshes finer than texels are voted on. Half as
-// many again beyond the first fold.
+// Most steps of a walk, and from its second fold on. A texel's triangle and the one above the receiver are neighbours,
+// or few apart. Meshes finer than texels are voted on. Half as many again beyond the first fold.
 const int kMostSteps = 16, kMostStepsBeyond = 8;
-// Where a sheet ends its mesh goes on: a ledge has an underside, and below that stands the next ledge, narrower perhaps than a texel.
-// Two of them, one below the other, are four folds.
+// Most folds of a walk. Where a sheet ends its mesh goes on: a ledge has an underside, and below that stands the next
+// ledge, narrower perhaps than a texel. Two ledges, one below the other, are four folds.
 const int kMostFolds = 4;
-const float kLeastSide_m = 1e-30;   // of a triangle whose corners are one
+const float kLeastSide_m = 1e-30;   // of a triangle with all corners in one place
 // Rounding of a difference, a cross product and a dot product, with their sums.
 const float kPlaneRounding = 12.0 * kUnitRoundoff;
 
@@ -26,54 +24,42 @@ vec3 corner_ca(InstanceRecord instance, vec3 position_ms) {
     return position_from_anchor(instance, position_ms, camera.anchor_high.xyz, camera.anchor_low.xyz);
 }
 
-// A place is rebuilt along the view. Where its surface is seen aslant, it is farther off in that direction, and thus from the planes of
-// others, than error_m off its own: beside a crease it may lie behind what it meets there.
+// Returns how far off a place may be along the view, metres. A place is rebuilt along the view. Where its surface is
+// seen aslant, it is farther off in that direction than error_m, and thus from the planes of others. Beside a crease it
+// may lie behind what it meets there.
 float error_along_view_m(vec3 position_ca, vec3 normal, float error_m) {
     return error_m / max(abs(dot(normal, normalize(to_camera(position_ca)))), kNormalError_rad);
 }
 
-#ifdef RAY_MASKS
-// Area of a mask's texels on a triangle, twice.
-float mask_area_texel2(RayMask mask, uint uvs) {
-    vec2 size = vec2(mask.width, mask.height), corner = mask_uv(uvs);
-    vec2 ab = size * (mask_uv(uvs + 2u) - corner), ac = size * (mask_uv(uvs + 4u) - corner);
-    return abs(ab.x * ac.y - ab.y * ac.x);
-}
-
-// Whether what the mask leaves of a triangle is as wide as the map's texels, on the average. Else it lies between texels as often as
-// under them, and a test of the triangles that these show would lose it; what the nearest texel says has the right share of it.
-// `area_m2`: the triangle's across the ray, twice.
-bool is_resolved(CasterTriangle t, float area_m2, float texel_m2) {
-    RayMask mask = ray_mask(t.across_bc);
-    return mask.texels == kNoMaskTexture || mask_area_texel2(mask, t.across_ca) * texel_m2 <= mask.chord_texel * mask.chord_texel * area_m2;
-}
-
-// Of a masked triangle before the receiver. It has no sheet to walk: what lies beside it shows in other texels.
+// Returns the verdict on a masked triangle before the receiver. It has no sheet to walk: what lies beside it shows in
+// other texels.
 int masked_verdict(CasterTriangle t, vec3 inside, float area_m2, float texel_m2) {
-    if (!is_resolved(t, area_m2, texel_m2)) return kUnknown;
+    if (!is_resolved(t.across_bc, t.across_ca, area_m2, texel_m2)) return kUnknown;
     if (min(inside.x, min(inside.y, inside.z)) < 0.0) return kPasses;
     vec3 weights = vec3(inside.y, inside.z, inside.x) / (inside.x + inside.y + inside.z);
     return is_there(t.across_bc, t.across_ca, weights) ? kBlocked : kPasses;
 }
-#endif
 
-// One of four triangles that texels show, by its bit.
+// Returns the triangle of the lowest bit, out of four that texels show.
 uvec2 shown_at(FourTriangles shown, int bits) {
     int i = (bits & 1) != 0 ? 0 : ((bits & 2) != 0 ? 1 : ((bits & 4) != 0 ? 2 : 3));
     return uvec2(shown.instance[i], shown.triangle[i]);
 }
 
-// Of those of `shown` whose bits are in `left`, one after the other. Starts at the triangle that a texel shows and walks the
-// mesh toward the receiver's ray. Where it faces the light the other way from there on, the surface folds back, away from the ray: the
-// walk goes on over the edge that is nearest to the ray, a few folds far, since what comes next may turn toward it again. At a boundary
-// the mesh is over, and the ray passes it. Where the ray meets a triangle, it is blocked if the receiver lies behind that plane, by more
-// than rounding or by what the camera sees of it, and no mask cuts it out there: whatever way a walk takes, what it finds stands between
-// receiver and light. `texel`: the map's, metres, or tangents from a lamp. kUnknown: some walk came to no end before any fold, and none
-// was blocked.
-// One loop for all steps of all walks: neighbouring pixels go in step, and none then waits for another's walk to end before its next.
+// Returns the verdict on the triangles of `shown` with bits in `left`, one after the other.
+// A walk starts at the triangle that a texel shows and goes through the mesh toward the receiver's ray. Where a
+// triangle faces the light the other way, the surface folds back, away from the ray. The walk then goes on over the
+// edge nearest to the ray, a few folds far, since what comes next may turn toward it again. At a boundary the mesh is
+// over, and the ray passes it.
+// Where the ray meets a triangle, it is blocked if the receiver lies behind that plane and no mask cuts it out there.
+// It lies behind by more than rounding, or by what the camera sees of it. Whatever way a walk takes, what it finds
+// stands between receiver and light.
+// `texel`: sides of the map's texel, metres, or tangents from a lamp. kUnknown: some walk came to no end before any
+// fold, and none was blocked.
+// One loop takes all steps of all walks. Neighbouring pixels go in step: no walk stands still until another's ends.
 int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca), view = to_camera(position_ca);
-    bool shows = dot(receiver_normal, view) > 0.0;   // to the camera: what asks of other places has nothing to tell sides by
+    bool shows = dot(receiver_normal, view) > 0.0;   // to the camera: a receiver elsewhere cannot tell sides by it
     bool blocked = false, unknown = false;
     uvec2 at = shown_at(shown, left);   // instance, triangle
     uint came_from = kNowhere;
@@ -91,28 +77,30 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         vec3 normal = cross(ab, ac);
         vec3 to_light = toward_light(a_ca);
         vec3 sides = max(vec3(length(ab), length(c - b), length(ac)), vec3(kLeastSide_m));
-        // Without, as what a node flattens, it faces nowhere: the walk crosses it as it came.
+        // Without area, as what a node flattens, it faces nowhere: the walk crosses it as it came.
         bool has_area = length(normal) > kPlaneRounding * max(sides.x, max(sides.y, sides.z)) * length(a);
         float faces = has_area ? dot(normal, to_light) : facing;
         float side = faces < 0.0 ? -1.0 : 1.0;
         // Above 0: the ray passes on the inner side of the edge.
         vec3 inside = side * vec3(dot(ray, cross(a, b)), dot(ray, cross(b, c)), dot(ray, cross(c, a)));
         uvec3 across = uvec3(t.across_ab, t.across_bc, t.across_ca);
-        vec3 ways = inside / sides;   // how far beside each edge, in lengths of `ray`
+        vec3 ways = inside / sides;   // distance beside each edge, in lengths of `ray`
         const float kBack = 3.0e38;
         ways = vec3(across.x == came_from ? kBack : ways.x, across.y == came_from ? kBack : ways.y, across.z == came_from ? kBack : ways.z);
         float way = min(ways.x, min(ways.y, ways.z));
         uint next = ways.x == way ? across.x : (ways.y == way ? across.y : across.z);
         bool turns = facing * faces < 0.0;
         folds += turns ? 1 : 0;
-        // The edge it came over is none to ask about again, where the ray passes beyond it: rounding might say otherwise.
+        // The edge that the walk came over does not decide again, where the ray passes beyond it: rounding might decide
+        // otherwise.
         bool met = has_area && way >= 0.0 && ((toward && !turns) || min(inside.x, min(inside.y, inside.z)) >= 0.0);
         float behind = side * dot(normal, a);
         float rounding = error_m * length(normal) + kPlaneRounding * sides.x * sides.z * length(a);
         steps = turns && folds == 1 ? 1 : steps + 1;
         int verdict = kUnknown;
-        // Behind its plane by less than rounding: so it is if that is the side that the camera sees, since the receiver shows. Unless all
-        // of the triangle lies below the receiver's own plane, as what a silhouette hides.
+        // A receiver behind the plane by less than rounding lies behind it if the camera sees that side, since the
+        // receiver shows. The exception is a triangle that lies wholly below the receiver's own plane, as what a
+        // silhouette hides.
         bool averted = shows && faces * dot(normal, view) < 0.0;
         float above = max(dot(receiver_normal, a), max(dot(receiver_normal, b), dot(receiver_normal, c)));
         bool darkens = behind > rounding || (behind > 0.0 && averted && above > error_m);
@@ -120,12 +108,10 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         else if (met) verdict = darkens ? kBlocked : kPasses;
         else if (next == kNoTriangle || (steps == kMostStepsBeyond && folds > 0)) verdict = kPasses;
         bool ends = verdict != kUnknown || at.y == kNoTriangle || steps == kMostSteps;
-#ifdef RAY_MASKS
-        if (t.across_ab == kMaskedTriangle) {
+        if (kHasMasks && t.across_ab == kMaskedTriangle) {
             verdict = behind > rounding ? masked_verdict(t, inside, abs(dot(normal, ray)) / length(ray), texel_area_m2(texel, to_light)) : kPasses;
             ends = true;
         }
-#endif
         if (at.y == kNoTriangle) verdict = kUnknown;
         blocked = verdict == kBlocked;
         unknown = unknown || (ends && verdict == kUnknown);

@@ -1,7 +1,8 @@
-// The casters' triangles, read as texels for what common/instance_buffer.glsl says. bench/glsl_on_cpu/overrides has a twin of this file, for what
-// is compiled as C++.
+// The casters' triangles, read as texels for the reason in common/instance_buffer.glsl. bench/glsl_on_cpu/overrides has
+// a twin of this file for text that is compiled as C++.
+#include "common/bindings.glsl"
 #include "shadow/filters/triangles/triangle_record.glsl"
-layout(binding = 9) uniform usamplerBuffer caster_triangles;    // a corner and what lies across each
+layout(binding = kCasterTriangleUnit) uniform usamplerBuffer caster_triangles;    // a corner and what lies across each
 
 CasterTriangle caster_triangle(uint triangle) {
     int texel = 3 * int(triangle);

@@ -1,5 +1,5 @@
-// C++ twin: CasterTriangle in systems/extract/caster_triangles.h. `across`: the triangle beyond the edge that starts at a
-// corner; of a masked one kMaskedTriangle, and the words of its mask and of its texture coordinates.
+// C++ twin: CasterTriangle in systems/extract/caster_triangles.h. `across`: the triangle beyond the edge that starts at
+// a corner. A masked triangle has kMaskedTriangle, the word of its mask and the word of its texture coordinates.
 struct CasterTriangle {
     vec3 a;
     uint across_ab;

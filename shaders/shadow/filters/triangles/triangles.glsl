@@ -1,16 +1,16 @@
-// Edges of the casters themselves: where four texels do not agree, the triangles that they show are tested against the ray
-// from the receiver to the light, and the masks of those that are masked. Where a test comes to no end (meshes finer than the
-// walk, leaves finer than texels), the nearest texel decides.
+// Edges of the casters themselves. Where four texels do not agree, the triangles that they show are tested against the
+// ray from the receiver to the light, with their masks. Where a test comes to no end (meshes finer than the walk,
+// leaves finer than texels), the nearest texel decides.
 #include "shadow/filters/pcf/texel_vote.glsl"
 #include "shadow/filters/triangles/mesh_walk.glsl"
 
-// A texel that shows the receiver's own surface is off the receiver's plane by less than this, in slopes per texel, to either side: a
-// curved mesh bends. What lies farther below the plane, but above the receiver, is another surface, before which a plane that the
-// light grazes has come to lie within part of a texel. By measurement (docs/filters.md): with a tenth Sponza has twice the errors, with
-// less its cloth asks for as much time again as walks over folds do.
+// Distance from the receiver's plane, in slopes per texel, up to which a texel shows the receiver's own surface: a
+// curved mesh bends. What lies farther below the plane, but above the receiver, is another surface. Within part of a
+// texel it lies behind a plane that the light grazes. The value is measured (docs/filters.md): a tenth doubles the
+// errors of Sponza; with less, its cloth takes as much time again as walks over folds do.
 const float kOwnSurface_texel = 0.05;
 
-// Which of the four may show what darkens the receiver.
+// Returns which of the four may show what darkens the receiver.
 bvec4 may_darken(ShadowPoint point, FourTexels four) {
     vec4 below = four.plane - four.stored;
     float own = kOwnSurface_texel * (abs(point.slope.x) + abs(point.slope.y));
@@ -19,7 +19,7 @@ bvec4 may_darken(ShadowPoint point, FourTexels four) {
     return other;
 }
 
-// Each triangle once: a bit for the first texel that shows it, of those that may darken and show any.
+// Returns a bit for the first texel that shows each triangle, among texels that may darken and show any.
 int different(FourTexels four, bvec4 may, FourTriangles shown) {
     int bits = 0;
     for (int i = 0; i < 4; ++i) {
@@ -32,23 +32,27 @@ int different(FourTexels four, bvec4 may, FourTriangles shown) {
 }
 
 #ifdef LEAVE_UNDECIDED
-// Set where texels do not agree, while the first draw of lighting/lights/light.frag asks.
+// true where texels do not agree, in the first draw of lighting/lights/light.frag.
 bool shadow_undecided = false;
-#endif
 
-// Loops, because software devices run both sides of an if, all of it, but of a loop that is not needed one round; and what is tested
-// is found first, because they take as many rounds as the slowest of neighbouring pixels.
+float shadow_filter(ShadowPoint point) {
+    FourTexels four = four_texels(point);
+    bool lit = !any(may_darken(point, four));
+    shadow_undecided = shadow_undecided || !(lit || four.all_dark);
+    return lit ? 1.0 : 0.0;
+}
+#else
+// Returns 1 where the receiver is lit, else 0. It has loops, because software devices run both sides of an if in full,
+// but no round of a loop that is not needed. What is tested is found first, because loops take as many rounds as the
+// slowest of neighbouring pixels.
 float shadow_filter(ShadowPoint point) {
     FourTexels four = four_texels(point);
     bvec4 may = may_darken(point, four);
     bool lit = !any(may);
-#ifdef LEAVE_UNDECIDED
-    shadow_undecided = shadow_undecided || !(lit || four.all_dark);
-    return lit ? 1.0 : 0.0;
-#endif
+    float error_m = error_along_view_m(point.position_ca, point.normal, point.error_m);
     for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
         FourTriangles shown = shadow_triangles_around(point, four.corner);
-        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.normal, point.error_m, shadow_texel_sides(point));
+        int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.normal, error_m, shadow_texel_sides(point));
         bool unknown = verdict == kUnknown;
         lit = verdict != kBlocked;
         for (int votes = unknown && lit ? 1 : 0; votes > 0; --votes) {
@@ -58,3 +62,4 @@ float shadow_filter(ShadowPoint point) {
     }
     return lit ? 1.0 : 0.0;
 }
+#endif

@@ -1,35 +1,35 @@
-// The smallest offset that keeps a plane from shadowing itself, in closed form, per projection.
-// Derivation and sources: docs/bias.md. Reversed depth: an offset toward the light adds.
+// Smallest offset that keeps a plane from shadowing itself, in closed form, per projection. Derivation and sources:
+// docs/bias.md. Depth is reversed: an offset toward the light adds.
 #include "common/float_rounding.glsl"
 
-// Above this slope the offset moves the receiver along its normal instead of along the light: bounded where
-// the tangent is not. Both shift a plane equally; they differ at contacts (depth) and at silhouettes (normal).
+// Slope above which the offset moves the receiver along its normal instead of along the light: bounded where the
+// tangent is not. Both shift a plane equally. They differ at contacts (depth) and at silhouettes (normal).
 const float kSteepTangent = 4.0;
 
-// Reversed perspective depth in D32F: half a quantum (1u of depth) and the projection's rounding (6u).
+// Error of reversed perspective depth in D32F, relative: half a quantum (1u of depth) and the projection's rounding
+// (6u).
 const float kRelativeRounding = 7.0 * kUnitRoundoff;
 
-// Of that growth: beyond it a texel is half as wide as the receiver is far, and nothing is told apart.
+// Largest share by which a texel's growth counts. Beyond it a texel is half as wide as the receiver is far, and nothing
+// is told apart.
 const float kMostGrowth = 0.5;
 
 struct Bias {
-    float along_normal_m;   // move the receiver by this much along its normal first
-    float depth;            // then add this to its reversed depth
+    float along_normal_m;   // distance that the receiver is moved along its normal first, metres
+    float depth;            // what is then added to its reversed depth
 };
 
-#ifdef SHADOW_DEPTHS
-// How far off its plane a receiver seems to a filter that carries the plane to the texels around it, up to a texel away along
-// u and v: by as much as its normal is off. lateral: |n_u|, |n_v|; cosine: of the angle between normal and light.
+// Returns how far off its plane a receiver seems to a filter that carries the plane to the texels around it, metres.
+// They lie up to a texel away along u and v. The normal's own error is the cause. lateral: |n_u|, |n_v|; cosine: of the
+// angle between normal and light.
 float carried_error_m(vec2 texel_m, vec2 lateral, float cosine) {
     float least_cosine = max(cosine - kNormalError_rad, kNormalError_rad);
     return kNormalError_rad * dot(texel_m, 1.0 + (lateral + kNormalError_rad) / least_cosine);
 }
-#endif
 
-#if defined(SHADOW_DEPTHS) || defined(SHADOW_MANUAL_BIAS) || defined(SHADOW_FOOTPRINT)
-// What of the offset rounding and snapping need: as much everywhere on the plane, where the rest is a share of the depth.
+// Returns the part of the offset that rounding and snapping need. It is the same everywhere on the plane; the rest is a
+// share of the depth.
 float plane_lift(ViewRecord view, vec2 slope) { return view.numeric.x + kRasterSnap_texel * (abs(slope.x) + abs(slope.y)); }
-#endif
 
 // Tests take a share of an offset, to show that less is not enough.
 #ifdef SHADOW_BIAS_SHARE
@@ -38,7 +38,8 @@ Bias taken(Bias bias) { return Bias(SHADOW_BIAS_SHARE * bias.along_normal_m, SHA
 Bias taken(Bias bias) { return bias; }
 #endif
 
-// n_map: normal in the map's axes (u, v, toward the light). error_m: how far the receiver may be off its plane.
+// Returns the bias in an orthographic map. n_map: normal in the map's axes (u, v, toward the light). error_m: how far
+// the receiver may be off its plane.
 Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float error_m) {
     vec2 texel_m = vec2(view.axis_u.w, view.axis_v.w);
     vec2 lateral = abs(n_map.xy) + kNormalError_rad;
@@ -52,10 +53,12 @@ Bias orthographic_bias(ViewRecord view, vec3 n_map, float reach_texel, float err
     return taken(bias);
 }
 
-// Perspective depth d = alpha + beta / z is affine in the map's coordinates on any plane, so the slope term is exact.
-// position: from the light, in the map's axes (u, v, toward the light); its -z is the distance along the axis.
-// tangents: |n_map.xy|, or a bound on them where the footprint reaches a neighbouring face. leaving: how much farther along
-// the face's axis a metre along the normal takes the receiver, 0 if nearer; its texel grows with it.
+// Returns the bias in a perspective map. Depth alpha + beta / z is affine in the map's coordinates on any plane, so the
+// slope term is exact.
+// position_map: from the light, in the map's axes (u, v, toward the light); its -z is the distance along the axis.
+// tangents: |n_map.xy|, or a bound on them where the footprint reaches a neighbouring face.
+// leaving: how much farther along the face's axis a metre along the normal takes the receiver, 0 if nearer. Its texel
+// grows with it.
 Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving, vec3 position_map, float reach_texel,
                       float error_m) {
     vec2 texel_tan = vec2(view.axis_u.w, view.axis_v.w);
@@ -64,7 +67,8 @@ Bias perspective_bias(ViewRecord view, vec3 n_map, vec2 tangents, float leaving,
     float spread = (reach_texel + kRasterSnap_texel) * dot(lateral, texel_tan);
     float across_m = spread * z_m + error_m;
     float distance_m = length(position_map);
-    // Least distance of the light from the true plane: the receiver's own passes error_m farther from it at most.
+    // Least distance of the light from the true plane: its distance from the receiver's own plane exceeds that by
+    // error_m at most.
     float plane_m = -dot(n_map, position_map) - kNormalError_rad * distance_m - error_m;
     bool steep = !(sqrt(max(distance_m * distance_m - plane_m * plane_m, 0.0)) <= kSteepTangent * plane_m);
     float beta = view.axis_back.w;

@@ -1,13 +1,13 @@
-// The smallest offset that keeps a plane from shadowing itself in an orthographic map that is warped across the light:
-// depth is h / (range * w), h metres toward the light from the anchor, w = 1 + dot(gradient, position).
-// Derivation: docs/bias.md.
+// Smallest offset that keeps a plane from shadowing itself in an orthographic map that is warped across the light.
+// Depth is h / (range * w): h metres toward the light from the anchor, w = 1 + dot(gradient, position). Derivation:
+// docs/bias.md.
 
-// A row of the map's matrix: its entries, products and sums.
+// Error of a row of the map's matrix, relative: its entries, products and sums.
 const float kRowRounding = 4.0 * kUnitRoundoff;
-// Coordinates in the map, of its whole side: as it is drawn and as it is looked up.
+// Error of coordinates in the map, as a share of its side: as it is drawn and as it is looked up.
 const float kMapRounding = 12.0 * kUnitRoundoff;
 
-// A move along the normal changes w; where it would by more than half of itself, the offset goes along the light.
+// Largest change of w by a move along the normal. Where it would be larger, the offset goes along the light.
 const float kMostMove = 0.5;
 
 vec3 warp_gradient(ViewRecord view) {
@@ -18,8 +18,8 @@ float warp_at(ViewRecord view, vec3 position_la) { return 1.0 + dot(warp_gradien
 
 float cascade_range_m(ViewRecord view, vec3 position_la) { return view.axis_back.w * warp_at(view, position_la); }
 
-// Depth is affine in the map's coordinates on any plane, so the slope term is exact: per texel it changes by
-// (n.u + (gradient.u) D) * texel / (n.z * range), D being how far the anchor lies from the plane.
+// Returns the bias in a warped map. Depth is affine in the map's coordinates on any plane, so the slope term is exact.
+// Per texel it changes by (n.u + (gradient.u) D) * texel / (n.z * range). D: distance of the anchor from the plane.
 Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, float reach_texel, float error_m) {
     vec3 gradient = warp_gradient(view);
     float w = warp_at(view, position_la);
@@ -32,7 +32,7 @@ Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, fl
     float across_m = footprint_texel * dot(slope, vec2(view.axis_u.w, view.axis_v.w)) + (error_m + distance_m * w_error) / w;
 
     float cosine = n_map.z - kNormalError_rad;
-    float move = across_m * dot(gradient, normal);   // of the anchor's w
+    float move = across_m * dot(gradient, normal);   // change of the anchor's w
     bool steep = !(length(abs(n_map.xy) + kNormalError_rad) <= kSteepTangent * cosine) && abs(move) <= kMostMove;
     float range_m = view.axis_back.w;
     float depth = dot(view.axis_back.xyz, position_la) / (range_m * w);

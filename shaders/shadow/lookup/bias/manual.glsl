@@ -1,5 +1,5 @@
-// Offsets that a user chooses instead of the automatic one, to compare with: SHADOW_MANUAL_BIAS. One function per mode of
-// BiasMode (components/light_shadow.h), and a line in manual_bias(). docs/bias.md says what each means and comes from.
+// Offsets that a user chooses instead of the automatic one, to compare with it. One function per mode of BiasMode
+// (components/light_shadow.h), and a line in manual_bias(). docs/bias.md tells what each means and its source.
 const int kConstantBias = 1;
 const int kSlopeBias = 2;
 const int kNormalOffsetBias = 3;
@@ -10,9 +10,9 @@ const int kTutorialTangentBias = 7;
 
 struct BiasPlace {
     float cosine;        // of the angle between the receiver's normal and the way to the light
-    float texel_m;       // longer side of a texel, across the light at the receiver
+    float texel_m;       // longer side of a texel, across the light at the receiver, metres
     float depth_per_m;   // reversed depth per metre toward the light
-    float distance_m;    // from a point light; 0: a flat map
+    float distance_m;    // from a point light, metres; 0: a flat map
     float beta_over_z;   // that part of a perspective depth
 };
 
@@ -21,20 +21,20 @@ BiasPlace orthographic_place(ViewRecord view, float cosine, float range_m) {
     return BiasPlace(cosine, max(view.axis_u.w, view.axis_v.w) * w, 1.0 / range_m, 0.0, 0.0);
 }
 
-// position: from the light; z_m: its distance along the view's axis.
+// Returns the place of a receiver in a perspective map. position: from the light; z_m: its part along the view's axis.
 BiasPlace perspective_place(ViewRecord view, vec3 normal, vec3 position, float z_m) {
     float cosine = -dot(normal, position) / length(position), beta = view.axis_back.w;
     return BiasPlace(cosine, max(view.axis_u.w, view.axis_v.w) * z_m, beta / (z_m * z_m), 0.0, beta / z_m);
 }
 
 float incidence_sine(BiasPlace at) { return sqrt(max(1.0 - at.cosine * at.cosine, 0.0)); }
-// Bounded by what a normal is known to.
+// Returns the tangent of the angle of incidence, bounded by the normal's own error.
 float incidence_tangent(BiasPlace at) { return incidence_sine(at) / max(at.cosine, kNormalError_rad); }
 
 float constant_depth(BiasPlace at) { return light.bias.x * at.depth_per_m; }
 
-// What the tutorials call a bias of `amount`: of a flat map's whole depth range as it is stored, but of a cube, where
-// they store distances, metres toward the light.
+// Returns what the tutorials call a bias of `amount`: a share of a flat map's whole depth range as it is stored; in a
+// cube, where they store distances, metres toward the light.
 Bias tutorial_bias(BiasPlace at, float amount) {
     if (at.distance_m == 0.0) return Bias(0.0, amount);
     return Bias(0.0, at.beta_over_z * amount / max(at.distance_m - amount, kUnitRoundoff * at.distance_m));
@@ -50,10 +50,10 @@ Bias normal_offset_bias(BiasPlace at) {
     return Bias(light.bias.z * at.texel_m * incidence_sine(at), constant_depth(at));
 }
 
-// The rest is done where taps are compared: see receiver_plane_margin().
+// Returns the constant part; receiver_plane_margin() adds the rest where taps are compared.
 Bias receiver_plane_bias(BiasPlace at) { return Bias(0.0, constant_depth(at)); }
 
-// LearnOpenGL's two, and opengl-tutorial's.
+// Returns LearnOpenGL's first bias. The next two functions return its second one and opengl-tutorial's.
 Bias tutorial_constant_bias(BiasPlace at) { return tutorial_bias(at, 0.005); }
 
 Bias tutorial_cosine_bias(BiasPlace at) { return tutorial_bias(at, max(0.05 * (1.0 - at.cosine), 0.005)); }
@@ -75,8 +75,9 @@ Bias manual_bias(BiasPlace at) {
     return constant_bias(at);
 }
 
-// A tap is compared with the receiver's plane where the tap lies (Isidoro 2006), but the texel it reads has its middle
-// elsewhere: bias_texel texels of the plane's slope (reversed depth per texel) are added to all.
+// Returns whether a tap is compared with the receiver's plane where the tap lies (Isidoro 2006). The texel that it
+// reads has its middle elsewhere. So bias_texel texels of the plane's slope (reversed depth per texel) are added to all
+// taps.
 bool compares_on_plane() { return light.options.y == kReceiverPlaneBias; }
 
 float receiver_plane_margin(vec2 slope) { return light.bias.z * (abs(slope.x) + abs(slope.y)); }

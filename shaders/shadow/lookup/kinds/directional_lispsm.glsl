@@ -1,3 +1,4 @@
-// Directional light whose maps are warped: cascades as ever, another bias.
-#define SHADOW_WARPED
-#include "shadow/lookup/kinds/directional.glsl"
+// Directional light with warped maps: the same cascades, another bias.
+#include "shadow/lookup/kinds/map_2d.glsl"
+#include "shadow/lookup/bias/lispsm.glsl"
+#include "shadow/lookup/kinds/cascades.glsl"

@@ -1,13 +1,14 @@
-// What passes over sheets pull: a triangle or an edge, as it is projected, and how far rounding may have taken it.
-// C++ twin: SheetItem in systems/shadow/exact/bounds_items.h.
+// Items that passes over sheets pull: a triangle or an edge, as it is projected, and how far rounding may have taken
+// it. C++ twin: SheetItem in systems/shadow/exact/bounds_items.h.
+#include "common/bindings.glsl"
 #include "common/position_error.glsl"
 #include "shadow/passes/depth/depth_view_block.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
 struct SheetItem {
     uint instance, a, b, c;   // vertices of the common buffer
 };
-layout(binding = 12) uniform usamplerBuffer sheet_items;
-layout(binding = 13) uniform usamplerBuffer scene_vertices;   // two texels each, position first
+layout(binding = kBoundsItemUnit) uniform usamplerBuffer sheet_items;
+layout(binding = kBoundsVertexUnit) uniform usamplerBuffer scene_vertices;   // two texels each, position first
 
 SheetItem sheet_item(int place) {
     uvec4 item = texelFetch(sheet_items, place);
@@ -30,26 +31,27 @@ Corner corner_of(InstanceRecord instance, uint vertex) {
 
 float map_size() { return depth_view.anchor_high.w; }
 
-// In texels; for w > 0 alone.
+// Returns a place's texels from the corner of the map; for w > 0 alone.
 vec2 in_texels(vec4 place) { return (place.xy / place.w * 0.5 + 0.5) * map_size(); }
 
-// How far from there it may be.
+// Returns how far from there the place may be, texels.
 float moved_texel(vec4 place, vec4 error) {
     vec2 ndc = abs(place.xy / place.w);
     return (max(error.x, error.y) + max(ndc.x, ndc.y) * error.w) / place.w * 0.5 * map_size();
 }
 
-// Beyond its own rounding before the light.
+// Returns whether a corner lies before the light, by more than its own rounding.
 bool is_before_light(Corner c) { return c.place.w > 16.0 * c.error.w && c.place.w > 0.0; }
 
 // AS_POINTS: a point over each item, instead of a quad.
 #ifdef AS_POINTS
-const int kVertices = 1;
+const bool kAsPoints = true;
 #else
-const int kVertices = 6;
+const bool kAsPoints = false;
 #endif
+const int kVertices = kAsPoints ? 1 : 6;
 
-// A corner of a quad's two triangles: (-1, -1) to (1, 1).
+// Returns a corner of a quad's two triangles: (-1, -1) to (1, 1).
 vec2 quad_corner(int vertex) {
     int corner = vertex % 6;
     return vec2(corner == 1 || corner == 3 || corner == 4 ? 1.0 : -1.0, corner == 2 || corner == 4 || corner == 5 ? 1.0 : -1.0);
@@ -57,16 +59,15 @@ vec2 quad_corner(int vertex) {
 
 vec4 at_texel(vec2 texel) { return vec4(texel / map_size() * 2.0 - 1.0, 0.5, 1.0); }
 
-// A quad's corner, or the middle of the point that covers all between two corners of the map.
+// Returns a quad's corner; or the middle of the point that covers all between two corners of the map, and sets its
+// size.
 vec4 box_at(vec2 from, vec2 to, vec2 corner) {
-#ifdef AS_POINTS
-    const float kSnapped_texel = 0.02;   // the middle is snapped, to 2^-8 and to a float of the map's size, and so may the sides be
+    if (!kAsPoints) return at_texel(mix(from, to, corner * 0.5 + 0.5));
+    const float kSnapped_texel = 0.02;   // the middle is snapped, to 2^-8 and to a float of the map's size, and so may
+                                         // the sides be
     from = clamp(from, 0.0, map_size());
     to = clamp(to, 0.0, map_size());
     gl_PointSize = max(to.x - from.x, to.y - from.y) + kSnapped_texel;
     return at_texel(0.5 * (from + to));
-#else
-    return at_texel(mix(from, to, corner * 0.5 + 0.5));
-#endif
 }
 vec4 nowhere() { return vec4(2.0, 2.0, 0.5, 1.0); }

@@ -1,11 +1,12 @@
-// Of the texels that a triangle overlaps: by how much it departs there from its depth in the middle; MASKED: how near it comes.
+// Departure of a triangle from its depth in the middle of each texel that it overlaps. MASKED: how near it comes there.
 #include "shadow/passes/depth/depth_view_block.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
 flat in vec4 edge_ab, edge_bc, edge_ca, depth_plane, inverse_w, box_texel, errors;
 flat in float nearest;
 layout(location = 0) out vec2 bounds_out;   // nearest contour, departure
 
-// Separating axes of the texel's square and the triangle: its edges; the square's own are box_texel.
+// Returns whether an edge of the triangle leaves the texel's square on its inner side. The triangle's edges are its
+// separating axes; the square's own are box_texel.
 bool is_inside(vec4 edge, float side, vec3 middle, float half_side) {
     return side * dot(edge.xyz, middle) + half_side * (abs(edge.x) + abs(edge.y)) + edge.w >= 0.0;
 }

@@ -1,8 +1,8 @@
-// A quad over every texel that a triangle may overlap.
-// Triangles that reach behind the light get the whole map; their fragments find out (Olano and Greer 1997: edges as planes
-// through the eye need no clipping).
+// Quad over every texel that a triangle may overlap. Triangles that reach behind the light get the whole map; their
+// fragments decide (Olano and Greer 1997: edges as planes through the eye need no clipping).
 #include "shadow/passes/bounds/bounds_item.glsl"
-flat out vec4 edge_ab, edge_bc, edge_ca;   // xyz: at least -w where (x, y, 1) lies on its inner side; of device coordinates
+flat out vec4 edge_ab, edge_bc, edge_ca;   // xyz: at least -w where (x, y, 1) lies on the inner side; of device
+                                           // coordinates
 flat out vec4 depth_plane;                 // xyz: depth at (x, y, 1); w: how far off that may be
 flat out vec4 inverse_w;                   // the same of 1 / w
 flat out vec4 box_texel;
@@ -11,8 +11,8 @@ flat out float nearest;                    // depth of the nearest corner
 
 const vec3 kAlong = vec3(1.0);
 
-vec3 crossed(vec3 a, vec3 b) { return a.yzx * b.zxy + a.zxy * b.yzx; }   // of sizes: a bound of a cross product
-// How far a cross product and a determinant may be off, each vector by its error.
+vec3 crossed(vec3 a, vec3 b) { return a.yzx * b.zxy + a.zxy * b.yzx; }   // of absolute values: a bound of a cross product
+// Returns how far a cross product may be off, each vector by its error. det_error() does so of a determinant.
 vec3 cross_error(vec3 a, vec3 ea, vec3 b, vec3 eb) {
     vec3 most = crossed(a + ea, b + eb);
     return most - crossed(a, b) + kRoundings * 8.0 * kUnitRoundoff * most;
@@ -23,7 +23,7 @@ float det_error(vec3 a, vec3 ea, vec3 b, vec3 eb, vec3 c, vec3 ec) {
 }
 
 struct Rows {
-    vec4 a, ab, ac;      // of clip space: a corner, and the others from there
+    vec4 a, ab, ac;      // in clip space: a corner, and the others from there
     vec4 ea, eab, eac;
 };
 
@@ -53,7 +53,7 @@ bool is_outside(Corner a, Corner b, Corner c) {
            all(greaterThan(y - w, vec3(slack.y))) || all(greaterThan(-y - w, vec3(slack.y)));
 }
 
-// The smaller of the box along the map's axes and that along the longest side.
+// Returns a corner of the smaller box: along the map's axes, or along the longest side.
 vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
     float size = map_size();
     box_texel = vec4(vec2(-size), vec2(2.0 * size));
@@ -64,10 +64,10 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
     float moved = max(moved_texel(a.place, a.error), max(moved_texel(b.place, b.error), moved_texel(c.place, c.error)));
     float reach = moved + kRoundings * 4.0 * kUnitRoundoff * most;
     box_texel = vec4(low - (kTexelHalf + reach), high + (kTexelHalf + reach));
-    const float kBoxSlack = 0.014, kSlantedSlack = 0.02;   // by which a quad is larger than it need be: it is snapped, too
+    const float kBoxSlack = 0.014, kSlantedSlack = 0.02;   // by which a quad is larger than needed: it is snapped, too
     vec2 from = clamp(box_texel.xy - kBoxSlack, 0.0, size), to = clamp(box_texel.zw + kBoxSlack, 0.0, size);
     if (any(greaterThanEqual(from, to))) return nowhere();
-#ifndef AS_POINTS
+    if (kAsPoints) return box_at(from, to, corner);
     vec2 side = q - p;
     if (dot(r - q, r - q) > dot(side, side)) side = r - q;
     if (dot(p - r, p - r) > dot(side, side)) side = p - r;
@@ -84,7 +84,6 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
             return at_texel(along * at.x + across * at.y);
         }
     }
-#endif
     return box_at(from, to, corner);
 }
 
@@ -95,9 +94,7 @@ void main() {
     gl_Position = nowhere();
     edge_ab = edge_bc = edge_ca = depth_plane = inverse_w = box_texel = errors = vec4(0.0);
     nearest = 0.0;
-#ifdef AS_POINTS
-    gl_PointSize = 1.0;
-#endif
+    if (kAsPoints) gl_PointSize = 1.0;
     if (is_outside(a, b, c)) return;
     gl_Position = covering(a, b, c, quad_corner(gl_VertexID));
     vec4 error = max(a.error, max(b.error, c.error));

@@ -1,4 +1,4 @@
-// Of the texels that an edge crosses: how near it comes there (Liang and Barsky 1984).
+// How near an edge comes in each texel that it crosses (Liang and Barsky 1984).
 flat in vec4 ends_texel;
 flat in vec2 end_depths;
 flat in float half_texel;

@@ -1,10 +1,11 @@
-// A quad over every texel that an edge may cross.
+// Quad over every texel that an edge may cross.
 #include "shadow/passes/bounds/bounds_item.glsl"
 flat out vec4 ends_texel;
 flat out vec2 end_depths;    // no farther than they are
 flat out float half_texel;   // half of a texel's side, and what rounding may have moved the edge by
 
-// Shares of the way from a to b between which it runs before the map, or two texels beside it.
+// Finds the shares of the way from a to b between which it runs before the map, or two texels beside it. false:
+// nowhere.
 bool clipped(vec4 a, vec4 b, inout vec2 part) {
     float beyond = 1.0 + 4.0 / map_size();
     vec4 from = vec4(a.x, -a.x, a.y, -a.y) + beyond * a.w, to = vec4(b.x, -b.x, b.y, -b.y) + beyond * b.w;
@@ -17,12 +18,12 @@ bool clipped(vec4 a, vec4 b, inout vec2 part) {
     return part.x <= part.y;
 }
 
-// The smaller of the box along the map's axes and that along the edge.
+// Returns a corner of the smaller box: along the map's axes, or along the edge.
 vec4 covering(vec2 p, vec2 q, float half_side, vec2 corner) {
     const float kSlack = 0.02;   // the quad is snapped, too
     float pad = half_side + kSlack, slanted_pad = 1.4142136 * half_side + kSlack;
     vec2 low = min(p, q) - pad, high = max(p, q) + pad;
-#ifndef AS_POINTS
+    if (kAsPoints) return box_at(low, high, corner);
     vec2 side = q - p;
     float length_texel = length(side);
     vec2 straight = high - low;
@@ -31,7 +32,6 @@ vec4 covering(vec2 p, vec2 q, float half_side, vec2 corner) {
         vec2 along = side / length_texel, across = vec2(-along.y, along.x);
         return at_texel(0.5 * (p + q) + along * (0.5 * corner.x * slanted.x) + across * (0.5 * corner.y * slanted.y));
     }
-#endif
     return box_at(low, high, corner);
 }
 
@@ -43,9 +43,7 @@ void main() {
     vec4 error = max(a.error, b.error) + kRoundings * rounded;
     vec2 corner = quad_corner(gl_VertexID);
     gl_Position = nowhere();
-#ifdef AS_POINTS
-    gl_PointSize = 1.0;
-#endif
+    if (kAsPoints) gl_PointSize = 1.0;
     ends_texel = vec4(0.0);
     end_depths = vec2(0.0);
     half_texel = 0.0;

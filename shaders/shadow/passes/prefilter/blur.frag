@@ -1,6 +1,7 @@
 // Second pass: blurs along v what the first one left in the scratch texture.
+#include "common/bindings.glsl"
 #include "shadow/passes/prefilter/prefilter_block.glsl"
-layout(binding = 0) uniform sampler2D scratch;
+layout(binding = kPrefilterSourceUnit) uniform sampler2D scratch;
 layout(location = 0) out vec4 moments_out;
 
 void main() {

@@ -1,9 +1,9 @@
-// What a pixel covers of the receiver's plane, and so of a prefiltered map (SHADOW_FOOTPRINT): derivatives that a neighbouring
-// pixel's surface, cascade or loop cannot spoil. CameraBlock comes with row.glsl: an include that one row's condition hides
-// would be missing in another, as each file is taken once.
+// Part of the receiver's plane that a pixel covers, and so of a prefiltered map. Its derivatives cannot be spoilt by a
+// neighbouring pixel's surface, cascade or loop. Requires CameraBlock.
 #include "common/float_rounding.glsl"
 
-// How far the plane's point moves as the pixel moves by one. across: camera.right or camera.up; pixels: of the picture along it.
+// Returns how far the plane's point moves as the pixel moves by one, metres. across: camera.right or camera.up; pixels:
+// of the picture along it.
 vec3 pixel_step(vec4 across, float pixels, vec3 position_ca, vec3 normal) {
     bool orthographic = camera.back.w != 0.0;
     vec3 ray = orthographic ? -camera.back.xyz : position_ca;
@@ -18,5 +18,5 @@ vec3 pixel_step(vec4 across, float pixels, vec3 position_ca, vec3 normal) {
 vec3 step_right(vec3 position_ca, vec3 normal) { return pixel_step(camera.right, camera.unproject.z, position_ca, normal); }
 vec3 step_up(vec3 position_ca, vec3 normal) { return pixel_step(camera.up, camera.unproject.w, position_ca, normal); }
 
-// No more than the bias and the map's border are for.
+// Limits a step to what the bias and the map's border serve.
 vec2 shortened(vec2 step_texel) { return step_texel * min(1.0, light.moment_sampling.y / max(length(step_texel), 1e-30)); }

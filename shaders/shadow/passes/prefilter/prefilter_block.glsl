@@ -1,8 +1,11 @@
-// C++ twin: MomentRecord in systems/shadow/moment_passes.h.
-layout(std140, binding = 0) uniform MomentBlock {
+// C++ twin: MomentRecord in systems/shadow/passes/prefilter_pass.h.
+#include "common/bindings.glsl"
+layout(std140, binding = kPrefilterBlock) uniform MomentBlock {
     vec4 settings;     // the filter's
-    vec4 range;        // perspective maps: x: alpha, y: beta (shadow/lookup/bias/automatic.glsl), z: nearest distance, w: 1 / (farthest - nearest)
-    ivec4 place;       // x: layer or face; y: texels to each side that are blurred; z: rows of the scratch texture beyond each border of the map; w: bit per face that was drawn
+    vec4 range;        // perspective maps: x: alpha, y: beta (shadow/lookup/bias/automatic.glsl), z: nearest distance,
+                       // metres, w: 1 / (farthest - nearest)
+    ivec4 place;       // x: layer or face; y: texels to each side that are blurred; z: rows of the scratch texture
+                       // beyond each border of the map; w: a bit per face that was drawn
     vec4 axis_u;       // xyz: of a cube's face
     vec4 axis_v;
     vec4 axis_back;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -58,46 +59,72 @@ ProgramRow full_row() {
 /// Rows' names that lines of C++ spell in quotes.
 Names spelt_in(const std::string& code) { return found(code, "\"(SHADOW\\w*|RAY_MASKS)\\b"); }
 
-TEST(ProgramRow, EachOfItsFlagsIsADefineOfItsOwn) {
-    const Names least = names_of(program_defines(shadowed_row()));
+/// What every shader says in code, without comments.
+std::string shader_code() {
+    std::string code;
+    for (const gl::ShaderFile& file : shader_files()) code += std::string(file.text) + "\n";
+    return std::regex_replace(code, std::regex("//[^\\n]*"), "");
+}
+
+TEST(ProgramRow, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
+    const std::vector<std::string> least = program_defines(shadowed_row());
     for (bool ProgramRow::*flag : {&ProgramRow::fades, &ProgramRow::depths, &ProgramRow::manual_bias,
                                    &ProgramRow::triangles, &ProgramRow::sheets, &ProgramRow::moments, &ProgramRow::rays,
                                    &ProgramRow::ray_masks, &ProgramRow::footprint}) {
         ProgramRow row = shadowed_row();
         row.*flag = true;
-        EXPECT_EQ(program_defines(row).size(), least.size() + 1);
+        EXPECT_NE(program_defines(row), least);
+        EXPECT_EQ(names_of(program_defines(row)), names_of(least));
     }
-    EXPECT_EQ(program_defines(full_row()).size(), least.size() + 9);
-    EXPECT_THAT(names_of(program_defines(ProgramRow{"LIGHT_POINT", {}, {}})), ::testing::ElementsAre("LIGHT_POINT"));
+    EXPECT_EQ(names_of(program_defines(ProgramRow{"LIGHT_POINT", {}, {}})), names_of(least));
+}
+
+TEST(ProgramRow, TheKindIsTheOnlyOneThatIsSet) {
+    EXPECT_THAT(program_defines(ProgramRow{"LIGHT_POINT", {}, {}}),
+                ::testing::IsSupersetOf({"LIGHT_DIRECTIONAL 0", "LIGHT_SPOT 0", "LIGHT_POINT 1"}));
+}
+
+TEST(ProgramRow, EveryFileThatADefineNamesIsThere) {
+    std::size_t files = 0;
+    for (const bool rays : {false, true})
+        for (bool ProgramRow::*reading : {&ProgramRow::fades, &ProgramRow::depths, &ProgramRow::triangles,
+                                          &ProgramRow::moments, &ProgramRow::footprint, &ProgramRow::ray_masks}) {
+            ProgramRow row = shadowed_row();
+            row.rays = rays;
+            row.*reading = true;
+            for (const std::string& define : program_defines(row))
+                for (const std::string& path : found(define, "\"([^\"]*)\"")) {
+                    ++files;
+                    EXPECT_TRUE(std::ranges::any_of(shader_files(), [&](const gl::ShaderFile& file) {
+                        return file.path == path;
+                    })) << path;
+                }
+        }
+    EXPECT_EQ(files, 2u * 6u * 4u);
 }
 
 /// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,
 /// and what tests of the bias take away.
 TEST(ProgramRow, NoShaderAsksForAnythingThatNobodyDefines) {
-    std::string all;
-    for (const gl::ShaderFile& file : shader_files()) all += std::string(file.text) + "\n";
-    std::string conditions;
-    const std::regex condition("#\\s*(?:ifdef|ifndef|if|elif)\\b([^\\n]*)");
-    for (std::sregex_iterator m(all.begin(), all.end(), condition), end; m != end; ++m)
-        conditions += std::string((*m)[1]) + "\n";
-    const Names asked = found(conditions, "\\b(SHADOW\\w*|RAY_MASKS)\\b");
-    const Names own = found(all, "#\\s*define\\s+(SHADOW\\w*)");
-    const Names passes{"SHADOW_FOUND", "SHADOW_SHOWN", "SHADOW_BIAS_SHARE"},
-        rows = names_of(program_defines(full_row()));
+    const std::string code = shader_code();
+    const Names asked = found(code, "\\b(SHADOW_[A-Z_]+|RAY_MASKS)\\b");
+    const Names own = found(code, "#\\s*define\\s+(SHADOW_\\w*)");
+    const Names passes{"SHADOW_SHOWN", "SHADOW_BIAS_SHARE"}, rows = names_of(program_defines(full_row()));
     ASSERT_GT(asked.size(), rows.size() / 2);
     for (const std::string& name : asked)
         EXPECT_TRUE(rows.contains(name) || own.contains(name) || passes.contains(name)) << name;
     for (const std::string& name : rows)
-        if (name.starts_with("SHADOW_") && name != "SHADOW_REACH_TEXEL") {
+        if (!name.starts_with("LIGHT_")) {
             EXPECT_THAT(asked, Contains(name));
         }
 }
 
 TEST(ProgramRow, TheGuideNamesEveryDefine) {
     const std::string guide = text_of(test::source_folder() / kGuide);
-    const Names table = found(guide, "\\n\\| `[^|]*`?(SHADOW\\w*|RAY_MASKS)` \\|");
-    Names wanted = names_of(program_defines(full_row()));
-    wanted.erase("LIGHT_SPOT");
+    const Names table = found(guide, "\n\\| `[^|]*`?(SHADOW\\w*|RAY_MASKS)` \\|");
+    Names wanted;
+    for (const std::string& name : names_of(program_defines(full_row())))
+        if (!name.starts_with("LIGHT_")) wanted.insert(name);
     EXPECT_EQ(table, wanted);
 }
 
@@ -105,7 +132,7 @@ TEST(ProgramRow, TheGuideNamesEveryDefine) {
 TEST(ProgramRow, NoOtherCodeSpellsThem) {
     const std::filesystem::path root = test::source_folder();
     EXPECT_FALSE(spelt_in(text_of(root / "systems/shadow/frame/shader_key.cpp")).empty()) << "what is looked for is found";
-    const Names passes{"SHADOW_FOUND", "SHADOW_SHOWN"};
+    const Names passes{"SHADOW_SHOWN"};
     std::size_t files = 0;
     for (const char* part : {"systems", "sample_game", "tests/install_consumer", "docs"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(root / part)) {
@@ -123,6 +150,10 @@ TEST(ProgramRow, NoOtherCodeSpellsThem) {
 TEST(ProgramRow, NamesItsFilesAndTheCameraWhereTheyReadIt) {
     EXPECT_EQ(row_glsl(ProgramRow{"LIGHT_POINT", "shadow/lookup/kinds/point.glsl", {}}), "");
     EXPECT_EQ(row_glsl(shadowed_row()), "#include \"shadow/lookup/kinds/spot.glsl\"\n#include \"shadow/filters/pcf/hard.glsl\"\n");
+    ProgramRow prefiltered = shadowed_row();
+    prefiltered.moments = true;
+    EXPECT_EQ(row_glsl(prefiltered),
+              row_glsl(shadowed_row()) + "#include \"shadow/filters/prefiltered/without_bleeding.glsl\"\n");
     EXPECT_EQ(row_glsl(full_row()).find("#include \"common/camera_block.glsl\"\n"), 0u);
 }
 

@@ -1,0 +1,13 @@
+// One light over its screen rectangle: its visibility alone. VISIBLE_SHARE: as in light.frag.
+#include "lighting/gbuffer/gbuffer_read.glsl"
+#include "row.glsl"
+#include "shadow/lookup/light_block.glsl"
+#include "shadow/lookup/visibility.glsl"
+#include VISIBLE_SHARE
+layout(location = 0) out float visibility_out;
+
+void main() {
+    Surface surface = read_surface(ivec2(gl_FragCoord.xy));
+    if (!surface.exists) discard;
+    visibility_out = visible_share(surface, light_at(surface.position_ca));
+}
