@@ -158,27 +158,33 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
         std::any_of(requests.begin(), requests.end(), [](const ShadowRequest& r) { return r.skip == Reason::none; });
     if (any && !samplers_ready(requests))
         for (LightStatus& status : f.statuses) status.skip(Reason::sampler_failed);
+    finish("request");
 
     lamp_places_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
     select_sets(scene, {requests, f.lamps_ws_m}, storage_.sets, f.sets, accounts);
     dim_lights_.leave_out(scene, gpu, f.sets, f.statuses);
+    finish("culling");
 
     const bool shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
     fit_views(scene, {requests, f.sets, f.lamps_ws_m, history_, f.moving, shared_out}, storage_, f.fitted,
               f.next_history, accounts);
     count_quiet_frames(scene, f.fitted, history_, shared_out, f.next_history);
+    finish("fitting");
 
     if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
     budget_.decide(scene, gpu, {f.requests, f.sets, f.fitted, history_, waiting_bytes_}, f.next_history, f.decisions,
                    accounts);
     provide_triangles(gpu, f.fitted, f.statuses);
     provide_rays(scene, gpu, lacked && !rays_lack_, out.list);
+    finish("budget");
 
     maps_.set_limit(budget_.limits().bytes);
     maps_.assign(scene, f.fitted, f.decisions, f.maps, accounts);
+    finish("maps");
     plan_updates(scene, gpu, {f.fitted, f.decisions, f.maps, budget_.draw_allowance()}, maps_, due_, f.updates);
     const DrawnViews views = drawn_views(f);
     budget_.note_changes(scene, views, f.next_history);
+    finish("update");
 
     const PassInputs passes{scene, gpu, views};
     recorder_.prepare(passes, accounts);
@@ -189,10 +195,17 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
     const bool masked = static_cast<bool>(gpu.caster_masks());
     publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked}, f.inputs,
                    f.cpu_us);
+    finish("publish");
+
     recorder_.record(passes, out);
     sheets_.record(passes, out);
     ends_.record(passes, out);
     moments_.record(passes, out);
+    finish("passes");
+}
+
+void ShadowSystem::finish(std::string_view stage) const {
+    if (watch_) watch_(stage, frame_);
 }
 
 bool ShadowSystem::wants_sampled_depths(const SceneSnapshot& scene) const {

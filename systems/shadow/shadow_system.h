@@ -1,6 +1,9 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/gl/device.h"
@@ -29,7 +32,10 @@
 
 namespace gnomon::shadow {
 
-/// Seven stages, in order, and what outlives a frame. Owns its device objects.
+/// Called after each stage, with its name and the frame as it is then.
+using StageWatch = std::function<void(std::string_view stage, const ShadowFrame& frame)>;
+
+/// Runs the stages of a frame in order, and holds what outlives it. Owns its device objects.
 class ShadowSystem {
 public:
     /// `held_fits`: what the fits go on from, if an earlier system's context was lost.
@@ -56,6 +62,9 @@ public:
     /// Whether any light places its splits by the picture's depths (CascadeSplits::sampled), after update().
     bool wants_sampled_depths(const SceneSnapshot& scene) const;
 
+    /// Sets who watches the stages, for tests and tools. Empty: nobody.
+    void watch_stages(StageWatch watch) { watch_ = std::move(watch); }
+
     const visibility::RayScene& rays() const { return rays_; }
     const MapStore& maps() const { return maps_; }
     /// See MapStore::set_spare().
@@ -65,6 +74,7 @@ public:
 
 private:
     void run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out);
+    void finish(std::string_view stage) const;
     bool is_settled(const SceneSnapshot& scene) const;
     bool samplers_ready(std::span<const ShadowRequest> requests);
     bool moment_sampler_ready(const PrefilterSettings& settings);
@@ -94,6 +104,7 @@ private:
     History history_;
     CasterMotion motion_;
     StillFrame still_;
+    StageWatch watch_;
     bool stands_ = false;     // the last update() found nothing to do
     bool may_stand_ = false;  // the next one may
 };

@@ -1,7 +1,7 @@
 # What is saved loses nothing: scripted runs, with economy and without, on the recording device and on the real one.
 set(GNOMON_ECONOMY_SOURCES economy/both_ways.cpp economy/changing_world.cpp system/test_world.cpp)
 gnomon_tests(NAME system_economy LABEL system SOURCES
-  ${GNOMON_ECONOMY_SOURCES} economy/map_contents.cpp system/economy_identity_test.cpp system/lights_per_camera_test.cpp)
+  ${GNOMON_ECONOMY_SOURCES} economy/map_contents.cpp system/economy_identity_test.cpp system/lights_per_camera_test.cpp system/one_writer_test.cpp)
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME system_many_lights LABEL system SOURCES system/many_lights_test.cpp LIBRARIES gnomon_bench_parts)
   gnomon_tests(NAME gl_economy LABEL gl SOURCES ${GNOMON_ECONOMY_SOURCES} gl/economy_identity_gl_test.cpp

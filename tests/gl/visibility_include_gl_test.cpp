@@ -111,7 +111,7 @@ protected:
         const shadow::ProgramRow program_row{.kind_define = kind_row.define,
                                              .kind_file = kind_row.file,
                                              .filter_file = row_.file,
-                                             .reach_texel = filtering().reach_texel,
+                                             .reach_texel = filtering(kind).reach_texel,
                                              .depths = reads_depths(),
                                              .triangles = reads_triangles(),
                                              .moments = reads_moments()};

@@ -21,7 +21,8 @@ protected:
         frame.fitted.lights.resize(1);
         frame.fitted.lights[0].views.count = 2;
         frame.fitted.views.resize(2);
-        frame.maps.assign(2, {.texture = {1}});
+        frame.maps.resize(2);
+        for (MapAssignment& map : frame.maps) map.texture = {1};
         frame.updates.resize(2);
         inputs.lights.resize(1);
         light().row.filter_file = "shadow/filters/pcf/hard.glsl";
