@@ -15,7 +15,7 @@
 
 namespace gnomon::shadow {
 
-/// One per light: bytes of the map of a light that is to try again after a failed allocation; empty: it did not fail.
+/// One per light: bytes of its map while a failed allocation is not yet to be tried again; else empty.
 using WaitingBytes = std::span<const std::optional<std::uint64_t>>;
 
 /// Inputs of a budget, beside the scene.
