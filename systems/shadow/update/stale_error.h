@@ -15,9 +15,9 @@
 /// Error of shadows in a map that is kept although casters moved since it was drawn.
 ///
 /// Let D be the farthest that any point of a caster moved, metres, and A the farthest across the light. Seen along the
-/// light, the shadow is then the old one with each point moved by at most A. So its edges lie within A of their true
-/// places, because a continuous map that moves points by less than A reaches the middle of every ball of radius A. On a
-/// receiver the error grows as a texel does (error_bound.h).
+/// light, the shadow is then the old one with each point moved by at most A. A continuous map that moves points by less
+/// than A reaches the middle of every ball of radius A. So edges lie within A of their true places. On a receiver the
+/// error grows as a texel does (error_bound.h).
 ///
 /// A moved caster also receives shadows where it stands now, while the map shows it where it stood. Around each of its
 /// points it lay on one side of its plane, as far as the bias takes a receiver to be a plane. So it stood within D of
