@@ -53,7 +53,7 @@ FlatFacets::FlatFacets(const CasterSurface& surface, const InstanceItem& item, c
     }
     possible_ = true;
     off_m_ = rounding.length_m();
-    // n_u| + |n_v| <= t (n · d) with d = (u, v, 1). So least_cosine_ bounds n · d from below, and widest_ bounds |d|²
+    // |n_u| + |n_v| <= t (n · d) with d = (u, v, 1). So least_cosine_ bounds n · d from below, and widest_ bounds |d|²
     // from above.
     const glm::dvec2 widest = glm::max(glm::abs(view.plane.tan_low), glm::abs(view.plane.tan_high));
     const double most = std::max(widest.x, widest.y);

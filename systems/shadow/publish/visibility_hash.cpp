@@ -24,8 +24,7 @@ void add_row(const ProgramRow& row, Signature& s) {
 /// Adds what the lookup reads, and where.
 void add_light(const LightingLight& light, Signature& s) {
     LightRecord record = light.record;
-    record.radiance = glm::vec4(0.0f, 0.0f, 0.0f, record.radiance.w);  // rgb scales the light, it does not change
-                                                                       // visibility
+    record.radiance = glm::vec4(0.0f, 0.0f, 0.0f, record.radiance.w);  // rgb scales light, visibility is unchanged
     add_object(record, s);
     add_row(light.row, s);
     for (const std::uint32_t id :

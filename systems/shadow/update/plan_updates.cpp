@@ -95,8 +95,7 @@ void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapSt
         const IndexRange range = inputs.fitted.lights[i].views;
         if (range.count == 0 || inputs.fitted.views[range.first].projection != ViewProjection::cube_face) continue;
         std::uint32_t faces = 0;
-        bool apart = static_cast<bool>(inputs.maps[range.first].sheets.second);  // a conservative map is peeled face by
-                                                                                 // face
+        bool apart = static_cast<bool>(inputs.maps[range.first].sheets.second);  // these are peeled face by face
         for (std::size_t v = range.first; v < range.end(); ++v) {
             faces += drawn(v) ? 1 : 0;
             apart = apart || plans[v].still_use != StillUse::none;

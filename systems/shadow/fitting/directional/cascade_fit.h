@@ -7,7 +7,7 @@
 /// The three ways to fit one cascade of a sun: ShadowFit.
 namespace gnomon::shadow {
 
-/// Which sizes kept by hysteresis a fit may change.
+/// Sizes, kept by hysteresis, that a fit may change in this frame.
 enum class Stepping {
     as_needed,
     larger,    // only sizes too small for what is seen

@@ -130,9 +130,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.request.map.view_count;
     const std::size_t before = views.size();
-    for (HeldView& view : input.next.views)
-        view.too_large = false;  // the fit sets it again for each cascade with
-                                 // receivers
+    for (HeldView& view : input.next.views) view.too_large = false;  // each cascade with receivers sets it again
     for (std::uint32_t i = 0; i < count; ++i) {
         const CascadeSlice& slice = slices[i];
         const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;

@@ -239,8 +239,7 @@ private:
     glm::dvec2 anchor_m_{0.0};
     double sine_ = 0.0;  // sine of the angle between view and light
     double length_m_ = 0.0, depth_m_ = 0.0,
-           highest_ = 0.0;  // extent of the points along the view across the light; their greatest height along the
-                            // light
+           highest_ = 0.0;  // extents of the points, along the view across the light and along it; their top
     double depth_ratio_ = 1.0, slack_m_ = 0.0;
     std::array<Span, kDepths> spans_{};
 };

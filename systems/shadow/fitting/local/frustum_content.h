@@ -10,8 +10,7 @@ namespace gnomon::shadow {
 
 struct LocalContent {
     bool receivers = false, casters = false;
-    TangentRectangle footprint{glm::dvec2(HUGE_VAL), glm::dvec2(-HUGE_VAL)};  // extent of what is seen of the
-                                                                              // receivers, tangents
+    TangentRectangle footprint{glm::dvec2(HUGE_VAL), glm::dvec2(-HUGE_VAL)};  // visible receivers, tangents
     double nearest_m = HUGE_VAL, farthest_m = 0.0;  // distances along the axis; farthest: of the receivers
 };
 
