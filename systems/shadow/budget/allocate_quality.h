@@ -43,10 +43,10 @@ struct BudgetScratch {
 
 BudgetUse use_of(std::span<const LightLoad> loads, std::span<const Grant> grants, const CostFactors& factors);
 
-/// Lowers the quality of `grants`, one per load, until `limits` are met, by greedy steps. A step halves the edge, removes
-/// a cascade, simplifies the filter, halves the refresh rate or removes the map. Each step has the least error cost for
-/// what it frees. Then gives back what need not have been taken, the greatest error cost per share first. No light gets
-/// more than at the start.
+/// Lowers the quality of `grants`, one per load, until `limits` are met, by greedy steps. A step halves the edge,
+/// removes a cascade, simplifies the filter, halves the refresh rate or removes the map. Each step has the least error
+/// cost for what it frees. Then gives back what need not have been taken, the greatest error cost per share first. No
+/// light gets more than at the start.
 BudgetUse take_away(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
                     std::span<Grant> grants, BudgetScratch& scratch);
 

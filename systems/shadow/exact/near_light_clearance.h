@@ -11,9 +11,9 @@ namespace gnomon::shadow {
 inline constexpr double kClearance_radii = 32.0, kClearance_nears = 4.0;
 
 /// Measures, for each area light with conservative maps (FilterStorage::soft_sheets), the distance to the nearest
-/// triangle that its maps miss in part. A triangle counts if the map of a light frustum, drawn or not, does not contain
-/// all of it, and if it comes within the source's radius of that frustum. Metres, one per light, at most the search
-/// radius; 0: another light. Computed in double, from triangles as they are bent.
+/// triangle that its maps miss in part. A triangle counts if it comes within the source's radius of a light frustum and
+/// lies partly outside that frustum's map. A frustum that is not drawn has no map. Metres, one per light, at most the
+/// search radius; 0: another light. Computed in double, from triangles as they are bent.
 void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m, std::span<double> cpu_us);
 
 }  // namespace gnomon::shadow

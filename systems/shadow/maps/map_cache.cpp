@@ -222,9 +222,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
     history.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
-        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width)
-            break;  // no larger than the
-                    // present map
+        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // no larger
         const MomentDescs moments = moments_of(desc, request.map);
         const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
         Reason reason = has_room ? try_create(desc, request, history) : Reason::map_allocation_failed;

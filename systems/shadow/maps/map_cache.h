@@ -35,24 +35,23 @@ struct MomentMap {
 /// that each texel shows.
 struct SheetMap {
     gl::TextureHandle second{}, bounds{};  // {0}: there is none
-    gl::BufferHandle ends{};               // occluder pyramid of FilterStorage::soft_sheets (occluder_pyramid.h); {0}:
-                                           // there is none
+    gl::BufferHandle ends{};               // pyramid of FilterStorage::soft_sheets (occluder_pyramid.h); {0}: none
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 
-/// State of one light that outlives a frame: its map, the targets of its layers, and what each layer shows. Also records
-/// when an allocation may be tried again.
+/// State of one light that outlives a frame: its map, the targets of its layers, and what each layer shows. Also
+/// records when an allocation may be tried again.
 struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
     FilterStorage storage = FilterStorage::depth;  // what the map was made for
-    gl::TextureHandle triangles{};                 // for a filter that reads or peels triangles; else {0}
-    SheetMap sheets;                               // for a filter of FilterStorage::sheets
-    MomentMap moments;                             // for a filter of FilterStorage::moments
-    StillMap still;                                // while some of its casters move and others do not
-    std::vector<gl::TargetHandle> targets;         // one per layer
-    gl::TargetHandle whole{};                      // all layers at once; made when first drawn that way
+    gl::TextureHandle triangles{};          // triangle per texel, for a filter that reads or peels them; else {0}
+    SheetMap sheets;                        // conservative map, for a filter of FilterStorage::sheets
+    MomentMap moments;                      // prefiltered map, for a filter of FilterStorage::moments
+    StillMap still;                         // copy of its static casters, while only some casters move
+    std::vector<gl::TargetHandle> targets;  // one per layer
+    gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::uint64_t wanted_content = 0;       // hash of all layers in the last frame, for lights that may skip their map
     std::vector<std::uint64_t> content;     // per layer: hash of what was drawn, 0: nothing
     std::vector<std::uint64_t> placements;  // per layer: its ContentSignature::placement
@@ -152,8 +151,7 @@ private:
 
     gl::Device& device_;
     std::vector<LightHistory> lights_;
-    std::unordered_map<std::uint32_t, std::uint32_t> places_;  // index into lights_, by the entity's index, which may
-                                                               // be any
+    std::unordered_map<std::uint32_t, std::uint32_t> places_;  // into lights_, by the entity's index (any number)
     std::uint64_t frame_ = 0, limit_ = kNoLimit;
     SpareMemory* spare_ = nullptr;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
