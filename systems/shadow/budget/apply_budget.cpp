@@ -15,16 +15,17 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Activity follows what happens by an eighth of the way per frame: half a second, as long as a thing that stopped
-/// counts as moving (CasterMotion).
+/// Share of the remaining difference by which activity follows changes per frame. It takes half a second, as long as a
+/// stopped object counts as moving (CasterMotion).
 constexpr float kActivityGain = 1.0f / 8.0f;
-/// Below, or so near to 1, it is taken to be there, so that a still scene comes to rest.
+/// Difference below which activity takes its final value, so that a static scene settles.
 constexpr float kActivityRest = 1.0f / 64.0f;
 
-/// Its map is another one at once, and fitted for it in the next frame.
+/// Frames in which activity is not measured after limits changed. The map changes at once, and is fitted for the new
+/// limits in the next frame.
 constexpr std::uint32_t kNewFrames = 2;
 
-/// Of the light itself, wherever it stands in a list.
+/// Returns a hash of the light itself, independent of its place in a list.
 std::uint64_t key_of(const LightItem& light) {
     Signature s;
     s.add(static_cast<std::uint64_t>(light.kind));
@@ -40,7 +41,8 @@ std::uint64_t key_of(const LightItem& light) {
 
 double area_px(const gl::Rect& rect) { return static_cast<double>(rect.width) * rect.height; }
 
-/// Share of the picture within the rectangle around these points; all of it where one is not before the camera.
+/// Returns the share of the screen within the rectangle around these points, 0 to 1. 1 if a point is not in front of
+/// the camera.
 double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
     const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
@@ -57,7 +59,7 @@ double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) 
     return 0.25 * size.x * size.y;
 }
 
-/// Half of the way to the farthest receiver, as bright as it is there.
+/// Returns the light's illuminance halfway to its farthest receiver, lux.
 double typical_lux(const LightItem& light, std::span<const Beam> beams) {
     const double emitted = static_cast<double>(light.intensity) *
                            static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
@@ -69,7 +71,8 @@ double typical_lux(const LightItem& light, std::span<const Beam> beams) {
     return emitted / (way_m * way_m);
 }
 
-/// The edge that the light would have if nothing were granted, told by maps that may be smaller.
+/// Returns the map edge that the light needs without quality limits, texels. Derives it from the fitted maps, which may
+/// be smaller.
 std::uint32_t needed_px(const LightItem& light, const ShadowRequest& wanted, const ShadowRequest& fitted,
                         double extent_px) {
     const bool as_wanted =
@@ -100,7 +103,7 @@ BudgetReport outcome(const LightLoad& load, const Grant& grant, const CostFactor
     return out;
 }
 
-/// Leaves of a fitted request what the grant does, as far as can be now: the rest in the next frame.
+/// Applies the limits to a fitted request, as far as possible after the fit. The rest follows in the next frame.
 void cut(const LightLoad& load, const Grant& grant, BudgetDecision& decision) {
     const LightItem& light = *load.light;
     ShadowRequest& request = decision.request;
@@ -136,7 +139,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     LightLoad load;
     load.light = &scene.lights[light];
     load.wanted = inputs.requests[light];
-    // The fit may have found another count of cascades to be enough.
+    // The fit may have found another number of cascades to be enough.
     if (next.grant.most_views >= load.wanted.map.view_count && fitted.map.view_count != load.wanted.map.view_count) {
         load.wanted.map.view_count = fitted.map.view_count;
         set_most(*load.light, load.wanted.limits.max_px, 0, load.wanted);
@@ -154,7 +157,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
         load.draws += counts.draws;
     }
     const auto fewer = static_cast<double>(load.wanted.map.view_count) - static_cast<double>(fitted.map.view_count);
-    extent_px *= std::exp2(-fewer);  // each cascade about doubles what one texel can serve
+    extent_px *= std::exp2(-fewer);  // each cascade about doubles the depth range that one texel size serves
     const std::uint32_t needed = needed_px(*load.light, load.wanted, fitted, extent_px);
     load.extent_px = extent_px * fitted.map.resolution_px / needed;
     if (needed != load.wanted.map.resolution_px) set_resolution(*load.light, needed, load.wanted);
@@ -166,7 +169,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     return load;
 }
 
-/// What is bright matters more, as the eye has it: lightness goes with the cube root of luminance (CIE 1976).
+/// Weighs each light's shadow by brightness. Lightness grows with the cube root of luminance (CIE 1976).
 void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) {
     const auto lux = [&](std::size_t i) {
         return typical_lux(scene.lights[lights_[i]], inputs.fitted.sets_of(inputs.sets, lights_[i]).beams());
@@ -180,7 +183,8 @@ void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) 
     }
 }
 
-/// Returns the bytes of lights that are not asked, since the device has no room for what they want.
+/// Collects the lights that take part. Returns the bytes of the other maps: the device has no room for maps as their
+/// lights need them.
 std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
                                    const History& next, std::span<const LightStatus> statuses) {
     loads_.clear();
@@ -271,7 +275,7 @@ void BudgetStage::report(FrameReport& report) const {
 
 bool BudgetStage::is_moved_by(const BudgetLimits& limits, const CostFactors& factors) const {
     if (!(limits == limits_)) return true;
-    constexpr double kNotice = 0.02;  // a fifth of the room that giving back leaves (kRoomAfter)
+    constexpr double kNotice = 0.02;  // a fifth of the free room that giving back leaves (kRoomAfter)
     const auto moved = [](double now, double then) { return std::abs(now - then) > kNotice * then; };
     return is_active() &&
            (moved(factors.drawing, decided_factors_.drawing) || moved(factors.lighting, decided_factors_.lighting));

@@ -15,10 +15,10 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of a map: what ends at its border may go on in the next one.
+/// Inset of a map's sides, as a share of them. A triangle that ends at the border may continue in the next map.
 constexpr double kInset = 1e-6;
 
-/// What one map shows, or would show.
+/// Light frustum of one map, drawn or not.
 struct Opening {
     glm::dmat3 axes{1.0};
     glm::dvec2 tan_low{-1.0}, tan_high{1.0};
@@ -34,7 +34,7 @@ public:
           light_(in.scene.lights[light]),
           radius_m_(static_cast<double>(in.drawn.lights[light].request.map.filtering.source_radius_m)),
           least_m_(kClearance_radii * radius_m_) {
-        // Places in a face without a view are looked up as well: nothing may stand before them.
+        // Faces without a view are looked up as well: nothing may stand before them.
         const bool cube = light_.kind == LightKind::point && !in.drawn.lights[light].request.projection.aim.used;
         if (cube)
             for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
@@ -91,15 +91,17 @@ private:
         }
     }
 
-    /// For any opening: whoever is looked up there knows of it from that one's map alone.
+    /// Returns whether a triangle counts for any light frustum. A place in one frustum knows of it from that frustum's
+    /// map alone.
     bool counts(const Corners& corners) const {
         for (std::size_t i = 0; i < count_; ++i)
             if (is_near(openings_[i], corners) && !is_held(openings_[i], corners)) return true;
         return false;
     }
 
-    /// Whether it may come within the source's radius of the opening's pyramid, in which all ways to the source's
-    /// middle lie; those to the rest of it are no farther from them.
+    /// Returns whether the triangle may come within the source's radius of the light frustum. All segments from its
+    /// places to the source's middle lie in the frustum. Segments to the rest of the source are within the radius of
+    /// them.
     bool is_near(const Opening& opening, const Corners& corners) const {
         const glm::dvec3 &u = opening.axes[0], &v = opening.axes[1], &back = opening.axes[2];
         const std::array<glm::dvec3, 5> outward{-u - opening.tan_low.x * back, u + opening.tan_high.x * back,
@@ -111,7 +113,7 @@ private:
         });
     }
 
-    /// By its map, whole.
+    /// Returns whether the frustum's map shows the whole triangle.
     static bool is_held(const Opening& opening, const Corners& corners) {
         const glm::dvec2 inset = kInset * (opening.tan_high - opening.tan_low);
         const auto inside = [&](const glm::dvec3& c) {

@@ -7,7 +7,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Where the cameras stand.
+/// Returns a hash of the cameras' positions and rotations.
 std::uint64_t pictures_of(const SceneSnapshot& scene) {
     Signature s;
     for (const ConsumerItem& camera : scene.pictures.empty() ? scene.consumers : scene.pictures) {

@@ -3,7 +3,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Takes `now` over; whether it was the same.
+/// Stores `now`. Returns whether it was the same.
 template <class T>
 bool keep(T& last, const T& now) {
     if (last == now) return true;

@@ -14,10 +14,10 @@ struct Side {
     double size() const { return high - low; }
 };
 
-constexpr double kPlaces = 16.0;           // of a cropped side, per its own length
-constexpr double kLeastCrop = 1.0 / 64.0;  // of the full side
+constexpr double kPlaces = 16.0;           // grid steps per length of a cropped side
+constexpr double kLeastCrop = 1.0 / 64.0;  // least cropped side, as a share of the full one
 
-/// The smallest step, on its own grid, that holds `needed`; `full` if it is no smaller.
+/// Returns the smallest step, on its own grid, that contains `needed`; `full` if it is no smaller.
 Side closest(const Side& needed, const Side& full) {
     const double least = std::max(needed.size(), full.size() * kLeastCrop);
     const double size = step_size(step_at_or_above(least * (kPlaces / (kPlaces - 1.0))));
