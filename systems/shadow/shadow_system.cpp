@@ -110,17 +110,18 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
     }
 }
 
-const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                                        FrameReport& report, const ShadowBudget& budget) {
+const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
+                                        gl::CommandList& list, FrameReport& report) {
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
+    maps_.set_spare(settings.feedback.spare);
     maps_.begin_frame();
     const bool others_move = motion_.update(scene);
-    const bool unchanged = still_.unchanged(scene, shadows, budget) && !others_move;
+    const bool unchanged = still_.unchanged(scene, settings) && !others_move;
     if (others_move) frame_.moving = motion_.moving();
-    most_rays_ = budget.rays;
-    BudgetLimits limits = limits_of(budget);
+    most_rays_ = settings.budget.rays;
+    BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
     const bool shared_out = !budget_.is_moved_by(limits, cost_clock_.factors());
     stands_ = std::exchange(may_stand_, false) && unchanged && shared_out && maps_.stay();
@@ -128,7 +129,7 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
         keep_all(frame_.maps, frame_.updates);
     } else {
         budget_.begin(limits, cost_clock_.factors());
-        run_stages(scene, gpu, shadows, {list, report, frame_.cpu_us});
+        run_stages(scene, gpu, settings, {list, report, frame_.cpu_us});
     }
     report.still = stands_;
     report.rays = rays_.report();
@@ -143,14 +144,15 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     return frame_;
 }
 
-void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out) {
+void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
+                              const PassOutputs& out) {
     ShadowFrame& f = frame_;
     f.statuses.assign(scene.lights.size(), {});
     const LightAccounts accounts{f.statuses, f.cpu_us};
 
     const bool lacked = rays_lack_;
-    rays_lack_ = rays_lack_ && wants_rays(scene, history_, shadows) && !update_rays(scene, gpu, out.list);
-    decide_requests(scene, {device_.info(), history_, shadows, {most_rays_, rays_lack_}}, fallbacks_, f.requests);
+    rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
+    decide_requests(scene, {device_.info(), history_, settings.shadows, {most_rays_, rays_lack_}}, fallbacks_, f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) limit_by_grants(scene, history_, f.requests, f.limited);
     const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;
@@ -162,11 +164,11 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
 
     lamp_places_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
     select_sets(scene, {requests, f.lamps_ws_m}, storage_.sets, f.sets, accounts);
-    dim_lights_.leave_out(scene, gpu, f.sets, f.statuses);
+    dim_lights_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
     finish("culling");
 
     const bool shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
-    fit_views(scene, {requests, f.sets, f.lamps_ws_m, history_, f.moving, shared_out}, storage_, f.fitted,
+    fit_views(scene, {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, shared_out}, storage_, f.fitted,
               f.next_history, accounts);
     count_quiet_frames(scene, f.fitted, history_, shared_out, f.next_history);
     finish("fitting");

@@ -20,6 +20,7 @@
 #include "systems/shadow/fitting/fit_light.h"
 #include "systems/shadow/frame/pass_inputs.h"
 #include "systems/shadow/frame/shadow_frame.h"
+#include "systems/shadow/frame/shadow_settings.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/passes/depth_pass.h"
 #include "systems/shadow/passes/prefilter_pass.h"
@@ -45,10 +46,10 @@ public:
     ShadowSystem& operator=(const ShadowSystem&) = delete;
 
     /// Runs all stages for `scene`, records the depth passes into `list` and fills report.lights.
-    /// `shadows` false: every light is treated as disabled. Never throws; no device failure stops the frame.
+    /// Never throws; no device failure stops the frame.
     /// Where nothing changed since the last frame, its results stand, and nothing is done that grows with the scene.
-    const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                              FrameReport& report, const ShadowBudget& budget = {});
+    const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
+                              gl::CommandList& list, FrameReport& report);
 
     /// To be called after the list was submitted: `executed` says whether it was, without failure.
     void commit(const SceneSnapshot& scene, bool executed);
@@ -67,13 +68,11 @@ public:
 
     const visibility::RayScene& rays() const { return rays_; }
     const MapStore& maps() const { return maps_; }
-    /// See MapStore::set_spare().
-    void set_spare(SpareMemory* spare) { maps_.set_spare(spare); }
     const DimLights& dim_lights() const { return dim_lights_; }
     const History& held_fits() const { return history_; }
 
 private:
-    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out);
+    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings, const PassOutputs& out);
     void finish(std::string_view stage) const;
     bool is_settled(const SceneSnapshot& scene) const;
     bool samplers_ready(std::span<const ShadowRequest> requests);

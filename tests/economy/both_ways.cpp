@@ -27,7 +27,7 @@ void BothWays::run_side(Way way, const std::function<void(const Picture&)>& look
     side.commands.clear();
     side.report.clear();
     if (way == kThrifty) gpu_->update(snapshot_, side.commands);
-    const shadow::ShadowFrame& frame = side.shadows.update(side.scene, *gpu_, true, side.commands, side.report);
+    const shadow::ShadowFrame& frame = side.shadows.update(side.scene, *gpu_, {}, side.commands, side.report);
     if (frame.inputs.empty()) {
         EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
     }

@@ -34,7 +34,7 @@ protected:
         list.clear();
         extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
         scene->update(snapshot, list);
-        shadows->update(snapshot, *scene, true, list, report);
+        shadows->update(snapshot, *scene, {}, list, report);
         record_picture(inputs(), list);
         GlTest::run(list);
         shadows->commit(snapshot, true);

@@ -144,7 +144,7 @@ TEST_F(MisledKeptVisibilityGl, ASurfaceThatASignatureMissesWouldBeSeen) {
     gl::CommandList list;
     extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
     scene->update(snapshot, list);
-    shadows->update(snapshot, *scene, true, list, report);
+    shadows->update(snapshot, *scene, {}, list, report);
     const SceneSnapshot told = snapshot;
     for (std::size_t i = 0; i < then.size(); ++i) snapshot.instances[i].version = then[i];
     record_picture(inputs(), list);

@@ -60,8 +60,8 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 }
 
 void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                           std::span<const LightStatus> statuses) {
-    const bool known = std::isfinite(*scene.exposure);
+                           double exposure, std::span<const LightStatus> statuses) {
+    const bool known = std::isfinite(exposure);
     const auto asked = [](const LightStatus& status) { return !status.is_skipped(); };
     if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // faint beside what?
     double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;        // steps at an exposure of 1
@@ -73,7 +73,7 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
         faintest = std::min(faintest, at_one);
         brightest = std::max(brightest, steps_throughout(scene, gpu, item, receivers));
         if (!known) continue;
-        const double steps = at_one * *scene.exposure;
+        const double steps = at_one * exposure;
         steps_[i] = steps;
         const bool was_out = std::binary_search(out_.begin(), out_.end(), item.entity, comes_before);
         if (steps <= kMostSteps) candidates_.push_back({steps, i, was_out});
@@ -82,11 +82,11 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
 }
 
 void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                          std::span<LightStatus> statuses) {
+                          std::optional<double> exposure, std::span<LightStatus> statuses) {
     steps_.assign(scene.lights.size(), std::nullopt);
     candidates_.clear();
     wants_exposure_ = false;
-    if (scene.exposure) ask_lights(scene, gpu, sets, statuses);
+    if (exposure) ask_lights(scene, gpu, sets, *exposure, statuses);
     // Of equals the first, whatever their order in memory.
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Dim& a, const Dim& b) { return a.steps != b.steps ? a.steps < b.steps : a.light < b.light; });

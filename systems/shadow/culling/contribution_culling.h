@@ -17,13 +17,13 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 
 /// Which lights are too dim for their shadows to be seen: those that, lit everywhere, change no pixel by more than half
 /// a step all together. The dimmest first; one that is left out stays so until it must not, one that is not is left out
-/// only well below. Needs SceneSnapshot::exposure: none may be left out where that is infinite.
+/// only well below. Needs LightingFeedback::exposure: none may be left out where that is infinite.
 /// ShadowTuning::Reuse::economy=false exempts a light.
 class DimLights {
 public:
     /// Skips lights with below_display_step, after select_sets(). Allocates nothing once warm.
     void leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                   std::span<LightStatus> statuses);
+                   std::optional<double> exposure, std::span<LightStatus> statuses);
 
     /// Of light `index` in the last frame; empty: it was not asked for.
     std::optional<double> steps(std::uint32_t index) const { return steps_[index]; }
@@ -35,7 +35,7 @@ public:
     static constexpr double kNewlyMostSteps = 0.4;  // a light whose brightness trembles stays what it is
 
 private:
-    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets, double exposure,
                     std::span<const LightStatus> statuses);
 
     struct Dim {

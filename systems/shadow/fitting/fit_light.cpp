@@ -133,9 +133,6 @@ LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uin
       first_view_(out.views.size()),
       first_caster_(out.casters.size()),
       first_resized_(sizes_of(out.resized_sets)) {
-    FitChoice& choice = out_.lights[index_];
-    choice.request = inputs.requests[light];
-    choice.sets = inputs.sets.lights[light];
 }
 
 LightFit::ArraySizes LightFit::sizes_of(const ReceiverCasterSets& sets) {
@@ -181,6 +178,7 @@ bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
                          sets.beams(),
                          sets.arrays.receiver_points_ws,
                          request.map.filtering.border_texel,
+                         inputs_.sampled_depths,
                          storage_.fits,
                          held,
                          next};
@@ -279,6 +277,9 @@ void LightFit::select_sets_again() {
 /// find it empty.
 Reason LightFit::select_casters() {
     ShadowRequest& request = out_.lights[index_].request;
+    const bool samples = light_.kind == LightKind::directional &&
+                         light_.tuning.cascades.splits == CascadeSplits::sampled;
+    if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
     bool any = false;
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {
         ShadowView& view = out_.views[v];

@@ -38,9 +38,8 @@ Reason wanted(const LightItem& light, bool shadows) {
 }
 
 /// How many cascades a sun has, and what fades between them.
-void decide_cascades(const LightItem& light, bool depths_failed, ShadowRequest& request) {
+void decide_cascades(const LightItem& light, ShadowRequest& request) {
     const ShadowTuning::Cascades& tuning = light.tuning.cascades;
-    if (depths_failed && tuning.splits == CascadeSplits::sampled) request.note = Reason::depths_unread;
     if (!are_splits(tuning)) request.note = Reason::splits_invalid;
     if (light.shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
     // A finer map only saves rays: of itself a light asks for one.
@@ -57,10 +56,10 @@ bool leaves_count(const LightItem& light, const ShadowRequest& request) {
 }
 
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
-void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest& request) {
+void decide_projection(const LightItem& light, ShadowRequest& request) {
     const LightProjection wish = light.tuning.projection.kind;
     const bool sun = light.kind == LightKind::directional;
-    if (sun) decide_cascades(light, depths_failed, request);
+    if (sun) decide_cascades(light, request);
     if (is_range(light.tuning.projection)) {
         request.projection.near_m = static_cast<double>(light.tuning.projection.near_m);
         request.projection.far_m = static_cast<double>(light.tuning.projection.far_m);
@@ -214,7 +213,7 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     request.limits.device_px = limit_px;
     request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, request);
-    decide_projection(light, scene.sampled_depths.failed, request);
+    decide_projection(light, request);
     if (light.kind == LightKind::directional) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
     if (light.kind == LightKind::spot) decide_cone(light, held_light, request);
     if (request.projection.aim.used) {

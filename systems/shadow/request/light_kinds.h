@@ -5,6 +5,7 @@
 
 #include "components/light.h"
 #include "engine/gl/device.h"
+#include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_view.h"
 
@@ -21,6 +22,7 @@ struct FitInput {
     std::span<const Beam> beams;                     // of a local light: one for each of light_openings()
     std::span<const glm::dvec3> frame_points_ws;     // what Beam::receiver_points is a range of
     float reach_texel = 0.5f;                        // the filter's E, for borders: FilterSettings::border_texel
+    const SampledDepths& sampled_depths;  // of an earlier picture; optional
     FitScratch& scratch;                             // so that a fit allocates nothing in steady state
     const HeldLight& held;                           // what this light's last fit left
     HeldLight& next;                                 // output, starts as a copy of `held`: see fit_history.h

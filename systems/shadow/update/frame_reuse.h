@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/quality_limits.h"
+#include "systems/shadow/frame/shadow_settings.h"
 
 namespace gnomon::shadow {
 
@@ -14,7 +14,7 @@ class StillFrame {
 public:
     /// Returns whether all inputs equal those of the last call. Never for a scene of version 0: it does not count
     /// changes.
-    bool unchanged(const SceneSnapshot& scene, bool shadows, const ShadowBudget& budget);
+    bool unchanged(const SceneSnapshot& scene, const ShadowSettings& settings);
 
 private:
     std::uint64_t version_ = 0;

@@ -96,7 +96,7 @@ bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const D
     if (tuning.splits != CascadeSplits::sampled || !are_splits(tuning)) return false;
     const double width_m = tuning.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
                                                            : seen_width_m(input.receiver_points_ws, consumer);
-    const SampledSplit split{input.scene.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
+    const SampledSplit split{input.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
     if (tuning.fit == ShadowFit::tight) return sampled_ends(split, ends);
     return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
 }
