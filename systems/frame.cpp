@@ -54,11 +54,13 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const bool measure_exposure =
         settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();
     if (!measure_exposure) lighting_->forget_exposure();
+    outcome_.clear();
     has_picture_ =
         !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                                      {settings.exposure_ev, settings.programs_per_frame,
                                                       measure_exposure, sample_depths, shadows_->maps().room()},
-                                                     commands_, report_);
+                                                     commands_, outcome_);
+    shadows_->report(snapshot_, outcome_, report_);
     if (has_picture_) {
         const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
         debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);

@@ -16,6 +16,7 @@
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
 #include "systems/shadow/frame/fit_history.h"
+#include "systems/shadow/frame/lighting_inputs.h"
 #include "systems/shadow/frame/shadow_settings.h"
 #include "systems/timed_lights.h"
 #include "systems/transform/transform_system.h"
@@ -110,6 +111,7 @@ private:
     std::optional<std::vector<ConsumerItem>> frozen_;  // cameras that shadows are fitted to
     std::vector<ConsumerItem> pictures_;               // drawing cameras meanwhile
     shadow::LightingFeedback feedback_;  // of earlier frames to the next one
+    shadow::LightingOutcome outcome_;    // of the frame's picture
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;

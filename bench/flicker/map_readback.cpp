@@ -49,6 +49,7 @@ std::optional<Error> ShadowFrames::run() {
     extractor_.update(stage_.world(), stage_.library(), transforms, stage_.settings().viewport_px, snapshot_);
     gpu_scene_.update(snapshot_, commands_);
     shadows_.update(snapshot_, gpu_scene_, {}, commands_, report_);
+    shadows_.report(snapshot_, {}, report_);
     const bool drawn = stage_.device().submit(commands_).failure == gl::Failure::none;
     shadows_.commit(snapshot_, drawn);
     if (snapshot_.consumers.empty()) return Error{"no usable camera", stage_.scene_name(), "", "bench.camera"};

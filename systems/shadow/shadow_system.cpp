@@ -10,6 +10,7 @@
 #include "systems/shadow/fitting/fit_views.h"
 #include "systems/shadow/fitting/quiet_frames.h"
 #include "systems/shadow/report/light_report.h"
+#include "systems/shadow/report/lighting_failures.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/update/commit_maps.h"
 #include "systems/shadow/update/plan_updates.h"
@@ -136,12 +137,16 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     report.rays.sheet_bytes = sheets_.bytes();
     report.rays.sheet_host_bytes = sheets_.host_bytes();
     if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
+    report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    return frame_;
+}
+
+void ShadowSystem::report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const {
     const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
     explain_lights(scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, dim_lights_, has_rays, frame_.cpu_us},
                    report);
     budget_.report(report);
-    report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-    return frame_;
+    add_outcome(outcome, report);
 }
 
 void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,

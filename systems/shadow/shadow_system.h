@@ -45,11 +45,15 @@ public:
     ShadowSystem(const ShadowSystem&) = delete;
     ShadowSystem& operator=(const ShadowSystem&) = delete;
 
-    /// Runs all stages for `scene`, records the depth passes into `list` and fills report.lights.
+    /// Runs all stages for `scene`, records the depth passes into `list` and counts them in the report.
     /// Never throws; no device failure stops the frame.
     /// Where nothing changed since the last frame, its results stand, and nothing is done that grows with the scene.
     const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
                               gl::CommandList& list, FrameReport& report);
+
+    /// Says in the report what became of each light and view, once the frame's pictures are recorded. `outcome`: of
+    /// lighting; empty where the frame has no pictures of Gnomon's own.
+    void report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const;
 
     /// To be called after the list was submitted: `executed` says whether it was, without failure.
     void commit(const SceneSnapshot& scene, bool executed);

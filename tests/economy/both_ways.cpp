@@ -31,14 +31,16 @@ void BothWays::run_side(Way way, const std::function<void(const Picture&)>& look
     if (frame.inputs.empty()) {
         EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
     }
+    shadow::LightingOutcome outcome;
     for (const shadow::LightingInputs& inputs : frame.inputs) {
-        EXPECT_TRUE(side.lighting.record(inputs, side.scene, *gpu_, {}, side.commands, side.report));
+        EXPECT_TRUE(side.lighting.record(inputs, side.scene, *gpu_, {}, side.commands, outcome));
         const gl::SubmitResult result = device_.submit(side.commands);
         EXPECT_EQ(result.failure, gl::Failure::none);
         look({way, inputs, side.commands});  // while all that the list names stands
         side.lighting.submitted(result.submission, true);
         side.commands.clear();
     }
+    side.shadows.report(side.scene, outcome, side.report);
     side.shadows.commit(side.scene, true);
 }
 

@@ -18,6 +18,7 @@ public:
         constexpr float kExposure_ev = 14.0f;
         commands_.clear();
         report.clear();
+        outcome_.clear();
         lighting_.collect_depths(feedback_.sampled_depths);
         gpu_scene_.update(scene, commands_);
         feedback_.exposure = lighting::exposure_scale(kExposure_ev);  // so that lights too dim to be seen cast nothing
@@ -27,7 +28,8 @@ public:
         const bool lit = lighting_.record(
             frame.inputs.front(), scene, gpu_scene_,
             {.exposure_ev = kExposure_ev, .sample_depths = sample_depths, .most_kept_bytes = shadows_.maps().room()},
-            commands_, report);
+            commands_, outcome_);
+        shadows_.report(scene, outcome_, report);
         const gl::SubmitResult result = device_.submit(commands_);
         after_submission({device_, scene, gpu_scene_, shadows_, &lighting_}, result, false, report);
         return lit && result.failure == gl::Failure::none;
@@ -42,6 +44,7 @@ private:
     shadow::ShadowSystem shadows_;
     lighting::LightingSystem lighting_;
     shadow::LightingFeedback feedback_;  // from one frame's lighting to the next one's shadows
+    shadow::LightingOutcome outcome_;    // what became of lights in the frame's picture
     gl::CommandList commands_;
 };
 // [frame]

@@ -145,6 +145,7 @@ void Stages::run() {
     extractor_.update(world_.registry, world_.library, transforms, world_.viewport_px, snapshot_);
     gpu_scene_->update(snapshot_, commands_);
     shadows_->update(snapshot_, *gpu_scene_, {}, commands_, report_);
+    shadows_->report(snapshot_, {}, report_);
     shadows_->commit(snapshot_, device_.submit(commands_).failure == gl::Failure::none);
 }
 

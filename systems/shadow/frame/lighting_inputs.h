@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "components/light_shadow.h"
 #include "engine/gl/commands.h"
+#include "systems/report.h"
 #include "systems/shadow/frame/shader_key.h"
 #include "systems/shadow/frame/view_limits.h"
 #include "systems/visibility/ray_records.h"
@@ -85,6 +87,38 @@ struct LightingInputs {
     std::uint32_t consumer = 0;
     CameraRecord camera;
     std::vector<LightingLight> lights;
+};
+
+/// A light that a picture shows otherwise than by its own row.
+struct LookupFailure {
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights
+    Reason reason = Reason::none;
+    bool unshadowed = false;    // it is drawn without its shadow, or not at all; else by one tap of its map
+    bool blended_only = false;  // on blended surfaces; on all others its shadow is what it should be
+    LookupAccuracy fallback;    // accuracy of that one tap
+};
+
+/// A light with cached visibility in a picture.
+struct CachedLookup {
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights
+    std::uint64_t bytes = 0;
+    bool reused = false;                      // the picture read it, and did not fill it
+    std::optional<double> saved_us = {};      // of lighting on the GPU; empty: never measured
+};
+
+/// What became of lights in the pictures of a frame. Lighting appends to it, picture by picture; the report is made
+/// from it.
+struct LightingOutcome {
+    std::vector<LookupFailure> failures;
+    std::vector<CachedLookup> cached;
+    gl::Failure failure = gl::Failure::none;               // why a picture could not be recorded
+    std::uint64_t ray_list_bytes = 0, position_bytes = 0;  // of pixels that use rays
+    void clear() {
+        failures.clear();
+        cached.clear();
+        failure = gl::Failure::none;
+        ray_list_bytes = position_bytes = 0;
+    }
 };
 
 }  // namespace gnomon::shadow
