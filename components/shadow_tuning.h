@@ -38,9 +38,9 @@ enum class CubeRoute : std::uint8_t { automatic, six_passes, layered_vertex, lay
 /// How a sun's cascades follow the camera.
 /// - `tight`: the smallest rectangle around the visible receivers, fitted in every frame.
 /// - `stable`: a constant size around each slice of the view, snapped to its own texels, whatever receivers are
-/// visible.
+///   visible.
 /// - `quantised`: around the visible receivers, along the light's own axes, in steps. The map stays until they leave
-/// it.
+///   it.
 enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 
 /// Where a sun's cascades end along the view.
@@ -50,8 +50,8 @@ enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 /// - `manual`: split_m.
 enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen, sampled };
 
-/// How a map stores reversed depth: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and
-/// loses precision far from a spot or a point light. The automatic bias grows by that loss (docs/settings.md).
+/// How a map stores reversed depth: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and loses
+/// precision far from a spot or a point light. The automatic bias grows by that loss (docs/settings.md).
 enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 
 /// Optional settings of a light's shadow, grouped by what they tune: a second component beside LightShadow. Without it
@@ -132,8 +132,8 @@ struct ShadowTuning {
         std::array<float, kMaxCascades - 1> split_m{};
         /// Share of a cascade that fades into the next one, 0 to 0.5.
         float blend = 0.1f;
-        /// Limit of the perspective warp of tight maps, 0 (no warp) to 1 (as light-space perspective shadow maps).
-        /// A warp lets texels grow with the distance from the camera. The fit takes as much as gains accuracy
+        /// Limit of the perspective warp of tight maps, 0 (no warp) to 1 (as light-space perspective shadow maps). A
+        /// warp lets texels grow with the distance from the camera. The fit takes as much as gains accuracy
         /// (docs/fits.md).
         float warp = 0.0f;
         bool operator==(const Cascades&) const = default;

@@ -43,7 +43,7 @@ struct ServedDistances {
     double seen_from_m = 0.0;   // start
     double seen_to_m = 0.0;     // end, where the next cascade takes over; 0: where its map ends
     double fades_from_m = 0.0;  // start of the fade into the next cascade
-    double fades_to_m = 0.0;    // end of the fade, unless the map's border ends it sooner
+    double fades_to_m = 0.0;    // end of the fade, unless the map's border lies farther away
 };
 
 /// Size of a view's texels on the screen of the camera that sees them largest (fitting/error_bound.h).
