@@ -17,7 +17,7 @@ struct ContentSignature {
 struct BoundsMaps {
     gl::TextureHandle second{};  // depths of the second layer: the next triangles behind
     gl::TargetHandle second_target{};
-    gl::TextureHandle bounds{};  // depth bound up to which nothing else lies, and depth slope bound
+    gl::TextureHandle bounds{};  // depth of the nearest silhouette edge, and depth slope bound
     gl::TargetHandle bounds_target{};
     gl::BufferHandle ends{};  // occluder pyramid; FilterStorage::soft_sheets only
 };
