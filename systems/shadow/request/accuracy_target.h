@@ -43,7 +43,7 @@ bool follows_contract(const LightItem& light, const ShadowRequest& request);
 
 /// Computes the edge that maps of `size_px` with the error `predicted_px` should get, at most `most_px`. It is the
 /// least multiple of kLeastMap_px with an error up to `wished_px` beside the pixel grid's own.
-/// `held`: the maps exist; they keep size_px unless it is too small, or at least twice as large as that.
+/// `held`: the maps exist; they keep size_px unless it is too small, or at least twice the needed edge.
 /// `predicted_px`: 0 if no receiver is visible. Infinite or NaN: returns most_px.
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
                                std::uint32_t most_px);
@@ -65,11 +65,11 @@ struct CascadeTrial {
 
 /// Chooses a sun's number of cascades from trials with rising counts. `held`: the present number; 0: none.
 ///
-/// If any trial meets the target, the fewest cascades win that meet it with at most the texels of the last trial. The
-/// present number stays, unless fewer do, while it meets the target with less than twice those texels.
+/// It is the fewest that meet the target with at most the texels of the last trial. The present number stays, unless
+/// fewer do, while it meets the target with less than twice those texels.
 ///
-/// If none meets it, all have maps of the largest size, and the least product of count and error wins. The error is
-/// that for equal texels in total, which is larger by the root of the count. So twice as many maps must halve the
+/// If no trial does, all have maps of the largest size, and the least product of count and error is chosen. The error
+/// is taken for equal texels in total, which is larger by the root of the count. So twice as many maps must halve the
 /// predicted error beyond the gain of their additional texels. Reason: the bound is that of the worst place, near the
 /// camera. Elsewhere texels of cascades are no smaller, and thinner casters are lost. Measured with equal texels
 /// (docs/cost.md): courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one. A valley of
