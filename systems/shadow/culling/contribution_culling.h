@@ -15,7 +15,7 @@ namespace gnomon::shadow {
 double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                           std::span<const std::uint32_t> receivers, double exposure);
 
-/// Contribution culling: finds lights too dim for their shadows to be visible. Without their shadows, all of them
+/// Contribution culling: finds lights too dim for their shadows to be visible. Unshadowed everywhere, all of them
 /// together change no pixel by more than half a display step. The dimmest lights are culled first. Hysteresis: a light
 /// is culled only well below that limit, and stays culled up to the limit. Needs SceneSnapshot::exposure; no light is
 /// culled where that is infinite. ShadowTuning::Reuse::economy = false exempts a light.

@@ -6,7 +6,7 @@
 
 namespace gnomon::shadow {
 
-/// Classifies instances as static or dynamic, so that maps of static casters can be kept.
+/// Classifies instances as static or dynamic, so that depths of static casters can be kept.
 ///
 /// An instance is dynamic from a frame in which its version grows until kStillFrames frames without growth. Instances
 /// of the first frame are static until they move. Later ones start as dynamic.
@@ -20,8 +20,9 @@ public:
     const std::vector<std::uint64_t>& moving() const { return moving_; }
 
     /// Frames without movement after which an instance is static: half a second at 60 Hz. Longer than usual pauses: an
-    /// animation at 8 Hz, a figure that turns around, a body that settles. After each stop, the instance's map is drawn
-    /// once more with it among static casters. Until then its light keeps the copy of static casters.
+    /// animation at 8 Hz, a figure that turns around, a body that settles. After each stop, a map with the instance is
+    /// drawn once more, with it among the static casters. Until then its light needs memory for a copy of the static
+    /// casters.
     static constexpr std::uint64_t kStillFrames = 30;
 
 private:

@@ -84,7 +84,7 @@ struct HeldFilter {
     double wished_px = 0.0;                         // target of the choice
     double usual_px = 0.0;                          // error of the default filter's maps when these were last fitted
     double seen_px = 0.0;      // error of the last fit's own maps; while it is equal, the visible scene is unchanged
-    std::uint32_t frames = 0;  // frames until the default filter is fitted again; 0: when seen_px changes
+    std::uint32_t frames = 0;  // frames until the default filter is fitted again; 0: not before seen_px changes
     std::uint32_t passed = 0;  // consecutive frames in which the default filter met the target
     bool operator==(const HeldFilter&) const = default;
 };

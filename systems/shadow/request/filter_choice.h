@@ -13,8 +13,7 @@
 /// (Grant::plain).
 ///
 /// Hysteresis: a light returns to the default filter after this filter's largest maps had an error below the target /
-/// kFilterPatience in kFilterPasses consecutive frames. After a trial that fails, the next one follows kFilterFrames
-/// later.
+/// kFilterPatience in kFilterPasses consecutive frames. After a failed trial, the next one follows kFilterFrames later.
 namespace gnomon::shadow {
 
 /// Filter that meets every target.

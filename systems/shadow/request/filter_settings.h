@@ -15,7 +15,8 @@ inline constexpr float kMostSpread_texel = 16.0f;
 /// map with fewer texels avoids that.
 inline constexpr float kMostPenumbra_texel = 128.0f;
 
-/// A map's edge per largest half-width of a footprint. A wider footprint leaves too little room between the borders.
+/// Least ratio of a map's edge to the half-width of a footprint. A wider footprint leaves too little room between the
+/// map's borders.
 inline constexpr std::uint32_t kEdgesPerSpread = 8;
 
 /// Returns the effective settings of a filter for maps with an edge of resolution_px. The size of the source is the

@@ -10,7 +10,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Hysteresis: room per predicted ray that a light which fell back needs to return.
+/// Hysteresis: factor on the predicted rays of a light that fell back.
 constexpr double kBackAgain = 1.25;
 
 double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request) {
