@@ -110,8 +110,8 @@ private:
     std::unique_ptr<debug::DebugPainter> debug_;
     std::optional<std::vector<ConsumerItem>> frozen_;  // cameras that shadows are fitted to
     std::vector<ConsumerItem> pictures_;               // drawing cameras meanwhile
-    shadow::LightingFeedback feedback_;  // of earlier frames to the next one
-    shadow::LightingOutcome outcome_;    // of the frame's picture
+    shadow::LightingFeedback feedback_;                // of earlier frames to the next one
+    shadow::LightingOutcome outcome_;                  // of the frame's picture
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;

@@ -48,8 +48,8 @@ struct LightItem {
     float intensity = 0.0f;
     double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    float source_radius_m = 0.0f;  // of a spot or a point
-    float sun_radius_rad = 0.0f;   // of a sun
+    float source_radius_m = 0.0f;  // spot and point
+    float sun_radius_rad = 0.0f;   // sun
     bool has_shadow = false;       // a LightShadow component exists
     LightShadow shadow = {};
     ShadowTuning tuning = {};         // the defaults where there is no LightShadow

@@ -302,8 +302,7 @@ void LightingSystem::record_finish(gl::CommandList& list) {
 }
 
 bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
-                            const LightingSettings& settings, gl::CommandList& list,
-                            shadow::LightingOutcome& outcome) {
+                            const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome) {
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
     passes_.clear();

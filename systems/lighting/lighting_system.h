@@ -54,8 +54,8 @@ public:
     LightingSystem& operator=(const LightingSystem&) = delete;
 
     /// Records the picture of one consumer. A light without its program (failed, or compiled later) is looked up with
-    /// one tap (LightingLight::plain). If that fails too it is drawn unshadowed, or not at all. The outcome has all of it.
-    /// Returns false if an essential object is missing: nothing is recorded, and outcome.failure has the reason.
+    /// one tap (LightingLight::plain). If that fails too it is drawn unshadowed, or not at all. The outcome has all of
+    /// it. Returns false if an essential object is missing: nothing is recorded, and outcome.failure has the reason.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                 const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome);
 

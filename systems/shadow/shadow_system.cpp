@@ -35,7 +35,7 @@ ShadowSystem::~ShadowSystem() {
 }
 
 bool ShadowSystem::samplers_ready(std::span<const ShadowRequest> requests) {
-    // A description holds text: none is made in a steady frame.
+    // A description allocates its label: it is made only for a new sampler, not in a steady frame.
     const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare) {
         if (sampler) return true;
         sampler = device_.create_sampler({label, linear, false, compare, gl::Wrap::border, gl::Wrap::border}).handle;
@@ -66,7 +66,8 @@ bool ShadowSystem::moment_sampler_ready(const PrefilterSettings& settings) {
 
 namespace {
 
-/// Lights that read triangles are lit while the device has no room for them.
+/// Provides the triangle buffers that lights with FilterStorage::depth_and_triangle read. Such lights have no shadow
+/// while the device has no memory for the buffers.
 void provide_triangles(GpuScene& gpu, const FittedViews& fitted, std::span<LightStatus> statuses) {
     for (std::size_t i = 0; i < statuses.size(); ++i)
         if (!statuses[i].is_skipped() &&
@@ -77,13 +78,15 @@ void provide_triangles(GpuScene& gpu, const FittedViews& fitted, std::span<Light
 
 }  // namespace
 
-/// Rays ask of an instance whom it shadows: without records of those there is nothing to walk.
+/// Updates the ray-tracing structures. Returns false on failure. Rays read layers from the instance records, and need
+/// these first.
 bool ShadowSystem::update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     return gpu.instances() && rays_.update(scene, gpu, list);
 }
 
-/// Lights that use rays are looked up once, or lit, in the frame that has no room for what those walk; their requests
-/// have it from the next on. What they use is kept as long as there is one, seen or not. `updated`: in this frame.
+/// Provides the ray-tracing structures while any light uses rays, visible or not, and frees them otherwise. `updated`:
+/// they are already updated in this frame. On failure, lights with a map are looked up without rays in this frame, and
+/// lights without one have no shadow. From the next frame on their requests take account of the failure.
 void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list) {
     bool any = rays_lack_, used = false;
     for (std::size_t i = 0; i < frame_.decisions.size(); ++i) {
@@ -103,7 +106,7 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
         const RayUse& rays = frame_.decisions[i].request.rays;
         LightStatus& status = frame_.statuses[i];
         if (!rays.used || status.is_skipped()) continue;
-        // A map that there is is looked up once: PlainLookup.
+        // A light with a map uses PlainLookup.
         if (rays.only)
             status.skip(Reason::buffer_failed);
         else
@@ -157,7 +160,8 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
 
     const bool lacked = rays_lack_;
     rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
-    decide_requests(scene, {device_.info(), history_, settings.shadows, {most_rays_, rays_lack_}}, fallbacks_, f.requests);
+    decide_requests(scene, {device_.info(), history_, settings.shadows, {most_rays_, rays_lack_}}, fallbacks_,
+                    f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) limit_by_grants(scene, history_, f.requests, f.limited);
     const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;
@@ -173,8 +177,8 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     finish("culling");
 
     const bool shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
-    fit_views(scene, {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, shared_out}, storage_, f.fitted,
-              f.next_history, accounts);
+    fit_views(scene, {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, shared_out},
+              storage_, f.fitted, f.next_history, accounts);
     count_quiet_frames(scene, f.fitted, history_, shared_out, f.next_history);
     finish("fitting");
 
@@ -219,9 +223,9 @@ bool ShadowSystem::wants_sampled_depths(const SceneSnapshot& scene) const {
     return shadow::wants_sampled_depths(scene, frame_.fitted, frame_.statuses);
 }
 
-/// Whether another run of the stages would do no more than this one, if nothing changes meanwhile: fits hold on to what
-/// they hold already, no light asks for all to be drawn, and nothing that failed is to be tried again but by maps_,
-/// which says so itself.
+/// Returns true if another run of the stages on an unchanged scene would have the same results. Then the history is
+/// unchanged, no light has economy disabled, no failed operation is due for a retry, and no view is skipped for rays.
+/// maps_ reports its own retries (MapStore::stay).
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     const auto is_tried_again = [](Reason reason) {
         return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||

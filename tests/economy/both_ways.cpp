@@ -5,9 +5,7 @@
 namespace gnomon {
 
 BothWays::BothWays(gl::Device& device, const assets::MeshLibrary& library)
-    : device_(device),
-      library_(library),
-      sides_{std::make_unique<Side>(device), std::make_unique<Side>(device)} {
+    : device_(device), library_(library), sides_{std::make_unique<Side>(device), std::make_unique<Side>(device)} {
     auto gpu = GpuScene::create(device, library);
     EXPECT_TRUE(gpu);
     if (gpu) gpu_ = std::make_unique<GpuScene>(std::move(gpu).value());

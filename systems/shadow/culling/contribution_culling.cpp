@@ -10,16 +10,18 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of the sRGB encoding at black, IEC 61966-2-1; the tone curve (lighting/post/tonemap.frag) is nowhere steeper than 1.
+/// Largest slope of tone curve and sRGB encoding: the encoding's at black (IEC 61966-2-1). The tone curve
+/// (lighting/post/tonemap.frag) is nowhere steeper than 1.
 constexpr double kSteepestEncoding = 12.92;
 constexpr double kDisplaySteps = 255.0;
 
-/// Beside the brightest, which lights a whole receiver. That alone lights the picture to middle grey, 0.18, or more
-/// would: 0.18 * 12.92 * 255 steps; a light is left out below 0.4 of one, a fourth of that where the exposure is
-/// measured late.
+/// Ratio of brightest to faintest light from which the exposure is worth measuring. The brightest one lights a whole
+/// receiver, at most to middle grey, 0.18: that is 0.18 * 12.92 * 255 display steps. A light is culled below 0.4 steps,
+/// or below a fourth of that where the exposure is measured late.
 constexpr double kFaint = 4096.0;
 
-/// Of a light at an exposure of 1, over all receivers, with a local light as far from each as `distance_m` says.
+/// Returns the largest number of display steps that a light adds to any receiver at an exposure of 1. `distance_m`:
+/// distance of a local light from a receiver's bounding box.
 template <class Distance>
 double most_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                   std::span<const std::uint32_t> receivers, Distance distance_m) {
@@ -39,7 +41,7 @@ double most_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightIt
     return most * kSteepestEncoding * kDisplaySteps;
 }
 
-/// The same of the receiver that it lights most throughout: by its farthest corner.
+/// Returns the largest number of display steps that a light adds to all of one receiver: by its farthest corner.
 double steps_throughout(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                         std::span<const std::uint32_t> receivers) {
     return most_steps(scene, gpu, light, receivers, [&](const math::Aabb& box_ws) {
@@ -63,7 +65,7 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
                            double exposure, std::span<const LightStatus> statuses) {
     const bool known = std::isfinite(exposure);
     const auto asked = [](const LightStatus& status) { return !status.is_skipped(); };
-    if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // faint beside what?
+    if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // no light to compare with
     double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;        // steps at an exposure of 1
     for (std::uint32_t i = 0; i < statuses.size(); ++i) {
         const LightItem& item = scene.lights[i];
@@ -87,7 +89,7 @@ void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const
     candidates_.clear();
     wants_exposure_ = false;
     if (exposure) ask_lights(scene, gpu, sets, *exposure, statuses);
-    // Of equals the first, whatever their order in memory.
+    // Equal lights are sorted by index, so that the choice is deterministic.
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Dim& a, const Dim& b) { return a.steps != b.steps ? a.steps < b.steps : a.light < b.light; });
     out_.clear();

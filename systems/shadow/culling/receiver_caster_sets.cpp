@@ -26,7 +26,7 @@ IndexRange since(std::size_t first, std::size_t end) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
 }
 
-/// One light's share of the stage.
+/// Search for the receivers of one light.
 class Search {
 public:
     Search(const SceneSnapshot& scene, const LightItem& light, const glm::dvec3& lamp_ws_m, SetScratch& scratch,
@@ -50,7 +50,7 @@ public:
     }
 
 private:
-    /// Receivers whose bounds touch what a consumer sees and what the light reaches, consumer by consumer, by index.
+    /// Finds receivers with bounds in a camera's frustum and in the light's range, for each camera, by index.
     void find_candidates() {
         scratch_.candidates.clear();
         for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
@@ -70,8 +70,8 @@ private:
         }
     }
 
-    /// Appends the corners of the candidates within what their consumer sees and the given planes; of whom, and for
-    /// whom, goes to the beam.
+    /// Clips the candidates to their camera's frustum and the given planes, and appends the corners. Adds the numbers
+    /// of receivers and the cameras to `beam`.
     IndexRange clip_candidates(std::span<const math::Plane> opening, Beam& beam) {
         const std::size_t first = out_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
@@ -117,7 +117,7 @@ private:
             beam.receivers = seen.receivers;
             beam.consumers = seen.consumers;
         }
-        out_.beams.push_back(beam);  // without receivers, too: beams are in the order of the openings
+        out_.beams.push_back(beam);  // also without receivers: hull i belongs to light frustum i
     }
 
     std::span<const glm::dvec3> points(IndexRange range) const { return slice(out_.receiver_points_ws, range); }
@@ -130,17 +130,20 @@ private:
     LightReach reach_;
 };
 
-/// How far beyond a lamp's beam, in tangents, casters hide part of a source with a size: as far as filters read texels.
+/// Returns how far outside a lamp's receiver hull casters may hide part of an area light, as a tangent: as far as
+/// filters read texels.
 double lamp_reach(const FilterSettings& filter, double size_px, const LightOpening& opening) {
     const glm::dvec2 sides = opening.high - opening.low;
     const double seen_px = size_px - 2.0 * border_px(size_px, static_cast<double>(filter.border_texel));
     return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
 }
 
-/// Heights of a box and of one within it are not told apart by less of what they are sums of: 24 roundings.
+/// Rounding error of a box's height, as a share of its summands: 24 roundings. Within it, a box may appear higher than
+/// a box around it.
 constexpr double kHeightRounding = 0x1p-48;
 
-/// Beyond a sun's, in metres: as far as the highest of them stands above the lowest receiver, times the tangent.
+/// Returns how far outside a sun's receiver hull casters may hide part of the sun, metres. It is the height of the
+/// highest caster above the lowest receiver, times the tangent of the sun's radius.
 double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, const Beam& beam) {
     const auto height_m = [&](const math::Aabb& box) {
         return glm::dot(math::centre(box) - beam.origin_ws_m, beam.axes[2]) +
@@ -157,7 +160,7 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, con
     return std::max(highest_m, 0.0) * static_cast<double>(filter.sun_radius_tan);
 }
 
-/// Casters that touch any of the light's beams.
+/// Appends the casters that touch the volume between the light and any of its receiver hulls.
 IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request,
                           IndexRange beams, SetScratch& scratch, ReceiverCasterSets& out) {
     scratch.marks.clear(scene.instances.size());
@@ -188,11 +191,11 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
     return since(first, out.caster_items.size());
 }
 
-/// A half-space without a point.
+/// Half-space without a point.
 constexpr math::Plane kNothing{glm::dvec3(0.0), -1.0};
 
-/// What the consumer sees from the nearest receiver on: bounds of meshes tell less, since a camera stands in the middle
-/// of the larger ones. A scene without shapes has its bounds alone.
+/// Returns the camera's frustum from its nearest receiver on. Without scene.shapes it is the whole frustum: bounding
+/// boxes do not help, because a camera is inside of the larger ones.
 math::Frustum seen_receivers(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
                              SetScratch& scratch) {
     if (scene.shapes.empty()) return consumer_frustum(consumer);

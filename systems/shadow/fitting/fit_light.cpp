@@ -132,8 +132,7 @@ LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uin
       out_(out),
       first_view_(out.views.size()),
       first_caster_(out.casters.size()),
-      first_resized_(sizes_of(out.resized_sets)) {
-}
+      first_resized_(sizes_of(out.resized_sets)) {}
 
 LightFit::ArraySizes LightFit::sizes_of(const ReceiverCasterSets& sets) {
     return {sets.receiver_items.size(), sets.caster_items.size(), sets.receiver_points_ws.size(), sets.beams.size(),
@@ -277,8 +276,8 @@ void LightFit::select_sets_again() {
 /// find it empty.
 Reason LightFit::select_casters() {
     ShadowRequest& request = out_.lights[index_].request;
-    const bool samples = light_.kind == LightKind::directional &&
-                         light_.tuning.cascades.splits == CascadeSplits::sampled;
+    const bool samples =
+        light_.kind == LightKind::directional && light_.tuning.cascades.splits == CascadeSplits::sampled;
     if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
     bool any = false;
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {

@@ -18,8 +18,8 @@ glm::dmat3 axes_of(const CubeFace& face) { return {face.axis_u, face.axis_v, fac
 /// Faces of a spot in the order of the layers: ahead along -Z, then the sides.
 constexpr std::uint32_t kConeFaceOrder[kConeFaces] = {5, 0, 1, 2, 3};
 
-/// What of a face the cone can light: a direction at the angle a from the axis, with coordinate 1 across it, has cot(a)
-/// along it.
+/// Returns the part of a face that the cone can light. A direction at the angle a from the axis, with coordinate 1
+/// across it, has cot(a) along it.
 LightOpening cone_in_face(const LightItem& light, std::uint32_t layer) {
     const CubeFace& face = cube_face(kConeFaceOrder[layer]);
     LightOpening opening;

@@ -15,15 +15,15 @@ struct Ball {
     double radius_m = 0.0;
 };
 
-constexpr double kRounding = 1.0e-5;  // of the shaders' distances and cosines, in float
+constexpr double kRounding = 1.0e-5;  // relative error of distances and cosines in the shaders' float
 
-/// The smallest around what a local light of limited range reaches.
+/// Returns the smallest ball around the volume that a local light of limited range reaches.
 Ball reached_ball(const LightItem& light) {
     const double range_m = light.range_m * (1.0 + kRounding);
     if (light.kind != LightKind::spot) return {light.position_ws_m, range_m};
     const double angle_rad = std::min(light.outer_cone_rad + kRounding, 0.5 * glm::pi<double>());
     const glm::dvec3 ahead = -light.rotation_ws[2];
-    // Narrow cones: through the apex and the rim. Wide ones: around the rim.
+    // The ball of a narrow cone passes through apex and rim. A wide cone's has the rim as its equator.
     if (angle_rad <= 0.25 * glm::pi<double>()) {
         const double radius_m = 0.5 * range_m / std::cos(angle_rad);
         return {light.position_ws_m + ahead * radius_m, radius_m};

@@ -10,13 +10,13 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way. A
-/// number of cascades stays until it takes twice the texels of another.
+/// Hysteresis: a map shrinks when half of its edge, a quarter of its bytes, suffices. A number of cascades changes when
+/// it takes twice the texels of another.
 constexpr std::uint32_t kPatience = 2;
-/// How much less another number's product of maps and error has to be: sqrt(2).
+/// Hysteresis of the product of count and error: sqrt(2).
 constexpr double kCountPatience = 1.4142135623730951;
 
-/// What of a predicted error is the texels' share.
+/// Returns the part of a predicted error that texels cause, without the pixel grid's.
 double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0.0, 0.0); }
 
 }  // namespace
@@ -35,7 +35,7 @@ double wished_error_px(const LightShadow& shadow) {
 bool follows_contract(const LightItem& light, const ShadowRequest& request) {
     const bool stable = light.kind == LightKind::directional && light.tuning.cascades.fit == ShadowFit::stable;
     return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
-           !asks_rays(filter_row(request.map.filter));  // which err by nothing
+           !asks_rays(filter_row(request.map.filter));  // rays have no such error
 }
 
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,

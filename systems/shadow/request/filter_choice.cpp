@@ -5,7 +5,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Bit for bit: the light's own setting, which was stored as it is.
+/// Returns true if the stored choice was made for this target. Compares bit for bit, because the setting was stored
+/// unchanged.
 bool is_of_word(const HeldFilter& held, double wished_px) {
     return held.wished_px <= wished_px && held.wished_px >= wished_px;
 }

@@ -13,14 +13,14 @@ bool is_length(float value) { return std::isfinite(value) && value >= 0.0f; }
 
 using Kernel = ShadowTuning::Kernel;
 
-/// The field, or the default instead of what is no length.
+/// Returns the field, or its default if it is negative or not finite.
 float length_of(const Kernel& kernel, float Kernel::*field, FilterSettings& filter) {
     if (is_length(kernel.*field)) return kernel.*field;
     filter.cut = true;
     return Kernel{}.*field;
 }
 
-/// Taps that differ from point to point.
+/// Takes the settings of filters with a random pattern of taps.
 void take_seeds(const Kernel& kernel, FilterSettings& filter) {
     filter.taps = std::clamp(kernel.taps, 1u, kMostFilterTaps);
     filter.cell_m = length_of(kernel, &Kernel::cell_m, filter);
@@ -28,7 +28,7 @@ void take_seeds(const Kernel& kernel, FilterSettings& filter) {
     filter.cut = filter.cut || filter.taps != kernel.taps || filter.cell_m != kernel.cell_m;
 }
 
-/// In place of taps.
+/// Takes the number of rays of a penumbra in place of the taps.
 void take_rays(const Kernel& kernel, FilterSettings& filter) {
     filter.taps = std::clamp(kernel.penumbra_rays, 1u, kMostPenumbraRays);
     filter.cut = filter.cut || filter.taps != kernel.penumbra_rays;
@@ -45,7 +45,8 @@ void take_spread(const Kernel& kernel, float most_texel, FilterSettings& filter)
     filter.widest_texel += filter.most_spread_texel;
 }
 
-/// How many texels it reaches follows from where casters are: up to the most.
+/// Takes the size of the light's source. The width of its penumbra depends on the casters' distances; here it has its
+/// upper limit, most_texel.
 void take_source(const LightItem& light, float most_texel, FilterSettings& filter) {
     const float size = source_size(light);
     const bool sun = light.kind == LightKind::directional;
@@ -86,7 +87,7 @@ FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std
     FilterSettings filter;
     filter.reach_texel = row.reach_texel;
     if (row.width == FilterWidth::size) {
-        // The nearest odd size below.
+        // Even sizes become the next smaller odd one.
         const auto most = std::min(kMostFilterSize, 2 * static_cast<std::uint32_t>(most_texel) + 1);
         filter.size = (std::clamp(kernel.size_texel, 1u, most) - 1) / 2 * 2 + 1;
         filter.cut = filter.size != kernel.size_texel;
@@ -107,7 +108,7 @@ double reach_texel_at(const FilterSettings& filter, double texel_m) {
     if (!(filter.spread_m > 0.0f) || filter.doubles_m > 0.0f) return static_cast<double>(filter.widest_texel);
     const double spread_texel = static_cast<double>(filter.spread_m) / texel_m;
     const auto most_texel = static_cast<double>(filter.most_spread_texel);
-    // Not a finite number: the widest.
+    // NaN and infinity take the widest.
     return static_cast<double>(filter.reach_texel) + (spread_texel < most_texel ? spread_texel : most_texel);
 }
 

@@ -5,7 +5,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Cascades of a sun: each about doubles the depth that one texel size can serve; docs/accuracy.md has the figures.
+/// Default number of a sun's cascades. Each about doubles the depth range of one texel size (docs/accuracy.md).
 constexpr std::uint32_t kCascades = 4;
 
 constexpr LightKindRow kKindRows[] = {

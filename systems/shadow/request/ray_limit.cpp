@@ -10,7 +10,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Room that a light needs to come back.
+/// Hysteresis: factor on the predicted rays of a light that fell back.
 constexpr double kBackAgain = 1.25;
 
 double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request) {
@@ -18,7 +18,7 @@ double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowR
     return pixels * rays_per_pixel(request.map);
 }
 
-/// What a light's shadow means to the picture, to compare lights by: pixels times illuminance at the camera.
+/// Returns the importance of a light's shadow to the picture: pixels times illuminance at the nearest camera.
 double meaning(const SceneSnapshot& scene, const LightItem& light) {
     const double emitted = static_cast<double>(light.intensity) *
                            static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
@@ -27,7 +27,7 @@ double meaning(const SceneSnapshot& scene, const LightItem& light) {
         const glm::dvec3 way_m = light.position_ws_m - consumer.position_ws_m;
         nearest_m2 = std::min(nearest_m2, glm::dot(way_m, way_m));
     }
-    constexpr double kLeast_m2 = 1.0;  // nearer than a metre all is as bright as there
+    constexpr double kLeast_m2 = 1.0;  // lights nearer than a metre count as at a metre
     const double lux = light.kind == LightKind::directional ? emitted : emitted / std::max(nearest_m2, kLeast_m2);
     return lux * asking_pixels(scene, light);
 }

@@ -105,7 +105,8 @@ bool wants_sampled_depths(const SceneSnapshot& scene, const FittedViews& fitted,
         const ShadowRequest& request = fitted.lights[i].request;
         const LightItem& light = scene.lights[i];
         if (!statuses[i].is_skipped() && light.kind == LightKind::directional && !request.projection.perspective_sun &&
-            request.map.view_count > 1 && light.tuning.cascades.splits == CascadeSplits::sampled && are_splits(light.tuning.cascades))
+            request.map.view_count > 1 && light.tuning.cascades.splits == CascadeSplits::sampled &&
+            are_splits(light.tuning.cascades))
             return true;
     }
     return false;
