@@ -21,14 +21,10 @@ double border_px(double size_px, double reach_texel);
 /// Widens the rectangle by border_px to each side, for a map of size_px.
 TangentRectangle with_border(const TangentRectangle& rectangle, double size_px, double reach_texel);
 
-/// Returns a perspective view from apex_ws_m along -rotation_ws[2], off-centre where the rectangle is. The anchor is
-/// the apex. 0 < near < far, all finite.
-ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
-                            const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px);
-
-/// Returns such a view with a border, and with the anchor `anchored_m` metres before the apex along the view.
+/// Returns a perspective view from apex_ws_m along -rotation_ws[2], off-centre where the rectangle is. The anchor lies
+/// `anchored_m` metres before the apex along the view. 0 < near < far, all finite.
 ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
                             const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px,
-                            double reach_texel, double anchored_m = 0.0);
+                            double anchored_m = 0.0);
 
 }  // namespace gnomon::shadow

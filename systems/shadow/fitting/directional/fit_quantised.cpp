@@ -46,16 +46,22 @@ struct CoordinateRange {
     double low, high;
 };
 
+/// Place of a side in the last frame.
+struct LastPlace {
+    bool used;
+    double low;
+    int step;
+};
+
 /// Places a side around `seen`, on a grid of `grid` times its size. `seen` must be at most `room` of the size. Keeps
 /// the last frame's place while that contains `seen`.
-Side hold(const CoordinateRange& seen, double room, double grid, const HeldView& held, double held_low, int held_step,
-          int step) {
+Side hold(const CoordinateRange& seen, double room, double grid, const LastPlace& last, int step) {
     Side side{0.0, step_size(step)};
     const auto [low, high] = seen;
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
-    const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
-    if (held.used && step == held_step && holds) {
-        side.low = held_low;
+    const bool holds = last.low + margin <= low && last.low + side.size - margin >= high;
+    if (last.used && step == last.step && holds) {
+        side.low = last.low;
     } else {
         const double part = grid * side.size;
         side.low = std::round((0.5 * (low + high) - 0.5 * side.size) / part) * part;
@@ -85,7 +91,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
         const int held_step = held.extent_step[axis];
         int& step = next.extent_step[axis];
         step = held_step_for((span.high - span.low) / room, held, held_step, kAcross, input.stepping, next);
-        const Side side = hold(span, room, texel, held, held.low[axis], held_step, step);
+        const Side side = hold(span, room, texel, {held.used, held.low[axis], held_step}, step);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
@@ -93,7 +99,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const CoordinateRange span{seen.low.z, seen.high.z};
     next.far_step =
         held_step_for((span.high - span.low) / kDepthRoom, held, held.far_step, kAlong, input.stepping, next);
-    const Side depth = hold(span, kDepthRoom, kDepthSlack, held, held.near_m, held.far_step, next.far_step);
+    const Side depth = hold(span, kDepthRoom, kDepthSlack, {held.used, held.near_m, held.far_step}, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;
     next.used = true;

@@ -41,8 +41,8 @@ PerspectiveRange depth_range(const FitInput& input, const LocalContent& content,
     const double anchor_m = anchored_m(input), nearest_m = content.nearest_m, farthest_m = content.farthest_m;
     const bool near_is_free = is_near_free(input.request);
     if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
-    return held_range_around(anchor_m, input.request.projection.aim.radius_m, nearest_m, farthest_m, near_is_free, held,
-                             next);
+    return held_range_around({anchor_m, input.request.projection.aim.radius_m}, nearest_m, farthest_m, near_is_free,
+                             held, next);
 }
 
 }  // namespace
@@ -62,8 +62,10 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[opening.held_as] = next;
-    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, crop, range, input.request.map.resolution_px,
-                                       static_cast<double>(reach_texel(input, crop, range)), anchored_m(input));
+    const double size_px = input.request.map.resolution_px;
+    const auto border_texel = static_cast<double>(reach_texel(input, crop, range));
+    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, with_border(crop, size_px, border_texel), range,
+                                       size_px, anchored_m(input));
     view.layer = opening.layer;
     view.held = true;
     views.push_back(view);

@@ -52,18 +52,18 @@ PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_fr
     return {step_size(next.near_step), step_size(next.far_step)};
 }
 
-PerspectiveRange held_range_around(double anchor_m, double least_m, double nearest_m, double farthest_m,
-                                   bool near_is_free, const HeldView& held, HeldView& next) {
+PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, double farthest_m, bool near_is_free,
+                                   const HeldView& held, HeldView& next) {
     constexpr double kSlack = 1.0 + 1.0 / (1 << 10);  // as in perspective_range()
-    const double before_m = kSlack * std::max(anchor_m - nearest_m, least_m);
-    const double behind_m = kSlack * std::max(farthest_m - anchor_m, least_m);
-    if (!(before_m < anchor_m) || !std::isfinite(behind_m))
+    const double before_m = kSlack * std::max(anchor.at_m - nearest_m, anchor.least_m);
+    const double behind_m = kSlack * std::max(farthest_m - anchor.at_m, anchor.least_m);
+    if (!(before_m < anchor.at_m) || !std::isfinite(behind_m))
         return held_range(nearest_m, farthest_m, near_is_free, held, next);
     next.near_step = hold_above(before_m, held.used, held.near_step, kHoldSteps);
     next.far_step = hold_above(behind_m, held.used, held.far_step, kHoldSteps);
-    const double near_m = anchor_m - step_size(next.near_step);
-    if (!(near_m > kLeastNear * anchor_m)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
-    return {near_m, anchor_m + step_size(next.far_step)};
+    const double near_m = anchor.at_m - step_size(next.near_step);
+    if (!(near_m > kLeastNear * anchor.at_m)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
+    return {near_m, anchor.at_m + step_size(next.far_step)};
 }
 
 TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,

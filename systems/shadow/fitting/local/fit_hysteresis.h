@@ -26,11 +26,16 @@ bool is_near_free(const ShadowRequest& request);
 PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
                             HeldView& next);
 
-/// Does the same with distances to both sides of a fixed anchor, each at least `least_m`. For a far anchor, steps of
+/// A fixed anchor that a range lies around: its distance from the light, and the least distance to both of its sides.
+struct RangeAnchor {
+    double at_m = 0.0, least_m = 0.0;
+};
+
+/// Does the same with distances to both sides of a fixed anchor. For a far anchor, steps of
 /// the distance itself would be much longer than what is seen. Equals held_range() where the near side reaches the
 /// light.
-PerspectiveRange held_range_around(double anchor_m, double least_m, double nearest_m, double farthest_m,
-                                   bool near_is_free, const HeldView& held, HeldView& next);
+PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, double farthest_m, bool near_is_free,
+                                   const HeldView& held, HeldView& next);
 
 /// Returns `needed` within `full`, rounded outward: each side becomes a step, placed on sixteenths of itself. A side
 /// that would not be a step shorter than the full one stays full. None is cropped below a 64th of it: there a float
