@@ -129,7 +129,7 @@ void limit_by_grants(const SceneSnapshot& scene, const History& held, std::span<
     for (std::size_t i = 0; i < limited.size(); ++i) {
         if (limited[i].skip != Reason::none) continue;
         const HeldLight* last = find(held, scene.lights[i].entity, guess++);
-        if (last && !last->grant.none) limited[i] = granted(scene.lights[i], limited[i], last->grant);
+        if (last && !last->budget.grant.none) limited[i] = granted(scene.lights[i], limited[i], last->budget.grant);
     }
 }
 
@@ -140,12 +140,13 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     load.light = &scene.lights[light];
     load.wanted = inputs.requests[light];
     // The fit may have found another number of cascades to be enough.
-    if (next.grant.most_views >= load.wanted.map.view_count && fitted.map.view_count != load.wanted.map.view_count) {
+    if (next.budget.grant.most_views >= load.wanted.map.view_count &&
+        fitted.map.view_count != load.wanted.map.view_count) {
         load.wanted.map.view_count = fitted.map.view_count;
         set_most(*load.light, load.wanted.limits.max_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
-    load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.activity) : 1.0;
+    load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.budget.activity) : 1.0;
     double extent_px = 0.0;
     for (const ShadowView& view : inputs.fitted.views_of(light)) {
         if (view.casters.count == 0) continue;
@@ -203,7 +204,7 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
             continue;
         }
         loads_.push_back(load_of(scene, gpu, inputs, i, entry));
-        grants_.push_back(entry.grant);
+        grants_.push_back(entry.budget.grant);
         lights_.push_back(i);
         held_.push_back(held - 1);
     }
@@ -219,7 +220,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     outcomes_.clear();
     if (!is_active()) {
         loads_.clear();
-        for (HeldLight& light : next.lights) light.grant = {}, light.activity = 0.0f, light.new_frames = 0;
+        for (HeldLight& light : next.lights) light.budget = {};
         return;
     }
     BudgetLimits limits = limits_;
@@ -228,10 +229,11 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     settle_grants(loads_, limits, factors_, next.calm_frames, grants_, scratch_);
     lookups_ns_ = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) {
-        HeldLight& light = next.lights[held_[i]];
+        BudgetHistory& history = next.lights[held_[i]].budget;
         lookups_ns_ += lookup_ns(loads_[i], grants_[i], factors_);
-        light.new_frames = light.grant == grants_[i] ? light.new_frames - std::min(light.new_frames, 1u) : kNewFrames;
-        light.grant = grants_[i];
+        const bool same = history.grant == grants_[i];
+        history.new_frames = same ? history.new_frames - std::min(history.new_frames, 1u) : kNewFrames;
+        history.grant = grants_[i];
         outcomes_.push_back(outcome(loads_[i], grants_[i], factors_));
         if (grants_[i].none) {
             accounts.statuses[lights_[i]].skip(Reason::over_budget);
@@ -261,8 +263,9 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, const DrawnViews& dra
             changed += (drawn.has_map(v) ? drawn.updates[v].changed : has_moving) ? 1.0f : 0.0f;
         }
         if (!scene.lights[lights_[i]].tuning.reuse.economy || views == 0.0f) continue;
-        if (next.lights[held_[i]].new_frames > 0) continue;
-        float& activity = next.lights[held_[i]].activity;
+        BudgetHistory& history = next.lights[held_[i]].budget;
+        if (history.new_frames > 0) continue;
+        float& activity = history.activity;
         const float now = changed / views;
         activity += (now - activity) * kActivityGain;
         if (std::abs(now - activity) < kActivityRest) activity = now;

@@ -89,7 +89,7 @@ struct FittedSizes {
 bool settle_size(const LightItem& light, std::span<const ShadowView> views, const HeldLight& held, FittedSizes& fitted,
                  std::uint32_t& spare_frames, ShadowRequest& request) {
     if (views.empty() || !follows_contract(light, request)) return false;
-    const bool is_held = request.map.resolution_px == held.map_px;
+    const bool is_held = request.map.resolution_px == held.size.map_px;
     const double wished_px = wished_error_px(light.shadow), error_px = predicted_px(views);
     fitted.note(request.map.resolution_px, keeps_contract(error_px, wished_px));
     const std::uint32_t wish_px =
@@ -98,7 +98,7 @@ bool settle_size(const LightItem& light, std::span<const ShadowView> views, cons
     const bool spare = is_held && size_px < request.map.resolution_px;
     // Counts past kSpareFrames mean that the smaller size missed the target: a border is a larger share of a smaller
     // map.
-    if (is_held) spare_frames = spare ? std::min(held.spare_frames + 1, kSpareFrames + 1) : 0;
+    if (is_held) spare_frames = spare ? std::min(held.size.spare_frames + 1, kSpareFrames + 1) : 0;
     if (size_px == request.map.resolution_px || (spare && spare_frames != kSpareFrames)) return false;
     set_resolution(light, size_px, request);
     return true;
@@ -118,7 +118,7 @@ HeldLight without_fits(const HeldLight& held) {
     fresh.views = {};
     fresh.splits = {};
     fresh.sampled_ends = {};
-    fresh.map_px = fresh.spare_frames = fresh.large_frames = fresh.tired_frames = 0;
+    fresh.size.map_px = fresh.size.spare_frames = fresh.size.large_frames = fresh.size.tired_frames = 0;
     return fresh;
 }
 
@@ -206,8 +206,8 @@ bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
         if (!settle_size(light_, views(), held, sizes, spare_frames, request())) break;
         select_sets_again();
     }
-    next.map_px = follows_contract(light_, request()) ? request().map.resolution_px : 0;
-    next.spare_frames = next.map_px == held.map_px ? spare_frames : 0;
+    next.size.map_px = follows_contract(light_, request()) ? request().map.resolution_px : 0;
+    next.size.spare_frames = next.size.map_px == held.size.map_px ? spare_frames : 0;
     return fitted;
 }
 
@@ -216,12 +216,12 @@ bool LightFit::meets_target() const { return keeps_contract(predicted_px(views()
 /// Returns whether the search for another number of cascades is due.
 bool LightFit::is_count_due(const HeldLight& held, HeldLight& next) const {
     const ShadowRequest& request = out_.lights[index_].request;
-    const std::uint32_t most = request.limits.max_views, usual = held.cascades > 0 ? held.cascades : most;
-    if (most == 0) next.cascades = next.moves = 0;
+    const std::uint32_t most = request.limits.max_views, usual = held.count.cascades > 0 ? held.count.cascades : most;
+    if (most == 0) next.count.cascades = next.count.moves = 0;
     if (most == 0 || views().empty() || request.map.view_count != std::min(usual, most)) return false;
-    if (held.cascades == 0) return true;
-    if (next.views != held.views) ++next.moves;
-    return next.map_px > held.map_px || has_stepped(held, next) || next.moves >= kMovesToCount;
+    if (held.count.cascades == 0) return true;
+    if (next.views != held.views) ++next.count.moves;
+    return next.size.map_px > held.size.map_px || has_stepped(held, next) || next.count.moves >= kMovesToCount;
 }
 
 /// Fits increasing numbers of cascades, doubled each time, and chooses one of them. Each fit starts without history,
@@ -233,7 +233,7 @@ bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
     std::array<CascadeTrial, kMaxCascades> trials;
     std::size_t tried = 0;
     // Fewer cascades are for a scene that has calmed down. The camera's present motion may end in a frame.
-    const std::uint32_t least = next.moves >= kMovesToCount ? 1 : std::max(held.cascades, 1u);
+    const std::uint32_t least = next.count.moves >= kMovesToCount ? 1 : std::max(held.count.cascades, 1u);
     for (std::uint32_t count = std::min(least, most);; count = std::min(2 * count, most)) {
         if (!fit_count(count, usual, fresh, next)) return false;
         const std::uint64_t edge_px = request().map.resolution_px;
@@ -241,18 +241,18 @@ bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
         if (count == most) break;
     }
     const std::uint32_t chosen =
-        contract_cascades(std::span(trials).first(tried), held.cascades, wished_error_px(light_.shadow));
-    const bool stays = chosen == held.cascades;
+        contract_cascades(std::span(trials).first(tried), held.count.cascades, wished_error_px(light_.shadow));
+    const bool stays = chosen == held.count.cascades;
     const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
-    next.cascades = chosen;
-    next.moves = 0;
+    next.count.cascades = chosen;
+    next.count.moves = 0;
     return fitted;
 }
 
 bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const HeldLight& held, HeldLight& next) {
     request() = usual;
     set_cascades(light_.tuning.cascades, count, request());
-    set_most(light_, usual.limits.max_px, held.map_px, request());
+    set_most(light_, usual.limits.max_px, held.size.map_px, request());
     return fit_size(held, next);
 }
 

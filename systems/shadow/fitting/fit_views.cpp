@@ -56,7 +56,7 @@ private:
 
     Reason run_usual(HeldLight& next) {
         const Reason reason = fit(held_, next);
-        if (reason != Reason::none || !(held_.grant == Grant{})) return reason;
+        if (reason != Reason::none || !(held_.budget.grant == Grant{})) return reason;
         ShadowFilter chosen = chosen_filter(held_.filter, worst_px(), wished_px_);
         const bool turns = chosen == kKeepingFilter && held_.filter.filter != kKeepingFilter;
         if (turns && choice_.request.limits.max_views > 0) {  // another number of cascades may meet the target
@@ -135,7 +135,7 @@ void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& 
         const HeldLight* last = find(inputs.held, scene.lights[i].entity, next_history.lights.size());
         HeldLight& next = next_history.lights.emplace_back(last ? *last : none);
         next.light = scene.lights[i].entity;
-        next.gave_way = choice.request.rays.fell_back;
+        next.rays.gave_way = choice.request.rays.fell_back;
         if (!status.is_skipped()) {
             const HeldLight before = next;
             if (has_map(choice.request))

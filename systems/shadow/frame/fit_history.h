@@ -89,6 +89,39 @@ struct HeldFilter {
     bool operator==(const HeldFilter&) const = default;
 };
 
+/// Sizes of a light's maps, and how long they have been otherwise than needed.
+struct SizeHistory {
+    std::uint32_t map_px = 0;        // edge of its maps where they follow the target (accuracy_target.h); else 0
+    std::uint32_t spare_frames = 0;  // consecutive frames in which half of that edge appeared to meet the target
+    std::uint32_t large_frames = 0;  // consecutive frames in which some view was too large
+    std::uint32_t tired_frames = 0;  // frames until a size may become smaller again, after some have changed
+    bool operator==(const SizeHistory&) const = default;
+};
+
+/// Number of a sun's cascades.
+struct CountHistory {
+    std::uint32_t cascades = 0;  // number that the target chose; 0: none yet, or the number is given
+    std::uint32_t moves = 0;     // frames in which its maps moved since other numbers were last fitted
+    bool operator==(const CountHistory&) const = default;
+};
+
+/// Light that uses rays.
+struct RayHistory {
+    bool gave_way = false;           // RayUse::fell_back of the last frame
+    std::uint64_t casters = 0;       // hash of the casters in its conservative maps, wherever those maps lie
+    std::uint32_t quiet_frames = 0;  // frames with a moving camera since that hash changed, at most kQuietFrames
+    bool operator==(const RayHistory&) const = default;
+};
+
+/// What a budget left of a light. BudgetStage alone writes it.
+struct BudgetHistory {
+    Grant grant;
+    float activity = 0.0f;         // share of its views that change per frame, smoothed
+    std::uint32_t new_frames = 0;  // frames from now in which its views change because its limits did
+    bool operator==(const BudgetHistory&) const = default;
+};
+
+/// What the fits remember of one light.
 struct HeldLight {
     ecs::Entity light = {};
     HeldSplits splits;
@@ -96,19 +129,11 @@ struct HeldLight {
     ConeFade cone;
     LampAim aim;
     HeldEnds sampled_ends;
-    std::uint32_t large_frames = 0;  // consecutive frames in which some view was too large
-    std::uint32_t tired_frames = 0;  // frames until a size may become smaller again, after some have changed
-    std::uint32_t map_px = 0;        // edge of its maps where they follow the target (accuracy_target.h); else 0
-    std::uint32_t spare_frames = 0;  // consecutive frames in which half of that edge appeared to meet the target
-    std::uint32_t cascades = 0;      // number that the target chose; 0: none yet, or the number is given
-    std::uint32_t moves = 0;         // frames in which its maps moved since other numbers were last fitted
-    bool gave_way = false;           // RayUse::fell_back of the last frame
-    std::uint64_t casters = 0;       // hash of the casters in its conservative maps, wherever those maps lie
-    std::uint32_t quiet_frames = 0;  // frames with a moving camera since that hash changed, at most kQuietFrames
+    SizeHistory size;
+    CountHistory count;
     HeldFilter filter;
-    Grant grant;                   // limits of the budget; this and the members below are written by BudgetStage
-    float activity = 0.0f;         // share of its views that change per frame, smoothed
-    std::uint32_t new_frames = 0;  // frames in which changes of its views still follow from a changed grant
+    RayHistory rays;
+    BudgetHistory budget;
     bool operator==(const HeldLight&) const = default;
 };
 
@@ -118,7 +143,7 @@ struct HeldLight {
 inline constexpr std::uint32_t kQuietFrames = 30;
 /// Growth of the map's edge: twice the edge leaves a third fewer pixels to rays (docs/exact.md, "What it costs").
 inline constexpr float kQuietEdges = 2.0f;
-inline bool is_quiet(const HeldLight& held) { return held.quiet_frames >= kQuietFrames; }
+inline bool is_quiet(const HeldLight& held) { return held.rays.quiet_frames >= kQuietFrames; }
 
 struct History {
     std::vector<HeldLight> lights;  // in the order of the frame's lights

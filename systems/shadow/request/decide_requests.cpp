@@ -118,7 +118,7 @@ float wished_resolution_px(const LightItem& light, const ShadowRequest& request)
 /// target, the last frame's smaller size stays (accuracy_target.h).
 void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, const HeldLight* held,
                        ShadowRequest& request) {
-    const std::uint32_t held_px = held ? held->map_px : 0;
+    const std::uint32_t held_px = held ? held->size.map_px : 0;
     const std::uint32_t asked_px = light.shadow.resolution_px;
     request.limits.max_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
                                          : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
@@ -225,11 +225,11 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     }
     if (leaves_count(light, request)) {
         request.limits.max_views = request.map.view_count;
-        if (held_light && held_light->cascades > 0 && held_light->cascades < request.limits.max_views)
-            set_cascades(light.tuning.cascades, held_light->cascades, request);
+        if (held_light && held_light->count.cascades > 0 && held_light->count.cascades < request.limits.max_views)
+            set_cascades(light.tuning.cascades, held_light->count.cascades, request);
     }
     if (light.kind == LightKind::directional && follows_contract(light, request))
-        set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->map_px : 0,
+        set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->size.map_px : 0,
                  request);
     if (asks_rays(filter_row(request.map.filter))) decide_sheets(request);
     return request;

@@ -70,7 +70,7 @@ void choose_fallbacks(const SceneSnapshot& scene, const History& held, const Ray
         const LightItem& light = scene.lights[asker.light];
         const HeldLight* last = find(held, light.entity, asker.light);
         const double rays = rays_of(scene, light, requests[asker.light]);
-        if (rays * (last && last->gave_way ? kBackAgain : 1.0) <= left)
+        if (rays * (last && last->rays.gave_way ? kBackAgain : 1.0) <= left)
             left -= rays;
         else
             out.reasons[asker.light] = Reason::ray_budget;

@@ -175,19 +175,19 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const std::size_t before = views.size();
     const HeldLight& held = input.held;
     HeldLight& next = input.next;
-    fit_cascades(input, basis, slices, held.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
+    fit_cascades(input, basis, slices, held.size.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
     const bool too_large =
         std::any_of(next.views.begin(), next.views.end(), [](const HeldView& view) { return view.too_large; });
-    next.large_frames = too_large ? held.large_frames + 1 : 0;
-    next.tired_frames = std::max(held.tired_frames, 1u) - 1;
-    if (has_stepped(input) || next.large_frames >= kSpareFrames) {
+    next.size.large_frames = too_large ? held.size.large_frames + 1 : 0;
+    next.size.tired_frames = std::max(held.size.tired_frames, 1u) - 1;
+    if (has_stepped(input) || next.size.large_frames >= kSpareFrames) {
         // Each change of a size shows. So sizes that would soon change do so in this frame, and none shrinks for
         // kSpareFrames frames.
         views.resize(before);
         next.views = held.views;
         fit_cascades(input, basis, slices, Stepping::together, views);
-        next.large_frames = 0;
-        next.tired_frames = kSpareFrames;
+        next.size.large_frames = 0;
+        next.size.tired_frames = kSpareFrames;
     }
     return views.size() > before;
 }
