@@ -10,7 +10,7 @@
 
 namespace gnomon::shadow {
 
-/// Copied bytes that cost as much as drawing a triangle (docs/architecture.md, "Caching", has the measurement).
+/// Copied bytes that cost as much as drawing a triangle (docs/economy.md, "Caching", has the measurement).
 inline constexpr std::uint64_t kCopiedBytesPerTriangle = 256;
 
 /// Whether drawing these casters is more work than copying so many bytes. Counted, not timed, so that it is the same on
