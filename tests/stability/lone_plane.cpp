@@ -164,22 +164,33 @@ public:
                                     const glm::dvec3& camera_ws_m) {
         scene_.consumers[0].position_ws_m = camera_ws_m;
         LightItem& light = scene_.lights[0];
-        light.position_ws_m = views[0].anchor_ws_m;
-        light.rotation_ws = {views[0].axis_u, views[0].axis_v, views[0].axis_back};
-        shadow::ShadowRequest demand;
-        demand.filter = light.shadow.filter;
-        demand.depth_format = light.tuning.maps.depth_format;
-        demand.resolution_px = size_px;
-        demand.filtering = shadow::filter_settings(light, size_px);
-        frame_.demands = {demand};
+        light.position_ws_m = views[0].pose.anchor_ws_m;
+        light.rotation_ws = {views[0].pose.axis_u, views[0].pose.axis_v, views[0].pose.axis_back};
+        frame_.decisions.resize(1);
+        shadow::MapSettings& map = frame_.decisions[0].request.map;
+        map.filter = light.shadow.filter;
+        map.depth_format = light.tuning.maps.depth_format;
+        map.resolution_px = size_px;
+        map.filtering = shadow::filter_settings(light, size_px);
+        frame_.statuses.assign(1, {});
         frame_.fitted.views = views;
-        frame_.slots.assign(views.size(), {.texture = {1}, .size_px = size_px});
-        shadow::publish_lights(scene_, {}, {}, false, frame_);
+        frame_.fitted.lights.resize(1);
+        frame_.fitted.lights[0].views.count = static_cast<std::uint32_t>(views.size());
+        frame_.maps.resize(views.size());
+        for (shadow::MapAssignment& assigned : frame_.maps) {
+            assigned.texture = {1};
+            assigned.size_px = size_px;
+        }
+        frame_.updates.assign(views.size(), {});
+        const shadow::DrawnViews drawn = shadow::drawn_views(frame_);
+        shadow::publish_lights(scene_, {drawn, {}, {}, samplers_, no_rays_}, frame_.inputs, {});
         return frame_.inputs[0].lights[0];
     }
 
 private:
     SceneSnapshot scene_;
+    shadow::MapSamplers samplers_;
+    visibility::RayBuffers no_rays_;
     shadow::ShadowFrame frame_;
 };
 
@@ -238,7 +249,7 @@ void LonePlaneLookup::set_maps(std::vector<ShadowView> views, std::uint32_t size
     const double roundoff = plane_bounds().unit_roundoff;
     const bool orthographic = views[0].projection == shadow::ViewProjection::orthographic;
     parts_->texels.size_px = size_px;
-    parts_->texels.absolute = roundoff * (orthographic ? 2.0 : std::abs(views[0].depth_alpha));
+    parts_->texels.absolute = roundoff * (orthographic ? 2.0 : std::abs(views[0].depth.alpha));
     parts_->texels.relative = orthographic ? 0.0 : 3.0 * roundoff;
     parts_->camera_ws_m = camera_ws_m;
     parts_->views = std::move(views);
@@ -252,7 +263,7 @@ LonePlaneLookup::Answer LonePlaneLookup::look_up(const LonePlane& plane, double 
     for (const ShadowView& view : parts_->views)
         parts_->texels.faces[view.layer] =
             drawn_plane(view, parts_->texels.size_px, plane.normal, glm::dot(plane.normal, plane.at_m));
-    const glm::dvec3 anchor_from_camera_m = parts_->views[0].anchor_ws_m - parts_->camera_ws_m;
+    const glm::dvec3 anchor_from_camera_m = parts_->views[0].pose.anchor_ws_m - parts_->camera_ws_m;
     InstanceItem caster;
     caster.basis = {plane.half_u_m, plane.half_v_m, plane.normal};
     caster.translation_ws_m = plane.quad_at_m + anchor_from_camera_m;
