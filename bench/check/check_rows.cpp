@@ -112,7 +112,7 @@ std::vector<CheckRowSetup> check_row_setups() {
     std::vector<CheckRowSetup> setups;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
-            if (kind.kind != LightKind::point) {
+            if (kind.texture != gl::TextureKind::cube) {
                 setups.push_back(setup_of(kind, filter));
                 continue;
             }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
@@ -23,7 +24,7 @@ constexpr double kTexelsPerCascade = 2.0;
 constexpr double kSeldom = 1.0 / 8.0;
 
 bool has_cascades(const LightItem& light, const ShadowRequest& request) {
-    return light.kind == LightKind::directional && request.map.view_count > 1 &&
+    return light_facts(light.kind).parallel && request.map.view_count > 1 &&
            light.tuning.cascades.splits != CascadeSplits::manual;  // which names them all
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/view_casters.h"
@@ -36,7 +37,7 @@ void state_errors(const SceneSnapshot& scene, std::span<const glm::dvec3> points
 
 /// Whose receivers lie in it: of a sun's cascades those of all, since each may reach into another's slice.
 void state_receivers(const LightItem& light, std::span<const Beam> beams, ShadowView& view) {
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     const Beam& beam = beams[sun ? 0 : view.layer];
     view.consumer_mask = beam.consumers;
     if (view.receivers == 0) view.receivers = beam.receivers;
@@ -256,7 +257,7 @@ bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const 
 
 /// A cube face's share of its neighbours is a share of its map: its sets follow from the size. Others' do not.
 void LightFit::select_sets_again() {
-    if (light_.kind != LightKind::point) return;
+    if (light_kind_row(light_.kind).texture != gl::TextureKind::cube) return;
     ReceiverCasterSets& sets = out_.resized_sets;
     sets.receiver_items.resize(first_resized_.receivers);
     sets.caster_items.resize(first_resized_.casters);

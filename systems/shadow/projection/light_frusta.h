@@ -30,6 +30,9 @@ struct LightOpenings {
 /// or a cube's five faces in its own axes, limited to what the cone can light, or these and then that
 /// (spot_cube_transition.h). A single opening holds no more than kWidestMap_rad to each side. A lamp that is aimed has
 /// one (far_lamp_aim.h), a sun none.
-LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
+/// Adds a light kind's light frusta, except that of an aimed lamp.
+using FrustaFunction = void (*)(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
+void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
+void add_cube_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
 
 }  // namespace gnomon::shadow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/projection/cascade_splits.h"
 #include "systems/shadow/projection/depth_range_override.h"
 #include "systems/shadow/projection/far_lamp_aim.h"
@@ -51,7 +52,7 @@ void decide_cascades(const LightItem& light, bool depths_failed, ShadowRequest& 
 /// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
 /// as the contract makes them.
 bool leaves_count(const LightItem& light, const ShadowRequest& request) {
-    return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, request) &&
+    return light_facts(light.kind).parallel && light.shadow.cascades == 0 && follows_contract(light, request) &&
            light.tuning.cascades.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
            request.projection.warp == 0.0f;
 }
@@ -59,7 +60,7 @@ bool leaves_count(const LightItem& light, const ShadowRequest& request) {
 /// Which projection and depth range the light's views have; what cannot be had is noted and left out.
 void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest& request) {
     const LightProjection wish = light.tuning.projection.kind;
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     if (sun) decide_cascades(light, depths_failed, request);
     if (is_range(light.tuning.projection)) {
         request.projection.near_m = static_cast<double>(light.tuning.projection.near_m);
@@ -104,7 +105,7 @@ float texels_per_pixel(const LightItem& light, const HeldLight* held, const Shad
     const FilterRow& row = filter_row(request.map.filter);
     if (!asks_rays(row)) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
-    const bool waits = held && light.kind == LightKind::directional && is_quiet(*held);
+    const bool waits = held && light_facts(light.kind).parallel && is_quiet(*held);
     return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
 }
 
@@ -215,8 +216,8 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, request);
     decide_projection(light, scene.sampled_depths.failed, request);
-    if (light.kind == LightKind::directional) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
-    if (light.kind == LightKind::spot) decide_cone(light, held_light, request);
+    if (light_facts(light.kind).parallel) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
+    if (light_facts(light.kind).cone) decide_cone(light, held_light, request);
     if (request.projection.aim.used) {
         request.projection.faces_eighths = 0;
         request.map.view_count = 1;
@@ -226,7 +227,7 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
         if (held_light && held_light->cascades > 0 && held_light->cascades < request.limits.max_views)
             set_cascades(light.tuning.cascades, held_light->cascades, request);
     }
-    if (light.kind == LightKind::directional && follows_contract(light, request))
+    if (light_facts(light.kind).parallel && follows_contract(light, request))
         set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->map_px : 0,
                  request);
     if (asks_rays(filter_row(request.map.filter))) decide_sheets(request);

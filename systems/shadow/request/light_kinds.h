@@ -7,6 +7,7 @@
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_view.h"
+#include "systems/shadow/projection/light_frusta.h"
 
 namespace gnomon::shadow {
 
@@ -42,6 +43,7 @@ struct LightKindRow {
     gl::TextureKind texture;
     std::uint32_t layers;  // of the map
     FitFunction fit;
+    FrustaFunction frusta;  // light frusta of a lamp, one per view; nullptr: rays are parallel
 };
 
 /// A sun seen from an eye is looked up as a spot is, and so is an aimed point light.
@@ -53,6 +55,9 @@ inline constexpr std::string_view kWarpedSunFile = "shadow/lookup/kinds/directio
 /// shaders/shadow/lookup/kinds/x.glsl, a row here.
 std::span<const LightKindRow> light_kind_table();
 const LightKindRow& light_kind_row(LightKind kind);
+
+/// Returns the light frusta of a light: of its kind, or the one of an aimed lamp (far_lamp_aim.h); none of a sun.
+LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
 
 /// Of the light's map: an aimed lamp has a flat one.
 gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
@@ -20,16 +21,13 @@ double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowR
 
 /// What a light's shadow means to the picture, to compare lights by: pixels times illuminance at the camera.
 double meaning(const SceneSnapshot& scene, const LightItem& light) {
-    const double emitted = static_cast<double>(light.intensity) *
-                           static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
     double nearest_m2 = std::numeric_limits<double>::infinity();
     for (const ConsumerItem& consumer : scene.consumers) {
         const glm::dvec3 way_m = light.position_ws_m - consumer.position_ws_m;
         nearest_m2 = std::min(nearest_m2, glm::dot(way_m, way_m));
     }
     constexpr double kLeast_m2 = 1.0;  // nearer than a metre all is as bright as there
-    const double lux = light.kind == LightKind::directional ? emitted : emitted / std::max(nearest_m2, kLeast_m2);
-    return lux * asking_pixels(scene, light);
+    return illuminance_lux(light, std::max(nearest_m2, kLeast_m2)) * asking_pixels(scene, light);
 }
 
 bool uses_rays(const ShadowRequest& request) { return request.skip == Reason::none && request.rays.used; }
