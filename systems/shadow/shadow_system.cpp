@@ -68,8 +68,7 @@ namespace {
 /// Lights that read triangles are lit while the device has no room for them.
 void provide_triangles(GpuScene& gpu, const FittedViews& fitted, std::span<LightStatus> statuses) {
     for (std::size_t i = 0; i < statuses.size(); ++i)
-        if (!statuses[i].is_skipped() &&
-            filter_row(fitted.lights[i].request.map.filter).storage == FilterStorage::depth_and_triangle &&
+        if (!statuses[i].is_skipped() && filter_row(fitted.lights[i].request.map.filter).storage.triangle_ids &&
             !gpu.provide_caster_triangles())
             statuses[i].skip(Reason::buffer_failed);
 }

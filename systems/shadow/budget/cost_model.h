@@ -27,18 +27,6 @@ inline constexpr std::uint32_t kLeastGranted_px = 64;
 inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
 inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
 
-/// What drawing a view takes for its filter, against drawing depths of 4 bytes alone.
-struct StorageWork {
-    double passes = 1.0;       // targets drawn into, one after the other
-    double casters = 1.0;      // how often each caster is drawn
-    double texel_bytes = 4.0;  // cleared and written per texel, in all of them
-};
-
-/// depth_and_triangle: 8 bytes beside the depth, in the same pass. sheets: nearest depths with 8 bytes of triangles,
-/// next depths, and 8 bytes of bounds (map_textures.cpp); casters are drawn twice, and measured for the third. The two
-/// passes of a blur (moments) are counted apart, and what soft_sheets make of theirs, a small share, is not.
-StorageWork storage_work(FilterStorage storage);
-
 /// Measured over modelled time, by kind of work (CostClock).
 struct CostFactors {
     double drawing = 1.0, lighting = 1.0;
@@ -91,7 +79,8 @@ struct DrawCounts {
 /// `casters`: of one view, by mesh.
 DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
 
-/// Of drawing so many views with so much in them, as it is recorded: storage_work() says how often casters are.
+/// Computes the time of drawing, ns. `triangles` and `draws` count each caster DrawingWork::casters times. The two
+/// passes of a blur of moments are added.
 double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws);
 
 }  // namespace gnomon::shadow

@@ -138,7 +138,7 @@ void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m,
     clearances_m.assign(in.scene.lights.size(), 0.0);
     for (std::uint32_t i = 0; i < in.scene.lights.size(); ++i) {
         const ShadowRequest& request = in.drawn.lights[i].request;
-        const bool soft = filter_row(request.map.filter).storage == FilterStorage::soft_sheets;
+        const bool soft = filter_row(request.map.filter).storage.occluder_pyramid;
         if (!soft || in.drawn.statuses[i].is_skipped() || request.rays.only ||
             light_facts(in.scene.lights[i].kind).parallel)
             continue;

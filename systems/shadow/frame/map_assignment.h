@@ -13,16 +13,16 @@ struct ContentSignature {
     std::uint64_t placement = 0;  // without any caster
 };
 
-/// What a view of FilterStorage::sheets has beside its depths (docs/exact.md).
+/// What a view of FilterStorage::conservative_bounds has beside its depths (docs/exact.md).
 struct BoundsMaps {
     gl::TextureHandle second{};  // depths of the next triangles behind
     gl::TargetHandle second_target{};
     gl::TextureHandle bounds{};  // where surfaces end, and how far they depart from their depths
     gl::TargetHandle bounds_target{};
-    gl::BufferHandle ends{};  // occluder pyramid, of FilterStorage::soft_sheets
+    gl::BufferHandle ends{};  // occluder pyramid, of FilterStorage::occluder_pyramid
 };
 
-/// What a view of FilterStorage::moments has beside its depths.
+/// What a view of a filter with FilterRow::moments has beside its depths.
 struct PrefilteredMaps {
     gl::TextureHandle moments{};
     gl::TargetHandle target{};
@@ -34,7 +34,7 @@ struct PrefilteredMaps {
 struct MapAssignment {
     gl::TextureHandle texture{};
     gl::TargetHandle target{};
-    /// Which triangle each texel shows (FilterStorage::depth_and_triangle). Of ::sheets one layer that all views draw
+    /// Which triangle each texel shows (FilterStorage::triangle_ids). With bounds one layer that all views draw
     /// into, one after the other. Else {0}.
     gl::TextureHandle triangles{};
     BoundsMaps sheets;

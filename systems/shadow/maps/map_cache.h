@@ -31,10 +31,11 @@ struct MomentMap {
     std::vector<std::uint64_t> content;  // per layer, as LightHistory::content
 };
 
-/// Beside a depth map of FilterStorage::sheets (SheetDescs). What each texel shows is LightHistory::triangles.
+/// Beside a depth map of FilterStorage::conservative_bounds (SheetDescs). What each texel shows is
+/// LightHistory::triangles.
 struct SheetMap {
     gl::TextureHandle second{}, bounds{};  // {0}: there is none
-    gl::BufferHandle ends{};               // the same; FilterStorage::soft_sheets (occluder_pyramid.h)
+    gl::BufferHandle ends{};               // the same; FilterStorage::occluder_pyramid (occluder_pyramid.h)
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 
@@ -44,13 +45,13 @@ struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    FilterStorage storage = FilterStorage::depth;  // what it was made for
-    gl::TextureHandle triangles{};                 // beside it for a filter that reads or peels triangles; else {0}
-    SheetMap sheets;                               // beside it for a filter of FilterStorage::sheets
-    MomentMap moments;                             // beside it for a filter of FilterStorage::moments
-    StillMap still;                                // beside it while some of its casters move and others do not
-    std::vector<gl::TargetHandle> targets;         // one per layer
-    gl::TargetHandle whole{};                      // all layers at once; made when first drawn that way
+    FilterStorage storage{};                // what it was made for
+    gl::TextureHandle triangles{};          // beside it for a filter that reads or peels triangles; else {0}
+    SheetMap sheets;                        // beside it for a filter of FilterStorage::conservative_bounds
+    MomentMap moments;                      // beside it for a filter with FilterRow::moments
+    StillMap still;                         // beside it while some of its casters move and others do not
+    std::vector<gl::TargetHandle> targets;  // one per layer
+    gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
     std::uint64_t wanted_content = 0;       // of all layers in the last frame, of lights that may do without a map
     std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
     std::vector<std::uint64_t> placements;  // per layer: ShadowSlot::placement of it

@@ -100,11 +100,11 @@ void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind
     out.ends = map.sheets.ends;
     // By itself the map of one that asks rays is good for no more; nor is one whose moments could not be made.
     if (map_filter(drawn, v) != request.map.filter) return;
-    const bool moments = filter.storage == FilterStorage::moments;
+    const bool moments = filter.moments != nullptr;
     out.row.filter_file = filter.file;
     out.row.reach_texel = request.map.filtering.reach_texel;
     out.row.depths = filter.reading == MapReading::depths;
-    out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
+    out.row.triangles = filter.storage.triangle_ids;
     out.row.moments = moments;
     out.row.footprint = request.map.moments.levels > 1 || request.map.moments.anisotropy > 1;
     out.row.fades = !request.projection.perspective_sun &&

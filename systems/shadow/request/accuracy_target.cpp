@@ -36,7 +36,7 @@ double wished_error_px(const LightShadow& shadow) {
 bool follows_contract(const LightItem& light, const ShadowRequest& request) {
     const bool stable = light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
     return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
-           !asks_rays(filter_row(request.map.filter));  // which err by nothing
+           !filter_row(request.map.filter).rays;  // which err by nothing
 }
 
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,

@@ -45,7 +45,7 @@ void decide_cascades(const LightItem& light, bool depths_failed, ShadowRequest& 
     if (!are_splits(tuning)) request.note = Reason::splits_invalid;
     if (light.shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
     // A finer map only saves rays: of itself a light asks for one.
-    const bool one = light.shadow.cascades == 0 && asks_rays(filter_row(request.map.filter));
+    const bool one = light.shadow.cascades == 0 && filter_row(request.map.filter).rays;
     set_cascades(tuning, one ? 1 : cascade_count(light, request.map.view_count), request);
 }
 
@@ -93,9 +93,10 @@ void decide_warp(const ShadowTuning::Cascades& tuning, bool one_consumer, Shadow
 
 /// Of a point there is nothing to ask but whether it is seen.
 ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
-    if (filter != ShadowFilter::exact_soft) return filter;
-    const bool has_size = needs_distances(filter_settings(filter_row(filter), light, kLeastMap_px));
-    return has_size ? filter : ShadowFilter::exact;
+    const FilterRow& row = filter_row(filter);
+    if (!row.rays) return filter;
+    const bool has_size = needs_distances(filter_settings(row, light, kLeastMap_px));
+    return has_size ? filter : row.rays->without_size;
 }
 
 /// A map of sheets costs as it is drawn and cleared, layer by layer, and saves rays: a cube's six are worth half the
@@ -103,7 +104,7 @@ ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
 float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(request.map.filter);
-    if (!asks_rays(row)) return row.texels_per_pixel;
+    if (!row.rays) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
     const bool waits = held && light_facts(light.kind).parallel && is_quiet(*held);
     return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
@@ -111,7 +112,7 @@ float texels_per_pixel(const LightItem& light, const HeldLight* held, const Shad
 
 /// What errs by nothing is no larger for a smaller error.
 float wished_resolution_px(const LightItem& light, const ShadowRequest& request) {
-    return asks_rays(filter_row(request.map.filter)) ? 0.0f : light.shadow.max_error_px;
+    return filter_row(request.map.filter).rays ? 0.0f : light.shadow.max_error_px;
 }
 
 /// As large as the picture asks for, or as the fits found to be enough (accuracy_target.h).
@@ -230,7 +231,7 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     if (light_facts(light.kind).parallel && follows_contract(light, request))
         set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->map_px : 0,
                  request);
-    if (asks_rays(filter_row(request.map.filter))) decide_sheets(request);
+    if (filter_row(request.map.filter).rays) decide_sheets(request);
     return request;
 }
 
@@ -239,7 +240,7 @@ bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
         const LightItem& light = scene.lights[i];
         const HeldLight* last = find(held, light.entity, i);
         const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
-        if (wanted(light, shadows) == Reason::none && asks_rays(filter_row(filter))) return true;
+        if (wanted(light, shadows) == Reason::none && filter_row(filter).rays) return true;
     }
     return false;
 }
@@ -257,7 +258,7 @@ void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, Ra
     choose_fallbacks(scene, inputs.held, inputs.rays, requests, fallbacks);
     for (std::uint32_t i = 0; i < requests.size(); ++i) {
         if (fallbacks.reasons[i] == Reason::none) continue;
-        const ShadowFilter filter = filtered_row(requests[i].map.filter);
+        const ShadowFilter filter = filter_row(requests[i].map.filter).rays->without_rays;
         requests[i] = request_of(scene, inputs.device, inputs.held, i, filter);
         requests[i].rays.fell_back = true;
         requests[i].note = fallbacks.reasons[i];

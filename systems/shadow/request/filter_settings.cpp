@@ -96,7 +96,7 @@ FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std
     filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(kernel, filter);
     if (row.width == FilterWidth::spread) take_spread(kernel, most_texel, filter);
-    if (asks_rays(row)) take_rays(kernel, filter);
+    if (row.rays) take_rays(kernel, filter);
     if (row.width == FilterWidth::source) take_source(light, most_edge_texel, filter);
     filter.border_texel = border_texel(filter, filter.most_spread_texel);
     return filter;

@@ -16,12 +16,25 @@ enum class FilterWidth : std::uint8_t {
     source   // Light::source_radius_m, sun_radius_rad; needs true distances of casters
 };
 
-/// What a map holds for a filter: depth, or also which triangle each texel shows
-/// (shaders/shadow/filters/triangles/mesh_walk.glsl), or also moments of distances, blurred (shaders/shadow/moments),
-/// or also what tells of which pixels it is certain (shaders/shadow/exact); rays ask the casters themselves
-/// (shaders/rays) about the others, or about all where the light has no such map; or also what of that a source with a
-/// size asks for.
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, sheets, soft_sheets };
+/// Work of drawing a view, against drawing depths of 4 bytes alone (budget/cost_model.h).
+struct DrawingWork {
+    double passes = 1.0;       // targets drawn into, one after the other
+    double casters = 1.0;      // number of times that each caster is drawn
+    double texel_bytes = 4.0;  // bytes cleared and written per texel, in all targets
+    bool operator==(const DrawingWork&) const = default;
+};
+
+/// Facts of what a map stores for a filter beside its depths. Moments, which passes make of the depths, are
+/// FilterRow::moments.
+struct FilterStorage {
+    /// Instance and triangle that each texel shows, for lookups (shaders/shadow/filters/triangles/mesh_walk.glsl).
+    bool triangle_ids = false;
+    /// Bounds within which nothing else can lie, with the next depths behind (shaders/shadow/exact).
+    bool conservative_bounds = false;
+    bool occluder_pyramid = false;  // minima of depths over squares of texels, for a source with a size
+    DrawingWork work{};
+    bool operator==(const FilterStorage&) const = default;
+};
 
 /// What its sampler returns: results of comparing, as they are or blended by hardware, what is stored, or blurred
 /// moments of it.
@@ -41,6 +54,13 @@ struct MomentRow {
     float usual_negative_exponent = 0.0f;  // of a second warp, -e^(-c s); 0: there is none
 };
 
+/// Facts of a filter with rays to the light (shaders/rays), for pixels that its map leaves uncertain.
+struct RayRow {
+    bool per_source;            // rays per pixel are Kernel::penumbra_rays, to places of the source; else one
+    ShadowFilter without_rays;  // filter instead where rays cannot be had: errs least by maps alone
+    ShadowFilter without_size;  // filter instead where the light's source is a point
+};
+
 /// One way of looking a depth map up. To add one: a file under shaders/shadow/filters, an enumerator, a row
 /// (docs/adding_a_filter.md).
 struct FilterRow {
@@ -53,13 +73,14 @@ struct FilterRow {
     float reach_texel;
     FilterWidth width;
     MapReading reading;
-    FilterStorage storage = FilterStorage::depth;
+    FilterStorage storage{};
     /// What of E is read but cannot move a shadow's edge.
     float still_texel = 0.0f;
     /// Of one cascade, spot view or cube face, per pixel of the picture's larger side, where the light says no size.
     /// What is seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
     float texels_per_pixel = 1.5f;
-    const MomentRow* moments = nullptr;  // of FilterStorage::moments
+    const MomentRow* moments = nullptr;  // blurred moments of distances (shaders/shadow/moments); nullptr: none
+    const RayRow* rays = nullptr;        // rays beside the map; nullptr: none
 };
 
 /// The row that measures best, and what ShadowFilter::automatic is where nothing speaks for another.
@@ -68,11 +89,6 @@ inline constexpr ShadowFilter kUsualFilter = ShadowFilter::triangles;
 /// What is looked up where a budget leaves no more, or the light's own row cannot be had. One fetch, one texel, no
 /// store beside the map, and the narrowest footprint: no border or bias is too small for it.
 inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
-
-inline bool has_sheets(FilterStorage storage) {
-    return storage == FilterStorage::sheets || storage == FilterStorage::soft_sheets;
-}
-inline bool asks_rays(const FilterRow& row) { return has_sheets(row.storage); }
 
 /// In the order of ShadowFilter.
 std::span<const FilterRow> filter_table();

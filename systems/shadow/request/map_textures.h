@@ -30,16 +30,16 @@ MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings);
 /// Rows of the scratch texture beyond the map's, above and below: a cube's neighbours go on there.
 std::uint32_t scratch_rows(const MapSettings& settings, bool cube);
 
-/// What else a map of FilterStorage::sheets has (docs/exact.md): what each texel shows, until the next triangles behind
-/// are drawn, view by view in one layer; and, per view, those triangles' depths, and where sheets end and how far they
-/// depart.
+/// What else a map of FilterStorage::conservative_bounds has (docs/exact.md): what each texel shows, until the next
+/// triangles behind are drawn, view by view in one layer; and, per view, those triangles' depths, and where sheets end
+/// and how far they depart.
 struct SheetDescs {
     gl::TextureDesc triangles, second, bounds;
 };
 SheetDescs sheets_of(const gl::TextureDesc& map);
 
 /// Of all that a map for this storage has; of `moments` and `scratch` those with a width.
-std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
+std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch);
 /// 0: it has no map.
 std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request);

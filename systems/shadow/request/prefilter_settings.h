@@ -18,7 +18,7 @@ inline constexpr float kMostMomentBleeding = 0.9f;
 /// Levels of mipmaps whose coarsest texel is as wide as that radius, or up to half of it.
 std::uint32_t widest_penumbra_levels(float radius_texel);
 
-/// Of a row of FilterStorage::moments; of any other the default. A map that is too small for so many levels gets fewer.
+/// Of a row with FilterRow::moments; of any other the default. A map that is too small for so many levels gets fewer.
 PrefilterSettings prefilter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px);
 
 /// Weights of a Gaussian blur over `size` texels (odd), from the middle outward; the two sides of it sum up to 1. It is

@@ -35,7 +35,8 @@ bool uses_rays(const ShadowRequest& request) { return request.skip == Reason::no
 }  // namespace
 
 double rays_per_pixel(const MapSettings& map) {
-    return filter_row(map.filter).storage == FilterStorage::soft_sheets ? map.filtering.taps : 1.0;
+    const RayRow* rays = filter_row(map.filter).rays;
+    return rays && rays->per_source ? map.filtering.taps : 1.0;
 }
 
 double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {

@@ -10,14 +10,6 @@
 /// How many rays lights ask, before any is counted; and what follows from that.
 namespace gnomon::shadow {
 
-/// What an exact light falls back to when others' rays use a budget up: the row that errs least without any.
-inline constexpr ShadowFilter kFilteredRow = kUsualFilter;
-/// The same of a source with a size.
-inline constexpr ShadowFilter kFilteredSoftRow = ShadowFilter::pcss;
-constexpr ShadowFilter filtered_row(ShadowFilter filter) {
-    return filter == ShadowFilter::exact_soft ? kFilteredSoftRow : kFilteredRow;
-}
-
 /// Of the pixels that ask a light, so many its map is taken not to be certain of: more than in all but one of the
 /// scenes of docs/exact.md.
 inline constexpr double kUncertainShare = 0.2;
@@ -46,8 +38,9 @@ struct RayFallbacks {
     std::vector<RayLight> lights;  // scratch
 };
 
-/// Chooses which lights fall back to filtered_row() until the others use no more rays than the limit: first the lights
-/// that mean least to the picture. A light that fell back returns when there is room for a quarter more than it uses.
+/// Chooses which lights fall back to RayRow::without_rays until the others use no more rays than the limit: first the
+/// lights that mean least to the picture. A light that fell back returns when there is room for a quarter more than it
+/// uses.
 void choose_fallbacks(const SceneSnapshot& scene, const History& held, const RayLimit& limit,
                       std::span<const ShadowRequest> requests, RayFallbacks& out);
 
