@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bench/flicker/camera_path.h"
+#include "systems/extract/light_facts.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::bench {
@@ -130,14 +131,13 @@ double seen_distance_m(const SceneSnapshot& scene, const assets::MeshLibrary& li
 }
 
 bool shines_on(const LightItem& light, const SurfacePoint& point) {
-    if (light.kind == LightKind::directional)
-        return glm::dot(point.normal_ws, light.rotation_ws[2]) > oracle::kMinCosine;
+    const LightFacts& facts = light_facts(light.kind);
+    if (facts.parallel) return glm::dot(point.normal_ws, light.rotation_ws[2]) > oracle::kMinCosine;
     const glm::dvec3 to_light = light.position_ws_m - point.position_ws_m;
     const double distance_m = glm::length(to_light);
     if (!(glm::dot(point.normal_ws, to_light) > oracle::kMinCosine * distance_m)) return false;
     if (light.range_m > 0.0 && distance_m > light.range_m) return false;
-    return light.kind == LightKind::point ||
-           glm::dot(to_light, light.rotation_ws[2]) > distance_m * std::cos(light.outer_cone_rad);
+    return !facts.cone || glm::dot(to_light, light.rotation_ws[2]) > distance_m * std::cos(light.outer_cone_rad);
 }
 
 }  // namespace gnomon::bench

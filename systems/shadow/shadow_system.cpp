@@ -66,12 +66,11 @@ bool ShadowSystem::moment_sampler_ready(const PrefilterSettings& settings) {
 
 namespace {
 
-/// Provides the triangle buffers that lights with FilterStorage::depth_and_triangle read. Such lights have no shadow
-/// while the device has no memory for the buffers.
+/// Provides the triangle buffers that lights with FilterStorage::triangle_ids read. Such lights have no shadow while
+/// the device has no memory for the buffers.
 void provide_triangles(GpuScene& gpu, const FittedViews& fitted, std::span<LightStatus> statuses) {
     for (std::size_t i = 0; i < statuses.size(); ++i)
-        if (!statuses[i].is_skipped() &&
-            filter_row(fitted.lights[i].request.map.filter).storage == FilterStorage::depth_and_triangle &&
+        if (!statuses[i].is_skipped() && filter_row(fitted.lights[i].request.map.filter).storage.triangle_ids &&
             !gpu.provide_caster_triangles())
             statuses[i].skip(Reason::buffer_failed);
 }

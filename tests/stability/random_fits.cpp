@@ -100,7 +100,7 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     light.shadow.resolution_px = kSizes_px[static_cast<std::size_t>(number(0.0, std::size(kSizes_px)))];
     do {
         light.shadow.filter = filter_table()[static_cast<std::size_t>(number(0.0, static_cast<double>(filter_table().size())))].id;
-    } while (asks_rays(filter_row(light.shadow.filter)));
+    } while (filter_row(light.shadow.filter).rays);
     if (kind == LightKind::directional) {
         cascades(light);
         if (chance(0.15)) eye(light.tuning.projection);

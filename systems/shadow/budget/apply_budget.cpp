@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/signature.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/projection/screen_bounds.h"
@@ -61,14 +62,11 @@ double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) 
 
 /// Returns the light's illuminance halfway to its farthest receiver, lux.
 double typical_lux(const LightItem& light, std::span<const Beam> beams) {
-    const double emitted = static_cast<double>(light.intensity) *
-                           static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
-    if (light.kind == LightKind::directional) return emitted;
     double reach_m = 0.0;
     for (const Beam& beam : beams)
         if (beam.receivers > 0) reach_m = std::max(reach_m, beam.reach_m);
     const double way_m = 0.5 * (light.range_m > 0.0 ? std::min(reach_m, light.range_m) : reach_m);
-    return emitted / (way_m * way_m);
+    return illuminance_lux(light, way_m * way_m);
 }
 
 /// Returns the map edge that the light needs without quality limits, texels. Derives it from the fitted maps, which may

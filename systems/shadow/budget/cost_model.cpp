@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
@@ -23,7 +24,7 @@ constexpr double kTexelsPerCascade = 2.0;
 constexpr double kSeldom = 1.0 / 8.0;
 
 bool has_cascades(const LightItem& light, const ShadowRequest& request) {
-    return light.kind == LightKind::directional && request.map.view_count > 1 &&
+    return light_facts(light.kind).parallel && request.map.view_count > 1 &&
            light.tuning.cascades.splits != CascadeSplits::manual;  // manual splits name all cascades
 }
 
@@ -39,7 +40,7 @@ double seen_texel(const ShadowRequest& request) {
 /// that test the casters' own triangles, a half for filters that average texels (docs/accuracy.md, "Filters and
 /// sizes").
 double usual_share(const FilterRow& row) {
-    if (row.storage == FilterStorage::depth_and_triangle) return 0.2;
+    if (row.storage.triangle_ids) return 0.2;
     return row.reading == MapReading::depths ? 0.5 : 1.0;
 }
 
@@ -97,21 +98,6 @@ double mean_fetches(const LightItem& light, const ShadowRequest& request, Shadow
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
 
-StorageWork storage_work(FilterStorage storage) {
-    constexpr double kDepth = 4.0, kTriangle = 8.0, kBounds = 8.0;
-    switch (storage) {
-        case FilterStorage::depth_and_triangle:
-            return {.texel_bytes = kDepth + kTriangle};
-        case FilterStorage::sheets:
-        case FilterStorage::soft_sheets:
-            return {.passes = 3.0, .casters = 3.0, .texel_bytes = kDepth + kTriangle + kDepth + kBounds};
-        case FilterStorage::depth:
-        case FilterStorage::moments:
-            break;
-    }
-    return {};
-}
-
 DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters) {
     DrawCounts counts;
     std::uint32_t last_mesh = ~0u;
@@ -125,11 +111,11 @@ DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::spa
 }
 
 double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws) {
-    const FilterStorage storage = filter_row(map.filter).storage;
-    const StorageWork work = storage_work(storage);
+    const FilterRow& row = filter_row(map.filter);
+    const DrawingWork& work = row.storage.work;
     const double texels = static_cast<double>(edge_px) * edge_px;
-    double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / StorageWork{}.texel_bytes;
-    if (storage == FilterStorage::moments) view_ns += 2.0 * (kPass_ns + texels * map.filtering.size * kFetch_ns);
+    double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / DrawingWork{}.texel_bytes;
+    if (row.moments) view_ns += 2.0 * (kPass_ns + texels * map.filtering.size * kFetch_ns);
     return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
 }
 
@@ -151,7 +137,7 @@ Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& facto
     cost.bytes = map_bytes(*load.light, given);
     const double share =
         static_cast<double>(given.map.view_count) / static_cast<double>(std::max(load.wanted.map.view_count, 1u));
-    const double casters = share * storage_work(filter_row(given.map.filter).storage).casters;
+    const double casters = share * filter_row(given.map.filter).storage.work.casters;
     const double drawing =
         drawing_ns(given.map, given.map.resolution_px, load.views * share,
                    static_cast<double>(load.triangles) * casters, static_cast<double>(load.draws) * casters);

@@ -28,19 +28,6 @@ inline constexpr std::uint32_t kLeastGranted_px = 64;
 inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
 inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
 
-/// Work of drawing a view for its filter, relative to drawing depths of 4 bytes alone.
-struct StorageWork {
-    double passes = 1.0;       // targets drawn into, one after the other
-    double casters = 1.0;      // how often each caster is drawn
-    double texel_bytes = 4.0;  // bytes cleared and written per texel, in all targets
-};
-
-/// Returns the work of a storage. depth_and_triangle: 8 bytes beside the depth, in the same pass. sheets: nearest
-/// depths with 8 bytes of triangles, next depths, and 8 bytes of bounds (map_textures.cpp). There each caster is drawn
-/// twice, and its slopes are measured in a third pass. The two passes of a blur (moments) are counted elsewhere. The
-/// occluder pyramid of soft_sheets, a small share, is not counted.
-StorageWork storage_work(FilterStorage storage);
-
 /// Measured over modelled time, by kind of work (CostClock).
 struct CostFactors {
     double drawing = 1.0, lighting = 1.0;
@@ -93,8 +80,8 @@ struct DrawCounts {
 /// Counts the triangles and draws of one view's casters, sorted by mesh.
 DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
 
-/// Returns the time of drawing `views` views with these triangles and draws in all, ns. storage_work() states how often
-/// each caster is drawn.
+/// Returns the time of drawing `views` views, ns. `triangles` and `draws` count each caster DrawingWork::casters times.
+/// The two passes of a blur of moments are added.
 double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws);
 
 }  // namespace gnomon::shadow

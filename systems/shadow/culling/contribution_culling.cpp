@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/math/aabb.h"
+#include "systems/extract/light_facts.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -25,17 +26,12 @@ constexpr double kFaint = 4096.0;
 template <class Distance>
 double most_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                   std::span<const std::uint32_t> receivers, Distance distance_m) {
-    const double brightest = static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
-    const double emitted = static_cast<double>(light.intensity) * brightest;
     double most = 0.0;
     for (const std::uint32_t r : receivers) {
         const InstanceItem& item = scene.instances[r];
-        double received = emitted;
-        if (light.kind != LightKind::directional) {
-            const double away_m = distance_m(item.bounds_ws);
-            if (!(away_m > 0.0)) return std::numeric_limits<double>::infinity();
-            received = emitted / (away_m * away_m);
-        }
+        const double away_m = distance_m(item.bounds_ws);
+        const double received = illuminance_lux(light, away_m * away_m);
+        if (!std::isfinite(received)) return std::numeric_limits<double>::infinity();
         most = std::max(most, received * static_cast<double>(gpu.mesh(item.mesh).most_reflected));
     }
     return most * kSteepestEncoding * kDisplaySteps;

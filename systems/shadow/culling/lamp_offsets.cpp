@@ -11,6 +11,7 @@
 #include "engine/core/signature.h"
 #include "engine/math/frustum.h"
 #include "engine/math/shape_tree.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/triangle_distance.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -159,7 +160,7 @@ void LampPlaces::update(const SceneSnapshot& scene, const GpuScene& gpu, std::sp
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
         lamps_ws_m[i] = light.position_ws_m;
-        if (light.kind == LightKind::directional || requests[i].skip != Reason::none) continue;
+        if (light_facts(light.kind).parallel || requests[i].skip != Reason::none) continue;
         const LightTime time(cpu_us, i);
         const double share = requests[i].rays.used ? kClearOfPlanes : kClearOfClipping;
         lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/culling/lamp_offsets.h"
@@ -16,6 +17,7 @@
 #include "systems/shadow/projection/light_range.h"
 #include "systems/shadow/projection/perspective_view.h"
 #include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -38,7 +40,7 @@ public:
                           beams = out_.beams.size();
         find_candidates();
         scratch_.receivers.clear(scene_.instances.size());
-        if (light_.kind == LightKind::directional) look_along_sun();
+        if (light_facts(light_.kind).parallel) look_along_sun();
         const LightOpenings openings = light_openings(light_, request);
         for (const LightOpening& opening : openings.span()) look_through(opening);
         scratch_.receivers.for_each([&](std::uint32_t i) { out_.receiver_items.push_back(i); });
@@ -106,9 +108,10 @@ private:
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
-        if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, lamp)};
+        const bool cone = light_facts(light_.kind).cone;
+        if (cone) *end = {-back, glm::dot(back, lamp)};
         Beam seen, beam;
-        const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4), seen);
+        const IndexRange range = clip_candidates(std::span(planes).first(cone ? 5 : 4), seen);
         if (range.count > 0) beam = opening_beam(lamp, opening, points(range), out_.outlines, scratch_);
         beam.origin_ws_m = lamp;
         beam.axes = opening.axes;
@@ -216,7 +219,7 @@ ShadowLayers layers_of_all(const SceneSnapshot& scene, std::span<const ShadowReq
 }  // namespace
 
 bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer) {
-    if (light.kind == LightKind::directional) return true;
+    if (light_facts(light.kind).parallel) return true;
     const LightReach reach(light);
     const math::Frustum frustum = consumer_frustum(consumer);
     const auto planes = math::planes_of(frustum);

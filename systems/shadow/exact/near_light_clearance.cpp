@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/triangle_distance.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -35,7 +36,7 @@ public:
           radius_m_(static_cast<double>(in.drawn.lights[light].request.map.filtering.source_radius_m)),
           least_m_(kClearance_radii * radius_m_) {
         // Faces without a view are looked up as well: nothing may stand before them.
-        const bool cube = light_.kind == LightKind::point && !in.drawn.lights[light].request.projection.aim.used;
+        const bool cube = map_texture(light_, in.drawn.lights[light].request) == gl::TextureKind::cube;
         if (cube)
             for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
         if (cube) count_ = kFaces;
@@ -139,9 +140,9 @@ void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m,
     clearances_m.assign(in.scene.lights.size(), 0.0);
     for (std::uint32_t i = 0; i < in.scene.lights.size(); ++i) {
         const ShadowRequest& request = in.drawn.lights[i].request;
-        const bool soft = filter_row(request.map.filter).storage == FilterStorage::soft_sheets;
+        const bool soft = filter_row(request.map.filter).storage.occluder_pyramid;
         if (!soft || in.drawn.statuses[i].is_skipped() || request.rays.only ||
-            in.scene.lights[i].kind == LightKind::directional)
+            light_facts(in.scene.lights[i].kind).parallel)
             continue;
         const LightTime time(cpu_us, i);
         clearances_m[i] = Clearance(in, i).run();

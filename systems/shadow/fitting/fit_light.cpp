@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/view_casters.h"
@@ -37,7 +38,7 @@ void state_errors(const SceneSnapshot& scene, std::span<const glm::dvec3> points
 /// States which cameras see receivers of the view, and how many receivers. A sun's cascade counts all receivers, since
 /// it may reach into other slices.
 void state_receivers(const LightItem& light, std::span<const Beam> beams, ShadowView& view) {
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     const Beam& beam = beams[sun ? 0 : view.layer];
     view.consumer_mask = beam.consumers;
     if (view.receivers == 0) view.receivers = beam.receivers;
@@ -259,7 +260,7 @@ bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const 
 /// Selects the sets again for maps of another size. Only cubes need it: a face's share of its neighbours is a share of
 /// its map.
 void LightFit::select_sets_again() {
-    if (light_.kind != LightKind::point) return;
+    if (light_kind_row(light_.kind).texture != gl::TextureKind::cube) return;
     ReceiverCasterSets& sets = out_.resized_sets;
     sets.receiver_items.resize(first_resized_.receivers);
     sets.caster_items.resize(first_resized_.casters);

@@ -13,16 +13,16 @@ struct ContentSignature {
     std::uint64_t placement = 0;  // without casters
 };
 
-/// Textures of a conservative shadow map (FilterStorage::sheets) beside its depths (docs/exact.md).
+/// Textures of a conservative shadow map (FilterStorage::conservative_bounds) beside its depths (docs/exact.md).
 struct BoundsMaps {
     gl::TextureHandle second{};  // depths of the second layer: the next triangles behind
     gl::TargetHandle second_target{};
     gl::TextureHandle bounds{};  // depth of the nearest silhouette edge, and depth slope bound
     gl::TargetHandle bounds_target{};
-    gl::BufferHandle ends{};  // occluder pyramid; FilterStorage::soft_sheets only
+    gl::BufferHandle ends{};  // occluder pyramid; FilterStorage::occluder_pyramid only
 };
 
-/// Textures of a view of FilterStorage::moments beside its depths.
+/// Textures of a view of a filter with FilterRow::moments beside its depths.
 struct PrefilteredMaps {
     gl::TextureHandle moments{};
     gl::TargetHandle target{};
@@ -34,8 +34,8 @@ struct PrefilteredMaps {
 struct MapAssignment {
     gl::TextureHandle texture{};
     gl::TargetHandle target{};
-    /// Triangle that each texel shows (FilterStorage::depth_and_triangle). For ::sheets: one layer into which all views
-    /// are drawn in turn. Otherwise {0}.
+    /// Triangle that each texel shows (FilterStorage::triangle_ids). With conservative bounds: one layer into which all
+    /// views are drawn in turn. Otherwise {0}.
     gl::TextureHandle triangles{};
     BoundsMaps sheets;
     PrefilteredMaps prefiltered;

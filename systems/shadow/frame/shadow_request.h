@@ -52,7 +52,7 @@ struct MapSettings {
     ShadowFilter filter = ShadowFilter::hard;
     DepthFormat depth_format = DepthFormat::d32f;
     FilterSettings filtering{};       // settings of the filter
-    PrefilterSettings moments{};      // FilterStorage::moments only
+    PrefilterSettings moments{};      // filters with FilterRow::moments only
     std::uint32_t resolution_px = 0;  // edge of the map or of a cube face that views are fitted for
     std::uint32_t reduced_px = 0;     // edge of the map where a budget reduces it; 0: resolution_px
     std::uint32_t view_count = 0;     // layers of the map

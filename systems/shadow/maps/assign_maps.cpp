@@ -61,7 +61,7 @@ void MapStore::assign(const SceneSnapshot& scene, const FittedViews& fitted, std
         map.texture = history.texture;
         map.target = history.targets[view.layer];
         map.triangles = history.triangles;
-        if (has_sheets(history.storage))
+        if (history.storage.conservative_bounds)
             map.sheets = {history.sheets.second, history.sheets.second_targets[view.layer], history.sheets.bounds,
                           history.sheets.bounds_targets[view.layer], history.sheets.ends};
         if (history.moments.texture)

@@ -14,9 +14,7 @@ bool is_same_store(const MomentMap& a, const MomentDescs& b) {
     return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
 }
 
-bool has_triangles(FilterStorage storage) {
-    return storage == FilterStorage::depth_and_triangle || has_sheets(storage);
-}
+bool has_triangles(const FilterStorage& storage) { return storage.triangle_ids || storage.conservative_bounds; }
 
 }  // namespace
 
@@ -30,7 +28,7 @@ std::uint64_t still_bytes(const LightHistory& map) { return layer_bytes(map) * g
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
-    const bool shared = has_sheets(map.storage);
+    const bool shared = map.storage.conservative_bounds;
     if (map.triangles) target.colours.push_back({map.triangles, shared ? 0 : layer});
     return target;
 }
@@ -144,7 +142,7 @@ Reason MapStore::make_sheets(LightHistory& map) const {
     sheets.second = device_.create_texture(descs.second, {}).handle;
     if (sheets.second) sheets.bounds = device_.create_texture(descs.bounds, {}).handle;
     if (!sheets.bounds) return Reason::map_allocation_failed;
-    if (map.storage == FilterStorage::soft_sheets) {
+    if (map.storage.occluder_pyramid) {
         const std::uint64_t bytes = ends_bytes(map.desc.width, gl::layer_count(map.desc));
         sheets.ends = device_.create_buffer({map.desc.label + ", ends", bytes, gl::BufferUse::updated}, {}).handle;
         if (!sheets.ends) return Reason::map_allocation_failed;
@@ -173,7 +171,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     made.desc = desc;
     made.storage = filter_row(request.map.filter).storage;
     made.texture = device_.create_texture(desc, {}).handle;
-    const bool triangles = has_triangles(made.storage), sheets = has_sheets(made.storage);
+    const bool triangles = has_triangles(made.storage), sheets = made.storage.conservative_bounds;
     gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
@@ -202,7 +200,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
 
 bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, LightHistory& history) {
     gl::TextureDesc desc = map_desc(light, request);
-    const FilterStorage storage = filter_row(request.map.filter).storage;
+    const FilterStorage& storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = history.desc;
     if (history.texture &&
         !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&

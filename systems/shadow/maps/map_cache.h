@@ -31,11 +31,11 @@ struct MomentMap {
     std::vector<std::uint64_t> content;  // per layer, as LightHistory::content
 };
 
-/// Conservative map beside a depth map of FilterStorage::sheets (SheetDescs). LightHistory::triangles has the triangle
-/// that each texel shows.
+/// Conservative map beside a depth map of FilterStorage::conservative_bounds (SheetDescs). LightHistory::triangles has
+/// the triangle that each texel shows.
 struct SheetMap {
     gl::TextureHandle second{}, bounds{};  // {0}: there is none
-    gl::BufferHandle ends{};               // pyramid of FilterStorage::soft_sheets (occluder_pyramid.h); {0}: none
+    gl::BufferHandle ends{};               // FilterStorage::occluder_pyramid (occluder_pyramid.h); {0}: none
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 
@@ -45,10 +45,10 @@ struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    FilterStorage storage = FilterStorage::depth;  // what the map was made for
+    FilterStorage storage{};                // what the map was made for
     gl::TextureHandle triangles{};          // triangle per texel, for a filter that reads or peels them; else {0}
-    SheetMap sheets;                        // conservative map, for a filter of FilterStorage::sheets
-    MomentMap moments;                      // prefiltered map, for a filter of FilterStorage::moments
+    SheetMap sheets;                        // conservative map, for a filter of FilterStorage::conservative_bounds
+    MomentMap moments;                      // prefiltered map, for a filter with FilterRow::moments
     StillMap still;                         // copy of its static casters, while only some casters move
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle whole{};               // all layers at once; made when first drawn that way

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/projection/light_range.h"
@@ -30,7 +31,7 @@ constexpr double kLeastRadius = 0x1p-30;
 constexpr double kFree = 1.0 / 1024.0;
 
 double aims_below(const LightItem& light) {
-    if (light.kind == LightKind::point) return kPointAims;
+    if (!light_facts(light.kind).cone) return kPointAims;
     return std::max(kAlwaysAims, kSpotAims * std::min(std::tan(light.outer_cone_rad), 1.0));
 }
 
@@ -67,7 +68,7 @@ math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
 }  // namespace
 
 LampAim next_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const LampAim& held) {
-    if (light.kind == LightKind::directional || !light.has_shadow) return {};
+    if (light_facts(light.kind).parallel || !light.has_shadow) return {};
     const math::Aabb lit = lit_box(scene, light);
     const bool fits = held.used && held.radius_m <= kWidestBall * glm::distance(held.middle_ws_m, light.position_ws_m);
     if (math::is_empty(lit)) return fits ? held : LampAim{};

@@ -25,13 +25,16 @@ struct LightOpenings {
     std::span<const LightOpening> span() const&& = delete;  // it would outlive what it shows
 };
 
-/// Returns the light frusta of a light; none for a sun.
-/// - Point: the six faces of its cube, in the order of OpenGL's table, turned by cube_turn(). Each has a border for the
-///   texels that a filter reads beyond its seams.
-/// - Spot: one around its cone, at most kWidestMap_rad to each side. A wide spot has five cube faces along its own axes
-///   instead, limited to the part that the cone can light. During a transition (spot_cube_transition.h) it has both,
-///   the faces first.
-/// - Aimed lamp (far_lamp_aim.h): one.
-LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
+/// Adds the light frusta of a light that is not aimed.
+using FrustaFunction = void (*)(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
+
+/// Adds one frustum around the cone, at most kWidestMap_rad to each side. A wide spot has five cube faces along its own
+/// axes instead, limited to the part that the cone can light. During a transition (spot_cube_transition.h) it has both,
+/// the faces first.
+void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
+
+/// Adds the six faces of a cube, in the order of OpenGL's table, turned by cube_turn(). Each has a border for the
+/// texels that a filter reads beyond its seams.
+void add_cube_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
 
 }  // namespace gnomon::shadow

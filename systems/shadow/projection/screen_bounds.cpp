@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 
 namespace gnomon::shadow {
@@ -20,7 +21,7 @@ constexpr double kRounding = 1.0e-5;  // relative error of distances and cosines
 /// Returns the smallest ball around the volume that a local light of limited range reaches.
 Ball reached_ball(const LightItem& light) {
     const double range_m = light.range_m * (1.0 + kRounding);
-    if (light.kind != LightKind::spot) return {light.position_ws_m, range_m};
+    if (!light_facts(light.kind).cone) return {light.position_ws_m, range_m};
     const double angle_rad = std::min(light.outer_cone_rad + kRounding, 0.5 * glm::pi<double>());
     const glm::dvec3 ahead = -light.rotation_ws[2];
     // The ball of a narrow cone passes through apex and rim. A wide cone's has the rim as its equator.
@@ -35,7 +36,7 @@ Ball reached_ball(const LightItem& light) {
 
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
     const gl::Rect whole{0, 0, static_cast<std::int32_t>(c.viewport_px.x), static_cast<std::int32_t>(c.viewport_px.y)};
-    if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return whole;
+    if (light_facts(light.kind).parallel || !(light.range_m > 0.0)) return whole;
     const Ball ball = reached_ball(light);
     const glm::dvec3 p = (ball.centre_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
     const double r = ball.radius_m;
@@ -62,7 +63,7 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
 }
 
 float farthest_depth(const LightItem& light, const ConsumerItem& c) {
-    if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return 0.0f;
+    if (light_facts(light.kind).parallel || !(light.range_m > 0.0)) return 0.0f;
     const Ball ball = reached_ball(light);
     const double centre_m = glm::dot(c.position_ws_m - ball.centre_ws_m, c.rotation_ws[2]);
     const bool orthographic = c.projection == CameraProjection::orthographic;

@@ -31,7 +31,7 @@ double shown_error_px(const DrawnViews& drawn, std::size_t v, ShadowFilter filte
 ShadowFilter map_filter(const DrawnViews& drawn, std::size_t v) {
     if (!drawn.has_map(v)) return ShadowFilter::automatic;
     const ShadowRequest& request = drawn.request_of(v);
-    const bool prefiltered = filter_row(request.map.filter).storage == FilterStorage::moments;
+    const bool prefiltered = filter_row(request.map.filter).moments != nullptr;
     return request.rays.used || (prefiltered && !drawn.has_prefiltered(v)) ? kPlainFilter : request.map.filter;
 }
 

@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "engine/math/projection.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
@@ -99,11 +100,11 @@ void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind
     out.ends = map.sheets.ends;
     // A map of a light with rays serves one tap by itself, as does a map without its moments.
     if (map_filter(drawn, v) != request.map.filter) return;
-    const bool moments = filter.storage == FilterStorage::moments;
+    const bool moments = filter.moments != nullptr;
     out.row.filter_file = filter.file;
     out.row.reach_texel = request.map.filtering.reach_texel;
     out.row.depths = filter.reading == MapReading::depths;
-    out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
+    out.row.triangles = filter.storage.triangle_ids;
     out.row.moments = moments;
     out.row.footprint = request.map.moments.levels > 1 || request.map.moments.anisotropy > 1;
     out.row.fades = !request.projection.perspective_sun &&
@@ -125,7 +126,7 @@ glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer
 LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, const ConsumerItem& fitted,
                          const ConsumerItem& consumer) {
     LightRecord record;
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     const glm::dvec3 from_camera_m = light.position_ws_m - consumer.position_ws_m;
     record.position = sun ? view_distance(fitted, consumer) : with_w(from_camera_m, light.range_m);
     record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
@@ -137,7 +138,7 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
     constexpr double kLeastConeWidth = 0.001;
     record.cone = {static_cast<float>(cos_outer),
                    static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)), 0.0f, 0.0f};
-    if (light.kind == LightKind::point) {
+    if (light_kind_row(light.kind).texture == gl::TextureKind::cube) {
         const glm::dquat& turn = cube_turn();
         record.cone = with_w({turn.x, turn.y, turn.z}, turn.w);
     }
@@ -158,13 +159,13 @@ void filter_record(const ShadowTuning::Kernel& kernel, const FilterSettings& fil
 
 /// Returns the size of the source for shaders: metres, or the tangent of a sun's angular radius.
 float source_size(LightKind kind, const FilterSettings& filter) {
-    return kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
+    return light_facts(kind).parallel ? filter.sun_radius_tan : filter.source_radius_m;
 }
 
 /// Returns the size of the source for one view. A sun seen from an eye gets a disk there, metres, as wide as the sky's
 /// from the middle of the view's depth.
 float source_size(LightKind kind, const FilterSettings& filter, const ShadowView& view) {
-    if (kind != LightKind::directional || view.projection == ViewProjection::orthographic)
+    if (!light_facts(kind).parallel || view.projection == ViewProjection::orthographic)
         return source_size(kind, filter);
     return filter.sun_radius_tan * static_cast<float>(0.5 * (view.depth.near_m + view.depth.far_m));
 }
@@ -270,7 +271,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;
-    if (light.kind == LightKind::spot || request.projection.aim.used)
+    if (map_texture(light, request) != gl::TextureKind::cube)
         out.record.cone.z = static_cast<float>(request.projection.faces_eighths) / 8.0f;
     bias_record(light.tuning.bias, out);
     const MapSettings& map = request.map;

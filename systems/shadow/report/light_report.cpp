@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/publish/lookup_accuracy.h"
 
 namespace gnomon::shadow {
@@ -9,7 +10,7 @@ namespace {
 
 /// Explains a view that the fits left out: no receiver is visible in it, or no caster stands before the visible ones.
 Reason why_left_out(const LightItem& light, std::span<const Beam> beams, std::uint32_t layer, Why& why) {
-    if (light.kind == LightKind::directional) return Reason::no_visible_receiver;
+    if (light_facts(light.kind).parallel) return Reason::no_visible_receiver;
     why.receivers = beams[layer].receivers;
     return why.receivers == 0 ? Reason::no_visible_receiver : Reason::no_caster;
 }

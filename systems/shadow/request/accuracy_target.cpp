@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/filter_table.h"
 
@@ -33,9 +34,9 @@ double wished_error_px(const LightShadow& shadow) {
 }
 
 bool follows_contract(const LightItem& light, const ShadowRequest& request) {
-    const bool stable = light.kind == LightKind::directional && light.tuning.cascades.fit == ShadowFit::stable;
+    const bool stable = light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
     return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
-           !asks_rays(filter_row(request.map.filter));  // rays have no such error
+           !filter_row(request.map.filter).rays;  // rays have no such error
 }
 
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/projection/cascade_splits.h"
 #include "systems/shadow/projection/depth_range_override.h"
 #include "systems/shadow/projection/far_lamp_aim.h"
@@ -44,14 +45,14 @@ void decide_cascades(const LightItem& light, ShadowRequest& request) {
     if (!are_splits(tuning)) request.note = Reason::splits_invalid;
     if (light.shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
     // With rays, further cascades only save rays: one is the default.
-    const bool one = light.shadow.cascades == 0 && asks_rays(filter_row(request.map.filter));
+    const bool one = light.shadow.cascades == 0 && filter_row(request.map.filter).rays;
     set_cascades(tuning, one ? 1 : cascade_count(light, request.map.view_count), request);
 }
 
 /// Returns true if the fit may take fewer cascades. Neither their number nor their splits may be given, and the size of
 /// their maps must follow the target.
 bool leaves_count(const LightItem& light, const ShadowRequest& request) {
-    return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, request) &&
+    return light_facts(light.kind).parallel && light.shadow.cascades == 0 && follows_contract(light, request) &&
            light.tuning.cascades.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
            request.projection.warp == 0.0f;
 }
@@ -59,7 +60,7 @@ bool leaves_count(const LightItem& light, const ShadowRequest& request) {
 /// Sets projection and depth range of the light's views. Notes and ignores unusable settings.
 void decide_projection(const LightItem& light, ShadowRequest& request) {
     const LightProjection wish = light.tuning.projection.kind;
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     if (sun) decide_cascades(light, request);
     if (is_range(light.tuning.projection)) {
         request.projection.near_m = static_cast<double>(light.tuning.projection.near_m);
@@ -90,11 +91,12 @@ void decide_warp(const ShadowTuning::Cascades& tuning, bool one_consumer, Shadow
         request.note = Reason::warp_unsupported;
 }
 
-/// Replaces exact_soft by exact for a light without a size: its shadow has no penumbra.
+/// Replaces a filter with rays by RayRow::without_size for a light without a size: its shadow has no penumbra.
 ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
-    if (filter != ShadowFilter::exact_soft) return filter;
-    const bool has_size = needs_distances(filter_settings(filter_row(filter), light, kLeastMap_px));
-    return has_size ? filter : ShadowFilter::exact;
+    const FilterRow& row = filter_row(filter);
+    if (!row.rays) return filter;
+    const bool has_size = needs_distances(filter_settings(row, light, kLeastMap_px));
+    return has_size ? filter : row.rays->without_size;
 }
 
 /// Returns the texels of a map's edge per pixel of the picture's larger side. A conservative map costs time to draw and
@@ -103,15 +105,15 @@ ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
 float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(request.map.filter);
-    if (!asks_rays(row)) return row.texels_per_pixel;
+    if (!row.rays) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
-    const bool waits = held && light.kind == LightKind::directional && is_quiet(*held);
+    const bool waits = held && light_facts(light.kind).parallel && is_quiet(*held);
     return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
 }
 
 /// Returns the target that determines the size of maps. 0 for a filter with rays, which is exact at any size.
 float wished_resolution_px(const LightItem& light, const ShadowRequest& request) {
-    return asks_rays(filter_row(request.map.filter)) ? 0.0f : light.shadow.max_error_px;
+    return filter_row(request.map.filter).rays ? 0.0f : light.shadow.max_error_px;
 }
 
 /// Sets the size of the light's maps: the given size, or a size computed from the picture's. Where the size follows the
@@ -217,8 +219,8 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, request);
     decide_projection(light, request);
-    if (light.kind == LightKind::directional) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
-    if (light.kind == LightKind::spot) decide_cone(light, held_light, request);
+    if (light_facts(light.kind).parallel) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
+    if (light_facts(light.kind).cone) decide_cone(light, held_light, request);
     if (request.projection.aim.used) {
         request.projection.faces_eighths = 0;
         request.map.view_count = 1;
@@ -228,10 +230,10 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
         if (held_light && held_light->count.cascades > 0 && held_light->count.cascades < request.limits.max_views)
             set_cascades(light.tuning.cascades, held_light->count.cascades, request);
     }
-    if (light.kind == LightKind::directional && follows_contract(light, request))
+    if (light_facts(light.kind).parallel && follows_contract(light, request))
         set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->size.map_px : 0,
                  request);
-    if (asks_rays(filter_row(request.map.filter))) decide_sheets(request);
+    if (filter_row(request.map.filter).rays) decide_sheets(request);
     return request;
 }
 
@@ -240,7 +242,7 @@ bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
         const LightItem& light = scene.lights[i];
         const HeldLight* last = find(held, light.entity, i);
         const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
-        if (wanted(light, shadows) == Reason::none && asks_rays(filter_row(filter))) return true;
+        if (wanted(light, shadows) == Reason::none && filter_row(filter).rays) return true;
     }
     return false;
 }
@@ -258,7 +260,7 @@ void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, Ra
     choose_fallbacks(scene, inputs.held, inputs.rays, requests, fallbacks);
     for (std::uint32_t i = 0; i < requests.size(); ++i) {
         if (fallbacks.reasons[i] == Reason::none) continue;
-        const ShadowFilter filter = filtered_row(requests[i].map.filter);
+        const ShadowFilter filter = filter_row(requests[i].map.filter).rays->without_rays;
         requests[i] = request_of(scene, inputs.device, inputs.held, i, filter);
         requests[i].rays.fell_back = true;
         requests[i].note = fallbacks.reasons[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/prefilter_settings.h"
 
@@ -49,9 +50,9 @@ void take_spread(const Kernel& kernel, float most_texel, FilterSettings& filter)
 /// upper limit, most_texel.
 void take_source(const LightItem& light, float most_texel, FilterSettings& filter) {
     const float size = source_size(light);
-    const bool sun = light.kind == LightKind::directional;
-    const float taken = is_length(size) ? std::min(size, sun ? kMostSunRadius_rad : kMostSourceRadius_m) : 0.0f;
-    if (sun)
+    const LightFacts& facts = light_facts(light.kind);
+    const float taken = is_length(size) ? std::min(size, facts.most_source_size) : 0.0f;
+    if (facts.parallel)
         filter.sun_radius_tan = std::tan(taken);
     else
         filter.source_radius_m = taken;
@@ -72,9 +73,7 @@ bool needs_distances(const FilterSettings& filter) {
     return filter.source_radius_m > 0.0f || filter.sun_radius_tan > 0.0f;
 }
 
-float source_size(const LightItem& light) {
-    return light.kind == LightKind::directional ? light.sun_radius_rad : light.source_radius_m;
-}
+float source_size(const LightItem& light) { return light.*light_facts(light.kind).source_size; }
 
 FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px) {
     return filter_settings(filter_row(light.shadow.filter), light, resolution_px);
@@ -98,7 +97,7 @@ FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std
     filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(kernel, filter);
     if (row.width == FilterWidth::spread) take_spread(kernel, most_texel, filter);
-    if (asks_rays(row)) take_rays(kernel, filter);
+    if (row.rays) take_rays(kernel, filter);
     if (row.width == FilterWidth::source) take_source(light, most_edge_texel, filter);
     filter.border_texel = border_texel(filter, filter.most_spread_texel);
     return filter;

@@ -48,6 +48,20 @@ constexpr MomentRow kWarped{{gl::Format::rg16f, 5.54f, 5.54f, 1.5e-3f}, {gl::For
 constexpr MomentRow kWarpedTwice{
     {gl::Format::rgba16f, 5.54f, 5.54f, 1.5e-3f}, {gl::Format::rgba32f, 42.0f, 40.0f, 2.5e-7f}, 5.0f};
 constexpr MomentRow kFourMoments{{gl::Format::rgba16, 0.0f, 0.0f, 6.0e-5f}, {gl::Format::rgba32f, 0.0f, 0.0f, 3.0e-7f}};
+
+constexpr double kDepth_bytes = 4.0, kTriangle_bytes = 8.0, kBounds_bytes = 8.0;  // per texel (map_textures.h)
+constexpr FilterStorage kDepthsAlone{};
+/// Triangle ids, written in the pass of the depths.
+constexpr FilterStorage kTriangleIds{.triangle_ids = true, .work = {.texel_bytes = kDepth_bytes + kTriangle_bytes}};
+/// Nearest depths with triangle ids, next depths, and bounds. Each caster is drawn twice, and its slopes are measured
+/// in a third pass.
+constexpr DrawingWork kBoundsWork{3.0, 3.0, kDepth_bytes + kTriangle_bytes + kDepth_bytes + kBounds_bytes};
+constexpr FilterStorage kConservativeBounds{.conservative_bounds = true, .work = kBoundsWork};
+/// The same for an area light. The occluder pyramid, a small share of the work, is not counted.
+constexpr FilterStorage kSourceBounds{.conservative_bounds = true, .occluder_pyramid = true, .work = kBoundsWork};
+constexpr RayRow kOneRay{false, kUsualFilter, ShadowFilter::exact};
+constexpr RayRow kSourceRays{true, ShadowFilter::pcss, ShadowFilter::exact};
+
 /// Counts the blocker search of pcss.glsl, then two disks or votes.
 std::uint32_t of_search(const Kernel& kernel, bool cube) {
     constexpr std::uint32_t kTapsPerOctave = 4, kOctaves = 8;  // from half a texel to kMostPenumbra_texel
@@ -68,7 +82,7 @@ std::uint32_t of_levels(const Kernel&, bool) { return widest_penumbra_levels(kMo
 /// up to one away.
 constexpr FilterRow prefiltered(ShadowFilter id, std::string_view name, std::string_view file,
                                 const MomentRow& moments) {
-    FilterRow row{id, name, file, one, 1.0f, FilterWidth::size, MapReading::moments, FilterStorage::moments};
+    FilterRow row{id, name, file, one, 1.0f, FilterWidth::size, MapReading::moments};
     row.moments = &moments;
     return row;
 }
@@ -105,22 +119,22 @@ constexpr FilterRow kRows[] = {
     {ShadowFilter::cube_directions, "cube_directions", "shadow/filters/disk/cube_directions.glsl", of_directions, 0.5f,
      FilterWidth::spread, MapReading::compare_nearest},
     {ShadowFilter::sharp_4x4, "sharp_4x4", "shadow/filters/pcf/sharp_4x4.glsl", of_votes, 3.0f, FilterWidth::fixed,
-     MapReading::depths, FilterStorage::depth, 2.5f},
+     MapReading::depths, kDepthsAlone, 2.5f},
     {ShadowFilter::triangles, "triangles", "shadow/filters/triangles/triangles.glsl", of_triangles, 3.0f,
-     FilterWidth::fixed, MapReading::depths, FilterStorage::depth_and_triangle, 2.5f, 1.0f},
+     FilterWidth::fixed, MapReading::depths, kTriangleIds, 2.5f, 1.0f},
     prefiltered(ShadowFilter::exponential, "exponential", "shadow/filters/prefiltered/exponential.glsl", kExponential),
     prefiltered(ShadowFilter::vsm, "vsm", "shadow/filters/prefiltered/vsm.glsl", kVariance),
     prefiltered(ShadowFilter::evsm2, "evsm2", "shadow/filters/prefiltered/evsm2.glsl", kWarped),
     prefiltered(ShadowFilter::evsm4, "evsm4", "shadow/filters/prefiltered/evsm4.glsl", kWarpedTwice),
     prefiltered(ShadowFilter::moments, "moments", "shadow/filters/prefiltered/moments.glsl", kFourMoments),
     {ShadowFilter::pcss, "pcss", "shadow/filters/pcss/pcss.glsl", of_search, 3.0f, FilterWidth::source,
-     MapReading::depths, FilterStorage::depth, 2.5f, 0.75f},
+     MapReading::depths, kDepthsAlone, 2.5f, 0.75f},
     prefiltered_by_source(ShadowFilter::pcss_moments, "pcss_moments", "shadow/filters/prefiltered/pcss_moments.glsl",
                           kFourMoments),
     {ShadowFilter::exact, "exact", "shadow/filters/exact/exact.glsl", of_ray, 0.5f, FilterWidth::fixed,
-     MapReading::depths, FilterStorage::sheets, 0.0f, 0.75f},
+     MapReading::depths, kConservativeBounds, 0.0f, 0.75f, nullptr, &kOneRay},
     {ShadowFilter::exact_soft, "exact_soft", "shadow/filters/exact/exact_soft.glsl", of_rays, 0.5f, FilterWidth::source,
-     MapReading::depths, FilterStorage::soft_sheets, 0.0f, 0.75f},
+     MapReading::depths, kSourceBounds, 0.0f, 0.75f, nullptr, &kSourceRays},
 };
 static_assert(std::size(kRows) == static_cast<std::size_t>(ShadowFilter::count));
 

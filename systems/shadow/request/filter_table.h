@@ -16,14 +16,25 @@ enum class FilterWidth : std::uint8_t {
     source   // Light::source_radius_m, sun_radius_rad; needs true distances of casters
 };
 
-/// Content of a map for a filter.
-/// - `depth`: depth only.
-/// - `depth_and_triangle`: plus triangle and instance per texel (shaders/shadow/filters/triangles/mesh_walk.glsl).
-/// - `moments`: plus blurred moments of distances (shaders/shadow/passes/prefilter).
-/// - `sheets`: conservative shadow map, depth plus error bounds (shaders/shadow/filters/exact). Rays trace undecided
-///   pixels, or all where the light has no map.
-/// - `soft_sheets`: plus occluder pyramid, for area lights.
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, sheets, soft_sheets };
+/// Work of drawing a view for its filter, relative to drawing depths of 4 bytes alone (budget/cost_model.h).
+struct DrawingWork {
+    double passes = 1.0;       // targets drawn into, one after the other
+    double casters = 1.0;      // number of times that each caster is drawn
+    double texel_bytes = 4.0;  // bytes cleared and written per texel, in all targets
+    bool operator==(const DrawingWork&) const = default;
+};
+
+/// Content of a map for a filter beside its depths. Moments, which passes compute from the depths, are
+/// FilterRow::moments.
+struct FilterStorage {
+    /// Triangle and instance per texel, for lookups (shaders/shadow/filters/triangles/mesh_walk.glsl).
+    bool triangle_ids = false;
+    /// Conservative shadow map: error bounds and the next depths behind (shaders/shadow/filters/exact).
+    bool conservative_bounds = false;
+    bool occluder_pyramid = false;  // minima of depths over squares of texels, for area lights
+    DrawingWork work{};
+    bool operator==(const FilterStorage&) const = default;
+};
 
 /// Result of the map's sampler: depth comparisons, single or blended by hardware; stored depths; or blurred moments.
 enum class MapReading : std::uint8_t { compare_nearest, compare_linear, depths, moments };
@@ -42,6 +53,14 @@ struct MomentRow {
     float usual_negative_exponent = 0.0f;  // default of c in a second warp, -e^(-c s); 0: there is none
 };
 
+/// Rays to the light beside a map (shaders/ray_tracing). Rays trace undecided pixels, or all where the light has no
+/// map.
+struct RayRow {
+    bool per_source;            // true: Kernel::penumbra_rays per pixel, to places of the source; false: one ray
+    ShadowFilter without_rays;  // fallback where rays are unavailable: the most accurate filter without rays
+    ShadowFilter without_size;  // replacement where the light's source is a point
+};
+
 /// Filter of a depth map. A new one needs a file in shaders/shadow/filters, an enumerator and a row
 /// (docs/adding_a_filter.md).
 struct FilterRow {
@@ -55,13 +74,15 @@ struct FilterRow {
     float reach_texel;
     FilterWidth width;
     MapReading reading;
-    FilterStorage storage = FilterStorage::depth;
+    FilterStorage storage{};
     /// Part of E that is read but cannot move a shadow's edge, texels.
     float still_texel = 0.0f;
     /// Default edge of a cascade, spot view or cube face, texels per pixel of the picture's larger side. More than 1,
     /// because receivers lie obliquely in the map. Measured in docs/accuracy.md.
     float texels_per_pixel = 1.5f;
-    const MomentRow* moments = nullptr;  // FilterStorage::moments only
+    /// Blurred moments of distances beside the map (shaders/shadow/passes/prefilter). nullptr: none.
+    const MomentRow* moments = nullptr;
+    const RayRow* rays = nullptr;  // rays beside the map; nullptr: none
 };
 
 /// Default filter, and meaning of ShadowFilter::automatic unless the target chooses another: the row that measures
@@ -71,11 +92,6 @@ inline constexpr ShadowFilter kUsualFilter = ShadowFilter::triangles;
 /// Cheapest filter: fallback under a budget, and while the light's own program is unavailable. One fetch of one texel,
 /// no texture beside the map, and the narrowest footprint, so that every border and bias suffices for it.
 inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
-
-inline bool has_sheets(FilterStorage storage) {
-    return storage == FilterStorage::sheets || storage == FilterStorage::soft_sheets;
-}
-inline bool asks_rays(const FilterRow& row) { return has_sheets(row.storage); }
 
 /// Returns all rows in the order of ShadowFilter.
 std::span<const FilterRow> filter_table();

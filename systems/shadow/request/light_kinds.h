@@ -8,6 +8,7 @@
 #include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_view.h"
+#include "systems/shadow/projection/light_frusta.h"
 
 namespace gnomon::shadow {
 
@@ -44,6 +45,7 @@ struct LightKindRow {
     gl::TextureKind texture;
     std::uint32_t layers;  // default number of the map's layers
     FitFunction fit;
+    FrustaFunction frusta;  // light frusta of a lamp, one per view; nullptr: rays are parallel
 };
 
 /// Lookup of an aimed point light and of a sun with an eye: the same as a spot's.
@@ -55,6 +57,9 @@ inline constexpr std::string_view kWarpedSunFile = "shadow/lookup/kinds/directio
 /// shaders/shadow/lookup/kinds/x.glsl and a row.
 std::span<const LightKindRow> light_kind_table();
 const LightKindRow& light_kind_row(LightKind kind);
+
+/// Returns the light frusta of a light: its kind's, or the one of an aimed lamp (far_lamp_aim.h). A sun has none.
+LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
 
 /// Returns the texture kind of the light's map: flat for an aimed lamp, else its kind's.
 gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request);

@@ -31,7 +31,7 @@ MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings);
 /// there.
 std::uint32_t scratch_rows(const MapSettings& settings, bool cube);
 
-/// Textures of a conservative map (FilterStorage::sheets) beside its depths (docs/exact.md).
+/// Textures of a conservative map (FilterStorage::conservative_bounds) beside its depths (docs/exact.md).
 /// - `triangles`: triangle of each texel, read while the second layer is drawn; one layer for all views in turn.
 /// - `second`: per view, depths of the next triangles behind.
 /// - `bounds`: per view, depth of the nearest silhouette edge, and depth slope bound.
@@ -42,7 +42,7 @@ SheetDescs sheets_of(const gl::TextureDesc& map);
 
 /// Returns the bytes of a map with all textures of its storage, and of `moments` and `scratch` where their width is not
 /// 0.
-std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
+std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch);
 /// Returns the bytes of the light's map. 0: it has none.
 std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request);

@@ -19,7 +19,7 @@ inline constexpr float kMostMomentBleeding = 0.9f;
 /// most as wide.
 std::uint32_t widest_penumbra_levels(float radius_texel);
 
-/// Returns the effective settings of a row of FilterStorage::moments; the default for other rows. Levels and anisotropy
+/// Returns the effective settings of a row with FilterRow::moments; the default for other rows. Levels and anisotropy
 /// are reduced until the footprint fits into a map of resolution_px.
 PrefilterSettings prefilter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px);
 

@@ -10,14 +10,6 @@
 /// Prediction of the rays that lights need, and fallback of lights without room for their rays.
 namespace gnomon::shadow {
 
-/// Fallback of an exact light where the rays of other lights fill the budget: the most accurate filter without rays.
-inline constexpr ShadowFilter kFilteredRow = kUsualFilter;
-/// Fallback of an exact area light.
-inline constexpr ShadowFilter kFilteredSoftRow = ShadowFilter::pcss;
-constexpr ShadowFilter filtered_row(ShadowFilter filter) {
-    return filter == ShadowFilter::exact_soft ? kFilteredSoftRow : kFilteredRow;
-}
-
 /// Assumed share of a light's pixels that its map leaves undecided: more than in all but one of the scenes of
 /// docs/exact.md.
 inline constexpr double kUncertainShare = 0.2;
@@ -46,8 +38,9 @@ struct RayFallbacks {
     std::vector<RayLight> lights;  // scratch
 };
 
-/// Chooses the lights that fall back to filtered_row(), so that the others use no more rays than the limit. Rays are
-/// granted by falling importance. A light that fell back returns when there is room for a quarter more than its rays.
+/// Chooses the lights that fall back to RayRow::without_rays, so that the others use no more rays than the limit. Rays
+/// are granted by falling importance. A light that fell back returns when there is room for a quarter more than its
+/// rays.
 void choose_fallbacks(const SceneSnapshot& scene, const History& held, const RayLimit& limit,
                       std::span<const ShadowRequest> requests, RayFallbacks& out);
 

@@ -44,7 +44,7 @@ void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateIn
         const BudgetDecision& decision = inputs.decisions[view.light];
         const MapSettings& map = decision.request.map;
         const DrawCounts counts = count_draws(scene, gpu, inputs.fitted.casters_of(view));
-        const double casters = storage_work(filter_row(map.filter).storage).casters;
+        const double casters = filter_row(map.filter).storage.work.casters;
         const double ns = drawing_ns(map, inputs.maps[v].size_px, 1.0, static_cast<double>(counts.triangles) * casters,
                                      static_cast<double>(counts.draws) * casters);
         const bool may_wait = std::isfinite(plan.if_held.error_px) && plan.waited_frames < kMostWait_frames;

@@ -141,8 +141,7 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws, stepping};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
         // Maps with true distances contain the casters already.
-        if (filter_row(input.request.map.filter).storage == FilterStorage::moments &&
-            !needs_distances(input.request.map.filtering))
+        if (filter_row(input.request.map.filter).moments && !needs_distances(input.request.map.filtering))
             box.near_m -= kRoomForCasters * (box.far_m - box.near_m);
         if (counts_from_eye) override_from_eye(input.request, eye, box);
         // No receiver lies in the slices that were left out, nor in their fades.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/fitting/size_steps.h"
 #include "systems/shadow/projection/cascade_splits.h"
@@ -104,7 +105,7 @@ bool wants_sampled_depths(const SceneSnapshot& scene, const FittedViews& fitted,
     for (std::size_t i = 0; i < fitted.lights.size(); ++i) {
         const ShadowRequest& request = fitted.lights[i].request;
         const LightItem& light = scene.lights[i];
-        if (!statuses[i].is_skipped() && light.kind == LightKind::directional && !request.projection.perspective_sun &&
+        if (!statuses[i].is_skipped() && light_facts(light.kind).parallel && !request.projection.perspective_sun &&
             request.map.view_count > 1 && light.tuning.cascades.splits == CascadeSplits::sampled &&
             are_splits(light.tuning.cascades))
             return true;

@@ -1,4 +1,5 @@
 #pragma once
+#include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/light_status.h"
 #include "systems/shadow/frame/shadow_view.h"

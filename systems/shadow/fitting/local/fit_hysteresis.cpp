@@ -36,8 +36,7 @@ Side hold(const Side& needed, const Side& full, bool used, const Side& held) {
 }  // namespace
 
 bool is_near_free(const ShadowRequest& request) {
-    return request.map.depth_format == DepthFormat::d32f &&
-           filter_row(request.map.filter).storage != FilterStorage::moments &&
+    return request.map.depth_format == DepthFormat::d32f && !filter_row(request.map.filter).moments &&
            !needs_distances(request.map.filtering) && !(request.map.filtering.spread_m > 0.0f);
 }
 
