@@ -6,82 +6,88 @@
 
 namespace gnomon {
 
-/// Source of randomness of filters that differ from point to point. `screen`: the pixel; the pattern stays on the
-/// screen when the camera moves. `world`: the cell of the world in which the point lies; the pattern stays there.
+/// Seed of filters with a random pattern of taps. `screen`: the pixel; the pattern stays on the screen when the camera
+/// moves. `world`: the cell of the world in which the point lies; the pattern stays on the surface.
 enum class FilterSeed : std::uint8_t { screen, world };
 
-/// How the offset against self-shadowing is found. `automatic` derives the smallest offset that keeps a plane from
-/// shadowing itself. The others are there to compare with, a function each in shaders/shadow/lookup/bias/manual.glsl;
+/// Formula of the offset against self-shadowing. `automatic` derives the smallest offset that keeps a plane from
+/// shadowing itself. The others serve comparison; each is a function in shaders/shadow/lookup/bias/manual.glsl.
 /// docs/bias.md has the formulas.
 enum class BiasMode : std::uint8_t {
     automatic,
     constant,           // offset_m along the light
-    slope,              // and offset_texel texels times the tangent of the angle between normal and light
+    slope,              // constant, plus offset_texel texels times the tangent of the angle between normal and light
     normal_offset,      // offset_m along the light, offset_texel texels times the sine along the normal
-    receiver_plane,     // each tap against the receiver's plane there, offset_m and offset_texel of its slope added
-    tutorial_constant,  // 0.005 of the map's depth; of a point light, metres
-    tutorial_cosine,    // max(0.05 (1 - n.l), 0.005) of it
-    tutorial_tangent,   // 0.005 tan(acos(n.l)) of it, 0 to 0.01
+    receiver_plane,     // each tap against the receiver's plane there, plus offset_m and offset_texel of its slope
+    tutorial_constant,  // 0.005 of the map's depth range; for a point light, 0.005 m
+    tutorial_cosine,    // max(0.05 (1 - n.l), 0.005) of the depth range
+    tutorial_tangent,   // 0.005 tan(acos(n.l)) of the depth range, clamped to [0, 0.01]
     count
 };
 
-/// How a light projects onto its map. A sun's map is orthographic, a spot's and a point's perspective. A sun can have
-/// one perspective view instead. What a kind cannot do is reported (projection_unsupported), and its own is used.
+/// Projection of a light onto its map. `automatic`: orthographic for a sun, perspective for spots and points. A sun can
+/// have one perspective view instead. A projection that the kind of light cannot have is reported
+/// (projection_unsupported) and replaced by the automatic one.
 enum class LightProjection : std::uint8_t { automatic, orthographic, perspective };
 
-/// How the faces of a point light's cube are drawn: a pass each, or all in one whose layer the vertex or the geometry
-/// stage chooses. The maps are the same to the bit. `automatic` takes what measured fastest; a route that the device
-/// does not have becomes six_passes.
+/// How the faces of a point light's cube are drawn. `six_passes`: one pass per face. `layered_vertex` and
+/// `layered_geometry`: one pass for all; that shader stage chooses the layer. The maps are the same to the bit.
+/// `automatic`: the route that measured fastest. A route that the device lacks becomes six_passes.
 enum class CubeRoute : std::uint8_t { automatic, six_passes, layered_vertex, layered_geometry };
 
-/// How a sun's cascades follow the camera. `tight`: the smallest rectangle around what is seen, fitted anew in every
-/// frame. `stable`: a constant size around each slice of the view, snapped to its own texels; what is seen does not
-/// matter. `quantised`: around what is seen, in the light's own axes, in steps; it stays until that no longer fits.
+/// How a sun's cascades follow the camera.
+/// - `tight`: the smallest rectangle around the visible receivers, fitted in every frame.
+/// - `stable`: a constant size around each slice of the view, snapped to its own texels, whatever receivers are
+///   visible.
+/// - `quantised`: around the visible receivers, along the light's own axes, in steps. The map stays until they leave
+///   it.
 enum class ShadowFit : std::uint8_t { tight, stable, quantised };
 
-/// Where a sun's cascades end along the view. `practical` mixes logarithmic and uniform ends by split_lambda; `seen`
-/// does the same over those depths alone at which receivers lie, by their bounds; `sampled` makes texels smallest where
-/// the pixels of an earlier picture lie; `manual` takes split_m.
+/// Where a sun's cascades end along the view.
+/// - `practical`: mixture of logarithmic and uniform splits by split_lambda.
+/// - `seen`: the same mixture over the depths that receivers cover, by their bounding boxes.
+/// - `sampled`: texels are smallest at the depths where pixels of an earlier picture lie.
+/// - `manual`: split_m.
 enum class CascadeSplits : std::uint8_t { practical, uniform, logarithmic, manual, seen, sampled };
 
-/// How a map stores depth, reversed: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and
-/// loses precision far from a spot or a point; the automatic bias grows by what is lost (docs/settings.md).
+/// How a map stores reversed depth: 32-bit float, or 24- or 16-bit fixed point. Fixed point takes less memory and loses
+/// precision far from a spot or a point light. The automatic bias grows by that loss (docs/settings.md).
 enum class DepthFormat : std::uint8_t { d32f, d24, d16 };
 
-/// Inner settings of a light's shadow, by what they tune. A second component beside LightShadow that nobody needs:
-/// without it the defaults hold, and without LightShadow it does nothing.
+/// Optional settings of a light's shadow, grouped by what they tune: a second component beside LightShadow. Without it
+/// the defaults apply. Without LightShadow it has no effect.
 struct ShadowTuning {
     /// The footprint of a filter: taps, spread and seeds.
     struct Kernel {
-        /// Edge of pcf filters, and of the blur of prefiltered maps, texels; odd, 1 to 31.
+        /// Edge of the pcf filters and of the blur of prefiltered maps, texels; odd, 1 to 31.
         std::uint32_t size_texel = 3;
         /// Number of taps of the Poisson filters and of each disk of pcss, 1 to 32.
         std::uint32_t taps = 16;
         /// Half-width of the Poisson and cube filters, texels, at most 16 and an eighth of the map's edge.
         float spread_texel = 2.0f;
-        /// The same across the light, metres, with the same limits. 0: spread_texel holds.
+        /// Half-width across the light, metres, with the same limits in texels. 0: spread_texel applies.
         float spread_m = 0.0f;
         /// Distance from the camera at which that half-width has doubled, metres. 0: it is constant.
         float doubles_m = 0.0f;
-        /// Source of randomness of poisson_rotated, poisson_stratified and the pcss filters.
+        /// Seed of poisson_rotated, poisson_stratified and the pcss filters.
         FilterSeed seed = FilterSeed::world;
         /// Edge of a cell of FilterSeed::world, metres, above 0.
         float cell_m = 0.02f;
-        /// Whether filters of many taps take five first, and the others only if those differ.
+        /// Early exit: filters of many taps take five first, and the others only if these differ.
         bool early_bail = false;
         /// Rays of exact_soft from each pixel in a penumbra, 1 to 256.
         std::uint32_t penumbra_rays = 16;
         bool operator==(const Kernel&) const = default;
     };
-    /// Prefiltered maps, exponential to moments and pcss_moments.
+    /// Prefiltered maps: filters exponential to moments, and pcss_moments.
     struct Moments {
         /// Bits of a channel, 16 or 32.
         std::uint32_t bits = 32;
-        /// Exponent of exponential's and evsm's warp. 0: as much as serves and the format bears.
+        /// Exponent of the warp of exponential, evsm2 and evsm4. 0: the default of the filter and format.
         float exponent = 0.0f;
-        /// Exponent of evsm4's second warp. 0: 5, as far as the format bears it.
+        /// Exponent of evsm4's second warp. 0: 5, or less where the format overflows sooner.
         float negative_exponent = 0.0f;
-        /// Share of light that counts as dark, 0 to 0.9: light of several casters leaks less.
+        /// Share of light that counts as dark, 0 to 0.9. More reduces leaks where several casters overlap.
         float bleeding = 0.2f;
         /// Number of levels of mipmaps, 1 to 4.
         std::uint32_t levels = 1;
@@ -92,18 +98,17 @@ struct ShadowTuning {
     /// The offset against self-shadowing.
     struct Bias {
         BiasMode mode = BiasMode::automatic;
-        /// Offset along the light of a mode that takes it, metres, at least 0. What is no such number counts as the
-        /// default.
+        /// Offset along the light in modes that use it, metres, at least 0. Negative or NaN: the default.
         float offset_m = 0.0f;
-        /// Offset of a mode that takes it, texels, at least 0. What is no such number counts as the default.
+        /// Offset in modes that use it, texels, at least 0. Negative or NaN: the default.
         float offset_texel = 1.0f;
         bool operator==(const Bias&) const = default;
     };
     /// The views from the light.
     struct Projection {
         LightProjection kind = LightProjection::automatic;
-        /// Distance of a sun's eye from the middle of what is seen, toward the light, metres. A perspective view looks
-        /// from the eye. 0: so far that eye_angle_rad holds all that is seen.
+        /// Distance of a sun's eye from the middle of the visible receivers, toward the light, metres. A perspective
+        /// view looks from the eye. 0: the distance at which eye_angle_rad contains all of them.
         float eye_distance_m = 0.0f;
         /// Full opening angle of a sun's perspective view, radians; above 0, at most 160 degrees.
         float eye_angle_rad = 0.785398163f;
@@ -117,35 +122,34 @@ struct ShadowTuning {
     };
     /// A sun's cascades; their number is LightShadow::cascades.
     struct Cascades {
-        /// How they follow the camera; docs/fits.md compares the three.
+        /// Fit of the cascades' maps; docs/fits.md compares the three.
         ShadowFit fit = ShadowFit::quantised;
-        /// Where they end along the view.
         CascadeSplits splits = CascadeSplits::practical;
         /// Mixture of practical, seen and sampled splits, 0 (uniform) to 1 (logarithmic).
         float split_lambda = 0.7f;
-        /// Ends of CascadeSplits::manual, metres along the view, rising. 0 ends the list. One cascade more than
-        /// distances.
+        /// Splits of CascadeSplits::manual, metres along the view, rising. 0 ends the list. There is one cascade more
+        /// than splits.
         std::array<float, kMaxCascades - 1> split_m{};
         /// Share of a cascade that fades into the next one, 0 to 0.5.
         float blend = 0.1f;
-        /// Limit of how far texels of tight maps may grow with the distance from the camera: 0 (not) to 1, as
-        /// light-space perspective shadow maps do. Within the limit a map is warped as far as it gains (docs/fits.md).
+        /// Limit of the perspective warp of tight maps, 0 (no warp) to 1 (as light-space perspective shadow maps). A
+        /// warp lets texels grow with the distance from the camera. The fit takes as much as gains accuracy
+        /// (docs/fits.md).
         float warp = 0.0f;
         bool operator==(const Cascades&) const = default;
     };
     /// How maps are stored and drawn.
     struct Maps {
         DepthFormat depth_format = DepthFormat::d32f;
-        /// How the faces of a point light's cube are drawn.
         CubeRoute cube_route = CubeRoute::automatic;
         bool operator==(const Maps&) const = default;
     };
-    /// What is kept from one frame to the next.
+    /// Results kept from one frame to the next.
     struct Reuse {
-        /// Whether maps are kept while nothing changes. false: every view is drawn in every frame, to the same bits.
+        /// Reuse of unchanged maps. false: every view is drawn in every frame, to the same bits.
         bool economy = true;
-        /// Whether what pixels see of the light is kept while nothing changes, and read instead of looked up. The
-        /// picture is the same to the bit; 4 bytes per pixel that the light reaches, while that pays. Needs economy.
+        /// Reuse of the visibility per pixel while nothing changes, instead of a lookup. The picture is the same to the
+        /// bit. Takes 4 bytes per pixel in the light's range, and is dropped where it gains nothing. Needs economy.
         bool keep_visibility = true;
         bool operator==(const Reuse&) const = default;
     };

@@ -25,7 +25,7 @@ Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, const shado
       shadows_(std::make_unique<shadow::ShadowSystem>(device, held_fits)),
       lighting_(std::make_unique<lighting::LightingSystem>(device)),
       debug_(std::make_unique<debug::DebugPainter>(device)) {
-    shadows_->set_spare(&lighting_->spare());
+    feedback_.spare = &lighting_->spare();
 }
 
 Frame::~Frame() = default;
@@ -42,23 +42,25 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_);
     report_.dropped = snapshot_.dropped;
     const bool held = frozen_.has_value() && settings.freeze_fits;
-    if (!held) lighting_->collect_depths(snapshot_.sampled_depths);
+    if (!held) lighting_->collect_depths(feedback_.sampled_depths);
     if (!gpu_scene_.update(snapshot_, commands_))
         for (const InstanceItem& item : snapshot_.instances)
             if (item.gpu_slot >= gpu_scene_.capacity())
                 report_.dropped.push_back({item.entity, name_of(world, item.entity), DropReason::instances_full});
-    snapshot_.exposure = most_exposure(settings);
+    feedback_.exposure = most_exposure(settings);
     const shadow::ShadowFrame& shadows = update_shadows(settings);
     const bool sample_depths = !held && shadows_->wants_sampled_depths(snapshot_);
-    if (!sample_depths && !held) snapshot_.sampled_depths = {};  // outdated when needed next
+    if (!sample_depths && !held) feedback_.sampled_depths = {};  // outdated when needed next
     const bool measure_exposure =
         settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();
     if (!measure_exposure) lighting_->forget_exposure();
+    outcome_.clear();
     has_picture_ =
         !shadows.inputs.empty() && lighting_->record(shadows.inputs.front(), snapshot_, gpu_scene_,
                                                      {settings.exposure_ev, settings.programs_per_frame,
                                                       measure_exposure, sample_depths, shadows_->maps().room()},
-                                                     commands_, report_);
+                                                     commands_, outcome_);
+    shadows_->report(snapshot_, outcome_, report_);
     if (has_picture_) {
         const ConsumerItem* fitted = frozen_ && !frozen_->empty() ? &frozen_->front() : nullptr;
         debug_->record(settings.debug, {snapshot_, shadows, gpu_scene_, *lighting_, fitted}, commands_);
@@ -90,7 +92,8 @@ std::optional<double> Frame::most_exposure(const FrameSettings& settings) {
 /// Updates the shadows. While fits are frozen, the stages see the frozen cameras as the scene's consumers.
 const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) {
     const auto update = [&]() -> const shadow::ShadowFrame& {
-        return shadows_->update(snapshot_, gpu_scene_, settings.shadows, commands_, report_, settings.shadow_budget);
+        return shadows_->update(snapshot_, gpu_scene_, {settings.shadows, settings.shadow_budget, feedback_}, commands_,
+                                report_);
     };
     if (!settings.freeze_fits) frozen_.reset();
     if (!settings.freeze_fits || snapshot_.consumers.empty()) return update();

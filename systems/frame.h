@@ -16,7 +16,8 @@
 #include "systems/extract/snapshot.h"
 #include "systems/report.h"
 #include "systems/shadow/frame/fit_history.h"
-#include "systems/shadow/frame/quality_limits.h"
+#include "systems/shadow/frame/lighting_inputs.h"
+#include "systems/shadow/frame/shadow_settings.h"
 #include "systems/timed_lights.h"
 #include "systems/transform/transform_system.h"
 
@@ -74,6 +75,8 @@ public:
     const gl::CommandList& commands() const { return commands_; }  // last frame
     /// Returns the fit history of all lights. It needs no device and outlives one.
     const shadow::History& held_fits() const;
+    /// What lighting handed back to the shadows of the last frame.
+    const shadow::LightingFeedback& feedback() const { return feedback_; }
 
     /// Reads the last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. Returns false if there is
     /// none.
@@ -107,6 +110,8 @@ private:
     std::unique_ptr<debug::DebugPainter> debug_;
     std::optional<std::vector<ConsumerItem>> frozen_;  // cameras that shadows are fitted to
     std::vector<ConsumerItem> pictures_;               // drawing cameras meanwhile
+    shadow::LightingFeedback feedback_;                // of earlier frames to the next one
+    shadow::LightingOutcome outcome_;                  // of the frame's picture
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;

@@ -135,8 +135,8 @@ inline bool is_left_out(const LightReport& light) {
            (light.reason == Reason::light_off || light.reason == Reason::below_display_step);
 }
 
-/// Shared resources of lights with rays (FilterStorage::sheets): trees over the casters, on the device and on the host,
-/// and data of pictures. All 0: no light uses rays.
+/// Shared resources of lights with rays (FilterRow::rays): trees over the casters, on the device and on the host, and
+/// data of pictures. All 0: no light uses rays.
 struct RayReport {
     std::uint64_t bytes = 0, host_bytes = 0;              // trees over casters
     std::uint64_t list_bytes = 0;                         // undecided pixels and their results (lighting/ray_list.h)

@@ -93,7 +93,7 @@ EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device,
         const LightItem& light = scene.lights[i];
         const shadow::HeldLight* last = find(held, light.entity, i);
         shadow::ShadowRequest& request = stages.frame.requests[i];
-        if (last && !(last->grant == shadow::Grant{})) request = shadow::granted(light, request, last->grant);
+        if (last && !(last->budget.grant == shadow::Grant{})) request = shadow::granted(light, request, last->budget.grant);
     }
     stages.select(scene);
     stages.fit(scene, held);

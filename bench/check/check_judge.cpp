@@ -19,9 +19,7 @@ bool softens(const shadow::FilterRow& filter) { return filter.width == shadow::F
 
 /// Blurred moments and searched blockers are estimates of what lies between, so
 /// that only their halves are certain.
-bool estimates(const shadow::FilterRow& filter) {
-    return filter.storage == shadow::FilterStorage::moments || (softens(filter) && !shadow::asks_rays(filter));
-}
+bool estimates(const shadow::FilterRow& filter) { return filter.moments || (softens(filter) && !filter.rays); }
 
 /// The truth where the measured value is within the tolerance of it, its
 /// opposite elsewhere; NaN and -1 stay.
@@ -84,7 +82,7 @@ double worst_penumbra_error(std::uint32_t rays) {
 
 double row_tolerance(const shadow::FilterRow& filter, std::uint32_t rays) {
     if (estimates(filter)) return static_cast<double>(kHalf);
-    return filter.storage == shadow::FilterStorage::soft_sheets ? 1.0 / rays + kByteStep : kByteStep;
+    return filter.rays && filter.rays->per_source ? 1.0 / rays + kByteStep : kByteStep;
 }
 
 CheckErrors judge_check_row(Stage& stage, const TracedTruths& truths, const TracedLight& light,
@@ -112,9 +110,9 @@ std::string broken_bound(const shadow::FilterRow& filter, std::uint32_t rays, co
             "%zu pixels wrong where neither an edge nor the map's "
             "texels explain it",
             errors.unexplained);
-    if (filter.storage == shadow::FilterStorage::sheets && errors.wrong > 0)
+    if (filter.rays && !filter.rays->per_source && errors.wrong > 0)
         return formatted("%zu pixels wrong, none may be", errors.wrong);
-    if (filter.storage == shadow::FilterStorage::soft_sheets && errors.penumbra_error) {
+    if (filter.rays && filter.rays->per_source && errors.penumbra_error) {
         const double most = worst_penumbra_error(rays);
         if (!(*errors.penumbra_error <= most))
             return formatted("penumbras off by %.3f, %u rays by %.3f at most", *errors.penumbra_error, rays, most);

@@ -69,7 +69,7 @@ void fail(CheckRow& row, std::string why) {
 std::string why_not_judged(const CheckRowSetup& setup, const gl::DeviceInfo& info) {
     constexpr std::uint32_t kFaces = 6;
     if (setup.route == CubeRoute::automatic || setup.route == CubeRoute::six_passes) return {};
-    if (shadow::asks_rays(*setup.filter)) return "its maps are peeled face by face, in six passes";
+    if (setup.filter->rays) return "its maps are peeled face by face, in six passes";
     if (shadow::cube_route(setup.route, info, kFaces) != setup.route)
         return "this device cannot; six passes are drawn instead";
     return {};
@@ -112,7 +112,7 @@ std::vector<CheckRowSetup> check_row_setups() {
     std::vector<CheckRowSetup> setups;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
-            if (kind.kind != LightKind::point) {
+            if (kind.texture != gl::TextureKind::cube) {
                 setups.push_back(setup_of(kind, filter));
                 continue;
             }

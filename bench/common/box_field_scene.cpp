@@ -58,6 +58,7 @@ shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages
             .beams = light.beams(),
             .frame_points_ws = sets.receiver_points_ws,
             .reach_texel = request.map.filtering.widest_texel,
+            .sampled_depths = stages.sampled_depths,
             .scratch = stages.storage.fits,
             .held = held,
             .next = next};

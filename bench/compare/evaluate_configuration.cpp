@@ -7,6 +7,7 @@
 #include "bench/accuracy/edge_error_bounds.h"
 #include "bench/accuracy/unexplained_errors.h"
 #include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
 #include "tests/oracle/edge_exceptions.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/soft_metrics.h"
@@ -100,7 +101,8 @@ void take_report(const LightItem& light, const LightReport& report, std::uint32_
     RowFigures& figures = row.figures;
     const bool chosen = light.shadow.filter == ShadowFilter::automatic;
     const ShadowFilter filter = chosen ? report.filter.filter : light.shadow.filter;
-    figures.taps = shadow::filter_row(filter).taps(light.tuning.kernel, light.kind == LightKind::point);
+    figures.taps = shadow::filter_row(filter).taps(light.tuning.kernel,
+                                                   shadow::light_kind_row(light.kind).texture == gl::TextureKind::cube);
     figures.views = report.views;
     figures.texels = static_cast<double>(report.texels);
     figures.bytes = static_cast<double>(report.bytes);

@@ -11,6 +11,7 @@
 #include "bench/glsl_on_cpu/cpu_lookup.h"
 #include "sample_game/support/files/image_files.h"
 #include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::bench {
 namespace {
@@ -101,7 +102,7 @@ constexpr double kPercent = 100.0;
 constexpr float kHalf = 0.5f;
 
 std::string table_line(const FilterVariant& variant, const LightAccuracy& light, const TapCount& taps) {
-    const bool cube = light.report.kind == LightKind::point;
+    const bool cube = shadow::light_kind_row(light.report.kind).texture == gl::TextureKind::cube;
     const double texels = static_cast<double>(light.report.texels) / std::max(1u, light.report.views);
     const auto edge_px = static_cast<std::uint32_t>(std::sqrt(texels));
     LightItem item;

@@ -39,10 +39,9 @@ std::vector<FilterVariant> filter_variants() {
     std::vector<FilterVariant> found;
     for (const shadow::FilterRow& row : shadow::filter_table()) {
         const ShadowTuning::Kernel fewest{.taps = 1}, most{.taps = kTaps.back()};
-        const bool moments = row.storage == shadow::FilterStorage::moments;
         if (row.width == shadow::FilterWidth::size)
-            for (const std::uint32_t size : moments ? kBlurs : kSizes) add(found, row, "filter_size", size);
-        else if (row.storage == shadow::FilterStorage::soft_sheets)
+            for (const std::uint32_t size : row.moments ? kBlurs : kSizes) add(found, row, "filter_size", size);
+        else if (row.rays && row.rays->per_source)
             for (const std::uint32_t rays : kRays) add(found, row, "penumbra_rays", rays);
         else if (row.taps(fewest, false) != row.taps(most, false))
             for (const std::uint32_t taps : kTaps) add(found, row, "filter_taps", taps);

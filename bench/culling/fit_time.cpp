@@ -10,6 +10,7 @@
 #include "bench/common/box_field_scene.h"
 #include "bench/common/median_range.h"
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/fitting/directional/cascade_fit.h"
@@ -44,7 +45,7 @@ SceneSnapshot scene_of(const Kind& kind, std::size_t receivers, std::size_t cast
     scene.lights[0].tuning.cascades.fit = kind.fit;
     scene.lights[0].shadow.cascades = 1;
     const double side_m = 5.0 * std::sqrt(static_cast<double>(kBoxes));
-    if (kind.kind == LightKind::spot) {
+    if (!light_facts(kind.kind).parallel) {
         scene.lights[0].position_ws_m = {0.0, side_m, 0.0};
         scene.lights[0].rotation_ws = math::basis_from_back({0.0, 1.0, 0.0});
     }

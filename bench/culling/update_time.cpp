@@ -84,7 +84,7 @@ private:
         gpu_->update(scene_, list_);
         list_.clear();  // a million records, which nobody looks at
         const auto start = std::chrono::steady_clock::now();
-        shadows_->update(scene_, *gpu_, true, list_, report_);
+        shadows_->update(scene_, *gpu_, {}, list_, report_);
         const auto end = std::chrono::steady_clock::now();
         shadows_->commit(scene_, true);
         return std::chrono::duration<double, std::micro>(end - start).count();

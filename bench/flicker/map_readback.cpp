@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bench/flicker/camera_path.h"
+#include "systems/extract/light_facts.h"
 #include "tests/oracle/traced_world.h"
 
 namespace gnomon::bench {
@@ -48,7 +49,8 @@ std::optional<Error> ShadowFrames::run() {
     const TransformReport& transforms = transforms_.update(stage_.world());
     extractor_.update(stage_.world(), stage_.library(), transforms, stage_.settings().viewport_px, snapshot_);
     gpu_scene_.update(snapshot_, commands_);
-    shadows_.update(snapshot_, gpu_scene_, true, commands_, report_);
+    shadows_.update(snapshot_, gpu_scene_, {}, commands_, report_);
+    shadows_.report(snapshot_, {}, report_);
     const bool drawn = stage_.device().submit(commands_).failure == gl::Failure::none;
     shadows_.commit(snapshot_, drawn);
     if (snapshot_.consumers.empty()) return Error{"no usable camera", stage_.scene_name(), "", "bench.camera"};
@@ -129,14 +131,13 @@ double seen_distance_m(const SceneSnapshot& scene, const assets::MeshLibrary& li
 }
 
 bool shines_on(const LightItem& light, const SurfacePoint& point) {
-    if (light.kind == LightKind::directional)
-        return glm::dot(point.normal_ws, light.rotation_ws[2]) > oracle::kMinCosine;
+    const LightFacts& facts = light_facts(light.kind);
+    if (facts.parallel) return glm::dot(point.normal_ws, light.rotation_ws[2]) > oracle::kMinCosine;
     const glm::dvec3 to_light = light.position_ws_m - point.position_ws_m;
     const double distance_m = glm::length(to_light);
     if (!(glm::dot(point.normal_ws, to_light) > oracle::kMinCosine * distance_m)) return false;
     if (light.range_m > 0.0 && distance_m > light.range_m) return false;
-    return light.kind == LightKind::point ||
-           glm::dot(to_light, light.rotation_ws[2]) > distance_m * std::cos(light.outer_cone_rad);
+    return !facts.cone || glm::dot(to_light, light.rotation_ws[2]) > distance_m * std::cos(light.outer_cone_rad);
 }
 
 }  // namespace gnomon::bench

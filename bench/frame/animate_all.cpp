@@ -4,6 +4,7 @@
 
 #include "components/light.h"
 #include "components/name.h"
+#include "systems/extract/light_facts.h"
 
 namespace gnomon::bench {
 namespace {
@@ -26,7 +27,7 @@ std::vector<game::MovingEntity> everything_moving(const game::SpawnedScene& spaw
                 {entity, *rest, {.kind = kind, .axis = axis, .amplitude = amplitude, .period_s = period_s}});
     };
     for (const game::NamedEntity& light : spawned.lights)
-        if (const Light* l = world.get<Light>(light.entity); l && l->kind == LightKind::directional)
+        if (const Light* l = world.get<Light>(light.entity); l && light_facts(l->kind).parallel)
             add(light.entity, "swing", {0.0, 1.0, 0.0}, kTurn_rad, kTurnPeriod_s);
     for (const game::NamedEntity& camera : spawned.cameras)
         add(camera.entity, "slide", {1.0, 0.0, 0.0}, kWalk_m, kWalkPeriod_s);

@@ -27,9 +27,7 @@ struct SurfacePoint {
 
 /// Whether the filter's lookups are compiled in: all but those that read moments, which passes of their own make of the
 /// map, or no map at all.
-inline bool knows_filter(const shadow::FilterRow& row) {
-    return row.storage == shadow::FilterStorage::depth || row.storage == shadow::FilterStorage::depth_and_triangle;
-}
+inline bool knows_filter(const shadow::FilterRow& row) { return !row.moments && !row.rays; }
 
 /// What the shader makes of one point.
 struct ExactVisibility {

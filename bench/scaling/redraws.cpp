@@ -126,7 +126,7 @@ private:
         list_.clear();
         report_.clear();
         gpu_->update(snapshot_, list_);
-        shadows_->update(snapshot_, *gpu_, true, list_, report_);
+        shadows_->update(snapshot_, *gpu_, {}, list_, report_);
         (void)device_.submit(list_);
         device_.forget();
         held_ = shadows_->held_fits();

@@ -7,6 +7,7 @@
 
 #include "components/transform.h"
 #include "systems/extract/camera_view.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"
 
 namespace gnomon {
@@ -20,7 +21,7 @@ bool usable(const Light& light) {
                          light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
     // Shaders multiply both in float: an infinite product becomes NaN where no light arrives.
     if (!numbers || !std::isfinite(light.intensity * (light.colour.r + light.colour.g + light.colour.b))) return false;
-    return light.kind != LightKind::spot ||
+    return !light_facts(light.kind).cone ||
            (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
             light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);
 }

@@ -21,8 +21,8 @@ public:
         changed,  // updated in place
         listing   // added or removed: call list()
     };
-    /// Brings in what a Light, LightShadow, ShadowTuning, Camera or WorldTransform of this entity says, after it was
-    /// written or removed. Costs no more than finding it among the lights and cameras.
+    /// Brings in what a Light, LightShadow, ShadowTuning, Camera or WorldTransform of this entity contains, after it
+    /// was written or removed. Costs no more than finding it among the lights and cameras.
     Effect touch(const ecs::Registry& registry, ecs::Entity entity, SceneSnapshot& snapshot) const;
 
     /// Updates names after a Name of these was written or removed. Names are made unique, so that one may change

@@ -17,7 +17,6 @@
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
 #include "engine/math/shape_tree.h"
-#include "systems/extract/sampled_depths.h"
 
 /// Struct 1 of the frame: all that later stages know of the world, in world space, in double. Filled from another ECS
 /// it makes the rest of Gnomon work unchanged.
@@ -49,8 +48,8 @@ struct LightItem {
     float intensity = 0.0f;
     double range_m = 0.0;  // 0: unlimited
     double inner_cone_rad = 0.0, outer_cone_rad = 0.0;
-    float source_radius_m = 0.0f;  // of a spot or a point
-    float sun_radius_rad = 0.0f;   // of a sun
+    float source_radius_m = 0.0f;  // spot and point
+    float sun_radius_rad = 0.0f;   // sun
     bool has_shadow = false;       // a LightShadow component exists
     LightShadow shadow = {};
     ShadowTuning tuning = {};         // the defaults where there is no LightShadow
@@ -145,10 +144,6 @@ struct SceneSnapshot {
     /// Boxes around each mesh's triangles, in mesh space (assets::Mesh::shape), by mesh. Null or missing: the
     /// instances' bounds are used, as they must be for deformable meshes.
     std::vector<std::shared_ptr<const math::ShapeTree>> shapes;
-    SampledDepths sampled_depths;  // measured by systems/lighting/depth_sampler.h, not extracted; optional
-    /// Factor of the picture's radiance before the tone curve, if known. Lights with invisible shadows are then culled
-    /// (systems/shadow/culling/contribution_culling.h). Empty: no light is.
-    std::optional<double> exposure = {};
     std::uint64_t tree_version = 0;  // version of the tree; unused if it differs from `version`
 };
 

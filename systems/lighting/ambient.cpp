@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/aabb.h"
+#include "systems/extract/light_facts.h"
 #include "systems/lighting/picture_range.h"
 
 namespace gnomon::lighting {
@@ -52,7 +53,8 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
     for (const LightItem& light : scene.lights) {
         const glm::dvec3 power = glm::dvec3(light.colour) * static_cast<double>(light.intensity);
         const double strongest = std::max({power.r, power.g, power.b});
-        if (light.kind == LightKind::directional) {
+        const LightFacts& facts = light_facts(light.kind);
+        if (facts.parallel) {
             sum.suns_lux += strongest;
             sum.sky_lux += light.colour * light.intensity * kSkyShare * glm::vec3(0.85f, 0.95f, 1.2f);
             continue;
@@ -60,8 +62,7 @@ SceneLight scene_light(const SceneSnapshot& scene, const Midst& midst) {
         const glm::dvec3 away_m = light.position_ws_m - midst.middle_ws_m;
         const double room_m2 = midst.reach_m * midst.reach_m + glm::dot(away_m, away_m);
         if (!(room_m2 > 0.0)) continue;  // nothing to light
-        const double cone_share =
-            light.kind == LightKind::spot ? 0.5 * (1.0 - std::cos(static_cast<double>(light.outer_cone_rad))) : 1.0;
+        const double cone_share = facts.cone ? 0.5 * (1.0 - std::cos(static_cast<double>(light.outer_cone_rad))) : 1.0;
         sum.lamps_lux += strongest / room_m2;
         bounce_lux += power * (kReflected * cone_share / room_m2);
     }

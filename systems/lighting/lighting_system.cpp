@@ -11,7 +11,6 @@
 #include "systems/extract/instance_order.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_timers.h"
-#include "systems/lighting/report_lacks.h"
 
 namespace gnomon::lighting {
 namespace {
@@ -237,7 +236,7 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
 }
 
 void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
-                                    FrameReport& report) {
+                                    shadow::LightingOutcome& outcome) {
     if (blended_.empty() || !programs_.blended_base()) return;
     list.add(gl::BeginGroup{"blended"});
     list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
@@ -260,8 +259,9 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
             if (unlit || inputs.lights[i].screen.width <= 0) continue;
             const LightProgram used = light_program(inputs.lights[i], RowOutput::blended);
-            report_blended_lack({used.lacks, used.unshadowed}, inputs.lights[i].plain.accuracy,
-                                report.lights[inputs.lights[i].light]);
+            if (used.lacks != Reason::none)
+                outcome.failures.push_back(
+                    {inputs.lights[i].light, used.lacks, used.unshadowed, true, inputs.lights[i].plain.accuracy});
             state.program = used.program;
             if (!state.program) continue;
             state.blend = gl::Blend::add;
@@ -302,30 +302,30 @@ void LightingSystem::record_finish(gl::CommandList& list) {
 }
 
 bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
-                            const LightingSettings& settings, gl::CommandList& list, FrameReport& report) {
+                            const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome) {
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
     passes_.clear();
     programs_.next_frame(settings.most_rows);
     programs_.set_some_unlit(gpu.any_unlit());
     programs_.set_coloured(static_cast<bool>(gpu.colours()));
-    report.failure = prepare(inputs, scene);
-    if (report.failure != gl::Failure::none) {
+    outcome.failure = prepare(inputs, scene);
+    if (outcome.failure != gl::Failure::none) {
         // Freed memory returns only after the device has finished its work; then there may be room.
         device_.finish();
-        report.failure = prepare(inputs, scene);
-        if (report.failure != gl::Failure::none) return false;
+        outcome.failure = prepare(inputs, scene);
+        if (outcome.failure != gl::Failure::none) return false;
     }
     plan_passes(inputs, scene, settings);
     upload(inputs, scene, gpu, settings, list);
     record_surfaces(gpu, list);
     if (settings.sample_depths)
         depths_.record({camera, targets_.depth, point_sampler_, uniforms_.handle(), targets_.size_px()}, list);
-    record_lights(inputs, scene, gpu, list, report);
-    record_blended(inputs, gpu, list, report);
+    record_lights(inputs, scene, gpu, list, outcome);
+    record_blended(inputs, gpu, list, outcome);
     record_finish(list);
-    report.rays.list_bytes = ray_list_.bytes();
-    report.rays.place_bytes = targets_.place_bytes();
+    outcome.ray_list_bytes = ray_list_.bytes();
+    outcome.position_bytes = targets_.place_bytes();
     if (settings.measure_exposure)
         exposure_.record({camera, targets_.luminance, mip_sampler_, uniforms_.handle(), exposure_offset_}, list);
     return true;

@@ -18,7 +18,6 @@
 #include "systems/lighting/lookup_times.h"
 #include "systems/lighting/picture_range.h"
 #include "systems/lighting/ray_list.h"
-#include "systems/report.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lighting {
@@ -55,10 +54,10 @@ public:
     LightingSystem& operator=(const LightingSystem&) = delete;
 
     /// Records the picture of one consumer. A light without its program (failed, or compiled later) is looked up with
-    /// one tap (LightingLight::plain). If that fails too it is drawn unshadowed, or not at all. Everything is reported.
-    /// Returns false if an essential object is missing: nothing is recorded, and report.failure has the reason.
+    /// one tap (LightingLight::plain). If that fails too it is drawn unshadowed, or not at all. The outcome has all of
+    /// it. Returns false if an essential object is missing: nothing is recorded, and outcome.failure has the reason.
     bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
-                const LightingSettings& settings, gl::CommandList& list, FrameReport& report);
+                const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome);
 
     /// Reports a submission of what record() recorded: its number, and success. Visibility is cached only if this is
     /// called. A still picture then reads it instead of looking lights up, to the same bits (docs/economy.md, "What
@@ -140,7 +139,8 @@ private:
     std::uint64_t surfaces_signature(const shadow::LightingInputs& inputs, const SceneSnapshot& scene) const;
     void bind_kept(const LightPass& pass, std::uint32_t index, gl::CommandList& list) const;
     void record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list);
-    void report_kept(const LightPass& pass, std::uint32_t index, const LightItem& light, FrameReport& frame);
+    void note_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
+                   shadow::LightingOutcome& outcome);
     LightProgram light_program(const shadow::LightingLight& light, RowOutput output);
     gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
@@ -151,9 +151,9 @@ private:
     gl::ProgramHandle surface_program(bool unlit);
     void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
     void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
-                       gl::CommandList& list, FrameReport& report);
+                       gl::CommandList& list, shadow::LightingOutcome& outcome);
     void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
-                        FrameReport& report);
+                        shadow::LightingOutcome& outcome);
     void record_finish(gl::CommandList& list);
     void bind_scene(const GpuScene& gpu, gl::CommandList& list) const;
     void bind_material(const GpuScene& gpu, std::uint32_t material, gl::CommandList& list) const;

@@ -110,18 +110,13 @@ void LightingSystem::record_fill(const LightPass& pass, std::uint32_t index, con
     list.add(gl::Blit{kept.scratch, kept.target, kept.area, {0, 0, kept.area.width, kept.area.height}});
 }
 
-void LightingSystem::report_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
-                                 FrameReport& frame) {
+void LightingSystem::note_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
+                               shadow::LightingOutcome& outcome) {
     const bool may_pay = light.has_shadow && light.tuning.reuse.keep_visibility && light.tuning.reuse.economy;
     if (may_pay && kept_.is_told() && !pass.fills.program)
         lookup_times_.add(index, light.entity, static_cast<bool>(pass.reads));
-    if (!pass.reads || index >= frame.lights.size()) return;
-    LightReport& report = frame.lights[index];
-    report.kept.bytes += pass.kept.bytes;
-    report.bytes += pass.kept.bytes;
-    if (pass.fills.program) return;
-    report.kept.reason = Reason::visibility_kept;
-    report.kept.saved_us = lookup_times_.saved_us(light.entity);
+    if (!pass.reads) return;
+    outcome.cached.push_back({index, pass.kept.bytes, !pass.fills.program, lookup_times_.saved_us(light.entity)});
 }
 
 void LightingSystem::submitted(std::uint64_t submission, bool drawn) {

@@ -1,7 +1,6 @@
 #include "shaders/bindings.h"
 #include "systems/frame_timers.h"
 #include "systems/lighting/lighting_system.h"
-#include "systems/lighting/report_lacks.h"
 
 /// Choice of a light's program, its inputs, and its pass.
 namespace gnomon::lighting {
@@ -110,14 +109,15 @@ void LightingSystem::record_look_up(const LightProgram& light, std::uint32_t ind
 }
 
 void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene,
-                                   const GpuScene& gpu, gl::CommandList& list, FrameReport& report) {
+                                   const GpuScene& gpu, gl::CommandList& list, shadow::LightingOutcome& outcome) {
     list.add(gl::BeginGroup{"lights"});
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
         if (light.screen.width <= 0) continue;
         const LightPass& pass = passes_[i];
         const LightProgram& used = pass.own;
-        report_lack({used.lacks, used.unshadowed}, light.plain.accuracy, report.lights[light.light]);
+        if (used.lacks != Reason::none)
+            outcome.failures.push_back({light.light, used.lacks, used.unshadowed, false, light.plain.accuracy});
         if (!used.program) continue;
         list.add(gl::BeginGroup{scene.lights[light.light].name});
         list.add(gl::BeginTimer{lighting_timer(light.light)});
@@ -130,7 +130,7 @@ void LightingSystem::record_lights(const shadow::LightingInputs& inputs, const S
         }
         list.add(gl::EndTimer{lighting_timer(light.light)});
         list.add(gl::EndGroup{});
-        report_kept(pass, light.light, scene.lights[light.light], report);
+        note_kept(pass, light.light, scene.lights[light.light], outcome);
     }
     list.add(gl::EndGroup{});
 }

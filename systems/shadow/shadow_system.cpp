@@ -10,6 +10,7 @@
 #include "systems/shadow/fitting/fit_views.h"
 #include "systems/shadow/fitting/quiet_frames.h"
 #include "systems/shadow/report/light_report.h"
+#include "systems/shadow/report/lighting_failures.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/update/commit_maps.h"
 #include "systems/shadow/update/plan_updates.h"
@@ -34,7 +35,7 @@ ShadowSystem::~ShadowSystem() {
 }
 
 bool ShadowSystem::samplers_ready(std::span<const ShadowRequest> requests) {
-    // A description holds text: none is made in a steady frame.
+    // A description allocates its label: it is made only for a new sampler, not in a steady frame.
     const auto ensure = [&](gl::SamplerHandle& sampler, const char* label, bool linear, bool compare) {
         if (sampler) return true;
         sampler = device_.create_sampler({label, linear, false, compare, gl::Wrap::border, gl::Wrap::border}).handle;
@@ -65,24 +66,26 @@ bool ShadowSystem::moment_sampler_ready(const PrefilterSettings& settings) {
 
 namespace {
 
-/// Lights that read triangles are lit while the device has no room for them.
+/// Provides the triangle buffers that lights with FilterStorage::triangle_ids read. Such lights have no shadow while
+/// the device has no memory for the buffers.
 void provide_triangles(GpuScene& gpu, const FittedViews& fitted, std::span<LightStatus> statuses) {
     for (std::size_t i = 0; i < statuses.size(); ++i)
-        if (!statuses[i].is_skipped() &&
-            filter_row(fitted.lights[i].request.map.filter).storage == FilterStorage::depth_and_triangle &&
+        if (!statuses[i].is_skipped() && filter_row(fitted.lights[i].request.map.filter).storage.triangle_ids &&
             !gpu.provide_caster_triangles())
             statuses[i].skip(Reason::buffer_failed);
 }
 
 }  // namespace
 
-/// Rays ask of an instance whom it shadows: without records of those there is nothing to walk.
+/// Updates the ray-tracing structures. Returns false on failure. Rays read layers from the instance records, and need
+/// these first.
 bool ShadowSystem::update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     return gpu.instances() && rays_.update(scene, gpu, list);
 }
 
-/// Lights that use rays are looked up once, or lit, in the frame that has no room for what those walk; their requests
-/// have it from the next on. What they use is kept as long as there is one, seen or not. `updated`: in this frame.
+/// Provides the ray-tracing structures while any light uses rays, visible or not, and frees them otherwise. `updated`:
+/// they are already updated in this frame. On failure, lights with a map are looked up without rays in this frame, and
+/// lights without one have no shadow. From the next frame on their requests take account of the failure.
 void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list) {
     bool any = rays_lack_, used = false;
     for (std::size_t i = 0; i < frame_.decisions.size(); ++i) {
@@ -102,7 +105,7 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
         const RayUse& rays = frame_.decisions[i].request.rays;
         LightStatus& status = frame_.statuses[i];
         if (!rays.used || status.is_skipped()) continue;
-        // A map that there is is looked up once: PlainLookup.
+        // A light with a map uses PlainLookup.
         if (rays.only)
             status.skip(Reason::buffer_failed);
         else
@@ -110,17 +113,18 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
     }
 }
 
-const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                                        FrameReport& report, const ShadowBudget& budget) {
+const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
+                                        gl::CommandList& list, FrameReport& report) {
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
+    maps_.set_spare(settings.feedback.spare);
     maps_.begin_frame();
     const bool others_move = motion_.update(scene);
-    const bool unchanged = still_.unchanged(scene, shadows, budget) && !others_move;
+    const bool unchanged = still_.unchanged(scene, settings) && !others_move;
     if (others_move) frame_.moving = motion_.moving();
-    most_rays_ = budget.rays;
-    BudgetLimits limits = limits_of(budget);
+    most_rays_ = settings.budget.rays;
+    BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
     const bool shared_out = !budget_.is_moved_by(limits, cost_clock_.factors());
     stands_ = std::exchange(may_stand_, false) && unchanged && shared_out && maps_.stay();
@@ -128,29 +132,35 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
         keep_all(frame_.maps, frame_.updates);
     } else {
         budget_.begin(limits, cost_clock_.factors());
-        run_stages(scene, gpu, shadows, {list, report, frame_.cpu_us});
+        run_stages(scene, gpu, settings, {list, report, frame_.cpu_us});
     }
     report.still = stands_;
     report.rays = rays_.report();
     report.rays.sheet_bytes = sheets_.bytes();
     report.rays.sheet_host_bytes = sheets_.host_bytes();
     if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
-    const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
-    explain_lights(scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, dim_lights_, has_rays, frame_.cpu_us},
-                   report);
-    budget_.report(report);
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;
 }
 
-void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out) {
+void ShadowSystem::report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const {
+    const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
+    explain_lights(scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, dim_lights_, has_rays, frame_.cpu_us},
+                   report);
+    budget_.report(report);
+    add_outcome(outcome, report);
+}
+
+void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
+                              const PassOutputs& out) {
     ShadowFrame& f = frame_;
     f.statuses.assign(scene.lights.size(), {});
     const LightAccounts accounts{f.statuses, f.cpu_us};
 
     const bool lacked = rays_lack_;
-    rays_lack_ = rays_lack_ && wants_rays(scene, history_, shadows) && !update_rays(scene, gpu, out.list);
-    decide_requests(scene, {device_.info(), history_, shadows, {most_rays_, rays_lack_}}, fallbacks_, f.requests);
+    rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
+    decide_requests(scene, {device_.info(), history_, settings.shadows, {most_rays_, rays_lack_}}, fallbacks_,
+                    f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) limit_by_grants(scene, history_, f.requests, f.limited);
     const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;
@@ -162,12 +172,12 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool sh
 
     lamp_places_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
     select_sets(scene, {requests, f.lamps_ws_m}, storage_.sets, f.sets, accounts);
-    dim_lights_.leave_out(scene, gpu, f.sets, f.statuses);
+    dim_lights_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
     finish("culling");
 
     const bool shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
-    fit_views(scene, {requests, f.sets, f.lamps_ws_m, history_, f.moving, shared_out}, storage_, f.fitted,
-              f.next_history, accounts);
+    fit_views(scene, {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, shared_out},
+              storage_, f.fitted, f.next_history, accounts);
     count_quiet_frames(scene, f.fitted, history_, shared_out, f.next_history);
     finish("fitting");
 
@@ -212,9 +222,9 @@ bool ShadowSystem::wants_sampled_depths(const SceneSnapshot& scene) const {
     return shadow::wants_sampled_depths(scene, frame_.fitted, frame_.statuses);
 }
 
-/// Whether another run of the stages would do no more than this one, if nothing changes meanwhile: fits hold on to what
-/// they hold already, no light asks for all to be drawn, and nothing that failed is to be tried again but by maps_,
-/// which says so itself.
+/// Returns true if another run of the stages on an unchanged scene would have the same results. Then the history is
+/// unchanged, no light has economy disabled, no failed operation is due for a retry, and no view is skipped for rays.
+/// maps_ reports its own retries (MapStore::stay).
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     const auto is_tried_again = [](Reason reason) {
         return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||

@@ -20,6 +20,7 @@
 #include "systems/shadow/fitting/fit_light.h"
 #include "systems/shadow/frame/pass_inputs.h"
 #include "systems/shadow/frame/shadow_frame.h"
+#include "systems/shadow/frame/shadow_settings.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/passes/depth_pass.h"
 #include "systems/shadow/passes/prefilter_pass.h"
@@ -35,31 +36,38 @@ namespace gnomon::shadow {
 /// Called after each stage, with its name and the frame as it is then.
 using StageWatch = std::function<void(std::string_view stage, const ShadowFrame& frame)>;
 
-/// Runs the stages of a frame in order, and holds what outlives it. Owns its device objects.
+/// Runs the stages of a frame, and keeps the state that outlives a frame: maps, history, measured costs. Owns its
+/// device objects.
 class ShadowSystem {
 public:
-    /// `held_fits`: what the fits go on from, if an earlier system's context was lost.
+    /// Creates the system. `held_fits`: history of an earlier system with a lost context, from which the fits continue.
     explicit ShadowSystem(gl::Device& device, const History& held_fits = {});
     ~ShadowSystem();
     ShadowSystem(const ShadowSystem&) = delete;
     ShadowSystem& operator=(const ShadowSystem&) = delete;
 
-    /// Runs all stages for `scene`, records the depth passes into `list` and fills report.lights.
-    /// `shadows` false: every light is treated as disabled. Never throws; no device failure stops the frame.
-    /// Where nothing changed since the last frame, its results stand, and nothing is done that grows with the scene.
-    const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, gl::CommandList& list,
-                              FrameReport& report, const ShadowBudget& budget = {});
+    /// Runs all stages for `scene`, records the depth passes into `list` and counts them in the report. Never throws;
+    /// no device failure stops the frame. If nothing changed since the last frame, its results are reused, and the cost
+    /// does not depend on the scene's size.
+    const ShadowFrame& update(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
+                              gl::CommandList& list, FrameReport& report);
 
-    /// To be called after the list was submitted: `executed` says whether it was, without failure.
+    /// Reports what became of each light and view, once the frame's pictures are recorded. `outcome`: of lighting;
+    /// empty where another renderer draws the pictures.
+    void report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const;
+
+    /// Commits the frame after its list was submitted. `executed` false: the list failed or was not executed, so that
+    /// maps do not have the recorded content.
     void commit(const SceneSnapshot& scene, bool executed);
 
     const ShadowFrame& frame() const { return frame_; }
-    /// Where measurements of drawing go, and what reports take them from.
+    /// Returns the measured draw times, which the caller fills and reports read.
     DrawTimes& draw_times() { return draw_times_; }
-    /// The same for a budget's model; shown nothing, it stands as it is.
+    /// Returns the calibration of the budget's cost model. Without measurements it stays unchanged.
     CostClock& cost_clock() { return cost_clock_; }
 
-    /// Whether any light places its splits by the picture's depths (CascadeSplits::sampled), after update().
+    /// Returns true if any light needs the picture's depths for its splits (CascadeSplits::sampled). Call after
+    /// update().
     bool wants_sampled_depths(const SceneSnapshot& scene) const;
 
     /// Sets who watches the stages, for tests and tools. Empty: nobody.
@@ -67,13 +75,11 @@ public:
 
     const visibility::RayScene& rays() const { return rays_; }
     const MapStore& maps() const { return maps_; }
-    /// See MapStore::set_spare().
-    void set_spare(SpareMemory* spare) { maps_.set_spare(spare); }
     const DimLights& dim_lights() const { return dim_lights_; }
     const History& held_fits() const { return history_; }
 
 private:
-    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, bool shadows, const PassOutputs& out);
+    void run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings, const PassOutputs& out);
     void finish(std::string_view stage) const;
     bool is_settled(const SceneSnapshot& scene) const;
     bool samplers_ready(std::span<const ShadowRequest> requests);
@@ -105,8 +111,8 @@ private:
     CasterMotion motion_;
     StillFrame still_;
     StageWatch watch_;
-    bool stands_ = false;     // the last update() found nothing to do
-    bool may_stand_ = false;  // the next one may
+    bool stands_ = false;     // the last update() reused the frame before it
+    bool may_stand_ = false;  // the next update() may reuse the last frame
 };
 
 }  // namespace gnomon::shadow

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/visibility/light_rays.h"
 
 namespace gnomon::truth {
@@ -32,10 +33,9 @@ void ask(const SceneSnapshot& scene, const LightItem& light, visibility::LightQu
 }
 
 double cosine_to(const LightItem& light, const SeenSurfaces& seen, std::size_t pixel) {
-    const bool sun = light.kind == LightKind::directional;
-    const glm::dvec3 to_light = sun ? light.rotation_ws[2] : light.position_ws_m - seen.position_ws_m[pixel];
-    const double distance = glm::length(to_light);
-    return distance > 0.0 ? glm::dot(seen.normal_ws[pixel], to_light) / distance : 0.0;
+    const glm::dvec3 way = to_light(light, seen.position_ws_m[pixel]);
+    const double distance = glm::length(way);
+    return distance > 0.0 ? glm::dot(seen.normal_ws[pixel], way) / distance : 0.0;
 }
 
 /// Adds four places around the pixel's. The offset stays in the surface: outside it, a place could lie inside the

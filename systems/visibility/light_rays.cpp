@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "systems/extract/light_facts.h"
+
 namespace gnomon::visibility {
 namespace {
 
@@ -44,30 +46,31 @@ void fill_disk(std::size_t count, std::vector<glm::dvec2>& disk) {
 
 LightRays::LightRays(const LightItem& light, std::span<const glm::dvec2> disk)
     : light_(light), disk_(disk), partner_(even_step(disk.size())) {
-    const bool sun = light.kind == LightKind::directional;
-    size_ = sun ? std::tan(static_cast<double>(std::clamp(light.sun_radius_rad, 0.0f, kMostSunRadius_rad)))
-                : static_cast<double>(std::clamp(light.source_radius_m, 0.0f, kMostSourceRadius_m));
+    const LightFacts& facts = light_facts(light.kind);
+    const auto size = static_cast<double>(std::clamp(light.*facts.source_size, 0.0f, facts.most_source_size));
+    size_ = facts.parallel ? std::tan(size) : size;
     sized_ = size_ > 0.0;
-    last_ = sun ? std::numeric_limits<double>::infinity() : 1.0;
+    last_ = facts.parallel ? std::numeric_limits<double>::infinity() : 1.0;
     outer_cosine_ = std::cos(light.outer_cone_rad);
     const glm::dvec3& back = light.rotation_ws[2];
     usable_ = is_finite(light.position_ws_m) && is_finite(back) && glm::dot(back, back) > 0.0;
 }
 
 bool LightRays::reaches(const glm::dvec3& point_ws_m) const {
-    if (light_.kind == LightKind::directional) return true;
+    const LightFacts& facts = light_facts(light_.kind);
+    if (facts.parallel) return true;
     const glm::dvec3 to_light = light_.position_ws_m - point_ws_m;
     const double distance_m = glm::length(to_light);
     if (!(distance_m > 0.0) || (light_.range_m > 0.0 && distance_m > light_.range_m)) return false;
-    if (light_.kind == LightKind::point) return true;
+    if (!facts.cone) return true;
     const glm::dvec3& back = light_.rotation_ws[2];
     return glm::dot(to_light, back) >= outer_cosine_ * distance_m * glm::length(back);
 }
 
 Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) const {
     if (!usable_ || !is_finite(place.at_ws_m)) return Reach::none;
-    const bool sun = light_.kind == LightKind::directional;
-    glm::dvec3 middle = sun ? light_.rotation_ws[2] : light_.position_ws_m - place.at_ws_m;
+    const bool sun = light_facts(light_.kind).parallel;
+    glm::dvec3 middle = to_light(light_, place.at_ws_m);
     ray.from_ws_m = place.at_ws_m;
     const bool sphere = place.radius_m > 0.0;
     if (sphere || sized_) {

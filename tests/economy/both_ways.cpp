@@ -5,9 +5,7 @@
 namespace gnomon {
 
 BothWays::BothWays(gl::Device& device, const assets::MeshLibrary& library)
-    : device_(device),
-      library_(library),
-      sides_{std::make_unique<Side>(device), std::make_unique<Side>(device)} {
+    : device_(device), library_(library), sides_{std::make_unique<Side>(device), std::make_unique<Side>(device)} {
     auto gpu = GpuScene::create(device, library);
     EXPECT_TRUE(gpu);
     if (gpu) gpu_ = std::make_unique<GpuScene>(std::move(gpu).value());
@@ -27,18 +25,20 @@ void BothWays::run_side(Way way, const std::function<void(const Picture&)>& look
     side.commands.clear();
     side.report.clear();
     if (way == kThrifty) gpu_->update(snapshot_, side.commands);
-    const shadow::ShadowFrame& frame = side.shadows.update(side.scene, *gpu_, true, side.commands, side.report);
+    const shadow::ShadowFrame& frame = side.shadows.update(side.scene, *gpu_, {}, side.commands, side.report);
     if (frame.inputs.empty()) {
         EXPECT_EQ(device_.submit(side.commands).failure, gl::Failure::none);
     }
+    shadow::LightingOutcome outcome;
     for (const shadow::LightingInputs& inputs : frame.inputs) {
-        EXPECT_TRUE(side.lighting.record(inputs, side.scene, *gpu_, {}, side.commands, side.report));
+        EXPECT_TRUE(side.lighting.record(inputs, side.scene, *gpu_, {}, side.commands, outcome));
         const gl::SubmitResult result = device_.submit(side.commands);
         EXPECT_EQ(result.failure, gl::Failure::none);
         look({way, inputs, side.commands});  // while all that the list names stands
         side.lighting.submitted(result.submission, true);
         side.commands.clear();
     }
+    side.shadows.report(side.scene, outcome, side.report);
     side.shadows.commit(side.scene, true);
 }
 

@@ -34,14 +34,16 @@ protected:
         list.clear();
         extractor.update(world, library, transforms.update(world), settings.viewport_px, snapshot);
         scene->update(snapshot, list);
-        shadows->update(snapshot, *scene, true, list, report);
+        shadows->update(snapshot, *scene, {}, list, report);
+        outcome.clear();
         record_picture(inputs(), list);
+        shadows->report(snapshot, outcome, report);
         GlTest::run(list);
         shadows->commit(snapshot, true);
     }
     void record_picture(const shadow::LightingInputs& handed, gl::CommandList& list) {
         ASSERT_TRUE(lighting->record(handed, snapshot, *scene, {.exposure_ev = settings.exposure_ev, .most_rows = most_rows},
-                                     list, report));
+                                     list, outcome));
     }
     const shadow::LightingInputs& inputs() const { return shadows->frame().inputs.front(); }
     std::vector<std::uint8_t> drawn_picture() {
@@ -54,6 +56,7 @@ protected:
     SceneSnapshot snapshot;
     gl::CommandList commands;  // of the last run()
     FrameReport report;
+    shadow::LightingOutcome outcome;
     std::unique_ptr<GpuScene> scene;
     std::unique_ptr<shadow::ShadowSystem> shadows;
     std::unique_ptr<lighting::LightingSystem> lighting;

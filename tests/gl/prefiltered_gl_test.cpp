@@ -19,7 +19,7 @@ constexpr double kNear_m = 1.0, kFar_m = 9.0, kWall_m = 5.0;
 std::vector<const shadow::FilterRow*> prefiltered_rows() {
     std::vector<const shadow::FilterRow*> rows;
     for (const shadow::FilterRow& row : shadow::filter_table())
-        if (row.storage == shadow::FilterStorage::moments) rows.push_back(&row);
+        if (row.moments) rows.push_back(&row);
     return rows;
 }
 

@@ -18,18 +18,18 @@ namespace gnomon {
 inline bool reads_depths(const shadow::FilterRow& filter) { return filter.reading == shadow::MapReading::depths; }
 
 inline bool reads_triangles(const shadow::FilterRow& filter) {
-    return filter.storage == shadow::FilterStorage::depth_and_triangle;
+    return filter.storage.triangle_ids;
 }
 
 inline bool reads_moments(const shadow::FilterRow& filter) {
-    return filter.storage == shadow::FilterStorage::moments;
+    return filter.moments;
 }
 
 /// Filters that read a map, and nothing else.
 inline std::vector<shadow::FilterRow> map_filters() {
     std::vector<shadow::FilterRow> rows;
     for (const shadow::FilterRow& row : shadow::filter_table())
-        if (!shadow::asks_rays(row)) rows.push_back(row);
+        if (!row.rays) rows.push_back(row);
     return rows;
 }
 
@@ -74,7 +74,7 @@ inline std::vector<shadow::ProgramRow> all_rows() {
         for (const shadow::FilterRow& filter : shadow::filter_table())
             for (const bool masks : {false, true})
                 for (const bool sheets : {false, true})
-                    if (shadow::asks_rays(filter)) {
+                    if (filter.rays) {
                         rows.push_back({.kind_define = kind.define, .kind_file = kind.file, .filter_file = filter.file, .depths = sheets, .sheets = sheets, .rays = true, .ray_masks = masks});
                         if (kind.kind != LightKind::point) continue;
                         rows.push_back(rows.back());

@@ -121,9 +121,9 @@ TEST_F(SampledPicture, CountsAsManyPixelsAsShowSurfacesAndWhereTheyStand) {
               {.cascades = {.splits = CascadeSplits::sampled}});
     add_camera({.fov_y_rad = 0.9f, .near_m = 0.1}, {0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
     draw();
-    EXPECT_EQ(frame().snapshot().sampled_depths.camera, ecs::kNull);
+    EXPECT_EQ(frame().feedback().sampled_depths.camera, ecs::kNull);
     draw();
-    const SampledDepths& depths = frame().snapshot().sampled_depths;
+    const SampledDepths& depths = frame().feedback().sampled_depths;
     EXPECT_EQ(depths.camera, frame().snapshot().consumers.front().entity);
     const std::uint32_t at_8m = depths.pixels[96 + 12], at_100m = depths.pixels[96 + 26];  // 4 log2: 12; 26.6
     EXPECT_GT(at_8m, 1000u);

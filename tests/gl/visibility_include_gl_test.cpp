@@ -81,8 +81,8 @@ protected:
     }
 
     bool reads_depths() const { return row_.reading == shadow::MapReading::depths; }
-    bool reads_triangles() const { return row_.storage == shadow::FilterStorage::depth_and_triangle; }
-    bool reads_moments() const { return row_.storage == shadow::FilterStorage::moments; }
+    bool reads_triangles() const { return row_.storage.triangle_ids; }
+    bool reads_moments() const { return row_.moments; }
     /// A map drawn by hand shows casters that are no triangles.
     gl::TextureHandle no_triangles(gl::TextureKind kind) {
         const std::vector<std::uint32_t> none(std::size_t{kMap_px} * kMap_px * 2 * (kind == gl::TextureKind::cube ? 6 : 1), 0xffffffffu);
@@ -381,7 +381,7 @@ TEST_P(FewestFetches, AreTheMeanOfASquareOfHardwareTapsATexelApart) {
 std::vector<shadow::FilterRow> map_filters() {
     std::vector<shadow::FilterRow> rows;
     std::copy_if(shadow::filter_table().begin(), shadow::filter_table().end(), std::back_inserter(rows),
-                 [](const shadow::FilterRow& row) { return !shadow::asks_rays(row); });
+                 [](const shadow::FilterRow& row) { return !row.rays; });
     return rows;
 }
 

@@ -218,7 +218,7 @@ int run() {
     gl::CommandList commands;
     FrameReport report;
     gpu_scene.value().update(scene, commands);
-    const shadow::ShadowFrame& frame = shadows.update(scene, gpu_scene.value(), true, commands, report);
+    const shadow::ShadowFrame& frame = shadows.update(scene, gpu_scene.value(), {}, commands, report);
     const gl::SubmitResult result = device.value()->submit(commands);
     after_submission({*device.value(), scene, gpu_scene.value(), shadows}, result, false, report);
     if (result.failure != gl::Failure::none) return fail("no depth maps");

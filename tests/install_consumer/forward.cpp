@@ -127,7 +127,7 @@ int check(LightKind kind, const Case& wanted) {
     gl::CommandList commands;
     FrameReport report;
     gpu_scene.value().update(scene, commands);
-    const shadow::ShadowFrame& frame = shadows.update(scene, gpu_scene.value(), true, commands, report);
+    const shadow::ShadowFrame& frame = shadows.update(scene, gpu_scene.value(), {}, commands, report);
     const gl::SubmitResult result = device.value()->submit(commands);
     after_submission({*device.value(), scene, gpu_scene.value(), shadows}, result, false, report);
     const shadow::LightingInputs& inputs = frame.inputs.front();

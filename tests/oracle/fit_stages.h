@@ -28,10 +28,11 @@ public:
         select_sets(scene, {frame.requests, {}}, storage.sets, frame.sets, {frame.statuses, {}});
     }
     void fit(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
-        fit_views(scene, {frame.requests, frame.sets, {}, held, {}, shared_out}, storage, frame.fitted,
+        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, held, {}, shared_out}, storage, frame.fitted,
                   frame.next_history, {frame.statuses, {}});
     }
 
+    SampledDepths sampled_depths;
     FitStorage storage;
 
 private:

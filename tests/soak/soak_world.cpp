@@ -132,7 +132,7 @@ void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
                 world_.registry.patch<LightShadow>(lights_.back(), [&](LightShadow& s) { s.cascades = cascades; });
                 for (std::uint32_t i = 0; i < kFramesToRest; ++i) run_frame();
             }
-            if (shadow::asks_rays(filter)) leave_to_rays(run_frame);
+            if (filter.rays) leave_to_rays(run_frame);
             world_.registry.patch<LightShadow>(lights_.back(), [](LightShadow& s) { s.enabled = false; });
             run_frame();
             world_.registry.destroy(lights_.back());

@@ -144,7 +144,8 @@ void Stages::run() {
     const TransformReport& transforms = transforms_.update(world_.registry);
     extractor_.update(world_.registry, world_.library, transforms, world_.viewport_px, snapshot_);
     gpu_scene_->update(snapshot_, commands_);
-    shadows_->update(snapshot_, *gpu_scene_, true, commands_, report_);
+    shadows_->update(snapshot_, *gpu_scene_, {}, commands_, report_);
+    shadows_->report(snapshot_, {}, report_);
     shadows_->commit(snapshot_, device_.submit(commands_).failure == gl::Failure::none);
 }
 

@@ -100,7 +100,7 @@ LightItem RandomFits::light(LightKind kind, const SceneSnapshot& scene) {
     light.shadow.resolution_px = kSizes_px[static_cast<std::size_t>(number(0.0, std::size(kSizes_px)))];
     do {
         light.shadow.filter = filter_table()[static_cast<std::size_t>(number(0.0, static_cast<double>(filter_table().size())))].id;
-    } while (asks_rays(filter_row(light.shadow.filter)));
+    } while (filter_row(light.shadow.filter).rays);
     if (kind == LightKind::directional) {
         cascades(light);
         if (chance(0.15)) eye(light.tuning.projection);
@@ -126,8 +126,8 @@ SampledDepths RandomFits::depths(const ConsumerItem& camera) {
     return depths;
 }
 
-SceneSnapshot RandomFits::scene(LightKind kind) {
-    SceneSnapshot s;
+SampledScene RandomFits::scene(LightKind kind) {
+    SampledScene s;
     const auto count = static_cast<std::uint32_t>(number(1.0, 10.0));
     for (std::uint32_t i = 0; i < count; ++i) s.instances.push_back(box(i));
     const std::size_t cameras = chance(0.15) ? static_cast<std::size_t>(number(2.0, 5.0)) : 1;
@@ -137,8 +137,8 @@ SceneSnapshot RandomFits::scene(LightKind kind) {
     return s;
 }
 
-SceneSnapshot RandomFits::wild_scene(LightKind kind) {
-    SceneSnapshot s = scene(kind);
+SampledScene RandomFits::wild_scene(LightKind kind) {
+    SampledScene s = scene(kind);
     const auto any = [&] { return (chance(0.5) ? 1.0 : -1.0) * (chance(0.05) ? 0.0 : size(1e-30, 1e30)); };
     const auto disturb = [&](double& value) {
         if (chance(0.1)) value = any();
@@ -163,7 +163,7 @@ SceneSnapshot RandomFits::wild_scene(LightKind kind) {
     return s;
 }
 
-void scale(SceneSnapshot& s, int power) {
+void scale(SampledScene& s, int power) {
     const double by = std::exp2(power);
     for (InstanceItem& i : s.instances) i.bounds_ws = {i.bounds_ws.min * by, i.bounds_ws.max * by};
     for (ConsumerItem& c : s.consumers) {

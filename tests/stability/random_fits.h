@@ -3,9 +3,15 @@
 #include <cstdint>
 #include <random>
 
+#include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::shadow {
+
+/// A scene, and the depths of an earlier picture of it.
+struct SampledScene : SceneSnapshot {
+    SampledDepths sampled_depths;
+};
 
 /// Scenes as hard as they come, one after the other from one seed: one light, a camera or a few, boxes of any size and
 /// thickness, near, far, around and behind everything. Some lights have a depth range of their own, some suns an eye.
@@ -21,9 +27,9 @@ public:
 
     /// Moderate: everything within some hundred metres, on a lattice of 2^-20 m, so that it can be moved and scaled
     /// without rounding.
-    SceneSnapshot scene(LightKind kind);
+    SampledScene scene(LightKind kind);
     /// Any finite numbers, from 1e-30 to 1e30, in the places of some of a moderate scene's.
-    SceneSnapshot wild_scene(LightKind kind);
+    SampledScene wild_scene(LightKind kind);
 
 private:
     InstanceItem box(std::uint32_t index);
@@ -39,7 +45,7 @@ private:
 };
 
 /// The same scene `2^power` times as large, exactly.
-void scale(SceneSnapshot& scene, int power);
+void scale(SampledScene& scene, int power);
 /// The same scene elsewhere; exact for whole metres below 2^26 and a moderate scene.
 void move(SceneSnapshot& scene, const glm::dvec3& by_m);
 

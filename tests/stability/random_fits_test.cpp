@@ -49,8 +49,14 @@ struct Tally {
 
 class RandomFitsTest : public ::testing::TestWithParam<LightKind> {
 protected:
-    const ShadowFrame& fit(const SceneSnapshot& scene, ShadowFrame& frame, const History& held = {}) {
-        frame = fitted(scene, held);
+    const ShadowFrame& fit(const SampledScene& scene, ShadowFrame& frame, const History& held = {}) {
+        FitStages stages;
+        stages.sampled_depths = scene.sampled_depths;
+        stages.decide(scene, held);
+        stages.select(scene);
+        stages.fit(scene, held);
+        frame = std::move(stages.frame);
+        for (const FitChoice& light : frame.fitted.lights) most_fits = std::max(most_fits, light.fits);
         return frame;
     }
 
@@ -75,6 +81,7 @@ protected:
     /// What `count` drawn fits must have shown.
     void expect_proven(std::uint64_t count) const {
         EXPECT_EQ(tally.not_finite, 0u);
+        EXPECT_LE(most_fits, kMaxFits);
         EXPECT_EQ(tally.unflagged, 0u);
         EXPECT_EQ(tally.outside, 0u);
         EXPECT_EQ(tally.missed, 0u);
@@ -178,7 +185,7 @@ protected:
     }
 
     /// What must be equal, bit for bit, at 2^power times the size.
-    void judge_scale(SceneSnapshot scene, const ShadowFrame& frame, int power) {
+    void judge_scale(SampledScene scene, const ShadowFrame& frame, int power) {
         scale(scene, power);
         const ShadowFrame& there = fit(scene, elsewhere);
         ++tally.scaled;
@@ -200,7 +207,7 @@ protected:
     }
 
     /// Elsewhere: the same casters and receivers, maps of the same size.
-    void judge_move(SceneSnapshot scene, const ShadowFrame& frame, const glm::dvec3& by_m) {
+    void judge_move(SampledScene scene, const ShadowFrame& frame, const glm::dvec3& by_m) {
         move(scene, by_m);
         const ShadowFrame& there = fit(scene, elsewhere);
         judge_points(scene, there);
@@ -227,6 +234,7 @@ protected:
 
     RandomFits random{print_seed()};
     Tally tally;
+    std::uint32_t most_fits = 0;
     ShadowFrame here, elsewhere;
     History past;
 };
@@ -241,7 +249,7 @@ void print(const Tally& t, std::string_view kind) {
 TEST_P(RandomFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlace) {
     const std::uint64_t count = fit_count();
     for (std::uint64_t i = 0; i < count; ++i) {
-        const SceneSnapshot scene = random.scene(GetParam());
+        const SampledScene scene = random.scene(GetParam());
         ++tally.fits;
         // What another scene left behind is no worse a past than any other. Elsewhere a past would be another one.
         const bool has_past = i % kMoveEvery > 1 && random.chance(0.5);
@@ -261,7 +269,7 @@ TEST_P(WarpedFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
     const std::uint64_t count = fit_count();
     std::uint64_t warped = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
-        SceneSnapshot scene = random.scene(GetParam());
+        SampledScene scene = random.scene(GetParam());
         warp(scene);
         ++tally.fits;
         judge_numbers(fit(scene, here));
@@ -279,7 +287,7 @@ TEST_P(WarpedFitsTest, HoldEveryReceiverAndEveryCasterWhateverTheScaleAndThePlac
 TEST_P(WarpedFitsTest, AnyFiniteInputGivesFiniteViewsOrAReason) {
     const std::uint64_t count = fit_count() / 4;
     for (std::uint64_t i = 0; i < count; ++i) {
-        SceneSnapshot scene = random.wild_scene(GetParam());
+        SampledScene scene = random.wild_scene(GetParam());
         warp(scene);
         judge_numbers(fit(scene, here));
     }
@@ -293,7 +301,7 @@ INSTANTIATE_TEST_SUITE_P(OfASun, WarpedFitsTest, ::testing::Values(LightKind::di
 TEST_P(RandomFitsTest, AnyFiniteInputGivesFiniteViewsOrAReason) {
     const std::uint64_t count = fit_count() / 4;
     for (std::uint64_t i = 0; i < count; ++i) {
-        const SceneSnapshot scene = random.wild_scene(GetParam());
+        const SampledScene scene = random.wild_scene(GetParam());
         ++tally.fits;
         judge_numbers(fit(scene, here));
     }
@@ -305,7 +313,7 @@ TEST_P(RandomFitsTest, AnyFiniteInputGivesFiniteViewsOrAReason) {
 
 TEST_P(RandomFitsTest, AMissingCasterAndAShiftedMapAreNoticed) {
     for (int i = 0; i < 2000; ++i) {
-        const SceneSnapshot scene = random.scene(GetParam());
+        const SampledScene scene = random.scene(GetParam());
         fit(scene, here);
         for (ShadowView& view : here.fitted.views) {
             view.casters.count /= 2;

@@ -26,7 +26,8 @@ protected:
     /// Entity and reason of what was dropped, as text.
     std::vector<std::string> dropped() const {
         std::vector<std::string> all;
-        for (const DroppedEntity& d : frame->report().dropped) all.push_back(std::to_string(d.entity.index) + " " + reason_code(d.reason));
+        for (const DroppedEntity& d : frame->report().dropped)
+            all.push_back(std::to_string(d.entity.index) + " " + reason_code(d.reason));
         return all;
     }
     std::string drop(ecs::Entity e, const char* reason) const { return std::to_string(e.index) + " " + reason; }
@@ -54,7 +55,8 @@ TEST_F(BadEntities, ANanInOneTransformDropsThatEntityOnly) {
     EXPECT_EQ(slot_of(stage.box), slot) << "the others stay where they are";
     EXPECT_THAT(shadow_slots(), ElementsAre(slot));
     for (const gl::Command& c : frame->commands().commands)
-        if (const auto* update = std::get_if<gl::UpdateBuffer>(&c); update && device.buffer(update->buffer)->label == "instances")
+        if (const auto* update = std::get_if<gl::UpdateBuffer>(&c);
+            update && device.buffer(update->buffer)->label == "instances")
             ADD_FAILURE() << "nobody else's record changed";
     step();
     EXPECT_THAT(dropped(), ElementsAre(drop(victim, "non_finite_transform"))) << "as long as it lasts";
@@ -81,7 +83,8 @@ TEST_F(BadEntities, OtherDrawsAreTheSameAsIfTheFaultyOneHadNeverBeen) {
 }
 
 TEST_F(BadEntities, AnInfiniteOrHugePlaceIsDroppedOrDrawnButNeverSpreads) {
-    for (const double x : {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 1e308, 1e30, 1e8}) {
+    for (const double x :
+         {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 1e308, 1e30, 1e8}) {
         world.move(victim, {x, 1, 0});
         step();
         EXPECT_GT(light("lamp").views, 0u) << x;
@@ -210,11 +213,16 @@ TEST_F(BadEntities, AnAbsurdLightIsDroppedAndTheOthersShine) {
 TEST_F(BadEntities, AnAbsurdCameraIsDroppedAndTheNextTakesOver) {
     const ecs::Entity second = world.add_camera({0, 5, 9}, {0, 0, 0});
     const std::vector<void (*)(Camera&)> faults = {
-        [](Camera& c) { c.fov_y_rad = kNan; },        [](Camera& c) { c.fov_y_rad = 0.0; },
-        [](Camera& c) { c.fov_y_rad = 4.0; },         [](Camera& c) { c.near_m = 0.0; },
-        [](Camera& c) { c.near_m = kNan; },           [](Camera& c) { c.far_m = 0.01; },
+        [](Camera& c) { c.fov_y_rad = kNan; },
+        [](Camera& c) { c.fov_y_rad = 0.0; },
+        [](Camera& c) { c.fov_y_rad = 4.0; },
+        [](Camera& c) { c.near_m = 0.0; },
+        [](Camera& c) { c.near_m = kNan; },
+        [](Camera& c) { c.far_m = 0.01; },
         [](Camera& c) { c.projection = CameraProjection::orthographic, c.half_height_m = 0.0; },
-        [](Camera& c) { c.projection = CameraProjection::orthographic, c.far_m = std::numeric_limits<double>::infinity(); },
+        [](Camera& c) {
+            c.projection = CameraProjection::orthographic, c.far_m = std::numeric_limits<double>::infinity();
+        },
     };
     for (std::size_t i = 0; i < faults.size(); ++i) {
         world.registry.patch<Camera>(stage.camera, faults[i]);

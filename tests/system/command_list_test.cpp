@@ -33,20 +33,34 @@ protected:
         EXPECT_NE(found, 0u) << "no " << label;
         return found;
     }
-    gl::TextureHandle texture(const std::string& label) const { return {id(gl::ResourceCall::Kind::create_texture, label)}; }
-    gl::TargetHandle target(const std::string& label) const { return {id(gl::ResourceCall::Kind::create_target, label)}; }
-    gl::SamplerHandle sampler(const std::string& label) const { return {id(gl::ResourceCall::Kind::create_sampler, label)}; }
-    gl::BufferHandle buffer(const std::string& label) const { return {id(gl::ResourceCall::Kind::create_buffer, label)}; }
-    gl::ProgramHandle program(const std::string& label) const { return {id(gl::ResourceCall::Kind::create_program, label)}; }
+    gl::TextureHandle texture(const std::string& label) const {
+        return {id(gl::ResourceCall::Kind::create_texture, label)};
+    }
+    gl::TargetHandle target(const std::string& label) const {
+        return {id(gl::ResourceCall::Kind::create_target, label)};
+    }
+    gl::SamplerHandle sampler(const std::string& label) const {
+        return {id(gl::ResourceCall::Kind::create_sampler, label)};
+    }
+    gl::BufferHandle buffer(const std::string& label) const {
+        return {id(gl::ResourceCall::Kind::create_buffer, label)};
+    }
+    gl::ProgramHandle program(const std::string& label) const {
+        return {id(gl::ResourceCall::Kind::create_program, label)};
+    }
     std::vector<gl::Command> expected() const;
 };
 
 std::vector<gl::Command> CommandListTest::expected() const {
     using namespace gl;
-    const BufferHandle instances = buffer("instances"), depth_items = buffer("shadow draw items"), views = buffer("shadow views");
-    const BufferHandle items = buffer("surface draw items"), uniforms = buffer("lighting uniforms"), materials = buffer("materials");
-    const BufferHandle vertices = buffer("scene vertices"), indices = buffer("scene indices"), normals = buffer("triangle normals");
-    const SamplerHandle point = sampler("surface"), mips = sampler("luminance"), linear = sampler("shadow compare linear");
+    const BufferHandle instances = buffer("instances"), depth_items = buffer("shadow draw items"),
+                       views = buffer("shadow views");
+    const BufferHandle items = buffer("surface draw items"), uniforms = buffer("lighting uniforms"),
+                       materials = buffer("materials");
+    const BufferHandle vertices = buffer("scene vertices"), indices = buffer("scene indices"),
+                       normals = buffer("triangle normals");
+    const SamplerHandle point = sampler("surface"), mips = sampler("luminance"),
+                        linear = sampler("shadow compare linear");
     const TextureHandle depth = texture("surface depth"), sum = texture("light sum");
     const Rect picture{0, 0, kWidth, kHeight}, map{0, 0, kMap_px, kMap_px}, luminance{0, 0, 256, 256};
 
@@ -55,7 +69,8 @@ std::vector<gl::Command> CommandListTest::expected() const {
     constexpr std::uint32_t kInstances = 2 * 64, kDepthItems = 8, kView = kAlign, kItems = 2 * 8;
     constexpr std::uint32_t kLight = 13 * 16 + 8 * 144, kUniforms = 3 * kAlign + kLight;
     constexpr std::uint32_t kBoxFirst = 6, kBoxCount = 36, kPlaneCount = 6;
-    const PipelineState depth_state{program("depth opaque"), CullMode::none, false, DepthTest::greater, true, true, Blend::off};
+    const PipelineState depth_state{
+        program("depth opaque"), CullMode::none, false, DepthTest::greater, true, true, Blend::off};
     const PipelineState surface{program("surface"), CullMode::back, false, DepthTest::greater, true, false, Blend::off};
     const auto screen = [&](const char* label, Blend blend, DepthTest test = DepthTest::off) {
         return SetPipeline{{program(label), CullMode::none, false, test, false, false, blend}};

@@ -61,7 +61,7 @@ protected:
             return;
         }
         EXPECT_THAT(drawn(), ElementsAre(name_of(lamp().filter.filter)));
-        if (shadow::asks_rays(shadow::filter_row(lamp().filter.filter))) {
+        if (shadow::filter_row(lamp().filter.filter).rays) {
             EXPECT_EQ(lamp().predicted_error_px, 0.0);
             EXPECT_TRUE(lamp().keeps_max_error);
         } else {

@@ -119,7 +119,7 @@ void FaultPlay::expect_consistent(const std::vector<LightOutcome>& lights, int i
         if (picture) {
             EXPECT_EQ(light.samples_map, light.state != LightState::skipped) << light.name;
             EXPECT_EQ(light.drawn, light.said) << light.name << " is looked up in another way than it says";
-            const bool exact = shadow::asks_rays(shadow::filter_row(light.drawn));
+            const bool exact = shadow::filter_row(light.drawn).rays;
             // Blended surfaces may have fallen back where all others did not.
             if (!exact || !is_loss(light.reason)) {
                 EXPECT_EQ(light.predicted_error_px > 0.0, light.samples_map && !exact) << light.name;

@@ -89,7 +89,7 @@ protected:
             gpu->update(scene, commands);
             const shadow::ShadowBudget budget{i % 3 == 0 ? 3000000u : 0u, i % 5 == 0 ? 0.2f : 0.0f,
                                               i % 7 == 0 ? 1000u : 0u};
-            const shadow::ShadowFrame& frame = shadows->update(scene, *gpu, true, commands, report, budget);
+            const shadow::ShadowFrame& frame = shadows->update(scene, *gpu, {true, budget, {}}, commands, report);
             Columns last;
             for (const char* stage : kStages) add_columns(stage, frame, last);
             if (!report.still)

@@ -67,7 +67,7 @@ protected:
 
 TEST_F(RayScene, LightsOfEveryOtherRowBuildCompileBindAndAllocateNothingOfIt) {
     for (const shadow::FilterRow& row : shadow::filter_table())
-        if (!shadow::asks_rays(row)) add_light(LightKind::spot, std::string(row.name), row.id);
+        if (!row.rays) add_light(LightKind::spot, std::string(row.name), row.id);
     const ecs::Entity off = add_light(LightKind::spot, "off", ShadowFilter::exact);
     world.registry.patch<LightShadow>(off, [](LightShadow& s) { s.enabled = false; });
     step();

@@ -36,7 +36,7 @@ protected:
             if (const auto* one = std::get_if<Command>(&c)) found.push_back(*one);
         return found;
     }
-    bool knows() const { return frame->snapshot().sampled_depths.camera == stage.camera; }
+    bool knows() const { return frame->feedback().sampled_depths.camera == stage.camera; }
 
     static constexpr std::uint32_t k4m = 104, k16m = 112;  // bins that begin there
     TestWorld::Stage stage;

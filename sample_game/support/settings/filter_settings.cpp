@@ -54,9 +54,8 @@ std::string list_filters() {
     for (const shadow::FilterRow& row : shadow::filter_table()) {
         std::string name(row.name);
         name.resize(std::max(kNameWidth, name.size()), ' ');
-        if (shadow::asks_rays(row)) {
-            const bool soft = row.storage == shadow::FilterStorage::soft_sheets;
-            text += "  " + name + (soft ? "rays to the source" : "a ray") +
+        if (row.rays) {
+            text += "  " + name + (row.rays->per_source ? "rays to the source" : "a ray") +
                     " for each pixel of which its map is not certain\n";
             continue;
         }

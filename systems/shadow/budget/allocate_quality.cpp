@@ -8,9 +8,9 @@
 namespace gnomon::shadow {
 namespace {
 
-constexpr std::uint32_t kMostRefresh_frames = 4;  // a fifteenth of a second: slower ones are seen to jump
+constexpr std::uint32_t kMostRefresh_frames = 4;  // a fifteenth of a second: slower updates are seen to jump
 
-/// One step in each way; what cannot be is left out.
+/// Limits one step away from those of a light, one item per kind of step. Impossible steps are left out.
 struct NextGrants {
     std::array<Grant, 5> items;
     std::size_t count = 0;
@@ -46,7 +46,7 @@ NextGrants next_grants(const LightLoad& load, const Grant& now) {
     return next;
 }
 
-/// Back toward `start`; `lastly`: from nothing.
+/// Returns limits one step back toward `start`. `lastly`: the first step for a light that has no map.
 NextGrants more_grants(const Grant& now, const Grant& start, const Grant& lastly) {
     NextGrants next;
     const auto add_more = [&](const Grant& more) {
@@ -74,7 +74,7 @@ NextGrants more_grants(const Grant& now, const Grant& start, const Grant& lastly
 double share(std::uint64_t a, std::uint64_t b) {
     return static_cast<double>(a) / static_cast<double>(std::max<std::uint64_t>(b, 1));
 }
-/// Of a step that takes less, the price would be without bound.
+/// Least share of a budget that a step counts as freeing, so that its price stays finite.
 constexpr double kLeastShare = 1.0e-12;
 
 std::uint64_t less_by(std::uint64_t before, std::uint64_t after) { return before > after ? before - after : 0; }
@@ -115,7 +115,8 @@ private:
         scratch_.costs[load] = cost;
         grants_[load] = grant;
     }
-    /// So that a heap's top is the cheapest; of equals, who it is decides, and then nobody can tell the two apart.
+    /// Orders a heap so that its top has the lowest price. The light's key decides between equal prices. Lights with
+    /// equal keys look the same.
     bool comes_after(const Step& a, const Step& b) const {
         if (a.price != b.price) return a.price > b.price;
         const std::uint64_t key_a = loads_[a.load].key, key_b = loads_[b.load].key;
@@ -142,7 +143,7 @@ private:
         return holds(limits_, {use_.bytes - now.bytes + cost.bytes, use_.ns - now.ns + cost.ns, 0.0});
     }
 
-    /// The cheapest way to give this light less, if there is one.
+    /// Pushes the light's cheapest step to less quality, if there is one.
     void push_less(std::uint32_t load) {
         const Cost& now = scratch_.costs[load];
         const NextGrants next = next_grants(loads_[load], grants_[load]);
@@ -158,7 +159,7 @@ private:
         }
         if (found) push(best);
     }
-    /// Prices are of what is over: until one of the two budgets is met.
+    /// Takes quality away until one of the exceeded budgets is met. Prices count only the budgets that are exceeded.
     bool take() {
         counts_bytes_ = use_.bytes > limits_.bytes;
         counts_ns_ = use_.ns > limits_.ns;
@@ -175,7 +176,7 @@ private:
         }
         return any;
     }
-    /// The best way to give this light more that fits, if there is one.
+    /// Pushes the light's best step to more quality that fits, if there is one.
     void push_more(std::uint32_t load) {
         const Cost& now = scratch_.costs[load];
         const NextGrants next = more_grants(grants_[load], scratch_.start[load], scratch_.lastly[load]);
@@ -198,7 +199,7 @@ private:
             if (!(grants_[i] == scratch_.start[i])) push_more(i);
         while (!scratch_.steps.empty()) {
             const Step step = pop();
-            // Others may have taken the room; then there may be a smaller step.
+            // Other lights may have taken the room; a smaller step may still fit.
             if (fits(step.load, step.cost)) replace(step.load, step.grant, step.cost);
             push_more(step.load);
         }
@@ -210,7 +211,7 @@ private:
     std::span<Grant> grants_;
     BudgetScratch& scratch_;
     BudgetUse use_;
-    bool counts_bytes_ = false, counts_ns_ = false;  // whether prices are of these
+    bool counts_bytes_ = false, counts_ns_ = false;  // prices count bytes; prices count time
 };
 
 std::uint64_t with_room(std::uint64_t limit) {

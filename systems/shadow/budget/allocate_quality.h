@@ -6,10 +6,11 @@
 #include "systems/shadow/budget/cost_model.h"
 #include "systems/shadow/frame/quality_limits.h"
 
-/// Who is given less when shadows take more than they may. Pure: the same lights, in any order, are given the same.
+/// Limits the quality of lights when shadows exceed a budget. Pure functions: equal lights, in any order, get equal
+/// limits.
 namespace gnomon::shadow {
 
-/// What all lights together may take; kNone: any amount.
+/// Budget of all lights together; kNone: unlimited.
 struct BudgetLimits {
     static constexpr std::uint64_t kNone = ~std::uint64_t{0};
     std::uint64_t bytes = kNone, ns = kNone;
@@ -25,39 +26,42 @@ inline bool holds(const BudgetLimits& limits, const BudgetUse& use) {
     return use.bytes <= limits.bytes && use.ns <= limits.ns;
 }
 
-/// Reused storage; holds nothing between two calls.
+/// Reused storage; empty of meaning between two calls.
 struct BudgetScratch {
     struct Step {
-        double price = 0.0;  // harm for each share of the budget that it frees, or takes
+        double price = 0.0;  // error cost per share of the budget that the step frees, or uses
         std::uint32_t load = 0;
         Grant grant;
         Cost cost;
     };
     std::vector<Step> steps;
     std::vector<Cost> costs;    // one per load
-    std::vector<Grant> start;   // one per load: what it may be given back at most
-    std::vector<Grant> lastly;  // one per load: what it had before it was left nothing
+    std::vector<Grant> start;   // one per load: limits up to which quality may be given back
+    std::vector<Grant> lastly;  // one per load: limits before its map was taken away
     std::vector<Grant> fresh;
 };
 
 BudgetUse use_of(std::span<const LightLoad> loads, std::span<const Grant> grants, const CostFactors& factors);
 
-/// Takes from `grants`, one per load, until `limits` hold: each time the step of least harm for what it frees (half the
-/// edge, a cascade, the filter, half the refresh rate, all), then gives back what there was no need to take, that of
-/// most harm for what it takes first. Nobody is given more than before.
+/// Lowers the quality of `grants`, one per load, until `limits` are met, by greedy steps. A step halves the edge,
+/// removes a cascade, simplifies the filter, halves the refresh rate or removes the map. Each step has the least error
+/// cost for what it frees. Then gives back what need not have been taken, the greatest error cost per share first. No
+/// light gets more than at the start.
 BudgetUse take_away(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
                     std::span<Grant> grants, BudgetScratch& scratch);
 
-/// How long nothing is given back after any light was given less or more: a third of a second at 60 Hz, so that what is
-/// shared out anew, and once more when the new maps have said what they cost, is settled within a second.
+/// Frames without a change of any limit before quality is given back: a third of a second at 60 Hz. A new allocation,
+/// and its correction once the new maps' costs are measured, is then settled within a second.
 inline constexpr std::uint32_t kCalmFrames = 20;
-/// What is given back has to leave so much of a budget free, so that a small change does not take it away again.
+/// Share of a budget up to which quality is given back. The rest stays free, so that a small change does not take it
+/// away again.
 inline constexpr double kRoomAfter = 0.9;
-/// Where one light is given more and another less, the picture has to gain so much more than it loses.
+/// Ratio of gained to lost error cost that a new allocation needs, where one light gets more and another less.
 inline constexpr double kLeastGain = 1.25;
 
-/// One frame onward: takes away what does not fit, at once; else, after kCalmFrames, gives back what then leaves room,
-/// or shares out anew where that gains enough. `calm_frames`: since grants changed, at most kCalmFrames.
+/// Advances the limits by one frame. Takes away at once what does not fit. After kCalmFrames, computes the allocation
+/// again within kRoomAfter of the budget, and adopts it if it gains enough. `calm_frames`: frames since limits changed,
+/// at most kCalmFrames.
 BudgetUse settle_grants(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
                         std::uint32_t& calm_frames, std::span<Grant> grants, BudgetScratch& scratch);
 

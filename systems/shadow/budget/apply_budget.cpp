@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/core/signature.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/fitting/error_bound.h"
 #include "systems/shadow/projection/screen_bounds.h"
@@ -15,16 +16,17 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Activity follows what happens by an eighth of the way per frame: half a second, as long as a thing that stopped
-/// counts as moving (CasterMotion).
+/// Share of the remaining difference by which activity follows changes per frame. It takes half a second, as long as a
+/// stopped object counts as moving (CasterMotion).
 constexpr float kActivityGain = 1.0f / 8.0f;
-/// Below, or so near to 1, it is taken to be there, so that a still scene comes to rest.
+/// Difference below which activity takes its final value, so that a static scene settles.
 constexpr float kActivityRest = 1.0f / 64.0f;
 
-/// Its map is another one at once, and fitted for it in the next frame.
+/// Frames in which activity is not measured after limits changed. The map changes at once, and is fitted for the new
+/// limits in the next frame.
 constexpr std::uint32_t kNewFrames = 2;
 
-/// Of the light itself, wherever it stands in a list.
+/// Returns a hash of the light itself, independent of its place in a list.
 std::uint64_t key_of(const LightItem& light) {
     Signature s;
     s.add(static_cast<std::uint64_t>(light.kind));
@@ -40,7 +42,8 @@ std::uint64_t key_of(const LightItem& light) {
 
 double area_px(const gl::Rect& rect) { return static_cast<double>(rect.width) * rect.height; }
 
-/// Share of the picture within the rectangle around these points; all of it where one is not before the camera.
+/// Returns the share of the screen within the rectangle around these points, 0 to 1. 1 if a point is not in front of
+/// the camera.
 double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) {
     const bool orthographic = c.projection == CameraProjection::orthographic;
     const double half_y = orthographic ? c.half_height_m : std::tan(0.5 * c.fov_y_rad);
@@ -57,19 +60,17 @@ double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) 
     return 0.25 * size.x * size.y;
 }
 
-/// Half of the way to the farthest receiver, as bright as it is there.
+/// Returns the light's illuminance halfway to its farthest receiver, lux.
 double typical_lux(const LightItem& light, std::span<const Beam> beams) {
-    const double emitted = static_cast<double>(light.intensity) *
-                           static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
-    if (light.kind == LightKind::directional) return emitted;
     double reach_m = 0.0;
     for (const Beam& beam : beams)
         if (beam.receivers > 0) reach_m = std::max(reach_m, beam.reach_m);
     const double way_m = 0.5 * (light.range_m > 0.0 ? std::min(reach_m, light.range_m) : reach_m);
-    return emitted / (way_m * way_m);
+    return illuminance_lux(light, way_m * way_m);
 }
 
-/// The edge that the light would have if nothing were granted, told by maps that may be smaller.
+/// Returns the map edge that the light needs without quality limits, texels. Derives it from the fitted maps, which may
+/// be smaller.
 std::uint32_t needed_px(const LightItem& light, const ShadowRequest& wanted, const ShadowRequest& fitted,
                         double extent_px) {
     const bool as_wanted =
@@ -100,7 +101,7 @@ BudgetReport outcome(const LightLoad& load, const Grant& grant, const CostFactor
     return out;
 }
 
-/// Leaves of a fitted request what the grant does, as far as can be now: the rest in the next frame.
+/// Applies the limits to a fitted request, as far as possible after the fit. The rest follows in the next frame.
 void cut(const LightLoad& load, const Grant& grant, BudgetDecision& decision) {
     const LightItem& light = *load.light;
     ShadowRequest& request = decision.request;
@@ -126,7 +127,7 @@ void limit_by_grants(const SceneSnapshot& scene, const History& held, std::span<
     for (std::size_t i = 0; i < limited.size(); ++i) {
         if (limited[i].skip != Reason::none) continue;
         const HeldLight* last = find(held, scene.lights[i].entity, guess++);
-        if (last && !last->grant.none) limited[i] = granted(scene.lights[i], limited[i], last->grant);
+        if (last && !last->budget.grant.none) limited[i] = granted(scene.lights[i], limited[i], last->budget.grant);
     }
 }
 
@@ -136,13 +137,14 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     LightLoad load;
     load.light = &scene.lights[light];
     load.wanted = inputs.requests[light];
-    // The fit may have found another count of cascades to be enough.
-    if (next.grant.most_views >= load.wanted.map.view_count && fitted.map.view_count != load.wanted.map.view_count) {
+    // The fit may have found another number of cascades to be enough.
+    if (next.budget.grant.most_views >= load.wanted.map.view_count &&
+        fitted.map.view_count != load.wanted.map.view_count) {
         load.wanted.map.view_count = fitted.map.view_count;
         set_most(*load.light, load.wanted.limits.max_px, 0, load.wanted);
     }
     load.key = key_of(*load.light);
-    load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.activity) : 1.0;
+    load.activity = load.light->tuning.reuse.economy ? static_cast<double>(next.budget.activity) : 1.0;
     double extent_px = 0.0;
     for (const ShadowView& view : inputs.fitted.views_of(light)) {
         if (view.casters.count == 0) continue;
@@ -154,7 +156,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
         load.draws += counts.draws;
     }
     const auto fewer = static_cast<double>(load.wanted.map.view_count) - static_cast<double>(fitted.map.view_count);
-    extent_px *= std::exp2(-fewer);  // each cascade about doubles what one texel can serve
+    extent_px *= std::exp2(-fewer);  // each cascade about doubles the depth range that one texel size serves
     const std::uint32_t needed = needed_px(*load.light, load.wanted, fitted, extent_px);
     load.extent_px = extent_px * fitted.map.resolution_px / needed;
     if (needed != load.wanted.map.resolution_px) set_resolution(*load.light, needed, load.wanted);
@@ -166,7 +168,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
     return load;
 }
 
-/// What is bright matters more, as the eye has it: lightness goes with the cube root of luminance (CIE 1976).
+/// Weighs each light's shadow by brightness. Lightness grows with the cube root of luminance (CIE 1976).
 void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) {
     const auto lux = [&](std::size_t i) {
         return typical_lux(scene.lights[lights_[i]], inputs.fitted.sets_of(inputs.sets, lights_[i]).beams());
@@ -180,7 +182,8 @@ void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) 
     }
 }
 
-/// Returns the bytes of lights that are not asked, since the device has no room for what they want.
+/// Collects the lights that take part. Returns the bytes of the other maps: the device has no room for maps as their
+/// lights need them.
 std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
                                    const History& next, std::span<const LightStatus> statuses) {
     loads_.clear();
@@ -199,7 +202,7 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
             continue;
         }
         loads_.push_back(load_of(scene, gpu, inputs, i, entry));
-        grants_.push_back(entry.grant);
+        grants_.push_back(entry.budget.grant);
         lights_.push_back(i);
         held_.push_back(held - 1);
     }
@@ -215,7 +218,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     outcomes_.clear();
     if (!is_active()) {
         loads_.clear();
-        for (HeldLight& light : next.lights) light.grant = {}, light.activity = 0.0f, light.new_frames = 0;
+        for (HeldLight& light : next.lights) light.budget = {};
         return;
     }
     BudgetLimits limits = limits_;
@@ -224,10 +227,11 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     settle_grants(loads_, limits, factors_, next.calm_frames, grants_, scratch_);
     lookups_ns_ = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) {
-        HeldLight& light = next.lights[held_[i]];
+        BudgetHistory& history = next.lights[held_[i]].budget;
         lookups_ns_ += lookup_ns(loads_[i], grants_[i], factors_);
-        light.new_frames = light.grant == grants_[i] ? light.new_frames - std::min(light.new_frames, 1u) : kNewFrames;
-        light.grant = grants_[i];
+        const bool same = history.grant == grants_[i];
+        history.new_frames = same ? history.new_frames - std::min(history.new_frames, 1u) : kNewFrames;
+        history.grant = grants_[i];
         outcomes_.push_back(outcome(loads_[i], grants_[i], factors_));
         if (grants_[i].none) {
             accounts.statuses[lights_[i]].skip(Reason::over_budget);
@@ -257,8 +261,9 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, const DrawnViews& dra
             changed += (drawn.has_map(v) ? drawn.updates[v].changed : has_moving) ? 1.0f : 0.0f;
         }
         if (!scene.lights[lights_[i]].tuning.reuse.economy || views == 0.0f) continue;
-        if (next.lights[held_[i]].new_frames > 0) continue;
-        float& activity = next.lights[held_[i]].activity;
+        BudgetHistory& history = next.lights[held_[i]].budget;
+        if (history.new_frames > 0) continue;
+        float& activity = history.activity;
         const float now = changed / views;
         activity += (now - activity) * kActivityGain;
         if (std::abs(now - activity) < kActivityRest) activity = now;
@@ -271,7 +276,7 @@ void BudgetStage::report(FrameReport& report) const {
 
 bool BudgetStage::is_moved_by(const BudgetLimits& limits, const CostFactors& factors) const {
     if (!(limits == limits_)) return true;
-    constexpr double kNotice = 0.02;  // a fifth of the room that giving back leaves (kRoomAfter)
+    constexpr double kNotice = 0.02;  // a fifth of the free room that giving back leaves (kRoomAfter)
     const auto moved = [](double now, double then) { return std::abs(now - then) > kNotice * then; };
     return is_active() &&
            (moved(factors.drawing, decided_factors_.drawing) || moved(factors.lighting, decided_factors_.lighting));

@@ -13,7 +13,8 @@ double drawn_ns(const MapSettings& map, const LightReport& light) {
     return drawing_ns(map, map_edge_px(map), light.views_drawn, static_cast<double>(light.triangles), light.draws);
 }
 
-/// As it was drawn: by its own filter, by what that fell back to, or by what was kept of what its pixels saw.
+/// Returns the modelled time of lighting by one light as it was drawn, ns: with its own filter, its fallback, or kept
+/// visibility.
 double lit_ns(const LightItem& item, const ShadowRequest& request, const LightingLight& light,
               const LightReport& report) {
     const double pixels = static_cast<double>(light.screen.width) * light.screen.height;
@@ -57,7 +58,7 @@ void CostClock::close(Submission& submission) {
         learned(factors_.lighting, submission.measured.lighting_ns, submission.modelled.lighting_ns, learned_.lighting);
 }
 
-/// Timers of a submission may come in parts: it is closed by the first of a later one.
+/// Adds the timers of a submission, which may arrive in parts. The first timer of a later submission completes it.
 void CostClock::learn(std::span<const gl::Timing> timings) {
     for (const gl::Timing& timing : timings) {
         if (timing.id >= kSurfaceTimer) continue;

@@ -11,27 +11,27 @@
 
 namespace gnomon::shadow {
 
-/// Learns from the device's timers how much longer than the model says its work takes: drawing maps, and lighting with
-/// them. Slowly, and from frames alone that did enough of that kind. It has no clock of its own: without timers, and in
-/// repeatable runs, which show it none, the model stands.
+/// Calibration of the cost model by the device's timers: measured over modelled time, for drawing maps and for lighting
+/// with them. It changes slowly, and only in frames with enough work of that kind. It reads no clock itself. Without
+/// timers, and in repeatable runs, which pass it none, the model's times stand.
 class CostClock {
 public:
-    /// The frame that was just submitted.
+    /// Records the modelled work of the frame that was just submitted.
     void submitted(std::uint64_t submission, const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
                    std::span<const LightingInputs> inputs, const FrameReport& report);
-    /// Timers that came in since, of whichever of the last kFrames.
+    /// Learns from timers that arrived since the last call, for any of the last kFrames submissions.
     void learn(std::span<const gl::Timing> timings);
 
     const CostFactors& factors() const { return factors_; }
 
     static constexpr std::size_t kFrames = 8;  // more than drivers queue
-    /// One frame moves a factor by an eighth of the way (by half at first), and by no more than a quarter: an outlier
-    /// is not believed.
+    /// Share of the remaining difference by which one frame moves a factor: half in the first frames, an eighth later.
+    /// A frame changes it by a quarter at most, so that an outlier has little effect.
     static constexpr double kFirstGain = 1.0 / 2.0, kGain = 1.0 / 8.0, kMostStep = 0.25;
     static constexpr std::uint32_t kFirstFrames = 16;
-    /// Beyond, no GPU is so fast, and no software device so slow, that it is not the timer that is wrong.
+    /// Bounds of a factor. No GPU is so fast, and no software device so slow; beyond, the timer is wrong.
     static constexpr double kLeastFactor = 1.0 / 64.0, kMostFactor = 4096.0;
-    /// By the model; less work drowns in what starting and ending a timer takes.
+    /// Least modelled work that is measured, ns. The start and end of a timer take as long as less work.
     static constexpr double kLeastWork_ns = 10'000.0;
 
 private:
@@ -43,7 +43,7 @@ private:
     };
     struct Submission {
         std::uint64_t number = 0;
-        bool open = false;  // its timers are awaited
+        bool open = false;  // not all of its timers have arrived
         Work modelled, measured;
     };
     void close(Submission& submission);
@@ -51,11 +51,11 @@ private:
     std::array<Submission, kFrames> submissions_;
     std::size_t next_ = 0;
     CostFactors factors_;
-    Frames learned_;  // of how many each has learned
+    Frames learned_;  // number of measurements behind each factor
 };
 
-/// `factor` after one more measurement of work that the model gives `modelled` nanoseconds; `frames` counts those that
-/// were of use.
+/// Returns `factor` after one more measurement of work with the modelled time `modelled_ns`. `frames`: number of
+/// measurements that were used.
 double learned(double factor, double measured_ns, double modelled_ns, std::uint32_t& frames);
 
 }  // namespace gnomon::shadow

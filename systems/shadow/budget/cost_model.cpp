@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
@@ -11,34 +12,35 @@
 namespace gnomon::shadow {
 namespace {
 
-/// However coarse, a shadow says half of what it has to say: that something stands there.
+/// Largest share of a shadow's worth that coarse edges can cost. However coarse, it shows that something stands there.
 constexpr double kMostByEdges = 0.5;
-/// Edges that are off by so much, a twentieth of the height of a picture of 720 lines, lose half of the rest.
+/// Edge error that costs half of that share: a twentieth of the height of a screen of 720 lines.
 constexpr double kHalfLost_px = 36.0;
-/// Of what moves across a picture of 1280 columns in five seconds.
+/// Speed of a thing that crosses a screen of 1280 columns in five seconds.
 constexpr double kMotion_px_per_frame = 1280.0 / 300.0;
-/// Each cascade about doubles the depth that one texel size can serve (light_kinds.cpp).
+/// Factor of the depth range that one texel size serves, per cascade (light_kinds.cpp).
 constexpr double kTexelsPerCascade = 2.0;
-/// Share of the pixels that a filter looks at more closely whose first fetch settles all others.
+/// Share of a filter's pixels in which its first fetch does not settle the others, so that all are read.
 constexpr double kSeldom = 1.0 / 8.0;
 
 bool has_cascades(const LightItem& light, const ShadowRequest& request) {
-    return light.kind == LightKind::directional && request.map.view_count > 1 &&
-           light.tuning.cascades.splits != CascadeSplits::manual;  // which names them all
+    return light_facts(light.kind).parallel && request.map.view_count > 1 &&
+           light.tuning.cascades.splits != CascadeSplits::manual;  // manual splits name all cascades
 }
 
-/// What is no number counts as all.
+/// Clamps a share to 0..1; NaN counts as 1.
 double share_in_bounds(double share) { return share < 1.0 ? std::max(share, 0.0) : 1.0; }
 
-/// Half-width of what can be seen of a filter's footprint, in texels.
+/// Returns the visible radius of a filter's footprint, texels.
 double seen_texel(const ShadowRequest& request) {
     return static_cast<double>(request.map.filtering.widest_texel - filter_row(request.map.filter).still_texel);
 }
 
-/// Of the bound on how far off an edge is, what it is on the average, against a filter that counts texels alone: a
-/// fifth where the casters' own triangles are asked, a half where texels vote (docs/accuracy.md, "Filters and sizes").
+/// Returns the mean edge error as a share of its bound, relative to a filter that counts texels. A fifth for filters
+/// that test the casters' own triangles, a half for filters that average texels (docs/accuracy.md, "Filters and
+/// sizes").
 double usual_share(const FilterRow& row) {
-    if (row.storage == FilterStorage::depth_and_triangle) return 0.2;
+    if (row.storage.triangle_ids) return 0.2;
     return row.reading == MapReading::depths ? 0.5 : 1.0;
 }
 
@@ -46,7 +48,7 @@ double usual_error_px(const ShadowRequest& request, double extent_px) {
     return usual_share(filter_row(request.map.filter)) * (0.5 + seen_texel(request)) * extent_px;
 }
 
-/// How much farther off edges are than as wanted, on the average.
+/// Returns how much the mean edge error exceeds that of the request without limits, pixels.
 double rise_px(const LightLoad& load, const ShadowRequest& given, const Grant& grant) {
     const ShadowRequest& wanted = load.wanted;
     const double coarser =
@@ -54,7 +56,7 @@ double rise_px(const LightLoad& load, const ShadowRequest& given, const Grant& g
         std::pow(kTexelsPerCascade, static_cast<double>(wanted.map.view_count - given.map.view_count));
     const double extent_px = load.extent_px * coarser;
     double rise = std::max(usual_error_px(given, extent_px) - usual_error_px(wanted, load.extent_px), 0.0);
-    // A narrower filter may err less; it looks other than was asked for.
+    // A narrower filter may err less, but it looks other than requested.
     rise += std::abs(seen_texel(wanted) - seen_texel(given)) * extent_px;
     return rise + 0.5 * (grant.refresh_frames - 1) * share_in_bounds(load.activity) * kMotion_px_per_frame;
 }
@@ -96,21 +98,6 @@ double mean_fetches(const LightItem& light, const ShadowRequest& request, Shadow
     return row.reading == MapReading::depths ? 1.0 + (most - 1.0) * kSeldom : most;
 }
 
-StorageWork storage_work(FilterStorage storage) {
-    constexpr double kDepth = 4.0, kTriangle = 8.0, kBounds = 8.0;
-    switch (storage) {
-        case FilterStorage::depth_and_triangle:
-            return {.texel_bytes = kDepth + kTriangle};
-        case FilterStorage::sheets:
-        case FilterStorage::soft_sheets:
-            return {.passes = 3.0, .casters = 3.0, .texel_bytes = kDepth + kTriangle + kDepth + kBounds};
-        case FilterStorage::depth:
-        case FilterStorage::moments:
-            break;
-    }
-    return {};
-}
-
 DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters) {
     DrawCounts counts;
     std::uint32_t last_mesh = ~0u;
@@ -124,11 +111,11 @@ DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::spa
 }
 
 double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws) {
-    const FilterStorage storage = filter_row(map.filter).storage;
-    const StorageWork work = storage_work(storage);
+    const FilterRow& row = filter_row(map.filter);
+    const DrawingWork& work = row.storage.work;
     const double texels = static_cast<double>(edge_px) * edge_px;
-    double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / StorageWork{}.texel_bytes;
-    if (storage == FilterStorage::moments) view_ns += 2.0 * (kPass_ns + texels * map.filtering.size * kFetch_ns);
+    double view_ns = work.passes * kPass_ns + texels * kTexel_ns * work.texel_bytes / DrawingWork{}.texel_bytes;
+    if (row.moments) view_ns += 2.0 * (kPass_ns + texels * map.filtering.size * kFetch_ns);
     return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
 }
 
@@ -150,7 +137,7 @@ Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& facto
     cost.bytes = map_bytes(*load.light, given);
     const double share =
         static_cast<double>(given.map.view_count) / static_cast<double>(std::max(load.wanted.map.view_count, 1u));
-    const double casters = share * storage_work(filter_row(given.map.filter).storage).casters;
+    const double casters = share * filter_row(given.map.filter).storage.work.casters;
     const double drawing =
         drawing_ns(given.map, given.map.resolution_px, load.views * share,
                    static_cast<double>(load.triangles) * casters, static_cast<double>(load.draws) * casters);

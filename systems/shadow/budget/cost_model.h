@@ -7,37 +7,26 @@
 #include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// What a light's shadow takes of a budget, and what is lost by giving it less: a model, the same for the same input.
+/// Model of a light's cost in memory and time, and of the error cost of limiting its quality. Pure: equal inputs give
+/// equal results.
 namespace gnomon::shadow {
 
-/// Below, a shadow says little more than that there is one.
+/// Smallest map edge that a budget leaves, texels. Below, a shadow shows little more than that it exists.
 inline constexpr std::uint32_t kLeastGranted_px = 64;
 
-/// Nanoseconds by kind of work, of a GPU of the middle class: where measurements start from (CostFactors). Only their
-/// ratios decide who is given less; their scale decides when. They follow from such a GPU's data sheet (192 GB/s of
-/// memory, 1.7 GHz, two triangles a clock, 80 texture units, 4.4 TFLOPS), not from measurements of one:
-/// - a pass waits for the one before to leave the chip, and clears: some 5 µs between two targets;
-/// - a draw takes the driver and the front end 1 µs;
-/// - a triangle takes 0.3 ns where nothing but its set-up counts, and three vertices of 32 bytes 0.5 ns of memory: 1
-/// ns;
-/// - a texel is 4 bytes, cleared or written, by way of memory: 4 B / 192 GB/s;
-/// - a fetch lies between the texture units' 0.007 ns and a sector of 32 bytes of its own, 0.17 ns;
-/// - a lit pixel reads 20 bytes of surfaces and blends 16: 0.2 ns, and some 1000 operations: another 0.25 ns.
+/// Time per unit of work on a GPU of the middle class, ns: the starting point of measurements (CostFactors). Only the
+/// ratios decide which light is limited; the scale decides when. The numbers follow from a data sheet (192 GB/s of
+/// memory, 1.7 GHz, two triangles a clock, 80 texture units, 4.4 TFLOPS), not from measurements:
+/// - A pass takes 5 µs: the pass before it has to leave the chip, and its target is cleared.
+/// - A draw takes the driver and the front end 1 µs.
+/// - A triangle takes 1 ns: 0.3 ns where only its set-up counts, 0.5 ns of memory for three vertices of 32 bytes.
+/// - A texel is 4 bytes, cleared or written, by way of memory: 4 B / 192 GB/s.
+/// - A fetch lies between the texture units' 0.007 ns and a sector of 32 bytes of its own, 0.17 ns.
+/// - A lit pixel reads 20 bytes of surfaces and blends 16, 0.2 ns. Some 1000 operations take another 0.25 ns.
+///
 /// `./gnomon bench budget` measures the same six on a device (docs/economy.md, "Budgets").
 inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
 inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
-
-/// What drawing a view takes for its filter, against drawing depths of 4 bytes alone.
-struct StorageWork {
-    double passes = 1.0;       // targets drawn into, one after the other
-    double casters = 1.0;      // how often each caster is drawn
-    double texel_bytes = 4.0;  // cleared and written per texel, in all of them
-};
-
-/// depth_and_triangle: 8 bytes beside the depth, in the same pass. sheets: nearest depths with 8 bytes of triangles,
-/// next depths, and 8 bytes of bounds (map_textures.cpp); casters are drawn twice, and measured for the third. The two
-/// passes of a blur (moments) are counted apart, and what soft_sheets make of theirs, a small share, is not.
-StorageWork storage_work(FilterStorage storage);
 
 /// Measured over modelled time, by kind of work (CostClock).
 struct CostFactors {
@@ -48,50 +37,51 @@ struct CostFactors {
 /// One light that would have a map.
 struct LightLoad {
     const LightItem* light = nullptr;
-    ShadowRequest wanted;     // what it asks for; resolution_px is the edge that it needs
-    std::uint64_t key = 0;    // of the light itself, wherever it stands in a list: decides between equals
-    double weight = 0.0;      // what its shadow means to the picture, 0 to 1
-    double extent_px = 0.0;   // of a texel on screen (error_bound.h), with maps as wanted
+    ShadowRequest wanted;     // request without limits; resolution_px is the edge that it needs
+    std::uint64_t key = 0;    // hash of the light itself, independent of its place in a list: decides between equals
+    double weight = 0.0;      // weight of its shadow in the frame image, 0 to 1
+    double extent_px = 0.0;   // extent of a texel on screen (error_bound.h), with maps as wanted
     double activity = 0.0;    // share of its views that are drawn in a frame, 0 to 1
-    double pixels = 0.0;      // that look it up
-    std::uint32_t views = 0;  // of its map that are fitted
-    std::uint64_t triangles = 0, draws = 0;  // of drawing them all; may be 0 where nothing is drawn
+    double pixels = 0.0;      // number of pixels that look it up
+    std::uint32_t views = 0;  // number of fitted views
+    std::uint64_t triangles = 0, draws = 0;  // work of drawing all views; may be 0 if none is drawn
 };
 
 struct Cost {
     std::uint64_t bytes = 0;
     std::uint64_t ns = 0;  // per frame
-    double harm = 0.0;     // share of the picture that is wrong, by the model; 0: all is as asked for
+    double harm = 0.0;     // share of the image that is wrong, by the model; 0: all as requested
 };
 
-/// The request as the grant leaves it; that of Grant::none is unchanged.
+/// Returns the request with the limits applied. Grant::none leaves it unchanged.
 ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const Grant& grant);
 
-/// Returns in one frame of how many a view of the light is drawn whose casters alone changed.
+/// Returns the interval, in frames, at which a view of the light is drawn if only its casters changed.
 std::uint32_t refresh_frames(const LightItem& light, const Grant& grant);
 
-/// Whether it gives that request less than it asks for.
+/// Returns whether the limits give that request less than it needs.
 bool is_less(const LightItem& light, const ShadowRequest& wanted, const Grant& grant);
 
 Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors);
 
-/// Of that, in nanoseconds, what looking it up takes.
+/// Returns the lookup part of the cost, ns.
 double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors);
 
-/// Of a light's weight, what is lost by edges that are so much farther off than they might be.
+/// Returns the share of a light's weight that is lost when edges are `rise_px` less accurate, 0 to kMostByEdges.
 double edge_harm(double rise_px);
 
-/// Fetches of a lookup by the filter, on the average of its pixels.
+/// Returns the mean number of fetches per lookup with the filter.
 double mean_fetches(const LightItem& light, const ShadowRequest& request, ShadowFilter filter);
 
-/// What drawing a view once would draw.
+/// Work of drawing a view once.
 struct DrawCounts {
     std::uint64_t triangles = 0, draws = 0;
 };
-/// `casters`: of one view, by mesh.
+/// Counts the triangles and draws of one view's casters, sorted by mesh.
 DrawCounts count_draws(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> casters);
 
-/// Of drawing so many views with so much in them, as it is recorded: storage_work() says how often casters are.
+/// Returns the time of drawing `views` views, ns. `triangles` and `draws` count each caster DrawingWork::casters times.
+/// The two passes of a blur of moments are added.
 double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, double triangles, double draws);
 
 }  // namespace gnomon::shadow

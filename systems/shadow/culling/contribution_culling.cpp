@@ -6,40 +6,38 @@
 #include <limits>
 
 #include "engine/math/aabb.h"
+#include "systems/extract/light_facts.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Of the sRGB encoding at black, IEC 61966-2-1; the tone curve (lighting/post/tonemap.frag) is nowhere steeper than 1.
+/// Largest slope of tone curve and sRGB encoding: the encoding's at black (IEC 61966-2-1). The tone curve
+/// (lighting/post/tonemap.frag) is nowhere steeper than 1.
 constexpr double kSteepestEncoding = 12.92;
 constexpr double kDisplaySteps = 255.0;
 
-/// Beside the brightest, which lights a whole receiver. That alone lights the picture to middle grey, 0.18, or more
-/// would: 0.18 * 12.92 * 255 steps; a light is left out below 0.4 of one, a fourth of that where the exposure is
-/// measured late.
+/// Ratio of brightest to faintest light from which the exposure is worth measuring. The brightest one lights a whole
+/// receiver, at most to middle grey, 0.18: that is 0.18 * 12.92 * 255 display steps. A light is culled below 0.4 steps,
+/// or below a fourth of that where the exposure is measured late.
 constexpr double kFaint = 4096.0;
 
-/// Of a light at an exposure of 1, over all receivers, with a local light as far from each as `distance_m` says.
+/// Returns the largest number of display steps that a light adds to any receiver at an exposure of 1. `distance_m`:
+/// distance of a local light from a receiver's bounding box.
 template <class Distance>
 double most_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                   std::span<const std::uint32_t> receivers, Distance distance_m) {
-    const double brightest = static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
-    const double emitted = static_cast<double>(light.intensity) * brightest;
     double most = 0.0;
     for (const std::uint32_t r : receivers) {
         const InstanceItem& item = scene.instances[r];
-        double received = emitted;
-        if (light.kind != LightKind::directional) {
-            const double away_m = distance_m(item.bounds_ws);
-            if (!(away_m > 0.0)) return std::numeric_limits<double>::infinity();
-            received = emitted / (away_m * away_m);
-        }
+        const double away_m = distance_m(item.bounds_ws);
+        const double received = illuminance_lux(light, away_m * away_m);
+        if (!std::isfinite(received)) return std::numeric_limits<double>::infinity();
         most = std::max(most, received * static_cast<double>(gpu.mesh(item.mesh).most_reflected));
     }
     return most * kSteepestEncoding * kDisplaySteps;
 }
 
-/// The same of the receiver that it lights most throughout: by its farthest corner.
+/// Returns the largest number of display steps that a light adds to all of one receiver: by its farthest corner.
 double steps_throughout(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                         std::span<const std::uint32_t> receivers) {
     return most_steps(scene, gpu, light, receivers, [&](const math::Aabb& box_ws) {
@@ -60,10 +58,10 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 }
 
 void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                           std::span<const LightStatus> statuses) {
-    const bool known = std::isfinite(*scene.exposure);
+                           double exposure, std::span<const LightStatus> statuses) {
+    const bool known = std::isfinite(exposure);
     const auto asked = [](const LightStatus& status) { return !status.is_skipped(); };
-    if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // faint beside what?
+    if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // no light to compare with
     double faintest = std::numeric_limits<double>::infinity(), brightest = 0.0;        // steps at an exposure of 1
     for (std::uint32_t i = 0; i < statuses.size(); ++i) {
         const LightItem& item = scene.lights[i];
@@ -73,7 +71,7 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
         faintest = std::min(faintest, at_one);
         brightest = std::max(brightest, steps_throughout(scene, gpu, item, receivers));
         if (!known) continue;
-        const double steps = at_one * *scene.exposure;
+        const double steps = at_one * exposure;
         steps_[i] = steps;
         const bool was_out = std::binary_search(out_.begin(), out_.end(), item.entity, comes_before);
         if (steps <= kMostSteps) candidates_.push_back({steps, i, was_out});
@@ -82,12 +80,12 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
 }
 
 void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                          std::span<LightStatus> statuses) {
+                          std::optional<double> exposure, std::span<LightStatus> statuses) {
     steps_.assign(scene.lights.size(), std::nullopt);
     candidates_.clear();
     wants_exposure_ = false;
-    if (scene.exposure) ask_lights(scene, gpu, sets, statuses);
-    // Of equals the first, whatever their order in memory.
+    if (exposure) ask_lights(scene, gpu, sets, *exposure, statuses);
+    // Equal lights are sorted by index, so that the choice is deterministic.
     std::sort(candidates_.begin(), candidates_.end(),
               [](const Dim& a, const Dim& b) { return a.steps != b.steps ? a.steps < b.steps : a.light < b.light; });
     out_.clear();

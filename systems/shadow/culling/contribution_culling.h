@@ -9,33 +9,34 @@
 
 namespace gnomon::shadow {
 
-/// How much a light can add to any pixel of its receivers, in steps of the shown picture (8 bit sRGB), by bounds:
-/// nearest receiver, brightest colour, its materials' most reflecting directions, and the steepest part of tone curve
+/// Returns an upper bound on what a light adds to any pixel of its receivers, in display steps (8-bit sRGB). It takes
+/// the nearest receiver, the brightest channel, the materials' largest reflectance, and the steepest part of tone curve
 /// and encoding. Infinite where a receiver may touch the light.
 double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light,
                           std::span<const std::uint32_t> receivers, double exposure);
 
-/// Which lights are too dim for their shadows to be seen: those that, lit everywhere, change no pixel by more than half
-/// a step all together. The dimmest first; one that is left out stays so until it must not, one that is not is left out
-/// only well below. Needs SceneSnapshot::exposure: none may be left out where that is infinite.
-/// ShadowTuning::Reuse::economy=false exempts a light.
+/// Contribution culling: finds lights too dim for their shadows to be visible. Unshadowed everywhere, all of them
+/// together change no pixel by more than half a display step. The dimmest lights are culled first. Hysteresis: a light
+/// is culled only well below that limit, and stays culled up to the limit. Needs LightingFeedback::exposure; no light
+/// is culled where that is infinite. ShadowTuning::Reuse::economy = false exempts a light.
 class DimLights {
 public:
-    /// Skips lights with below_display_step, after select_sets(). Allocates nothing once warm.
+    /// Skips culled lights with below_display_step. Call after select_sets(). Allocates nothing in a steady state.
     void leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                   std::span<LightStatus> statuses);
+                   std::optional<double> exposure, std::span<LightStatus> statuses);
 
-    /// Of light `index` in the last frame; empty: it was not asked for.
+    /// Returns the bound of light `index` in the last frame, display steps. Empty: it was not computed.
     std::optional<double> steps(std::uint32_t index) const { return steps_[index]; }
 
-    /// Whether a light is so faint beside another one that it is worth knowing the exposure. In the last frame.
+    /// Returns true if some light was so faint beside another one in the last frame that a measured exposure could cull
+    /// it.
     bool wants_exposure() const { return wants_exposure_; }
 
-    static constexpr double kMostSteps = 0.5;       // what rounds away, or to the next step
-    static constexpr double kNewlyMostSteps = 0.4;  // a light whose brightness trembles stays what it is
+    static constexpr double kMostSteps = 0.5;       // limit for culled lights: a change rounds away or to the next step
+    static constexpr double kNewlyMostSteps = 0.4;  // limit for other lights: flicker of brightness changes nothing
 
 private:
-    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+    void ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets, double exposure,
                     std::span<const LightStatus> statuses);
 
     struct Dim {
@@ -45,7 +46,7 @@ private:
     };
     std::vector<std::optional<double>> steps_;
     std::vector<Dim> candidates_;
-    std::vector<ecs::Entity> out_;  // in the last frame, by rising entity
+    std::vector<ecs::Entity> out_;  // lights culled in the last frame, by rising entity
     bool wants_exposure_ = false;
 };
 

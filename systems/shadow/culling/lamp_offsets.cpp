@@ -11,6 +11,7 @@
 #include "engine/core/signature.h"
 #include "engine/math/frustum.h"
 #include "engine/math/shape_tree.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/triangle_distance.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -18,24 +19,25 @@
 namespace gnomon::shadow {
 namespace {
 
-/// A corner relative to the lamp, and the plane through three of them, round a dozen times on numbers no larger than
-/// the coordinates they come from.
+/// Rounding error of a lamp's height above a triangle's plane, per metre of the coordinates. The corners relative to
+/// the lamp and the plane through them round a dozen times.
 constexpr double kPlaneUnits = 64.0 * 0x1p-53;
-/// Normals that differ by less are of one plane, seen from either side: a float mesh says no more of them.
+/// Cosine of normals below which two triangles are opposite sides of one plane. A float mesh does not resolve smaller
+/// differences.
 constexpr double kOpposite = -1.0 + 0x1p-20;
-/// Rounds of projections onto the planes; as many suffice for a wedge of 15 degrees.
+/// Number of rounds of projections onto all planes. They suffice for a wedge of 15 degrees.
 constexpr int kRounds = 64;
-/// Of the wished height: what is left when a projection counts as done.
+/// Share of the target height that may be missing at the end of the projections.
 constexpr double kDone = 0x1p-10;
-/// How often the height is halved where sheets leave less room than that.
+/// How often the target height is halved where triangles leave less room.
 constexpr int kHalvings = 8;
-/// How far aside a lamp may go, in heights: into a wedge of 15 degrees.
+/// Largest offset of a lamp, in target heights: enough for a wedge of 15 degrees.
 constexpr double kFarthest = 8.0;
 
 double largest(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Whether any of the mesh's parts may come so near to the lamp; `from_lamp_m`: from there to the mesh's origin. NaN:
-/// it may.
+/// Returns true if any part of the mesh may be nearer to the lamp than clear_m. `from_lamp_m`: vector from the lamp to
+/// the mesh's origin. NaN: returns true.
 bool may_touch(const math::ShapeTree& shape, const InstanceItem& item, const glm::dvec3& from_lamp_m, double clear_m,
                std::vector<glm::dvec3>& scratch) {
     std::array<math::Plane, 6> planes;
@@ -47,13 +49,14 @@ bool may_touch(const math::ShapeTree& shape, const InstanceItem& item, const glm
         sum += glm::dot(planes[static_cast<std::size_t>(i)].normal, glm::dvec3(1.0)) + from_lamp_m[i / 2];
     }
     if (!std::isfinite(sum)) return true;
-    constexpr double kNone = 1.0;  // above what the even ramp has anywhere
+    constexpr double kNone = 1.0;  // above every value of the constant ramp
     return shape.lowest({}, planes, kNone, scratch) < kNone;
 }
 
 }  // namespace
 
-/// Instances that cast, with a part near the lamp, by rising index: what follows must not hang on the tree's shape.
+/// Finds casters with a part near the lamp. They are visited by rising index, so that the result does not depend on the
+/// tree's shape.
 void LampPlaces::find_near(const SceneSnapshot& scene, const LightItem& light, double share) {
     const glm::dvec3& lamp_ws_m = light.position_ws_m;
     near_.clear(scene.instances.size());
@@ -70,7 +73,8 @@ void LampPlaces::find_near(const SceneSnapshot& scene, const LightItem& light, d
     });
 }
 
-/// Two faces of one sheet, both in the lamp's plane: the first says which side is before it.
+/// Adds a plane, unless it is the opposite side of a plane already added and the lamp lies in both. The first face
+/// decides the lamp's side.
 void LampPlaces::add_side(Side side) {
     for (const Side& other : sides_)
         if (side.in_plane && other.in_plane && glm::dot(side.normal, other.normal) < kOpposite) return;
@@ -106,8 +110,8 @@ void LampPlaces::find_sides(const GpuScene& gpu, const LightItem& light, const I
     }
 }
 
-/// From the lamp to where it is high enough above all of these planes, or to as much of that as there is room for; by
-/// projections onto them in turn. 0: there is none.
+/// Computes the offset that lifts the lamp to the target height above all planes, by projections onto them in turn.
+/// Where there is less room, the height is a part of the target. 0: there is no room.
 glm::dvec3 LampPlaces::step_m() const {
     double share = 1.0;
     for (int halving = 0; halving <= kHalvings; ++halving, share *= 0.5) {
@@ -141,7 +145,7 @@ glm::dvec3 LampPlaces::place_of(const SceneSnapshot& scene, const GpuScene& gpu,
         any = true;
     });
     if (!any) return light.position_ws_m;
-    // A scene that counts no versions says nothing of what moved.
+    // Without a version of the scene it is unknown whether casters moved.
     if (scene.version != 0 && held.signature == signature.value()) return held.place_ws_m;
     sides_.clear();
     near_.for_each([&](std::uint32_t i) { find_sides(gpu, light, scene.instances[i], share); });
@@ -156,7 +160,7 @@ void LampPlaces::update(const SceneSnapshot& scene, const GpuScene& gpu, std::sp
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
         lamps_ws_m[i] = light.position_ws_m;
-        if (light.kind == LightKind::directional || requests[i].skip != Reason::none) continue;
+        if (light_facts(light.kind).parallel || requests[i].skip != Reason::none) continue;
         const LightTime time(cpu_us, i);
         const double share = requests[i].rays.used ? kClearOfPlanes : kClearOfClipping;
         lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);

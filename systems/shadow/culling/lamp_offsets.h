@@ -10,36 +10,37 @@
 
 namespace gnomon::shadow {
 
-/// How far a lamp is kept off the casters' triangles, as a share of how far their instance reaches from it: so far off
-/// a corner, carried there in float, may be from a plane through the lamp. 32 units: a corner's place (12, with a sum
-/// over three coordinates), the plane's normal as far away (as many), their product (8).
+/// Least distance of a lamp from casters' triangles, as a share of their instance's farthest distance from it. A corner
+/// transformed in float may be that far from a plane through the lamp: 32 roundings of 2^-24. They are 12 for the
+/// corner's position, with a sum over three coordinates; 12 for the plane's normal; and 8 for their product.
 inline constexpr double kClearOfPlanes = 0x1p-19;
 
-/// The same as a share of how far the triangle itself reaches, for maps that are read by what their texels hold: where
-/// a map's sides cut it, its corners round by that reach (2 units), which so near to the lamp is this much of the map's
-/// half: 2^-7, less than two texels of 512. Rays need no such room, and what is asked by them stays nearer.
+/// Least distance as a share of the triangle's own farthest distance, for maps that are read without rays. Where a
+/// map's sides clip the triangle, its corners round by 2 units of that distance, 2^-23. At this distance from the lamp
+/// that is 2^-7 of half of the map: less than two texels of 512. Rays need no such room, so that lights with rays stay
+/// nearer.
 inline constexpr double kClearOfClipping = 0x1p-16;
 
-/// From where shadows of local lights are looked for. A lamp on a triangle of a caster, or nearer to it than floats can
-/// tell, would be before it for one pixel and behind it for the next: its maps and lookups stand a little aside, on the
-/// side of each such triangle that the lamp is on in double; on its front, where the lamp lies in its plane.
+/// Positions from which maps and lookups of local lights see the scene. A lamp on a caster's triangle, or nearer than
+/// floats resolve, would be before it for one pixel and behind it for the next. Such a lamp gets a small offset to the
+/// side of the triangle on which it is in double. Where it lies in the triangle's plane, that is the front side.
 class LampPlaces {
 public:
-    /// Writes the place of each light to `lamps_ws_m`. `gpu` has meshes bent as they are drawn in this frame.
+    /// Writes the position of each light to `lamps_ws_m`. `gpu`: has meshes deformed as drawn in this frame.
     void update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
                 std::vector<glm::dvec3>& lamps_ws_m, std::span<double> cpu_us);
 
 private:
-    /// Of a lamp that touches something; the next frame keeps it while nothing moved.
+    /// Position of a lamp near a triangle, reused while neither moves.
     struct Held {
-        std::uint64_t signature = 0;  // of the light's place and of what it touches
+        std::uint64_t signature = 0;  // hash of the lamp's own position and of the casters near it
         glm::dvec3 place_ws_m{0.0};
     };
-    /// A triangle's plane near the lamp: its normal, toward the side that the lamp is on, and how high that is above.
+    /// Plane of a triangle near the lamp.
     struct Side {
-        glm::dvec3 normal{0.0};
-        double height_m = 0.0;
-        double clear_m = 0.0;  // how high it is to be
+        glm::dvec3 normal{0.0};  // toward the lamp's side
+        double height_m = 0.0;   // height of the lamp above the plane
+        double clear_m = 0.0;    // target of that height
         bool in_plane = false;
     };
 
@@ -50,13 +51,14 @@ private:
     void add_side(Side side);
     glm::dvec3 step_m() const;
 
-    std::vector<Held> held_;  // one for each light
-    Marks near_;              // instances with a part near enough
+    std::vector<Held> held_;  // one per light
+    Marks near_;              // casters with a part near the lamp
     std::vector<Side> sides_;
     std::vector<glm::dvec3> scratch_;
 };
 
-/// Returns from where a local light's shadows are looked for. `lamps_ws_m`: of LampPlaces; empty: where the lights are.
+/// Returns the position from which a local light's maps see the scene. `lamps_ws_m`: output of LampPlaces. Empty: the
+/// lights' own positions.
 inline const glm::dvec3& lamp_ws_m(std::span<const glm::dvec3> lamps_ws_m, const SceneSnapshot& scene,
                                    std::uint32_t light) {
     return light < lamps_ws_m.size() ? lamps_ws_m[light] : scene.lights[light].position_ws_m;

@@ -14,7 +14,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// What a consumer sees, in the space of something that it looks at, and depth along its view there.
+/// A camera's frustum and its view depth, both in the space of an object.
 struct Sight {
     std::array<math::Plane, 6> planes;
     std::size_t count = 0;
@@ -23,7 +23,8 @@ struct Sight {
     std::span<const math::Plane> within() const { return std::span(planes).first(count); }
 };
 
-/// Nothing is relative to the world's origin: far from it, offsets would round by its distance.
+/// Returns the camera's frustum relative to its position. Offsets from the world's origin would round by the camera's
+/// distance from there.
 Sight from_own_place(const ConsumerItem& consumer) {
     const math::Frustum frustum = consumer_frustum_at_origin(consumer);
     Sight sight;
@@ -32,8 +33,8 @@ Sight from_own_place(const ConsumerItem& consumer) {
     return sight;
 }
 
-/// In a space that `basis` and then `translation_m` take to that of `sight`. Normals of unit length, so that their
-/// squares stay in the range of double whatever the scale.
+/// Transforms `sight` into the space that `basis` and then `translation_m` map to its own. Normals get unit length, so
+/// that their squares stay in the range of double at any scale.
 Sight carried(const Sight& sight, const glm::dmat3& basis, const glm::dvec3& translation_m) {
     Sight out;
     for (const math::Plane& plane : sight.within()) {
@@ -52,7 +53,7 @@ bool is_finite(const Sight& sight) {
     return std::isfinite(sum);
 }
 
-/// Bounds are sums of four rounded numbers (math::transformed).
+/// Relative rounding error of bounding boxes, which are sums of four rounded numbers (math::transformed).
 constexpr double kBoundsRounding = 0x1p-51;
 
 math::Aabb seen_from(const glm::dvec3& place_ws_m, const math::Aabb& box_ws) {

@@ -6,9 +6,9 @@
 
 namespace gnomon::shadow {
 
-/// View depth before which the consumer sees nothing that receives on any of `layers`: infinite if it sees nothing of
-/// the kind at all. Conservative, by scene.shapes; where a mesh has none, by the instance's bounds. `scratch` is
-/// overwritten.
+/// Returns a lower bound on the view depth, metres, of all receivers on any of `layers` in the camera's frustum.
+/// Infinite: there are none. Uses scene.shapes, or the instance's bounding box where its mesh has no shape. `scratch`
+/// is overwritten.
 double nearest_receiver_m(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
                           std::vector<glm::dvec3>& scratch);
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/culling/lamp_offsets.h"
@@ -16,6 +17,7 @@
 #include "systems/shadow/projection/light_range.h"
 #include "systems/shadow/projection/perspective_view.h"
 #include "systems/shadow/request/filter_settings.h"
+#include "systems/shadow/request/light_kinds.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -26,7 +28,7 @@ IndexRange since(std::size_t first, std::size_t end) {
     return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first)};
 }
 
-/// One light's share of the stage.
+/// Search for the receivers of one light.
 class Search {
 public:
     Search(const SceneSnapshot& scene, const LightItem& light, const glm::dvec3& lamp_ws_m, SetScratch& scratch,
@@ -38,7 +40,7 @@ public:
                           beams = out_.beams.size();
         find_candidates();
         scratch_.receivers.clear(scene_.instances.size());
-        if (light_.kind == LightKind::directional) look_along_sun();
+        if (light_facts(light_.kind).parallel) look_along_sun();
         const LightOpenings openings = light_openings(light_, request);
         for (const LightOpening& opening : openings.span()) look_through(opening);
         scratch_.receivers.for_each([&](std::uint32_t i) { out_.receiver_items.push_back(i); });
@@ -50,7 +52,7 @@ public:
     }
 
 private:
-    /// Receivers whose bounds touch what a consumer sees and what the light reaches, consumer by consumer, by index.
+    /// Finds receivers with bounds in a camera's frustum and in the light's range, for each camera, by index.
     void find_candidates() {
         scratch_.candidates.clear();
         for (std::uint32_t c = 0; c < out_.camera_frusta.size(); ++c) {
@@ -70,8 +72,8 @@ private:
         }
     }
 
-    /// Appends the corners of the candidates within what their consumer sees and the given planes; of whom, and for
-    /// whom, goes to the beam.
+    /// Clips the candidates to their camera's frustum and the given planes, and appends the corners. Adds the numbers
+    /// of receivers and the cameras to `beam`.
     IndexRange clip_candidates(std::span<const math::Plane> opening, Beam& beam) {
         const std::size_t first = out_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
@@ -106,9 +108,10 @@ private:
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
-        if (light_.kind == LightKind::spot) *end = {-back, glm::dot(back, lamp)};
+        const bool cone = light_facts(light_.kind).cone;
+        if (cone) *end = {-back, glm::dot(back, lamp)};
         Beam seen, beam;
-        const IndexRange range = clip_candidates(std::span(planes).first(light_.kind == LightKind::spot ? 5 : 4), seen);
+        const IndexRange range = clip_candidates(std::span(planes).first(cone ? 5 : 4), seen);
         if (range.count > 0) beam = opening_beam(lamp, opening, points(range), out_.outlines, scratch_);
         beam.origin_ws_m = lamp;
         beam.axes = opening.axes;
@@ -117,7 +120,7 @@ private:
             beam.receivers = seen.receivers;
             beam.consumers = seen.consumers;
         }
-        out_.beams.push_back(beam);  // without receivers, too: beams are in the order of the openings
+        out_.beams.push_back(beam);  // also without receivers: hull i belongs to light frustum i
     }
 
     std::span<const glm::dvec3> points(IndexRange range) const { return slice(out_.receiver_points_ws, range); }
@@ -130,17 +133,20 @@ private:
     LightReach reach_;
 };
 
-/// How far beyond a lamp's beam, in tangents, casters hide part of a source with a size: as far as filters read texels.
+/// Returns how far outside a lamp's receiver hull casters may hide part of an area light, as a tangent: as far as
+/// filters read texels.
 double lamp_reach(const FilterSettings& filter, double size_px, const LightOpening& opening) {
     const glm::dvec2 sides = opening.high - opening.low;
     const double seen_px = size_px - 2.0 * border_px(size_px, static_cast<double>(filter.border_texel));
     return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
 }
 
-/// Heights of a box and of one within it are not told apart by less of what they are sums of: 24 roundings.
+/// Rounding error of a box's height, as a share of its summands: 24 roundings. Within it, a box may appear higher than
+/// a box around it.
 constexpr double kHeightRounding = 0x1p-48;
 
-/// Beyond a sun's, in metres: as far as the highest of them stands above the lowest receiver, times the tangent.
+/// Returns how far outside a sun's receiver hull casters may hide part of the sun, metres. It is the height of the
+/// highest caster above the lowest receiver, times the tangent of the sun's radius.
 double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, const Beam& beam) {
     const auto height_m = [&](const math::Aabb& box) {
         return glm::dot(math::centre(box) - beam.origin_ws_m, beam.axes[2]) +
@@ -157,7 +163,7 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, con
     return std::max(highest_m, 0.0) * static_cast<double>(filter.sun_radius_tan);
 }
 
-/// Casters that touch any of the light's beams.
+/// Appends the casters that touch the volume between the light and any of its receiver hulls.
 IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request,
                           IndexRange beams, SetScratch& scratch, ReceiverCasterSets& out) {
     scratch.marks.clear(scene.instances.size());
@@ -188,11 +194,11 @@ IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, co
     return since(first, out.caster_items.size());
 }
 
-/// A half-space without a point.
+/// Half-space without a point.
 constexpr math::Plane kNothing{glm::dvec3(0.0), -1.0};
 
-/// What the consumer sees from the nearest receiver on: bounds of meshes tell less, since a camera stands in the middle
-/// of the larger ones. A scene without shapes has its bounds alone.
+/// Returns the camera's frustum from its nearest receiver on. Without scene.shapes it is the whole frustum: bounding
+/// boxes do not help, because a camera is inside of the larger ones.
 math::Frustum seen_receivers(const SceneSnapshot& scene, const ConsumerItem& consumer, ShadowLayers layers,
                              SetScratch& scratch) {
     if (scene.shapes.empty()) return consumer_frustum(consumer);
@@ -213,7 +219,7 @@ ShadowLayers layers_of_all(const SceneSnapshot& scene, std::span<const ShadowReq
 }  // namespace
 
 bool reaches_anything_seen(const SceneSnapshot& scene, const LightItem& light, const ConsumerItem& consumer) {
-    if (light.kind == LightKind::directional) return true;
+    if (light_facts(light.kind).parallel) return true;
     const LightReach reach(light);
     const math::Frustum frustum = consumer_frustum(consumer);
     const auto planes = math::planes_of(frustum);

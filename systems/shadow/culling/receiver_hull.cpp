@@ -12,8 +12,9 @@ namespace {
 
 double largest_coordinate(const glm::dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// A hull around scratch.points, wherever within `slack` they are: without the corners that rounding splits, or adds
-/// along a side. Those have edges of any direction, which would decide by chance what else the beam touches.
+/// Appends a convex hull around scratch.points, which are known to within `slack`. Drops corners that rounding splits
+/// or adds along a side: their edges have random directions, which would decide by chance which casters the hull
+/// touches.
 IndexRange append_outline(double slack, std::vector<glm::dvec2>& outlines, SetScratch& scratch) {
     math::convex_hull(scratch.points, scratch.polygon);
     math::drop_flat_corners(slack, scratch.polygon, scratch.clipped);
@@ -77,7 +78,7 @@ Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std
         const glm::dvec3 p = (p_ws - light_ws_m) * opening.axes;
         beam.far_m = std::max(beam.far_m, -p.z);
         beam.reach_m = std::max(beam.reach_m, glm::length(p));
-        // What lies at the light itself has no direction. Not behind: NaN and infinity are left to the clamp below.
+        // A point at the light itself has no direction: the clamp below handles NaN and infinity. No point is behind.
         const glm::dvec2 tangents = glm::dvec2(p) / -p.z;
         slack = std::max(slack,
                          -p.z > 0.0 ? math::kClippedRounding * size / -p.z : std::numeric_limits<double>::infinity());

@@ -8,20 +8,20 @@
 
 namespace gnomon::shadow {
 
-/// Moves the sides of a convex polygon out, by so much along each axis.
+/// Moves the sides of a convex polygon outward, by `by` along each axis.
 void widen(std::vector<glm::dvec2>& polygon, const glm::dvec2& by, SetScratch& scratch);
 
-/// The four planes of an opening, through the light.
+/// Returns the four side planes of a light frustum.
 std::array<math::Plane, 4> opening_planes(const glm::dvec3& light_ws_m, const LightOpening& opening);
 
-/// The beam to points of a sun: `axes` columns right, up, toward the light. Its outline is appended to `outlines`.
-/// The points need not be inside of anything; there must be one.
+/// Computes a sun's receiver hull around `points_ws`, at least one, and appends its polygon to `outlines`. `axes`:
+/// columns right, up, toward the light.
 Beam parallel_beam(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws, std::vector<glm::dvec2>& outlines,
                    SetScratch& scratch);
 
-/// The beam through an opening to points within it. Where points are so near the light that rounding hides their
-/// direction, the outline is the whole opening; where all are as near as that, nothing can come between: far_m and
-/// reach_m are 0, there is no outline.
+/// Computes the receiver hull around points within a light frustum, and appends its polygon to `outlines`. Where
+/// rounding hides the direction of points near the light, the polygon is the whole frustum. Where all points are as
+/// near as that, no caster fits between: far_m and reach_m are 0, and there is no polygon.
 Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std::span<const glm::dvec3> points_ws,
                   std::vector<glm::dvec2>& outlines, SetScratch& scratch);
 

@@ -3,7 +3,7 @@
 namespace gnomon::shadow {
 namespace {
 
-constexpr std::size_t kBits = 64;  // of a word of marks
+constexpr std::size_t kBits = 64;  // bits per word of `moving_`
 
 }  // namespace
 

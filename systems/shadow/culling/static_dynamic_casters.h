@@ -6,29 +6,30 @@
 
 namespace gnomon::shadow {
 
-/// Tells instances that move from those that stand still, so that still casters can be kept apart from the others.
+/// Classifies instances as static or dynamic, so that depths of static casters can be kept.
 ///
-/// An instance moves from the frame in which its version grew until kStillFrames frames have passed without that. What
-/// was there in the first frame of all stands still until it moves; what appears later counts as moving at first.
+/// An instance is dynamic from a frame in which its version grows until kStillFrames frames without growth. Instances
+/// of the first frame are static until they move. Later ones start as dynamic.
 class CasterMotion {
 public:
-    /// To be called once per frame. Costs what changed; all instances where the scene's lists were made anew, or a
-    /// version was missed. True: others move now than in the last frame.
+    /// Updates the classes; call once per frame. Returns true if any changed. Takes time for the changed instances
+    /// only, or for all where the scene's lists were rebuilt or a version was missed.
     bool update(const SceneSnapshot& scene);
 
-    /// A bit per gpu_slot; none at all where nothing moves.
+    /// Returns a bit per gpu_slot, 1: dynamic. Empty where all are static.
     const std::vector<std::uint64_t>& moving() const { return moving_; }
 
-    /// Half a second at 60 Hz. Longer than what pauses between steps: an animation at 8 Hz, a figure that turns around,
-    /// a body that settles. Each time something stops, a map that shows it is drawn once more, with it among the still
-    /// ones; something that moved once keeps a second store of its light for that long.
+    /// Frames without movement after which an instance is static: half a second at 60 Hz. Longer than usual pauses: an
+    /// animation at 8 Hz, a figure that turns around, a body that settles. After each stop, a map with the instance is
+    /// drawn once more, with it among the static casters. Until then its light needs memory for a copy of the static
+    /// casters.
     static constexpr std::uint64_t kStillFrames = 30;
 
 private:
     static constexpr std::uint32_t kNone = 0xffffffffu;
-    /// Those that move are linked in the order in which they last changed.
+    /// Entry of an instance. Dynamic instances are linked in the order of their last change.
     struct Slot {
-        std::uint64_t touched = 0;  // the frame it last changed in
+        std::uint64_t touched = 0;  // frame of its last change
         std::uint32_t before = kNone, after = kNone;
     };
     void touch(const InstanceItem& item);
@@ -37,13 +38,13 @@ private:
     void let_rest();
 
     std::uint64_t frame_ = 0, seen_ = 0;
-    bool changed_ = false;               // in this frame
-    std::vector<std::uint64_t> moving_;  // by gpu_slot
-    std::vector<Slot> slots_;            // by gpu_slot, up to the last that ever moved
+    bool changed_ = false;               // any class changed in this frame
+    std::vector<std::uint64_t> moving_;  // bit per gpu_slot
+    std::vector<Slot> slots_;            // by gpu_slot, up to the last instance that ever moved
     std::uint32_t first_ = kNone, last_ = kNone;
 };
 
-/// Whether `marks`, as CasterMotion::moving() has them, say that the item moves.
+/// Returns true if the item is dynamic. `marks`: result of CasterMotion::moving().
 inline bool moves(std::span<const std::uint64_t> marks, const InstanceItem& item) {
     const std::size_t word = item.gpu_slot / 64;
     return word < marks.size() && (marks[word] >> item.gpu_slot % 64 & 1) != 0;

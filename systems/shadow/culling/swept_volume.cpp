@@ -11,15 +11,16 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Longer outlines lose their shortest edges, which grows the volume a little; as many as kMostPlanes has room for. 4
-/// seen boxes have 8 to 12, widening adds 4.
+/// Largest number of edges: as many as kMostPlanes has room for. A polygon with more loses its shortest ones, which
+/// enlarges the volume a little. The hull of 4 boxes has 8 to 12, widening adds 4.
 constexpr std::size_t kMostEdges = 18;
-/// In slacks of the beam: shorter edges are what widening by two slacks makes of a corner, at most 4 √2, and have no
-/// direction but by rounding.
+/// Length of the shortest edge that counts, in slacks of the hull. Widening by two slacks makes edges of at most 4 √2
+/// from a corner, with a direction that is mere rounding.
 constexpr double kShortestEdge = 8.0;
-/// Squares of lengths this close are equal (widened corners have edges of one length): the first ones in order count.
+/// Ratio of squared lengths above which edges count as equally long, as those of widened corners are. The first of
+/// equal edges are used.
 constexpr double kAsLong = 1.0 - 1.0 / (1 << 20);
-/// Coordinates are wrong by a few of their last bits; see kRounding in engine/math/frustum.cpp.
+/// Relative error of coordinates, a few of their last bits; see kRounding in engine/math/frustum.cpp.
 constexpr double kRounding = 0x1p-48;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -48,7 +49,7 @@ private:
         if (volume_.plane_count < SweptVolume::kMostPlanes) volume_.planes[volume_.plane_count++] = {normal, offset};
     }
 
-    /// dot(normal, p) >= least over the polygon, as a plane along the light's rays.
+    /// Adds the plane along the light's rays that touches the polygon: dot(normal, p) >= least for its points p.
     void add_line(const glm::dvec2& normal) {
         double least = kInfinity;
         for (const glm::dvec2& p : polygon_) least = std::min(least, glm::dot(normal, p));
@@ -63,7 +64,7 @@ private:
 
     void add_edges() {
         const auto edge = [&](std::size_t i) { return polygon_[(i + 1) % polygon_.size()] - polygon_[i]; };
-        // Length, squared, of the shortest edge that counts.
+        // Squared length of the shortest edge that counts.
         double least = kShortestEdge * kShortestEdge * beam_.slack * beam_.slack;
         if (polygon_.size() > kMostEdges) {
             std::array<double, kMostEdges> longest{};
@@ -93,7 +94,7 @@ private:
             add_pencil(axis);
     }
 
-    /// Parallel light: the two planes along the rays and one of the world's axes that hold the outline.
+    /// Adds the two planes around the polygon that contain a world axis and the direction of parallel light.
     void add_slab(int axis) {
         glm::dvec3 edge(0.0);
         edge[axis] = 1.0;
@@ -103,7 +104,7 @@ private:
         add_line(-normal);
     }
 
-    /// Light from a point: the two planes through it and one of the world's axes that hold the outline, if there are
+    /// Adds the two planes around the polygon that contain a world axis and the position of the light, if there are
     /// any.
     void add_pencil(int axis) {
         const int first = (axis + 1) % 3, second = (axis + 2) % 3;
@@ -117,7 +118,7 @@ private:
             if (cross(low, r) < 0.0) low = r;
             if (cross(high, r) > 0.0) high = r;
         }
-        // The axis itself, forward or back, may lie in the outline: then rays go all around it.
+        // If the axis itself, forward or back, lies in the polygon, rays go all around it.
         for (const glm::dvec2& p : polygon_) {
             const glm::dvec2 r = ray(p);
             const double slack = kRounding * (std::abs(r.x) + std::abs(r.y));
@@ -141,7 +142,7 @@ private:
         if (toward_light >= 0.0) add(plane.normal, plane.offset + slack_m * glm::length(plane.normal));
     }
 
-    /// Around the polygon at the far end and the light.
+    /// Computes the bounding box of the light and the polygon at the far end.
     void bound() {
         math::Aabb& bounds = volume_.bounds;
         if (!beam_.parallel) bounds = math::extended(bounds, beam_.origin_ws_m);

@@ -9,10 +9,9 @@
 
 namespace gnomon::shadow {
 
-/// What a beam passes between the light and the receivers: the hull of the receivers swept toward the light.
-/// A box that touches none of it darkens none of them.
+/// Receiver hull swept toward the light. A box outside of it cannot darken any of the receivers.
 struct SweptVolume {
-    /// Edges of the outline, two for each axis of the world, six of what is seen, and the ends.
+    /// Edges of the polygon, two planes for each world axis, six of the camera's frustum, and both ends.
     static constexpr std::uint32_t kMostPlanes = 32;
     math::Aabb bounds;  // infinite toward a sun
     glm::dvec3 origin_ws_m{0.0};
@@ -21,14 +20,15 @@ struct SweptVolume {
     std::uint32_t plane_count = 0;
 };
 
-/// `polygon`: the beam's outline, or another convex one in its coordinates; not empty. `seen`: planes that all
-/// receivers lie within (a camera's), used where the light's side of them is theirs; `slack_m`: how far beyond those a
-/// caster may still matter (the filter's width). As seen from the light the test is exact for boxes (separating axes:
-/// the outline's edges and those of the box); along the light, and where an outline has more than 18 edges, it is
-/// conservative.
+/// Computes the swept volume of a receiver hull. In light space the test is exact for boxes, by separating axes: edges
+/// of the polygon and of the box. Along the light, and for polygons with more than 18 edges, it is conservative.
+/// `polygon`: the hull's own, or another convex one in its coordinates; not empty. `seen`: planes of a camera that
+/// contain all receivers. A plane is used where the light is on the receivers' side of it. `slack_m`: distance beyond
+/// the planes at which casters still count, because of the filter's width.
 SweptVolume swept_volume(const Beam& beam, std::span<const glm::dvec2> polygon, std::span<const math::Plane> seen,
                          double slack_m);
 
+/// Classifies a box against the volume.
 math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box);
 
 }  // namespace gnomon::shadow

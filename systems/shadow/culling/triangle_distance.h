@@ -7,9 +7,9 @@
 
 namespace gnomon::shadow {
 
-using Corners = std::array<glm::dvec3, 3>;  // of a triangle, from a lamp
+using Corners = std::array<glm::dvec3, 3>;  // corners of a triangle, relative to a lamp
 
-/// From the origin to the nearest point of a segment.
+/// Returns the distance from the origin to the nearest point of a segment.
 inline double distance_to(const glm::dvec3& a, const glm::dvec3& b) {
     const glm::dvec3 along = b - a;
     const double length2 = glm::dot(along, along);
@@ -17,7 +17,8 @@ inline double distance_to(const glm::dvec3& a, const glm::dvec3& b) {
     return glm::length(a + at * along);
 }
 
-/// To the nearest point of a triangle: within it, if the foot of the perpendicular is; else on an edge.
+/// Returns the distance from the origin to the nearest point of a triangle. That is the foot of the perpendicular if it
+/// lies inside, otherwise a point on an edge.
 inline double distance_to(const Corners& c) {
     const double edges = std::min({distance_to(c[0], c[1]), distance_to(c[1], c[2]), distance_to(c[2], c[0])});
     const glm::dvec3 normal = glm::cross(c[1] - c[0], c[2] - c[0]);

@@ -18,7 +18,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// In slacks of a beam: an outline that was widened by two of them has edges of up to 4 √2 at its corners.
+/// Length of edges to drop, in slacks of a receiver hull. A polygon widened by two slacks has edges of up to 4 √2 at
+/// its corners.
 constexpr double kOutlineSlacks = 8.0;
 
 glm::dmat3 axes_of(const ShadowView& view) { return {view.pose.axis_u, view.pose.axis_v, view.pose.axis_back}; }
@@ -27,7 +28,7 @@ void assign_rectangle(const glm::dvec2& low, const glm::dvec2& high, std::vector
     polygon.assign({low, {high.x, low.y}, high, {low.x, high.y}});
 }
 
-/// What a perspective view's map holds, in tangents, read off its matrix: u/z = low.x goes to x/w = -1, and so on.
+/// Returns the light frustum of a perspective view's map from its matrix: u/z = low.x maps to x/w = -1, and so on.
 LightOpening opening_of(const ShadowView& view) {
     const auto row = [&](int r) {
         return glm::dvec3(view.clip_from_anchor[0][r], view.clip_from_anchor[1][r], view.clip_from_anchor[2][r]);
@@ -58,7 +59,7 @@ public:
     }
 
 private:
-    /// Marks the casters that the light passes on its way to scratch_.polygon, given in the coordinates of `beam`.
+    /// Marks the casters between the light and scratch_.polygon, which has the coordinates of `beam`.
     void mark_casters(const Beam& beam, double reach_m) {
         if (scratch_.polygon.empty()) return;
         const auto seen =
@@ -71,7 +72,8 @@ private:
             });
     }
 
-    /// scratch_.polygon into the warped plane, without what has a smaller w than anything in the map. Its largest w.
+    /// Transforms scratch_.polygon into the warped plane. Clips parts with a smaller w than any point of the map.
+    /// Returns the polygon's largest w.
     double warp_polygon() {
         const double nearest = glm::dot(view_.plane.warp, view_.plane.centre_ls_m) -
                                glm::dot(glm::abs(view_.plane.warp), view_.plane.half_extent_m + reach_);
@@ -84,8 +86,8 @@ private:
         return largest_w;
     }
 
-    /// Back, without what is farther than twice what there is to see: the map's corners may lie in infinity. The
-    /// filter's reach in metres.
+    /// Transforms scratch_.polygon back. Clips parts with more than twice the receivers' largest w, because the map's
+    /// corners may be at infinity. Returns the filter's radius, metres.
     double unwarp_polygon(double farthest_w) {
         math::clip_polygon(-view_.plane.warp, 1.0 - 0.5 / farthest_w, scratch_.polygon, scratch_.clipped);
         double reach_m = 0.0;
@@ -97,7 +99,7 @@ private:
         return reach_m;
     }
 
-    /// A cascade: the receivers' outline within the map's rectangle.
+    /// Marks the casters of a cascade: between the light and the receiver hull within the map's rectangle.
     void look_along() {
         Beam beam = sets_.beams().front();
         const bool warps = view_.plane.warp != glm::dvec2(0.0);
@@ -118,8 +120,8 @@ private:
                 scratch_.polygon.emplace_back(glm::dot(at, view_.pose.axis_u), glm::dot(at, view_.pose.axis_v));
             }
             const double farthest_w = warps ? warp_polygon() : 1.0;
-            // In turned axes the outline's own widening (two slacks) is a chamfer of any direction. What goes with it
-            // comes back: of receivers edge-on to the sun it may be more than their whole map.
+            // In rotated axes the hull's own widening (two slacks) is a chamfer of any direction. Dropping it is undone
+            // by widening: for receivers edge-on to the sun the chamfer may be larger than their whole map.
             const double dropped_m = kOutlineSlacks * beam.slack;
             math::drop_flat_corners(dropped_m, scratch_.polygon, scratch_.clipped);
             widen(scratch_.polygon, reach_ + dropped_m, scratch_);
@@ -136,7 +138,7 @@ private:
         mark_casters(beam, reach_m);
     }
 
-    /// A spot's view, a cube's face, a sun's view from an eye.
+    /// Marks the casters of a spot's view, a cube face or a sun's view from an eye.
     void look_through() {
         const LightOpening opening = opening_of(view_);
         Beam beam;
@@ -165,7 +167,7 @@ private:
         mark_casters(beam, reach_m);
     }
 
-    /// Through an opening that no beam of the sets goes through: its own clip of the receivers.
+    /// Computes the receiver hull of a light frustum that the sets do not contain, by clipping the receivers again.
     Beam beam_through(const LightOpening& opening) {
         const auto sides = opening_planes(apex_ws_m(view_), opening);
         scratch_.points_ws.clear();
@@ -190,11 +192,11 @@ private:
     const ShadowView& view_;
     const LightSetsView& sets_;
     SetScratch& scratch_;
-    glm::dvec2 reach_{0.0};  // of the filter: metres, or tangents
+    glm::dvec2 reach_{0.0};  // radius of the filter, metres or tangents
 };
 
-/// Appends the marked instances by mesh, then by index: one draw per mesh needs equal meshes side by side. Counts the
-/// meshes, so that the cost is linear, unless there are more kinds of meshes than things to sort.
+/// Appends the marked instances by mesh, then by index, because one draw per mesh needs equal meshes side by side.
+/// Counting sort in linear time; a comparison sort where there are more meshes than instances.
 void append_by_mesh(const SceneSnapshot& scene, SetScratch& scratch, std::vector<std::uint32_t>& out) {
     scratch.items.clear();
     std::uint32_t meshes = 0;
@@ -217,7 +219,7 @@ void append_by_mesh(const SceneSnapshot& scene, SetScratch& scratch, std::vector
     for (const std::uint32_t i : scratch.items) out[first + scratch.mesh_starts[scene.instances[i].mesh]++] = i;
 }
 
-/// Those that move to the end, all else in order. How many come before them.
+/// Moves dynamic casters to the end, and keeps the order otherwise. Returns the number of static casters.
 std::uint32_t move_movers_back(const SceneSnapshot& scene, std::span<const std::uint64_t> moving,
                                std::span<std::uint32_t> casters, std::vector<std::uint32_t>& movers) {
     if (moving.empty()) return static_cast<std::uint32_t>(casters.size());

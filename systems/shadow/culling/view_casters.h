@@ -7,16 +7,17 @@
 
 namespace gnomon::shadow {
 
-/// What the casters of one view follow from, beside the scene.
+/// Inputs for the casters of one view, beside the scene.
 struct CasterInputs {
-    LightSetsView sets;  // of the view's light
+    LightSetsView sets;  // sets of the view's light
     const FilterSettings& filter;
-    std::span<const std::uint64_t> moving;  // as CasterMotion::moving(); empty: nothing moves
+    std::span<const std::uint64_t> moving;  // result of CasterMotion::moving(); empty: all are static
 };
 
-/// Appends the casters of one fitted view to `casters`: those that can darken what is seen in it, the filter's width
-/// included; of a held view all that its map can show. Moving ones come last, each by mesh, then by index. Sets
-/// view.casters and view.still_casters. No other place decides in which order casters are drawn.
+/// Appends the casters of one fitted view to `casters`. These can darken its visible receivers, the filter's width
+/// included. For a view that stays in place (`held`) they are all casters in its map. Dynamic casters come last, each
+/// group by mesh, then by index. Only this function decides the drawing order. Sets view.casters and
+/// view.still_casters.
 void select_view_casters(const SceneSnapshot& scene, const CasterInputs& inputs, ShadowView& view, SetScratch& scratch,
                          std::vector<std::uint32_t>& casters);
 

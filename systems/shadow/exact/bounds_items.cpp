@@ -17,15 +17,15 @@ namespace {
 constexpr double kDoubleRoundoff = 1.1102230246251565e-16;
 /// Error of places in double, units of rounding.
 constexpr double kPlaceUnits = 16.0;
-/// Shaders take a corner for one before the light if w is more than 16 of its own errors.
+/// Least w of a vertex that counts as in front of the light, in its own errors. Shaders take more than 16.
 constexpr double kBeforeLight = 32.0;
 
-/// Turns normals of planes as `m` turns points, but for a factor; needs no inverse.
+/// Returns the matrix that turns normals of planes as `m` turns points, up to a factor. Needs no inverse.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-/// On which side of a facet's plane the light is, times a factor common to all facets of an instance.
+/// Test on which side of a facet's plane the light is. Results carry a factor common to all facets of an instance.
 class FacingTest {
 public:
     FacingTest(const InstanceItem& item, const ShadowView& view) : parallel_(is_parallel(view)) {
@@ -42,13 +42,14 @@ public:
         }
     }
 
-    /// Along which lies its outside, from the facet.
+    /// Returns the side: positive where the facet's outside faces the light. In perspective it is the light's height
+    /// above the plane, times the factor. `error`: bound on how far it is off.
     double operator()(const CasterSurface::Facet& facet, double& error) const {
         const glm::dvec3 toward = parallel_ ? toward_ms_ : toward_ms_ - scale_ * glm::dvec3(facet.corner_ms);
         error = kFacingUnits * kUnitRoundoff * glm::length(toward) + rounding_;
         return glm::dot(glm::dvec3(facet.normal_ms), toward);
     }
-    /// Its normal in the view's axes, times the same factor.
+    /// Returns the facet's normal along the view's axes, times the same factor.
     glm::dvec3 in_view(const CasterSurface::Facet& facet) const { return from_model_ * glm::dvec3(facet.normal_ms); }
 
 private:
@@ -65,8 +66,8 @@ bool is_contour(const assets::SurfaceEdges::Fold& fold, const std::vector<std::i
 
 }  // namespace
 
-/// In clip space, widened by what float may do to it and by what quads are widened by; but for `behind` each bit is one
-/// side of the map.
+/// Projects the vertices into the map. Bits of `beyond` allow for float's rounding and for the reach of quads. Each bit
+/// is one side of the map, except that for `behind`.
 void SheetGatherer::place(const std::vector<assets::Vertex>& vertices, const CasterSurface& surface,
                           const InstanceItem& item, const ShadowView& view, std::uint32_t size_px) {
     const glm::dmat4 clip_from_anchor(view.clip_from_anchor);

@@ -11,25 +11,26 @@
 
 namespace gnomon::shadow {
 
-/// A triangle or an edge that the passes of sheets draw. Matches SheetItem in
+/// Triangle or edge that the passes of conservative maps draw. Matches SheetItem in
 /// shaders/shadow/passes/bounds/bounds_item.glsl (std430).
 struct SheetItem {
     std::uint32_t instance = 0;         // slot of its record
-    std::uint32_t a = 0, b = 0, c = 0;  // vertices of the common buffer; of an edge c is a
+    std::uint32_t a = 0, b = 0, c = 0;  // vertices of the common buffer; an edge has c = a
     bool operator==(const SheetItem&) const = default;
 };
 static_assert(sizeof(SheetItem) == 16);
 
-/// What one view draws over its sheets.
+/// Items that one view draws over its conservative map.
 struct SheetItems {
     enum Kind : std::uint8_t {
-        triangles,  // opaque ones that depart from their depth by more than the floor
-        contours,   // edges where a sheet ends as this light sees it
+        triangles,  // opaque ones with a depth slope above the floor
+        contours,   // silhouette edges: a surface ends there as this light sees it
         masked,
         kinds
     };
-    /// `large` are drawn as quads, six vertices each; `small` as points, one vertex each: they lie before the light, in
-    /// a square of kSmall_texel, so that a point of most_point_px() covers all texels that they may overlap.
+    /// Items by size. `large` ones are drawn as quads, six vertices each; `small` ones as points, one vertex each. A
+    /// small item lies before the light, within a square of kSmall_texel. A point of most_point_px() then covers all
+    /// texels that it may overlap.
     std::vector<SheetItem> large[kinds], small[kinds];
     void clear() {
         for (auto& items : large) items.clear();
@@ -37,12 +38,11 @@ struct SheetItems {
     }
 };
 
-/// Appends what the instance of that surface brings to the view's map, but for what lies beside it. A facet seen so
-/// nearly edge-on that double's and float's rounding could turn it has its edges among the contours whatever is beside
-/// it.
+/// Gatherer of one view's items: appends what an instance brings to the map, except items beside it. A facet may be so
+/// nearly edge-on that rounding of doubles and floats could turn it. All of its edges then count as silhouette edges.
 class SheetGatherer {
 public:
-    /// `max_point_px`: DeviceInfo's; where that is less than most_point_px() all items are large.
+    /// Sets the device's limit on points (DeviceInfo). Below most_point_px(), all items are large.
     explicit SheetGatherer(std::uint32_t max_point_px) : draws_points_(max_point_px >= most_point_px()) {}
     bool draws_points() const { return draws_points_; }
 
@@ -52,7 +52,7 @@ public:
 private:
     struct Placed {
         double distance_m = 0.0;   // along the view (perspective)
-        glm::vec2 at_texel{0.0f};  // of the map, if is_placed
+        glm::vec2 at_texel{0.0f};  // place in the map, if is_placed
         bool is_placed = false;    // before the light, and float is off by less than kSmallMoved_texel there
         std::uint8_t beyond = 0;   // a bit per side of the map beyond which it lies, and one for behind the light
     };
@@ -60,7 +60,7 @@ private:
                const ShadowView& view, std::uint32_t size_px);
     bool is_small(const Placed& a, const Placed& b, const Placed& c) const;
     bool draws_points_;
-    std::vector<std::int8_t> facing_;  // per facet: 1 toward the light, -1 away, 0 not known
+    std::vector<std::int8_t> facing_;  // per facet: 1 toward the light, -1 away, 0 unknown
     std::vector<Placed> placed_;       // per vertex of the mesh
 };
 

@@ -16,7 +16,7 @@ namespace {
 /// Corners of a quad's two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
 static_assert(sizeof(assets::Vertex) == 2 * gl::kTexelBytes && sizeof(SheetItem) == gl::kTexelBytes);
-/// Nothing ends there: behind all that depth can be.
+/// Cleared depth of silhouette edges: there is none. Behind any depth.
 constexpr float kNoContour = -1.0f;
 
 bool is_small(std::size_t which) { return which >= SheetItems::kinds; }
@@ -65,7 +65,8 @@ bool SheetRecorder::program(std::size_t which) {
     return static_cast<bool>(made.program);
 }
 
-/// Of a kind both, lest a frame be late once a camera comes so near that something is large.
+/// Compiles the programs that the view needs. Both variants of a kind are compiled at once, so that a close-up with
+/// large items does not stall on the second.
 bool SheetRecorder::programs_ready(const View& view) {
     bool ready = true;
     for (std::size_t kind = 0; kind < SheetItems::kinds; ++kind) {
@@ -153,7 +154,7 @@ void SheetRecorder::record_view(const PassInputs& in, const View& drawn, std::ui
 }
 
 void SheetRecorder::record(const PassInputs& in, const PassOutputs& out) {
-    // What another recorder dropped meanwhile is not drawn.
+    // Views that lost their maps in another recorder are not drawn.
     std::erase_if(views_, [&](const View& view) { return !is_bounded(in.drawn, view.view); });
     if (views_.empty()) return;
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);

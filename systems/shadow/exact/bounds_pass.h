@@ -15,12 +15,14 @@
 
 namespace gnomon::shadow {
 
-/// For views with BoundsMaps::bounds the last of their passes: per texel the nearest place where a sheet may end, and
-/// by how much a sheet may depart from its depth in the texel's middle (docs/exact.md). The first two, nearest and
-/// second depths, are the DepthRecorder's. Programs, surfaces and buffers are made when first called for.
+/// Recorder of the last pass of views with BoundsMaps::bounds (docs/exact.md). Per texel, it finds the nearest place
+/// where a surface may end. It also finds a bound on the difference between a surface's depths and that in the texel's
+/// middle. The DepthRecorder draws the first two passes, nearest and second depths. Programs, surfaces and buffers are
+/// made on first use.
 class SheetRecorder {
 public:
-    /// For tests: without margins, to show that they are needed; with quads alone, to show that points cover the same.
+    /// Options for tests: without margins, to show that they are needed; with quads alone, to show that points cover
+    /// the same.
     struct Options {
         bool with_margins = true, with_points = true;
     };
@@ -30,19 +32,19 @@ public:
     SheetRecorder(const SheetRecorder&) = delete;
     SheetRecorder& operator=(const SheetRecorder&) = delete;
 
-    /// Finds what views that are drawn need, and makes room for it. A light that cannot have it loses its maps. Call
-    /// before record(), once the meshes are bent (GpuScene::update).
+    /// Gathers what drawn views need, and makes room for it. A light that cannot have it loses its maps. Call before
+    /// record(), once the meshes are bent (GpuScene::update).
     void prepare(const PassInputs& in, const LightAccounts& accounts);
     void record(const PassInputs& in, const PassOutputs& out);
 
-    /// No light has such views any more: frees all but programs.
+    /// Frees all except programs. Call it when no light has such views.
     void release();
 
     std::uint64_t bytes() const { return items_.bytes() + view_records_.bytes(); }
     std::uint64_t host_bytes() const { return surfaces_.bytes(); }
 
 private:
-    /// By SheetItems::Kind, first the large ones, then the small ones.
+    /// Number of programs: one per SheetItems::Kind for large items, then one for small items.
     static constexpr std::size_t kPrograms = 2 * std::size_t{SheetItems::kinds};
     struct View {
         std::size_t view = 0;

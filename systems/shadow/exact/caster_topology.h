@@ -7,27 +7,28 @@
 #include "engine/assets/surface_edges.h"
 #include "systems/extract/gpu_scene.h"
 
-/// Sheets and contours (docs/exact.md): what of a mesh's surface tells a light where it ends.
+/// Surfaces of meshes as conservative maps need them (docs/exact.md): facets, and the edges at which a surface can end
+/// as a light sees it.
 namespace gnomon::shadow {
 
-/// A mesh's opaque and masked surfaces, bent as the device has them.
+/// Opaque and masked surfaces of a mesh, bent as on the device.
 struct CasterSurface {
     struct Facet {
-        glm::vec3 normal_ms{0.0f};  // unit, right to float rounding; zero where there is no area
+        glm::vec3 normal_ms{0.0f};  // unit, exact to float rounding; zero for a facet without area
         glm::vec3 corner_ms{0.0f};  // any of its corners
-        float altitude_ms = 0.0f;   // of its shortest height
+        float altitude_ms = 0.0f;   // shortest height
     };
-    assets::SurfaceEdges edges;                 // of its opaque triangles
+    assets::SurfaceEdges edges;                 // edges of its opaque triangles
     std::vector<Facet> facets;                  // per triangle of the mesh's list
-    std::vector<std::uint32_t> opaque, masked;  // which those are; blended ones are neither
+    std::vector<std::uint32_t> opaque, masked;  // indices of triangles; blended ones are in neither
     glm::dvec3 reach_ms{0.0};                   // the largest coordinate of any vertex, along each axis
 };
 
-/// The surfaces of all meshes that an exact light has asked for: made when first asked for, made anew where a mesh was
-/// bent since. Holds not a byte before.
+/// Surfaces of all meshes that exact lights needed. Made on first use, and again after a mesh bent. Uses no memory
+/// before.
 class CasterSurfaces {
 public:
-    /// As the device has it now. Valid until the next call.
+    /// Returns the surface as the device has it now. Valid until the next call.
     const CasterSurface& of(const GpuScene& gpu, std::uint32_t mesh);
     /// Forgets all of them.
     void clear() {

@@ -16,7 +16,7 @@ inline glm::dvec3 absolute(const glm::dmat3& m, const glm::dvec3& v) {
     return glm::abs(m[0]) * v.x + glm::abs(m[1]) * v.y + glm::abs(m[2]) * v.z;
 }
 
-/// How far float may take any vertex of an instance in clip space: a bound of bounds_item.glsl's.
+/// Bound on float's error of any vertex of an instance in clip space. It covers what bounds_item.glsl computes.
 class ClipRounding {
 public:
     ClipRounding(const CasterSurface& surface, const InstanceItem& item, const ShadowView& view)

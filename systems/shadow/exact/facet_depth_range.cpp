@@ -12,15 +12,15 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Half a texel along u and v, in metres, or as tangents.
+/// Returns half a texel along u and v, metres (orthographic) or tangents.
 glm::dvec2 half_texel(const ShadowView& view, std::uint32_t size_px) {
     if (!is_parallel(view)) return (view.plane.tan_high - view.plane.tan_low) * (0.5 / size_px);
     return {1.0 / (size_px * glm::length(row(view.clip_from_anchor, 0))),
             1.0 / (size_px * glm::length(row(view.clip_from_anchor, 1)))};
 }
 
-/// Of a length in the model: the smallest singular value is no less than the determinant over the squares of the
-/// others.
+/// Returns the least factor by which the instance scales a length. The smallest singular value is at least the
+/// determinant over the sum of squares of the columns, which bounds the product of the others.
 double least_stretch(const InstanceItem& item) {
     const glm::dmat3& m = item.basis;
     const double squares = glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2]);
@@ -53,7 +53,8 @@ FlatFacets::FlatFacets(const CasterSurface& surface, const InstanceItem& item, c
     }
     possible_ = true;
     off_m_ = rounding.length_m();
-    // |n_u| + |n_v| <= t (n · d) with d = (u, v, 1): so n · d is at least this, and |d|² at most that.
+    // |n_u| + |n_v| <= t (n · d) with d = (u, v, 1). So least_cosine_ bounds n · d from below, and widest_ bounds |d|²
+    // from above.
     const glm::dvec2 widest = glm::max(glm::abs(view.plane.tan_low), glm::abs(view.plane.tan_high));
     const double most = std::max(widest.x, widest.y);
     const double t = kFloorTangent * std::max(half_texel_.x, half_texel_.y) / std::min(half_texel_.x, half_texel_.y);
@@ -69,9 +70,9 @@ bool FlatFacets::orthographic(const CasterSurface::Facet& facet, const glm::dvec
            across * depth_per_m_ * (1.0 + kFacingUnits * kUnitRoundoff) < floor_.departure * n.z;
 }
 
-/// Over a plane 1/z is n · (u, v, 1) over the light's height above it: so much it changes by in half a texel, as a
-/// share of the smallest that it is on the facet. Corners may be off by as much of their distance, which is no less
-/// than the height over |(u, v, 1)|.
+/// Tests a facet in perspective. Over a plane, 1/z is n · (u, v, 1) over the light's height above it. `steepest`:
+/// change of 1/z over half a texel, as a share of its smallest value on the facet. Corners may be off by the same share
+/// of their distance, which is at least the height over |(u, v, 1)|.
 bool FlatFacets::perspective(const CasterSurface::Facet& facet, const glm::dvec3& normal_vs, double height,
                              double farthest_m) const {
     const double steepest = (std::abs(normal_vs.x) * half_texel_.x + std::abs(normal_vs.y) * half_texel_.y) *

@@ -9,23 +9,24 @@
 
 namespace gnomon::shadow {
 
-/// By how much a surface may depart from its depth at a texel's middle within that texel without being drawn, as depth:
-/// of planes that the light meets at atan 4 from their normal; steeper ones are few.
+/// Depth slope bound of surfaces that are not drawn: greatest change of depth between a texel's middle and its border.
+/// It applies to planes with an angle of at most atan 4 between normal and light. Steeper ones are few, and are drawn.
 struct SheetFloor {
-    double departure = 0.0;  // orthographic: of such a plane, without margins
-    float cleared = 0.0f;    // with them: what the map of departures is cleared to
-    double share = 0.0;      // perspective: of depth less its constant part (ShadowView::depth_alpha), without margins;
+    double departure = 0.0;  // orthographic: bound for such a plane, without margins
+    float cleared = 0.0f;    // with margins: what the map of slope bounds is cleared to
+    double share = 0.0;      // perspective: the bound as a share of depth minus alpha (ViewDepths), without margins;
                              // sheet_floor() in shaders/shadow/filters/exact/classify.glsl has it with them
 };
 SheetFloor sheet_floor(const ShadowView& view, std::uint32_t size_px);
 
-/// Which facets of an instance depart by no more than that, whatever float does to their corners.
+/// Test for facets with a depth slope below that bound, whatever float's rounding does to their corners.
 class FlatFacets {
 public:
     FlatFacets(const CasterSurface& surface, const InstanceItem& item, const ShadowView& view, std::uint32_t size_px);
 
-    /// `normal_vs`: along the view's axes, of any length. `height`: of the light above the facet's plane times that
-    /// length (perspective), off by no more than `error`. `farthest_m`: of its corners, along the view (perspective).
+    /// Returns whether the facet need not be drawn. `normal_vs`: along the view's axes, of any length. `height`: height
+    /// of the light above the facet's plane times that length (perspective), off by at most `error`. `farthest_m`:
+    /// greatest distance of its corners along the view (perspective).
     bool operator()(const CasterSurface::Facet& facet, const glm::dvec3& normal_vs, double height, double error,
                     double farthest_m) const;
 
@@ -38,9 +39,9 @@ private:
     bool parallel_ = false, possible_ = false;
     glm::dvec2 half_texel_{0.0};                // along u and v: metres, or tangents
     double depth_per_m_ = 0.0;                  // orthographic
-    double off_m_ = 0.0;                        // perspective: how far float may take a corner
-    double least_cosine_ = 0.0, widest_ = 1.0;  // of a flat facet's normal with (u, v, 1), and that squared
-    double least_stretch_ = 0.0;                // of a length in the model at least so much is left in the world
+    double off_m_ = 0.0;                        // perspective: float's greatest error of a corner
+    double least_cosine_ = 0.0, widest_ = 1.0;  // bounds on a flat facet: n · (u, v, 1), and |(u, v, 1)|²
+    double least_stretch_ = 0.0;                // least factor from a length in the model to one in the world
 };
 
 }  // namespace gnomon::shadow

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/shadow/culling/triangle_distance.h"
 #include "systems/shadow/frame/cpu_timer.h"
@@ -15,10 +16,10 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of a map: what ends at its border may go on in the next one.
+/// Inset of a map's sides, as a share of them. A triangle that ends at the border may continue in the next map.
 constexpr double kInset = 1e-6;
 
-/// What one map shows, or would show.
+/// Light frustum of one map, drawn or not.
 struct Opening {
     glm::dmat3 axes{1.0};
     glm::dvec2 tan_low{-1.0}, tan_high{1.0};
@@ -34,8 +35,8 @@ public:
           light_(in.scene.lights[light]),
           radius_m_(static_cast<double>(in.drawn.lights[light].request.map.filtering.source_radius_m)),
           least_m_(kClearance_radii * radius_m_) {
-        // Places in a face without a view are looked up as well: nothing may stand before them.
-        const bool cube = light_.kind == LightKind::point && !in.drawn.lights[light].request.projection.aim.used;
+        // Faces without a view are looked up as well: nothing may stand before them.
+        const bool cube = map_texture(light_, in.drawn.lights[light].request) == gl::TextureKind::cube;
         if (cube)
             for (std::uint32_t face = 0; face < kFaces; ++face) openings_[face].axes = turned_axes(face);
         if (cube) count_ = kFaces;
@@ -91,15 +92,17 @@ private:
         }
     }
 
-    /// For any opening: whoever is looked up there knows of it from that one's map alone.
+    /// Returns whether a triangle counts for any light frustum. A place in one frustum knows of it from that frustum's
+    /// map alone.
     bool counts(const Corners& corners) const {
         for (std::size_t i = 0; i < count_; ++i)
             if (is_near(openings_[i], corners) && !is_held(openings_[i], corners)) return true;
         return false;
     }
 
-    /// Whether it may come within the source's radius of the opening's pyramid, in which all ways to the source's
-    /// middle lie; those to the rest of it are no farther from them.
+    /// Returns whether the triangle may come within the source's radius of the light frustum. All segments from its
+    /// places to the source's middle lie in the frustum. Segments to the rest of the source are within the radius of
+    /// them.
     bool is_near(const Opening& opening, const Corners& corners) const {
         const glm::dvec3 &u = opening.axes[0], &v = opening.axes[1], &back = opening.axes[2];
         const std::array<glm::dvec3, 5> outward{-u - opening.tan_low.x * back, u + opening.tan_high.x * back,
@@ -111,7 +114,7 @@ private:
         });
     }
 
-    /// By its map, whole.
+    /// Returns whether the frustum's map shows the whole triangle.
     static bool is_held(const Opening& opening, const Corners& corners) {
         const glm::dvec2 inset = kInset * (opening.tan_high - opening.tan_low);
         const auto inside = [&](const glm::dvec3& c) {
@@ -137,9 +140,9 @@ void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m,
     clearances_m.assign(in.scene.lights.size(), 0.0);
     for (std::uint32_t i = 0; i < in.scene.lights.size(); ++i) {
         const ShadowRequest& request = in.drawn.lights[i].request;
-        const bool soft = filter_row(request.map.filter).storage == FilterStorage::soft_sheets;
+        const bool soft = filter_row(request.map.filter).storage.occluder_pyramid;
         if (!soft || in.drawn.statuses[i].is_skipped() || request.rays.only ||
-            in.scene.lights[i].kind == LightKind::directional)
+            light_facts(in.scene.lights[i].kind).parallel)
             continue;
         const LightTime time(cpu_us, i);
         clearances_m[i] = Clearance(in, i).run();

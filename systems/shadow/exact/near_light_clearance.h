@@ -6,14 +6,14 @@
 
 namespace gnomon::shadow {
 
-/// How far from a lamp with a size to look for casters, in radii of its source and in distances of its maps' near
-/// planes: the larger.
+/// Search radius around a local light with a size: the larger of these numbers of source radii and of near plane
+/// distances.
 inline constexpr double kClearance_radii = 32.0, kClearance_nears = 4.0;
 
-/// Measures, for each lamp whose maps are for a source with a size (FilterStorage::soft_sheets), how near to it any
-/// caster's triangle comes that the map of an opening does not hold whole, behind its near plane, but that comes within
-/// the source's radius of the opening's pyramid; of any opening, drawn or not. Metres, one per light, 0 of the others;
-/// at most as far as is looked for. In double, of triangles as they are bent.
+/// Measures, for each area light with conservative maps (FilterStorage::occluder_pyramid), the distance to the nearest
+/// triangle that its maps miss in part. A triangle counts if it comes within the source's radius of a light frustum and
+/// lies partly outside that frustum's map. A frustum that is not drawn has no map. Metres, one per light, at most the
+/// search radius; 0: another light. Computed in double, from triangles as they are bent.
 void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m, std::span<double> cpu_us);
 
 }  // namespace gnomon::shadow

@@ -14,7 +14,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// In shaders/shadow/passes/bounds/occluder_pyramid.comp: squares that a work group makes along an edge.
+/// Squares that a work group makes along an edge, as in shaders/shadow/passes/bounds/occluder_pyramid.comp.
 constexpr std::uint32_t kGroup = 8;
 
 bool has_ends(const DrawnViews& drawn, std::size_t v) { return drawn.is_drawn(v) && drawn.maps[v].sheets.ends; }
@@ -82,7 +82,7 @@ void EndsRecorder::append_records(const DrawnViews& drawn, std::size_t v) {
     const ShadowView& view = drawn.view(v);
     const ShadowRequest& request = drawn.lights[view.light].request;
     const std::uint32_t size_px = drawn.maps[v].size_px, before = view.layer * ends_count(size_px);
-    // A map that had to be shrunk has larger texels than the fit planned.
+    // A map that was shrunk has larger texels than the fit planned.
     const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(size_px);
     const double texel_u = view.plane.texel_u * stretch, texel_v = view.plane.texel_v * stretch;
     const bool parallel = view.projection == ViewProjection::orthographic;

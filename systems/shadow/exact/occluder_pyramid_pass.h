@@ -21,11 +21,11 @@ struct EndsRecord {
 };
 static_assert(sizeof(EndsRecord) == 96);
 
-/// For views with BoundsMaps::ends the last of their passes, after the SheetRecorder's: a dispatch for each level.
-/// Programs and buffers are made when first called for.
+/// Recorder of the occluder pyramid, for views with BoundsMaps::ends. It runs after the SheetRecorder's pass, with one
+/// dispatch per level. Programs and buffers are made on first use.
 class EndsRecorder {
 public:
-    /// `with_margins`: as the SheetRecorder's.
+    /// Sets the device. `with_margins`: as SheetRecorder::Options.
     explicit EndsRecorder(gl::Device& device, bool with_margins = true);
     ~EndsRecorder();
     EndsRecorder(const EndsRecorder&) = delete;
@@ -33,10 +33,10 @@ public:
 
     /// Makes programs and room for records. A light that cannot have them loses its maps. Call before record().
     void prepare(const PassInputs& in, const LightAccounts& accounts);
-    /// Call after SheetRecorder::record().
+    /// Records the dispatches. Call after SheetRecorder::record().
     void record(const PassInputs& in, const PassOutputs& out);
 
-    /// No light has such views any more: frees all but programs.
+    /// Frees all except programs. Call it when no light has such views.
     void release() { records_.release(); }
 
 private:

@@ -14,7 +14,7 @@ namespace gnomon::shadow {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Points on the border of a view count as inside.
+/// Points on the border of a view count as inside. Share of its sides.
 constexpr double kSlack = 1.0 / (1 << 20);
 
 bool is_perspective(const ConsumerItem& consumer) { return consumer.projection == CameraProjection::perspective; }
@@ -29,7 +29,7 @@ double depth_from_light(const ShadowView& view, const glm::dvec3& p_ws) {
 
 bool orthographic(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
 
-/// How a small displacement at p shows in the picture, in pixels.
+/// Returns the displacement on screen of a small displacement at p, pixels.
 glm::dvec2 on_screen(const ConsumerItem& consumer, const glm::dvec3& p_ws, const glm::dvec3& displacement_m) {
     const double footprint = pixel_footprint(consumer);
     const glm::dvec3 d = displacement_m * consumer.rotation_ws;
@@ -39,7 +39,7 @@ glm::dvec2 on_screen(const ConsumerItem& consumer, const glm::dvec3& p_ws, const
     return (glm::dvec2(d) + glm::dvec2(p) * (d.z / z_m)) / (z_m * footprint);
 }
 
-/// The most pixels a metre covers at this depth, anywhere in the picture and in any direction.
+/// Returns the most pixels that a metre covers at this depth, anywhere on the screen and in any direction.
 double pixels_per_metre(const ConsumerItem& consumer, double depth_m) {
     const double footprint = pixel_footprint(consumer);
     if (!is_perspective(consumer)) return 1.0 / footprint;
@@ -52,8 +52,8 @@ glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
     return {glm::dot(p, view.pose.axis_u), glm::dot(p, view.pose.axis_v)};
 }
 
-/// Diagonal of a texel across the light at a point that the view holds: in a warped map the bound that counts
-/// everywhere between such points.
+/// Returns the diagonal of a texel across the light at a point inside the view, metres. In a warped map it is a bound
+/// for all places between such points.
 double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec2 texel(view.plane.texel_u, view.plane.texel_v);
     if (!orthographic(view)) return glm::length(texel) * depth_from_light(view, p_ws);
@@ -90,7 +90,7 @@ double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3
     constexpr double kSteps = 2.0;
     const double depth = kSteps * depth_format_row(format).step;
     if (orthographic(view)) return depth * (view.depth.far_m - view.depth.near_m);
-    // alpha + beta / z: z becomes z / (1 + part), by as much of the whole way as the ray does.
+    // alpha + beta / z: z becomes z / (1 + part), by the same share of the whole distance as the ray.
     const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth.beta);
     return glm::length(p_ws - apex_ws_m(view)) * part / (1.0 + part);
 }

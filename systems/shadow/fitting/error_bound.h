@@ -5,56 +5,56 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_view.h"
 
-/// How far a shadow edge may be off in the picture, told before anything is drawn.
+/// Bound on how far a shadow edge may be off on the screen, known before anything is drawn.
 ///
-/// A map knows the light at texel centres alone. Where a receiver is looked up, the centre lies up to half a texel away
-/// (E for a filter that looks E texels around: the footprint's half-width); the offset that keeps the receiver's plane
-/// from shadowing itself (docs/bias.md) is worth another E texels of slope. So on a receiver's plane an edge is off by
-/// no more than
-///     (1/2 + E) m + 1 pixels,
-/// m being the longest extent of a texel there, in pixels: of its diagonals, carried along the light's ray onto the
-/// plane and from there into the picture. The pixel is half of one each for the true and the drawn picture, which know
-/// their edges between pixel centres only. Derived for the hard filter, E = 1/2; held against it by
-/// tests/gl/truth_edges_gl_test.cpp at every place of a true edge.
+/// A map samples the light at texel centres only. A receiver's lookup is up to half a texel away from the centre, or E
+/// for a filter of radius E texels. The bias that keeps the receiver's plane from shadowing itself (docs/bias.md) is
+/// worth another E texels of slope. So on a receiver's plane an edge is off by no more than
+///     (1/2 + E) m + 1 pixels.
+/// m is the longest extent of a texel on the screen, pixels. It is the longer diagonal, projected along the light's ray
+/// onto the plane and from there to the screen. The added pixel is half of one each for the true and the drawn image,
+/// which know their edges between pixel centres only. Derived for the hard filter, E = 1/2.
+/// tests/gl/truth_edges_gl_test.cpp compares it with every true edge.
 ///
 /// Exceptions, by name, and no others:
-/// - `sub_texel_caster`: the shadow, or the light beside it, is thinner than a texel there, or its caster is nearer to
-///   the receiver than the receiver's own rise over the texel, or than the depth format tells apart there
-///   (told_apart_m): a map may miss such a thing altogether.
-/// - `truth_ambiguous`: which surface is seen, or whether the light reaches it, hangs on less than the rasteriser's
+/// - `sub_texel_caster`: the shadow, or the light beside it, is thinner than a texel there. Or the caster is nearer to
+///   the receiver than the receiver's own rise over the texel, or than the depth format resolves (told_apart_m). A map
+///   may miss such a thing altogether.
+/// - `truth_ambiguous`: the visible surface, or its visibility from the light, depends on less than the rasteriser's
 ///   snapping or the last digits of the position.
-/// Assumed: the bias is Gnomon's own, not a manual BiasMode.
+///
+/// Assumes Gnomon's own bias, not a manual BiasMode.
 namespace gnomon::shadow {
 
-/// A texel's sides across the light at a point, metres.
+/// Sides of a texel across the light at a point, metres.
 struct TexelSides {
     glm::dvec3 u_m{0.0}, v_m{0.0};
 };
 TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws);
 
-/// How far a caster has to stand before a surface at p_ws, along the ray, so that fixed-point depths tell it from the
-/// surface: two steps of the format, one that what is stored may be off by and one by which the bias makes up for it. 0
-/// of floats, whose steps are a share of the distance. Of a warped map, at its anchor.
+/// Returns the least distance, along the ray, from a caster to a surface at p_ws that fixed-point depths resolve,
+/// metres. It is two steps of the format: the stored depth may be off by one, and the bias makes up for another. 0 for
+/// floats: their steps are a share of the distance. In a warped map it holds at the anchor.
 double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws);
 
-/// Longest extent of one texel on screen, in pixels, on a plane through p_ws with unit normal `normal` (Lloyd et al.
-/// 2006 call it m): the texel's diagonals, carried along the light's ray onto the plane and from there into the
-/// picture. Infinite where the plane holds the ray, or p_ws is not in front of the consumer or (perspective views) of
-/// the light.
+/// Returns the longest extent of one texel on screen, pixels, on a plane through p_ws with unit normal `normal` (m of
+/// Lloyd et al. 2006). Projects the texel's diagonals along the light's ray onto the plane and from there to the
+/// screen. Infinite where the plane contains the ray, or where p_ws is behind the camera or (perspective views) the
+/// light.
 double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
                        const glm::dvec3& normal);
 
-/// What the view states, slope by slope, so that it holds everywhere: ShadowView::predicted_error_px for receivers that
-/// face the light within 60 degrees; on steeper ones the texel's share of it grows as 1 / cosine (of the normal to the
-/// way to the light). No less than edge_error_px of any visible receiver point that the view serves.
+/// Returns the error bound that the view states for receivers with this cosine between normal and direction to the
+/// light, pixels. It is ViewError::edge_px within 60 degrees. Beyond, the texel's share grows as 1 / cosine. No visible
+/// receiver point that the view serves has a larger edge_error_px.
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel);
 
-/// The bound over all receivers of a view, `points_ws` being corners of convex parts of what is seen of them; those
-/// outside a perspective view do not count. All 0 if nothing is in front of the consumer.
+/// Computes the bound over all receivers of a view. `points_ws`: corners of convex parts of what is seen of them;
+/// points outside a perspective view do not count. All 0 if nothing is in front of the camera.
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                         double reach_texel);
 
-/// Raises what the view states of itself (texel_m, texel_extent_px, predicted_error_px, metre_px) to that bound.
+/// Raises the error that the view states (ViewError) to that bound.
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/view_casters.h"
@@ -20,30 +21,32 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Edge of the smallest texel in metres across the light.
+/// Returns the shorter edge of the smallest texel across the light, metres.
 double finest_texel_m(const ShadowView& view) {
     const double texel = std::min(view.plane.texel_u, view.plane.texel_v);
     return view.projection == ViewProjection::orthographic ? texel : texel * view.depth.near_m;
 }
 
-/// What the view's texels mean on the screen of the consumer that sees them largest. A warped map serves its own slice
-/// alone: its fit has said it.
+/// States the view's errors for the camera that sees its texels largest. A warped map is left out: it serves its own
+/// slice alone, and its fit has stated them.
 void state_errors(const SceneSnapshot& scene, std::span<const glm::dvec3> points_ws, double reach_texel,
                   ShadowView& view) {
     for (std::uint32_t c = 0; c < scene.consumers.size(); ++c)
         if (view.plane.warp == glm::dvec2(0.0)) state_error(scene.consumers[c], points_ws, reach_texel, view);
 }
 
-/// Whose receivers lie in it: of a sun's cascades those of all, since each may reach into another's slice.
+/// States which cameras see receivers of the view, and how many receivers. A sun's cascade counts all receivers, since
+/// it may reach into other slices.
 void state_receivers(const LightItem& light, std::span<const Beam> beams, ShadowView& view) {
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     const Beam& beam = beams[sun ? 0 : view.layer];
     view.consumer_mask = beam.consumers;
     if (view.receivers == 0) view.receivers = beam.receivers;
 }
 
-/// What floats tell apart along a lamp's rays, and doubles of its place: a share of the distance, or of the depth range
-/// of a view that is anchored in it. It is more than a texel only where a lamp is immensely far away.
+/// Returns the least distance that floats along a lamp's rays, and doubles of its place, resolve, metres. It is a share
+/// of the distance, or of the depth range of a view anchored in it. It exceeds a texel only for a lamp immensely far
+/// away.
 double floats_tell_m(const ShadowView& view) {
     constexpr double kFloat = 0x1p-22, kDouble = math::kClippedRounding;
     const double anchored_m = (view.depth.far_m - view.depth.near_m) * view.depth.far_m / view.depth.near_m;
@@ -51,7 +54,8 @@ double floats_tell_m(const ShadowView& view) {
     return std::max(kFloat * from_m, kDouble * view.depth.far_m);
 }
 
-/// Depths that differ by less are one, at the farthest receiver: 0 of a sun's floats.
+/// Returns the least difference of depths that the format resolves at the farthest receiver, metres. 0 for floats of a
+/// sun.
 double depth_step_m(const ShadowView& view, DepthFormat format) {
     const double step = depth_format_row(format).step;
     if (view.projection == ViewProjection::orthographic) return step * (view.depth.far_m - view.depth.near_m);
@@ -65,10 +69,11 @@ double predicted_px(std::span<const ShadowView> views) {
     return worst_px;
 }
 
-/// Sizes that were fitted: a prediction says of another one only what its texels alone would make of it.
+/// Sizes that were fitted in this frame. They bound the search, because a prediction for another size covers only its
+/// texels, not its border.
 struct FittedSizes {
-    std::uint32_t too_small_px = 0;                                       // the largest that did not keep the word
-    std::uint32_t enough_px = std::numeric_limits<std::uint32_t>::max();  // the smallest that did
+    std::uint32_t too_small_px = 0;                                       // largest size that missed the target
+    std::uint32_t enough_px = std::numeric_limits<std::uint32_t>::max();  // smallest size that met it
 
     void note(std::uint32_t size_px, bool keeps) {
         if (keeps) enough_px = std::min(enough_px, size_px);
@@ -80,26 +85,27 @@ struct FittedSizes {
     }
 };
 
-/// Makes the light's maps the size that keeps its word; smaller than the last frame's not at once. True if that is
-/// another one than they were fitted for.
+/// Sets the size of the light's maps that meets its error target. Shrinks only after kSpareFrames frames. Returns
+/// whether the size differs from the fitted one.
 bool settle_size(const LightItem& light, std::span<const ShadowView> views, const HeldLight& held, FittedSizes& fitted,
                  std::uint32_t& spare_frames, ShadowRequest& request) {
     if (views.empty() || !follows_contract(light, request)) return false;
-    const bool is_held = request.map.resolution_px == held.map_px;
+    const bool is_held = request.map.resolution_px == held.size.map_px;
     const double wished_px = wished_error_px(light.shadow), error_px = predicted_px(views);
     fitted.note(request.map.resolution_px, keeps_contract(error_px, wished_px));
     const std::uint32_t wish_px =
         contract_size_px(request.map.resolution_px, is_held, error_px, wished_px, request.limits.max_px);
     const std::uint32_t size_px = std::min(fitted.between(wish_px), request.limits.max_px);
     const bool spare = is_held && size_px < request.map.resolution_px;
-    // Beyond kSpareFrames it was tried, and found too little: a filter's border is a larger share of a smaller map.
-    if (is_held) spare_frames = spare ? std::min(held.spare_frames + 1, kSpareFrames + 1) : 0;
+    // Counts past kSpareFrames mean that the smaller size missed the target: a border is a larger share of a smaller
+    // map.
+    if (is_held) spare_frames = spare ? std::min(held.size.spare_frames + 1, kSpareFrames + 1) : 0;
     if (size_px == request.map.resolution_px || (spare && spare_frames != kSpareFrames)) return false;
     set_resolution(light, size_px, request);
     return true;
 }
 
-/// Whether what is seen takes another size: so does then what another number of maps would come to.
+/// Returns whether what is seen needs other sizes. The best number of cascades then may change as well.
 bool has_stepped(const HeldLight& held, const HeldLight& next) {
     if (next.splits.near_step != held.splits.near_step || next.splits.far_step != held.splits.far_step) return true;
     return !std::equal(next.views.begin(), next.views.end(), held.views.begin(),
@@ -113,7 +119,7 @@ HeldLight without_fits(const HeldLight& held) {
     fresh.views = {};
     fresh.splits = {};
     fresh.sampled_ends = {};
-    fresh.map_px = fresh.spare_frames = fresh.large_frames = fresh.tired_frames = 0;
+    fresh.size.map_px = fresh.size.spare_frames = fresh.size.large_frames = fresh.size.tired_frames = 0;
     return fresh;
 }
 
@@ -127,11 +133,7 @@ LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uin
       out_(out),
       first_view_(out.views.size()),
       first_caster_(out.casters.size()),
-      first_resized_(sizes_of(out.resized_sets)) {
-    FitChoice& choice = out_.lights[index_];
-    choice.request = inputs.requests[light];
-    choice.sets = inputs.sets.lights[light];
-}
+      first_resized_(sizes_of(out.resized_sets)) {}
 
 LightFit::ArraySizes LightFit::sizes_of(const ReceiverCasterSets& sets) {
     return {sets.receiver_items.size(), sets.caster_items.size(), sets.receiver_points_ws.size(), sets.beams.size(),
@@ -162,7 +164,7 @@ bool LightFit::fit_and_count(const HeldLight& held, bool recount, HeldLight& nex
     return true;
 }
 
-/// Fits views without casters for maps of the request's size. False if no finite volume exists.
+/// Fits views without casters for maps of the request's size. Returns false if no finite volume exists.
 bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
     const ShadowRequest& request = out_.lights[index_].request;
     const LightSetsView sets = out_.sets_of(inputs_.sets, index_);
@@ -176,6 +178,7 @@ bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
                          sets.beams(),
                          sets.arrays.receiver_points_ws,
                          request.map.filtering.border_texel,
+                         inputs_.sampled_depths,
                          storage_.fits,
                          held,
                          next};
@@ -190,7 +193,7 @@ bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
     return true;
 }
 
-/// Fits for the size that the accuracy target asks for.
+/// Fits for the size that the accuracy target needs.
 bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
     std::uint32_t spare_frames = 0;
     FittedSizes sizes;
@@ -199,39 +202,39 @@ bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
         forget_views();
         next = held;
         fitted = fit_once(held, next);
-        // After kMostSizes one more is fitted, if they were too small: a border is another share of each size.
+        // After kMostSizes one more is fitted if they were too small: a border is another share of each size.
         if (!fitted || again > kMostSizes || (again == kMostSizes && meets_target())) break;
         if (!settle_size(light_, views(), held, sizes, spare_frames, request())) break;
         select_sets_again();
     }
-    next.map_px = follows_contract(light_, request()) ? request().map.resolution_px : 0;
-    next.spare_frames = next.map_px == held.map_px ? spare_frames : 0;
+    next.size.map_px = follows_contract(light_, request()) ? request().map.resolution_px : 0;
+    next.size.spare_frames = next.size.map_px == held.size.map_px ? spare_frames : 0;
     return fitted;
 }
 
 bool LightFit::meets_target() const { return keeps_contract(predicted_px(views()), wished_error_px(light_.shadow)); }
 
-/// Whether it is time to look for another number of cascades.
+/// Returns whether the search for another number of cascades is due.
 bool LightFit::is_count_due(const HeldLight& held, HeldLight& next) const {
     const ShadowRequest& request = out_.lights[index_].request;
-    const std::uint32_t most = request.limits.max_views, usual = held.cascades > 0 ? held.cascades : most;
-    if (most == 0) next.cascades = next.moves = 0;
+    const std::uint32_t most = request.limits.max_views, usual = held.count.cascades > 0 ? held.count.cascades : most;
+    if (most == 0) next.count.cascades = next.count.moves = 0;
     if (most == 0 || views().empty() || request.map.view_count != std::min(usual, most)) return false;
-    if (held.cascades == 0) return true;
-    if (next.views != held.views) ++next.moves;
-    return next.map_px > held.map_px || has_stepped(held, next) || next.moves >= kMovesToCount;
+    if (held.count.cascades == 0) return true;
+    if (next.views != held.views) ++next.count.moves;
+    return next.size.map_px > held.size.map_px || has_stepped(held, next) || next.count.moves >= kMovesToCount;
 }
 
-/// Tries twice as many cascades again and again, each as if it were the first fit of this light: what is held is of
-/// other slices.
+/// Fits increasing numbers of cascades, doubled each time, and chooses one of them. Each fit starts without history,
+/// since that of other slices does not apply.
 bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
     const HeldLight fresh = without_fits(held);
     const ShadowRequest usual = request();
     const std::uint32_t most = usual.limits.max_views;
     std::array<CascadeTrial, kMaxCascades> trials;
     std::size_t tried = 0;
-    // Fewer are for a scene that has calmed down: what makes the camera ask for more now may be gone in a frame.
-    const std::uint32_t least = next.moves >= kMovesToCount ? 1 : std::max(held.cascades, 1u);
+    // Fewer cascades are for a scene that has calmed down. The camera's present motion may end in a frame.
+    const std::uint32_t least = next.count.moves >= kMovesToCount ? 1 : std::max(held.count.cascades, 1u);
     for (std::uint32_t count = std::min(least, most);; count = std::min(2 * count, most)) {
         if (!fit_count(count, usual, fresh, next)) return false;
         const std::uint64_t edge_px = request().map.resolution_px;
@@ -239,24 +242,25 @@ bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
         if (count == most) break;
     }
     const std::uint32_t chosen =
-        contract_cascades(std::span(trials).first(tried), held.cascades, wished_error_px(light_.shadow));
-    const bool stays = chosen == held.cascades;
+        contract_cascades(std::span(trials).first(tried), held.count.cascades, wished_error_px(light_.shadow));
+    const bool stays = chosen == held.count.cascades;
     const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
-    next.cascades = chosen;
-    next.moves = 0;
+    next.count.cascades = chosen;
+    next.count.moves = 0;
     return fitted;
 }
 
 bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const HeldLight& held, HeldLight& next) {
     request() = usual;
     set_cascades(light_.tuning.cascades, count, request());
-    set_most(light_, usual.limits.max_px, held.map_px, request());
+    set_most(light_, usual.limits.max_px, held.size.map_px, request());
     return fit_size(held, next);
 }
 
-/// A cube face's share of its neighbours is a share of its map: its sets follow from the size. Others' do not.
+/// Selects the sets again for maps of another size. Only cubes need it: a face's share of its neighbours is a share of
+/// its map.
 void LightFit::select_sets_again() {
-    if (light_.kind != LightKind::point) return;
+    if (light_kind_row(light_.kind).texture != gl::TextureKind::cube) return;
     ReceiverCasterSets& sets = out_.resized_sets;
     sets.receiver_items.resize(first_resized_.receivers);
     sets.caster_items.resize(first_resized_.casters);
@@ -269,10 +273,13 @@ void LightFit::select_sets_again() {
     choice.resized = true;
 }
 
-/// Selects the casters of each view. A face of a cube is drawn without casters, too, where the fit wants it: a filter
-/// that reads across seams has to find there that it is empty.
+/// Selects the casters of each view. A cube's face may be drawn without casters: a filter that reads across seams must
+/// find it empty.
 Reason LightFit::select_casters() {
     ShadowRequest& request = out_.lights[index_].request;
+    const bool samples =
+        light_.kind == LightKind::directional && light_.tuning.cascades.splits == CascadeSplits::sampled;
+    if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
     bool any = false;
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {
         ShadowView& view = out_.views[v];
@@ -284,7 +291,7 @@ Reason LightFit::select_casters() {
         view.lit = view.casters.count == 0 && view.projection != ViewProjection::cube_face;
         any = any || view.casters.count > 0;
     }
-    return any ? Reason::none : Reason::no_caster;  // none where its shadow would be seen
+    return any ? Reason::none : Reason::no_caster;  // no caster where its shadow would be seen
 }
 
 }  // namespace gnomon::shadow

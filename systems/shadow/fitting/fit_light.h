@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 
+#include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/frame/receiver_caster_sets.h"
@@ -10,43 +11,44 @@
 
 namespace gnomon::shadow {
 
-/// What the fits read, beside the scene.
+/// Inputs of the fits, beside the scene.
 struct FitInputs {
     std::span<const ShadowRequest> requests;  // one per light
     const ReceiverCasterSets& sets;
-    std::span<const glm::dvec3> lamps_ws_m;  // one per light (lamp_offsets.h); empty: where the lights are
-    const History& held;                     // next history of the frame before; empty: none
+    std::span<const glm::dvec3> lamps_ws_m;  // one per light (lamp_offsets.h); empty: the lights' own positions
+    const SampledDepths& sampled_depths;     // of an earlier picture; optional
+    const History& held;                     // fit history that the frame before left; empty: none
     std::span<const std::uint64_t> moving;   // as CasterMotion::moving()
-    bool shared_out = false;                 // within a budget: another filter waits for the next frame's shares
+    bool shared_out = false;                 // a budget is active: another filter applies from the next frame on
 };
 
-/// Reused storage of the fits and of the searches that they make; holds nothing between two frames.
+/// Reused storage of the fits and of their searches; empty of meaning between frames.
 struct FitStorage {
     SetScratch sets;
     FitScratch fits;
 };
 
-/// How often a light is fitted anew for maps of another size: for what its present ones tell, and once more because a
-/// filter's border is a larger share of a smaller map.
+/// Most changes of a light's map size in one fit. The first follows the present maps' error. The second corrects for
+/// the filter's border, a larger share of a smaller map.
 inline constexpr std::uint32_t kMostSizes = 2;
 /// Fits for one number of views: the first, one for each other size, and one more where these were too small.
 inline constexpr std::uint32_t kFitsPerCount = kMostSizes + 2;
-/// Numbers of cascades that are tried: 1, 2, 4; and the chosen one once more.
+/// Numbers of cascades that are compared: 1, 2, 4; and the chosen one once more.
 inline constexpr std::uint32_t kCountsTried = 4;
-/// Bound on the fits of one light in one frame (FitChoice::fits): the default filter's maps twice, each with another
-/// number of cascades, and one by the filter that stands in for them, which has no target to meet.
+/// Bound on the fits of one light in one frame (FitChoice::fits). The default filter is fitted twice, each time with
+/// other numbers of cascades. The filter that replaces it is fitted once, without a target.
 inline constexpr std::uint32_t kMaxFits = 2 * (1 + kCountsTried) * kFitsPerCount + 1;
 
-/// Fits one light: appends its views with their casters, and says in FittedViews::lights what was chosen.
+/// Fit of one light: appends its views with their casters and records the choice in FittedViews::lights.
 class LightFit {
 public:
     LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, FitStorage& storage,
              FittedViews& out);
 
-    /// Fits for the request as it stands; what an earlier run appended goes. `recount`: looks for another number of a
-    /// sun's cascades now, where that is the fit's to choose. Returns why there are no views; Reason::none: there are.
+    /// Fits for the request as it stands and replaces what an earlier run appended. `recount`: also compares other
+    /// numbers of a sun's cascades, where the system chooses. Returns why there are no views; Reason::none: there are.
     Reason run(const HeldLight& held, bool recount, HeldLight& next);
-    /// Replaces the request, and with it the sets that follow from its size.
+    /// Replaces the request and the sets that follow from its size.
     void request_anew(const ShadowRequest& request);
 
     const ShadowRequest& request() const { return out_.lights[index_].request; }
@@ -76,10 +78,10 @@ private:
     FitStorage& storage_;
     FittedViews& out_;
     std::size_t first_view_, first_caster_;
-    ArraySizes first_resized_;  // lengths of FittedViews::resized_sets before this light
+    ArraySizes first_resized_;  // lengths of FittedViews::resized_sets without this light
 };
 
-/// Returns what is held of a light without what it is held for: as if the next fit were its first.
+/// Returns a light's history without its fits, so that the next fit starts as its first.
 HeldLight without_fits(const HeldLight& held);
 
 }  // namespace gnomon::shadow

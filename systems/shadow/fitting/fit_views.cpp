@@ -9,8 +9,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Fits one light with the filter that its accuracy target needs. The default filter is fitted first, because the
-/// choice depends on that fit's error. Lights without a target, or cut by a budget, keep their filter.
+/// Fit of one light with the filter that its accuracy target needs. The default filter is fitted first, because the
+/// choice depends on that fit's error. Lights without a target, or limited by a budget, keep their filter.
 class TargetFit {
 public:
     TargetFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uint32_t light, const HeldLight& held,
@@ -25,7 +25,7 @@ public:
           fresh_(without_fits(held)),
           wished_px_(wished_error_px(light_.shadow)) {}
 
-    /// Returns why the light has no views; Reason::none: it has some.
+    /// Fits the light. Returns why it has no views; Reason::none: it has some.
     Reason run(HeldLight& next) {
         next.filter = leaves_filter(light_) ? held_.filter : HeldFilter{};
         const ShadowFilter filter = choice_.request.map.filter;
@@ -41,12 +41,12 @@ private:
         next.filter = chosen;
         return reason;
     }
-    /// As if it were the first fit of this light: what is held is of another filter's maps.
+    /// Fits without history, since that belongs to another filter's maps.
     Reason fit_anew(ShadowFilter filter, HeldLight& next) {
         fit_.request_anew(request_with(scene_, choice_.request.limits.device_px, &fresh_, index_, filter));
         return fit(fresh_, next);
     }
-    /// Of all views that are looked up, as the report has it.
+    /// Returns the largest error of all views that are looked up, pixels.
     double worst_px() const {
         double worst = 0.0;
         for (const ShadowView& view : fit_.views())
@@ -56,10 +56,10 @@ private:
 
     Reason run_usual(HeldLight& next) {
         const Reason reason = fit(held_, next);
-        if (reason != Reason::none || !(held_.grant == Grant{})) return reason;
+        if (reason != Reason::none || !(held_.budget.grant == Grant{})) return reason;
         ShadowFilter chosen = chosen_filter(held_.filter, worst_px(), wished_px_);
         const bool turns = chosen == kKeepingFilter && held_.filter.filter != kKeepingFilter;
-        if (turns && choice_.request.limits.max_views > 0) {  // another number of cascades may do
+        if (turns && choice_.request.limits.max_views > 0) {  // another number of cascades may meet the target
             const Reason recounted = fit(held_, next, true);
             if (recounted != Reason::none) return recounted;
             chosen = chosen_filter(held_.filter, worst_px(), wished_px_);
@@ -69,7 +69,7 @@ private:
             return Reason::none;
         }
         const double usual_px = worst_px();
-        if (!turns || inputs_.shared_out) {  // others' rays leave it none, or may
+        if (!turns || inputs_.shared_out) {  // the ray budget leaves it none, or may
             next.filter = {kKeepingFilter, wished_px_, usual_px};
             return Reason::none;
         }
@@ -135,7 +135,7 @@ void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& 
         const HeldLight* last = find(inputs.held, scene.lights[i].entity, next_history.lights.size());
         HeldLight& next = next_history.lights.emplace_back(last ? *last : none);
         next.light = scene.lights[i].entity;
-        next.gave_way = choice.request.rays.fell_back;
+        next.rays.gave_way = choice.request.rays.fell_back;
         if (!status.is_skipped()) {
             const HeldLight before = next;
             if (has_map(choice.request))

@@ -6,8 +6,8 @@
 
 namespace gnomon::shadow {
 
-/// Stage 4: fits the views of every light that is not skipped, each with its own casters and predicted edge error.
-/// Skips a light with fit_degenerate where no finite volume exists. `next`: what the next frame's fits go on from.
+/// Fits the views of every light that is not skipped, each with its own casters and predicted edge error (stage 4).
+/// Skips a light with fit_degenerate where no finite volume exists. `next`: fit history for the next frame.
 void fit_views(const SceneSnapshot& scene, const FitInputs& inputs, FitStorage& storage, FittedViews& fitted,
                History& next, const LightAccounts& accounts);
 

@@ -8,8 +8,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// One number of two points: what every 64-bit processor handles at once, and compilers do not find by themselves in
-/// a least and a greatest.
+/// One coordinate of two points. Every 64-bit processor handles two doubles at once, but compilers do not vectorise a
+/// minimum and a maximum by themselves.
 using Pair __attribute__((vector_size(2 * sizeof(double)))) = double;
 
 constexpr Pair both(double value) { return Pair{value, value}; }

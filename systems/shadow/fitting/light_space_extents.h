@@ -5,12 +5,12 @@
 
 namespace gnomon::shadow {
 
-/// The least and the greatest coordinates of points; infinite the wrong way round where there are none.
+/// Least and greatest coordinates of points. Inverted and infinite where there are no points.
 struct Extents {
     glm::dvec3 low, high;
 };
 
-/// Of `p * axes` over all points, to the bit. Points with a NaN do not count.
+/// Returns the extents of `p * axes` over all points, exact to the bit. Points with a NaN do not count.
 Extents extents_along(const glm::dmat3& axes, std::span<const glm::dvec3> points);
 
 }  // namespace gnomon::shadow

@@ -7,7 +7,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Where the cameras stand.
+/// Returns a hash of the cameras' positions and rotations.
 std::uint64_t pictures_of(const SceneSnapshot& scene) {
     Signature s;
     for (const ConsumerItem& camera : scene.pictures.empty() ? scene.consumers : scene.pictures) {
@@ -41,9 +41,9 @@ void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, c
             }
         for (HeldLight& entry : next.lights) {
             if (entry.light != light.entity) continue;
-            const bool same = entry.casters == casters.value() && light.tuning.reuse.economy && !shared_out;
-            entry.casters = casters.value();
-            entry.quiet_frames = same ? std::min(entry.quiet_frames + (moved ? 1 : 0), kQuietFrames) : 0;
+            const bool same = entry.rays.casters == casters.value() && light.tuning.reuse.economy && !shared_out;
+            entry.rays.casters = casters.value();
+            entry.rays.quiet_frames = same ? std::min(entry.rays.quiet_frames + (moved ? 1 : 0), kQuietFrames) : 0;
         }
     }
 }

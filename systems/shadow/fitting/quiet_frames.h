@@ -4,8 +4,8 @@
 
 namespace gnomon::shadow {
 
-/// Counts the frames of is_quiet() for lights that use rays. `shared_out`: a budget divides what there is, so that no
-/// light grows by itself. After the fits.
+/// Counts the frames of is_quiet() for lights that use rays. Runs after the fits. `shared_out`: a budget is active, so
+/// that no light grows by itself.
 void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool shared_out,
                         History& next);
 

@@ -2,13 +2,13 @@
 #include <array>
 #include <cmath>
 
-/// Geometric steps of 2^(1/4). What a fit rounds to them stays put while the camera moves a little, and scaling a scene
-/// by a power of two shifts every step by a whole number: sizes scale exactly.
+/// Geometric steps of 2^(1/4). A fit rounded to them stays while the camera moves a little. Scaling a scene by a power
+/// of two shifts every step by a whole number, so that sizes scale exactly.
 namespace gnomon::shadow {
 
 inline constexpr int kStepsPerOctave = 4;
 
-/// 2^(step / 4); exact to the last bit at every fourth step.
+/// Returns 2^(step / 4), exact to the last bit at every fourth step.
 inline double step_size(int step) {
     constexpr std::array<double, kStepsPerOctave> kQuarters = {1.0, 1.189207115002721, 1.4142135623730951,
                                                                1.681792830507429};
@@ -16,7 +16,8 @@ inline double step_size(int step) {
     return std::ldexp(kQuarters[static_cast<std::size_t>(step - octave * kStepsPerOctave)], octave);
 }
 
-/// Smallest step whose size is not below `size`, largest that is not above it. `size` must be positive and finite.
+/// Returns the smallest step with a size of at least `size`; the function after it the largest with at most `size`.
+/// `size` must be positive and finite.
 inline int step_at_or_above(double size) {
     int octave = 0;
     std::frexp(size, &octave);  // size in [2^(octave - 1), 2^octave)
@@ -29,8 +30,8 @@ inline int step_at_or_below(double size) {
     return step_size(above) > size ? above - 1 : above;
 }
 
-/// The held step as long as it bounds `size` from above (below) by no more than `slack` steps beyond the closest one;
-/// else the closest. Growth is followed at once, shrinking only when it is worth a redrawn map.
+/// Returns the last step while it bounds `size` from above (below) by at most `slack` steps beyond the closest one.
+/// Else returns the closest. Growth is followed at once, shrinking only when it is worth a redrawn map.
 inline int hold_above(double size, bool held, int held_step, int slack) {
     const int closest = step_at_or_above(size);
     return held && held_step >= closest && held_step <= closest + slack ? held_step : closest;

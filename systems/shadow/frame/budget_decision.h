@@ -5,12 +5,12 @@
 
 namespace gnomon::shadow {
 
-/// What a budget left of one light's request. Without a budget: all of it.
+/// One light's request after the budget's limits. Without a budget: the whole request.
 struct BudgetDecision {
-    ShadowRequest request;             // as fitted, then cut; the settings that all later stages read
-    std::uint32_t refresh_frames = 1;  // a view with moved casters alone is drawn in one frame of this many
-    bool over_budget = false;          // less is left than the light asked for
-    double weight = 0.0;               // what its shadow means to the picture, 0 to 1
+    ShadowRequest request;             // request of the fit within the limits; all later stages read these settings
+    std::uint32_t refresh_frames = 1;  // period of drawing a view in which only casters moved, frames
+    bool over_budget = false;          // the budget reduced the request
+    double weight = 0.0;               // importance of its shadow to the picture, 0 to 1
 };
 
 }  // namespace gnomon::shadow

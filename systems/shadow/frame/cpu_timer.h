@@ -5,8 +5,8 @@
 
 namespace gnomon::shadow {
 
-/// Adds the time of its own life to one light's account. `cpu_us`: one per light, microseconds; a light beyond its end
-/// has no account.
+/// Adds the time between its construction and destruction to one light's CPU time. `cpu_us`: one entry per light,
+/// microseconds. A light beyond its end is not timed.
 class LightTime {
 public:
     LightTime(std::span<double> cpu_us, std::uint32_t light) : cpu_us_(cpu_us), light_(light), start_(Clock::now()) {}

@@ -4,12 +4,12 @@
 
 namespace gnomon::shadow {
 
-/// A way to store depth, and what it costs in truth.
+/// Format of a depth texture and its precision.
 struct DepthFormatRow {
     DepthFormat id;
     gl::Format texture;
-    /// Distance between two values that can be stored, as a share of the whole range. 0: floats, whose distance is a
-    /// share of the value itself and is counted where values are (shaders/shadow/lookup/bias/automatic.glsl).
+    /// Distance between neighbouring stored values, as a share of the depth range. 0: floats. Their distance depends on
+    /// the value, so that the lookup computes it (shaders/shadow/lookup/bias/automatic.glsl).
     double step;
 };
 
@@ -19,7 +19,7 @@ inline constexpr DepthFormatRow kDepthFormats[] = {
     {DepthFormat::d16, gl::Format::d16, 1.0 / 65535.0},
 };
 
-/// Of a value outside the enumeration: d32f's.
+/// Returns the row of a format; d32f's for a value outside the enumeration.
 constexpr const DepthFormatRow& depth_format_row(DepthFormat format) {
     for (const DepthFormatRow& row : kDepthFormats)
         if (row.id == format) return row;

@@ -10,7 +10,7 @@
 
 namespace gnomon::shadow {
 
-/// The views of a frame with their maps, as passes, publishing and the report read them. `v` is a view's index.
+/// Views of a frame with their maps, for the passes, publishing and the report. `v`: index of a view.
 struct DrawnViews {
     const FittedViews& fitted;
     std::span<const BudgetDecision> lights;  // one per light
@@ -22,7 +22,7 @@ struct DrawnViews {
     const ShadowView& view(std::size_t v) const { return fitted.views[v]; }
     const ShadowRequest& request_of(std::size_t v) const { return lights[view(v).light].request; }
 
-    /// Whether the view has a map in this frame, drawn or kept.
+    /// Returns true if the view has a map in this frame, drawn or reused.
     bool has_map(std::size_t v) const {
         return maps[v].texture && !updates[v].left_to_rays && !statuses[view(v).light].has_lost_maps();
     }

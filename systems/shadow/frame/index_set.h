@@ -6,11 +6,11 @@
 
 namespace gnomon::shadow {
 
-/// A set of indices: what a search finds in any order comes out in rising order, and once. Costs what is in it, and a
-/// 4096th of what could be.
+/// Set of indices. Indices added in any order, even repeatedly, are visited once and in rising order. Clearing and
+/// visiting take time for the members, plus a 4096th of the range.
 class Marks {
 public:
-    /// Empty again, for indices below `count`.
+    /// Empties the set and prepares it for indices below `count`.
     void clear(std::size_t count) {
         for_each_bit(used_, [&](std::size_t word) { words_[word] = 0; });
         const std::size_t words = (count + kBits - 1) / kBits;

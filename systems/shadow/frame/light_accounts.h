@@ -5,10 +5,10 @@
 
 namespace gnomon::shadow {
 
-/// What every stage adds to, light by light.
+/// Status and CPU time per light, to which every stage adds.
 struct LightAccounts {
     std::span<LightStatus> statuses;  // one per light
-    std::span<double> cpu_us;         // one per light, microseconds; empty: nobody counts
+    std::span<double> cpu_us;         // one per light, microseconds; empty: lights are not timed
 };
 
 }  // namespace gnomon::shadow

@@ -3,16 +3,17 @@
 
 namespace gnomon::shadow {
 
-/// What became of one light so far. Every stage adds to it, none takes anything back. The report is made from it.
+/// Outcome of one light up to the present stage. Every stage adds to it, none removes anything. The report is made from
+/// it.
 class LightStatus {
 public:
-    /// Leaves the light without a shadow. The first reason stands.
+    /// Leaves the light without a shadow. The first reason is reported.
     void skip(Reason reason) {
         if (skip_ == Reason::none) skip_ = reason;
     }
-    /// Notes a degradation. The latest stands: a failed pass weighs more than a clamped setting.
+    /// Notes a degradation. The latest is reported, because a failed pass matters more than a clamped setting.
     void degrade(Reason reason) { note_ = reason; }
-    /// Takes the light's maps out of use in this frame. `rays`: rays stand in for them; else it has no shadow.
+    /// Takes the light's maps out of use in this frame. `rays`: rays replace them; otherwise the light has no shadow.
     void lose_maps(Reason reason, bool rays) {
         maps_lost_ = true;
         if (rays)

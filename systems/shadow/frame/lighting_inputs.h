@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <vector>
 
 #include "components/light_shadow.h"
 #include "engine/gl/commands.h"
+#include "systems/report.h"
 #include "systems/shadow/frame/shader_key.h"
 #include "systems/shadow/frame/view_limits.h"
 #include "systems/visibility/ray_records.h"
@@ -49,14 +51,14 @@ struct CameraRecord {
 };
 static_assert(sizeof(CameraRecord) == 160);
 
-/// What a light's report says of the shadow that is looked up so.
+/// Accuracy of a lookup, for the light's report.
 struct LookupAccuracy {
     ShadowFilter filter = ShadowFilter::automatic;  // automatic: there is nothing to look up
-    double predicted_error_px = 0.0;                // worst over its views; 0: none shows an edge
-    bool keeps_max_error = false;
+    double predicted_error_px = 0.0;                // largest over its views, pixels; 0: none shows an edge
+    bool keeps_max_error = false;                   // it meets LightShadow::max_error_px
 };
 
-/// How a light is looked up while its own row's program cannot be had: one tap of the depths that it has in any case.
+/// Fallback while the light's own program is unavailable: one tap of the depth map, which every filter has.
 struct PlainLookup {
     ProgramRow row;  // no filter file: the light has no map
     gl::TextureHandle map{};
@@ -64,27 +66,61 @@ struct PlainLookup {
     LookupAccuracy accuracy;
 };
 
-/// Struct 6. One light as one consumer's lighting needs it: GPU-ready, with the textures to bind.
+/// Struct 6. GPU-ready data of one light for one camera view, with the textures to bind.
 struct LightingLight {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
     ProgramRow row;
     gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
     gl::TextureHandle second{}, bounds{};  // {0} unless row.sheets
-    gl::BufferHandle ends{};               // {0} unless they are of a source with a size
+    gl::BufferHandle ends{};               // occluder pyramid; {0} unless the source has a size
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
     PlainLookup plain;
-    gl::Rect screen{};            // pixels the light can reach; empty: none
-    float farthest_depth = 0.0f;  // of the picture: surfaces that it can reach have larger ones, and the sky never has
-    /// Of all that a lookup's result at a place of the picture follows from, beside that place and the camera
-    /// (visibility_hash.h): the same number, the same visibility. 0: nobody knows, or it is not to be kept.
+    gl::Rect screen{};            // pixels within the light's range; empty: none
+    float farthest_depth = 0.0f;  // lower bound on the picture's reversed depths within its range; the sky is below it
+    /// Hash of every input of the shadow lookup except pixel and camera (visibility_hash.h). Equal hashes mean equal
+    /// visibility. 0: unknown, or visibility is not kept.
     std::uint64_t lookup_signature = 0;
     LightRecord record;
 };
+
+/// Lights of one camera view.
 struct LightingInputs {
     std::uint32_t consumer = 0;
     CameraRecord camera;
     std::vector<LightingLight> lights;
+};
+
+/// A light that a picture shows otherwise than by its own row.
+struct LookupFailure {
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights
+    Reason reason = Reason::none;
+    bool unshadowed = false;    // it is drawn without its shadow, or not at all; else by one tap of its map
+    bool blended_only = false;  // on blended surfaces; on all others its shadow is what it should be
+    LookupAccuracy fallback;    // accuracy of that one tap
+};
+
+/// A light with cached visibility in a picture.
+struct CachedLookup {
+    std::uint32_t light = 0;  // index into SceneSnapshot::lights
+    std::uint64_t bytes = 0;
+    bool reused = false;                  // the picture read it, and did not fill it
+    std::optional<double> saved_us = {};  // of lighting on the GPU; empty: never measured
+};
+
+/// What became of lights in the pictures of a frame. Lighting appends to it, picture by picture; the report is made
+/// from it.
+struct LightingOutcome {
+    std::vector<LookupFailure> failures;
+    std::vector<CachedLookup> cached;
+    gl::Failure failure = gl::Failure::none;               // why a picture could not be recorded
+    std::uint64_t ray_list_bytes = 0, position_bytes = 0;  // of pixels that use rays
+    void clear() {
+        failures.clear();
+        cached.clear();
+        failure = gl::Failure::none;
+        ray_list_bytes = position_bytes = 0;
+    }
 };
 
 }  // namespace gnomon::shadow

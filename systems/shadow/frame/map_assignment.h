@@ -5,42 +5,42 @@
 
 namespace gnomon::shadow {
 
-/// Hash of everything that decides a view's depth picture: matrices, size, casters in the order in which they are
-/// drawn, their versions and faces. Never 0. Two different pictures share a number with probability 2^-64.
+/// Content hashes of a view's map. They cover matrices, size, and casters in drawing order with versions and faces.
+/// Never 0. Two different maps share a hash with probability 2^-64.
 struct ContentSignature {
-    std::uint64_t still = 0;      // of its static casters alone
-    std::uint64_t all = 0;        // of all casters
-    std::uint64_t placement = 0;  // without any caster
+    std::uint64_t still = 0;      // with static casters only
+    std::uint64_t all = 0;        // with all casters
+    std::uint64_t placement = 0;  // without casters
 };
 
-/// What a view of FilterStorage::sheets has beside its depths (docs/exact.md).
+/// Textures of a conservative shadow map (FilterStorage::conservative_bounds) beside its depths (docs/exact.md).
 struct BoundsMaps {
-    gl::TextureHandle second{};  // depths of the next triangles behind
+    gl::TextureHandle second{};  // depths of the second layer: the next triangles behind
     gl::TargetHandle second_target{};
-    gl::TextureHandle bounds{};  // where surfaces end, and how far they depart from their depths
+    gl::TextureHandle bounds{};  // depth of the nearest silhouette edge, and depth slope bound
     gl::TargetHandle bounds_target{};
-    gl::BufferHandle ends{};  // occluder pyramid, of FilterStorage::soft_sheets
+    gl::BufferHandle ends{};  // occluder pyramid; FilterStorage::occluder_pyramid only
 };
 
-/// What a view of FilterStorage::moments has beside its depths.
+/// Textures of a view of a filter with FilterRow::moments beside its depths.
 struct PrefilteredMaps {
     gl::TextureHandle moments{};
     gl::TargetHandle target{};
-    gl::TextureHandle scratch{};  // between the two passes of the blur; {0}: one pass alone
+    gl::TextureHandle scratch{};  // result of the blur's first pass; {0}: there is only one pass
     gl::TargetHandle scratch_target{};
 };
 
-/// Struct 5. Where a view's map lies. texture {0}: it has none in this frame.
+/// Struct 5. Textures of a view's map. texture {0}: it has none in this frame.
 struct MapAssignment {
     gl::TextureHandle texture{};
     gl::TargetHandle target{};
-    /// Which triangle each texel shows (FilterStorage::depth_and_triangle). Of ::sheets one layer that all views draw
-    /// into, one after the other. Else {0}.
+    /// Triangle that each texel shows (FilterStorage::triangle_ids). With conservative bounds: one layer into which all
+    /// views are drawn in turn. Otherwise {0}.
     gl::TextureHandle triangles{};
     BoundsMaps sheets;
     PrefilteredMaps prefiltered;
     std::uint32_t size_px = 0;
-    ContentSignature content;  // what the layer is to hold
+    ContentSignature content;  // hashes of the content that the layer should have after this frame
 };
 
 }  // namespace gnomon::shadow

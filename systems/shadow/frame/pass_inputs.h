@@ -18,18 +18,18 @@ struct DepthViewRecord {
 };
 static_assert(sizeof(DepthViewRecord) == 96);
 
-/// What passes draw.
+/// Read by the passes.
 struct PassInputs {
     const SceneSnapshot& scene;
     const GpuScene& gpu;
     const DrawnViews& drawn;
 };
 
-/// What passes write: commands, counts, and the time that they take for each light.
+/// Written by the passes: commands, counts, and CPU time per light.
 struct PassOutputs {
     gl::CommandList& list;
     FrameReport& report;
-    std::span<double> cpu_us;  // one per light, microseconds; empty: nobody counts
+    std::span<double> cpu_us;  // one per light, microseconds; empty: lights are not timed
 };
 
 }  // namespace gnomon::shadow

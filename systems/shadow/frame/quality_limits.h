@@ -4,23 +4,22 @@
 
 namespace gnomon::shadow {
 
-/// What shadows may take (docs/economy.md, "Budgets"). What is 0, below, or no number sets no bound.
+/// Limits on all shadows together (docs/economy.md, "Budgets"). 0, negative or NaN: no limit.
 struct ShadowBudget {
-    std::uint64_t bytes = 0;  // all that lights hold: maps, triangles, moments, copies
-    float gpu_ms = 0.0f;      // of a frame: drawing maps, and looking them up
-    std::uint64_t rays =
-        0;  // that pixels of exact lights may ask in a frame, as they are predicted (budget/ray_budget.h)
+    std::uint64_t bytes = 0;  // GPU memory of all lights: maps, triangles, moments, copies
+    float gpu_ms = 0.0f;      // GPU time per frame for drawing maps and looking them up
+    std::uint64_t rays = 0;   // predicted rays per frame of lights that use rays (request/ray_limit.h)
     bool operator==(const ShadowBudget&) const = default;
 };
 
-/// What a budget leaves of what a light asks for. The default leaves all.
+/// Quality limits that a budget sets on one light. The default sets none.
 struct Grant {
     static constexpr std::uint32_t kAny = std::numeric_limits<std::uint32_t>::max();
-    std::uint32_t most_px = kAny;      // edge of its maps
-    std::uint32_t most_views = kAny;   // of a sun: cascades
-    std::uint32_t refresh_frames = 1;  // a view whose casters alone changed is drawn in one frame of so many
-    bool plain = false;                // looked up by the cheapest filter, kPlainFilter
-    bool none = false;                 // no shadow at all
+    std::uint32_t most_px = kAny;      // largest edge of its maps, texels
+    std::uint32_t most_views = kAny;   // sun: largest number of cascades
+    std::uint32_t refresh_frames = 1;  // period of drawing a view in which only casters changed, frames
+    bool plain = false;                // it is looked up with the cheapest filter, kPlainFilter
+    bool none = false;                 // it has no shadow
     bool operator==(const Grant&) const = default;
 };
 

@@ -11,36 +11,36 @@
 
 namespace gnomon::shadow {
 
-/// Light on its way to the receivers, through one opening: a sun's sky, a spot's view, a face of the cube around a
-/// light. Everything on that way is what casters may be.
+/// Receiver hull in light space, for one light frustum: a sun's whole view, a spot's cone, or a face of the cube around
+/// a light. Only casters between the light and the hull can darken these receivers.
 struct Beam {
     bool parallel = false;        // the light comes along -axes[2]; else from the origin
-    glm::dvec3 origin_ws_m{0.0};  // of the outline's coordinates
+    glm::dvec3 origin_ws_m{0.0};  // origin of the outline's coordinates
     glm::dmat3 axes{1.0};         // columns u, v, toward the light; orthonormal
-    IndexRange receiver_points;   // into ReceiverCasterSets::receiver_points_ws: what lies in this opening
-    std::uint32_t receivers = 0;  // of how many that is, once for each consumer
-    std::uint32_t consumers = 0;  // consumer_bit() of each that sees any of it
-    IndexRange outline;           // into ReceiverCasterSets::outlines: convex polygon around them as the light sees
-                                  // them, in metres along u and v (parallel), or tangents
-    double slack = 0.0;           // by how much rounding may have moved a corner of it
-    double far_m = 0.0;           // farthest of them along -axes[2]
-    double reach_m = 0.0;         // farthest of them from the origin; infinite if parallel
+    IndexRange receiver_points;   // into ReceiverCasterSets::receiver_points_ws: corners inside this frustum
+    std::uint32_t receivers = 0;  // number of receivers with such corners, once for each camera view
+    std::uint32_t consumers = 0;  // consumer_bit() of each camera view that sees any of them
+    IndexRange outline;           // into ReceiverCasterSets::outlines: convex polygon around the points in light space,
+                                  // metres along u and v (parallel), or tangents
+    double slack = 0.0;           // bound on the rounding error of its corners, same unit
+    double far_m = 0.0;           // largest distance of the points along -axes[2]
+    double reach_m = 0.0;         // largest distance of the points from the origin; infinite if parallel
 };
 
 /// One light's potential receivers (PSR) and casters (PSC), as ranges of ReceiverCasterSets' arrays.
 struct LightSets {
-    IndexRange receivers;        // of receiver_items
-    IndexRange casters;          // of caster_items, for all views of the light
-    IndexRange receiver_points;  // of receiver_points_ws: corners of receivers clipped to what is seen and lit
-    IndexRange beams;            // one of a sun or a spot, one per face of a cube
+    IndexRange receivers;        // into receiver_items
+    IndexRange casters;          // into caster_items, for all views of the light
+    IndexRange receiver_points;  // into receiver_points_ws: corners of receivers clipped to camera frusta and light
+    IndexRange beams;            // one for a sun or a single spot view, one per face of a cube
 };
 
-/// Struct 3. Which receivers are seen and lit, and which casters can darken these.
+/// Struct 3. Visible lit receivers, and the casters that can darken these.
 struct ReceiverCasterSets {
     std::vector<LightSets> lights;              // one per light; empty ranges where it is skipped
-    std::vector<math::Frustum> camera_frusta;   // one per consumer: what it sees, from its nearest receiver on
+    std::vector<math::Frustum> camera_frusta;   // one per camera view; near plane at its nearest receiver
     std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
-    std::vector<std::uint32_t> caster_items;    // the same
+    std::vector<std::uint32_t> caster_items;    // indices into SceneSnapshot::instances
     std::vector<glm::dvec3> receiver_points_ws;
     std::vector<Beam> beams;
     std::vector<glm::dvec2> outlines;
@@ -48,7 +48,7 @@ struct ReceiverCasterSets {
     void clear();
 };
 
-/// One light's sets, with the arrays that they lie in.
+/// One light's sets, with the arrays that contain them.
 struct LightSetsView {
     const ReceiverCasterSets& arrays;
     const LightSets& ranges;
@@ -71,12 +71,12 @@ inline void ReceiverCasterSets::clear() {
     outlines.clear();
 }
 
-/// Reused storage of the search for receivers and casters; holds nothing between two searches.
+/// Reused storage of the search for receivers and casters; its contents are meaningless between two searches.
 struct SetScratch {
     struct Candidate {
         std::uint32_t item, consumer;
     };
-    Marks marks, receivers;  // of instances
+    Marks marks, receivers;  // sets of instances
     std::vector<Candidate> candidates;
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, polygon, clipped, outline;

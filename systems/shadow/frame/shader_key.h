@@ -5,21 +5,21 @@
 
 namespace gnomon::shadow {
 
-/// Which program evaluates a light: one row of the light-kind table and one of the filter table.
-/// Names are paths under shaders/ and live as long as the program; empty filter: unshadowed.
+/// Key of the shader permutation that evaluates a light, from its rows of the light-kind and filter tables. File names
+/// are paths below shaders/ with static lifetime. An empty filter_file means an unshadowed light.
 struct ProgramRow {
     std::string_view kind_define;  // LIGHT_DIRECTIONAL, …
     std::string_view kind_file, filter_file;
-    float reach_texel = 0.0f;  // the filter's footprint half-width E, without what LightRecord::spread adds
-    bool fades = false;        // looks up a second view that the first one fades into
-    bool depths = false;       // reads depths from the map, where other filters read results of comparing with it
+    float reach_texel = 0.0f;  // kernel radius E, texels, without the part that LightRecord::spread adds
+    bool fades = false;        // looks up a second view into which the first one fades
+    bool depths = false;       // reads depths; other filters read results of a depth comparison
     bool manual_bias = false;  // any BiasMode but automatic
-    bool triangles = false;    // reads which triangles texels show, and those triangles
-    bool sheets = false;       // reads next depths and bounds: rays are for what those leave uncertain
+    bool triangles = false;    // reads which triangles texels show, and these triangles
+    bool sheets = false;       // reads second depths and conservative bounds; rays trace the undecided pixels
     bool moments = false;      // reads a prefiltered map
-    bool rays = false;         // asks the casters' triangles by rays, of surfaces that say where exactly they are
-    bool ray_masks = false;    // some of those, or of `triangles`, are masked
-    bool footprint = false;    // of which it takes what a pixel covers, by mipmaps or anisotropy
+    bool rays = false;         // traces rays to the casters' triangles from surfaces with exact positions
+    bool ray_masks = false;    // some of the triangles read by `rays` or `triangles` are alpha-masked
+    bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
     bool operator==(const ProgramRow&) const = default;
 };
 

@@ -16,24 +16,24 @@
 
 namespace gnomon::shadow {
 
-/// Everything of one frame between snapshot and commands, in the order in which it comes to be. Each member has one
-/// stage that writes it, and none changes after that stage; LightStatus alone is added to by all. Storage is reused
-/// from frame to frame. Only ShadowSystem sees the whole.
+/// Data of one frame between snapshot and commands, in the order of the stages. One stage writes each member, and no
+/// member changes after that stage. Only LightStatus is added to by all stages. Storage is reused from frame to frame.
+/// Only ShadowSystem sees the whole.
 struct ShadowFrame {
-    std::vector<std::uint64_t> moving;    // bits of instances that move, as CasterMotion::moving(); empty: none
+    std::vector<std::uint64_t> moving;    // bits of dynamic instances, as CasterMotion::moving(); empty: none
     std::vector<LightStatus> statuses;    // one per light
-    std::vector<ShadowRequest> requests;  // one per light: what it asks for
-    std::vector<ShadowRequest> limited;   // one per light: what its last grant leaves of that
-    std::vector<glm::dvec3> lamps_ws_m;   // one per light: from where a local light's shadows are looked for
+    std::vector<ShadowRequest> requests;  // one per light: its request
+    std::vector<ShadowRequest> limited;   // one per light: the same within the limits of its last grant
+    std::vector<glm::dvec3> lamps_ws_m;   // one per light: apex of a local light's views
     ReceiverCasterSets sets;
     FittedViews fitted;
     std::vector<BudgetDecision> decisions;  // one per light
     std::vector<MapAssignment> maps;        // one per view
     std::vector<UpdatePlan> updates;        // one per view
-    std::vector<double> clearances_m;       // one per light: nearest caster of a lamp with a size that no map holds
-    std::vector<LightingInputs> inputs;     // one per consumer
-    History next_history;                   // what the fits and the budget hand to the next frame
-    std::vector<double> cpu_us;             // one per light: what the stages spent on it alone
+    std::vector<double> clearances_m;       // one per light: nearest caster of an area light that no map contains
+    std::vector<LightingInputs> inputs;     // one per camera view
+    History next_history;                   // history of fits and budget for the next frame
+    std::vector<double> cpu_us;             // one per light: time that the stages spent on it alone
 };
 
 /// Returns the frame's views with their maps.

@@ -14,7 +14,7 @@ namespace gnomon::shadow {
 
 enum class ViewProjection : std::uint8_t { orthographic, perspective, cube_face };
 
-/// Where a view stands and how it is turned, in the world.
+/// Position and orientation of a view in the world.
 struct ViewPose {
     glm::dvec3 anchor_ws_m{0.0};  // fixed to the light, never to a camera
     double apex_m = 0.0;          // perspective: distance of the light behind the anchor, along axis_back
@@ -40,21 +40,21 @@ struct MapPlane {
 
 /// View distances that one cascade serves, metres. All 0: any.
 struct ServedDistances {
-    double seen_from_m = 0.0;   // nearest
-    double seen_to_m = 0.0;     // from here the next cascade serves; 0: where its map ends
-    double fades_from_m = 0.0;  // from here it may fade into the next
-    double fades_to_m = 0.0;    // up to here only its map's border keeps it from having done so
+    double seen_from_m = 0.0;   // start
+    double seen_to_m = 0.0;     // end, where the next cascade takes over; 0: where its map ends
+    double fades_from_m = 0.0;  // start of the fade into the next cascade
+    double fades_to_m = 0.0;    // end of the fade, unless the map's border lies farther away
 };
 
-/// What a view's texels mean on the screen of the camera that sees them largest (fitting/error_bound.h).
+/// Size of a view's texels on the screen of the camera that sees them largest (fitting/error_bound.h).
 struct ViewError {
     double texel_m = 0.0;    // largest diagonal of a texel across the light, at a receiver
-    double extent_px = 0.0;  // longest extent of a texel on screen: Lloyd's m
-    double edge_px = 0.0;    // bound on how far a shadow edge may be off
-    double metre_px = 0.0;   // longest extent of a metre across the light, on a receiver
+    double extent_px = 0.0;  // longest extent of a texel on screen: aliasing error m (Lloyd et al. 2006)
+    double edge_px = 0.0;    // bound on the error of a shadow edge on screen
+    double metre_px = 0.0;   // longest extent on screen of a metre across the light, on a receiver
 };
 
-/// Struct 4. One depth picture: a cascade, a spot's view, a cube face. All hard numerics end here.
+/// Struct 4. Shadow view: one depth map of a cascade, a spot or a cube face. All double-precision geometry ends here.
 struct ShadowView {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights
     std::uint32_t layer = 0;  // cascade or face
@@ -67,42 +67,44 @@ struct ShadowView {
     ServedDistances cascade;
     ViewError error;
     std::uint32_t consumer_mask = ~0u;  // consumer_bit() of each camera that sees receivers in it
-    std::uint32_t receivers = 0;        // number of receivers seen in it
-    /// The view is to stay while cameras move: its casters are all that its map can show. Else only those that can
-    /// darken what is seen now.
+    std::uint32_t receivers = 0;        // number of visible receivers in it
+    /// Stays in place while cameras move: its casters are all casters in its map. false: only casters that can darken
+    /// receivers visible now.
     bool held = false;
-    /// Into FittedViews::casters: static casters, then moving ones, each by mesh, then by index. Drawn in that order,
-    /// since of equal depths the first drawn stays.
+    /// Into FittedViews::casters: static casters, then dynamic ones, each by mesh, then by index. The drawing order
+    /// matters, because at equal depths the first one drawn stays.
     IndexRange casters;
     std::uint32_t still_casters = 0;  // number of static casters
-    bool lit = false;                 // nothing can darken what it serves: published, but neither drawn nor looked up
+    bool lit = false;                 // no caster can darken its receivers: published, but neither drawn nor looked up
 };
 
-/// Returns where the light of a perspective view or a cube's face stands.
+/// Returns the position of the light of a perspective view or cube face.
 inline glm::dvec3 apex_ws_m(const ShadowView& view) {
     return view.pose.anchor_ws_m + view.pose.axis_back * view.pose.apex_m;
 }
 
-/// Whether the view's light comes in parallel: a sun's, unless it is seen from an eye.
+/// Returns true if the view's rays of light are parallel: a sun's, unless its view is from an eye.
 inline bool is_parallel(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
 
-/// What the fits chose for one light.
+/// Choices of the fits for one light.
 struct FitChoice {
-    ShadowRequest request;  // with the filter, size and number of views that were chosen
-    IndexRange views;       // of FittedViews::views; empty: it has none
-    LightSets sets;         // as the light's views were last fitted
-    bool resized = false;   // these lie in FittedViews::resized_sets, not in the arrays of the stage before
-    /// Error of maps of the default filter, for which the accuracy target chose another one. 0: it did not.
+    ShadowRequest request;  // with the chosen filter, size and number of views
+    IndexRange views;       // into FittedViews::views; empty: it has none
+    LightSets sets;         // sets of the last fit of its views
+    bool resized = false;   // `sets` refers to FittedViews::resized_sets instead of the culling stage's arrays
+    /// Error of the default filter's maps where it missed the target, pixels: another filter was chosen. 0: the default
+    /// filter was chosen.
     double default_filter_error_px = 0.0;
-    std::uint32_t fits = 0;  // number of fits that this took (kMaxFits)
+    std::uint32_t fits = 0;  // number of fits made for the choice (kMaxFits)
 };
 
-/// What the fits leave, all lights together.
+/// Results of the fits of all lights.
 struct FittedViews {
     std::vector<FitChoice> lights;  // one per light
-    std::vector<ShadowView> views;  // the views of a light side by side, lights in order
+    std::vector<ShadowView> views;  // by light; the views of a light are consecutive
     std::vector<std::uint32_t> casters;
-    /// Sets of cube lights whose maps the fits made another size: a face's border is a share of its map.
+    /// Sets of cube lights that the fits gave maps of another size. They change because a face's border is a share of
+    /// its map.
     ReceiverCasterSets resized_sets;
 
     std::span<const ShadowView> views_of(std::uint32_t light) const { return slice(views, lights[light].views); }
@@ -113,13 +115,13 @@ struct FittedViews {
     std::span<const std::uint32_t> moving_casters_of(const ShadowView& view) const {
         return casters_of(view).subspan(view.still_casters);
     }
-    /// `sets`: of the stage before the fits.
+    /// Returns the light's sets, from the culling stage's `sets` or from resized_sets.
     LightSetsView sets_of(const ReceiverCasterSets& sets, std::uint32_t light) const {
         return {lights[light].resized ? resized_sets : sets, lights[light].sets};
     }
 };
 
-/// Reused storage of the fits; holds nothing between them.
+/// Reused storage of the fits; its contents are meaningless between two fits.
 struct FitScratch {
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, hull, outline, profile;

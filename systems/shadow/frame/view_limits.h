@@ -5,7 +5,7 @@
 
 namespace gnomon::shadow {
 
-/// Most views of one light: cascades, or faces and a spot's view beside them. kMaxViews of
+/// Largest number of views of one light: cascades, or cube faces beside a spot's single view. Equals kMaxViews of
 /// shaders/shadow/lookup/light_block.glsl.
 inline constexpr std::uint32_t kMaxViews = 8;
 static_assert(kMaxViews >= kMaxCascades);

@@ -5,14 +5,14 @@
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// The half of stage 5 that says where each view's map lies and what its layer is to hold.
+/// Assignment of maps (stage 5): where each view's map lies, and what its layer is to show.
 namespace gnomon::shadow {
 namespace {
 
-/// Between casters that stand still and those that move: where a draw may not go on.
+/// Mark between static and moving casters: a draw ends there.
 constexpr std::uint64_t kBoundary = ~std::uint64_t{0};
 
-/// What is made of a map for a source with a size follows from that as well.
+/// Adds the size of the source to a content hash, since the occluder pyramid depends on it.
 std::uint64_t with_source(std::uint64_t content, const FilterSettings& filter) {
     Signature s;
     s.add(content);
@@ -56,12 +56,12 @@ void MapStore::assign(const SceneSnapshot& scene, const FittedViews& fitted, std
         const LightTime time(accounts.cpu_us, view.light);
         const LightItem& light = scene.lights[view.light];
         const LightHistory& history = entry(light.entity);
-        if (!history.texture) continue;  // rays do without
+        if (!history.texture) continue;  // rays replace the map
         MapAssignment& map = maps[v];
         map.texture = history.texture;
         map.target = history.targets[view.layer];
         map.triangles = history.triangles;
-        if (has_sheets(history.storage))
+        if (history.storage.conservative_bounds)
             map.sheets = {history.sheets.second, history.sheets.second_targets[view.layer], history.sheets.bounds,
                           history.sheets.bounds_targets[view.layer], history.sheets.ends};
         if (history.moments.texture)

@@ -14,9 +14,7 @@ bool is_same_store(const MomentMap& a, const MomentDescs& b) {
     return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
 }
 
-bool has_triangles(FilterStorage storage) {
-    return storage == FilterStorage::depth_and_triangle || has_sheets(storage);
-}
+bool has_triangles(const FilterStorage& storage) { return storage.triangle_ids || storage.conservative_bounds; }
 
 }  // namespace
 
@@ -30,7 +28,7 @@ std::uint64_t still_bytes(const LightHistory& map) { return layer_bytes(map) * g
 
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
-    const bool shared = has_sheets(map.storage);
+    const bool shared = map.storage.conservative_bounds;
     if (map.triangles) target.colours.push_back({map.triangles, shared ? 0 : layer});
     return target;
 }
@@ -74,7 +72,7 @@ LightHistory& MapStore::entry(ecs::Entity light) {
     return lights_.back();
 }
 
-/// Of all from `first` on.
+/// Updates the index of entries from `first` on.
 void MapStore::note_places(std::size_t first) {
     if (first == 0) places_.clear();
     for (std::size_t i = first; i < lights_.size(); ++i)
@@ -144,7 +142,7 @@ Reason MapStore::make_sheets(LightHistory& map) const {
     sheets.second = device_.create_texture(descs.second, {}).handle;
     if (sheets.second) sheets.bounds = device_.create_texture(descs.bounds, {}).handle;
     if (!sheets.bounds) return Reason::map_allocation_failed;
-    if (map.storage == FilterStorage::soft_sheets) {
+    if (map.storage.occluder_pyramid) {
         const std::uint64_t bytes = ends_bytes(map.desc.width, gl::layer_count(map.desc));
         sheets.ends = device_.create_buffer({map.desc.label + ", ends", bytes, gl::BufferUse::updated}, {}).handle;
         if (!sheets.ends) return Reason::map_allocation_failed;
@@ -173,7 +171,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     made.desc = desc;
     made.storage = filter_row(request.map.filter).storage;
     made.texture = device_.create_texture(desc, {}).handle;
-    const bool triangles = has_triangles(made.storage), sheets = has_sheets(made.storage);
+    const bool triangles = has_triangles(made.storage), sheets = made.storage.conservative_bounds;
     gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
@@ -186,7 +184,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
         release(made);
         return reason;
     }
-    // The new map stands; only now does the old one go.
+    // The new map exists; only now is the old one freed.
     release(history);
     history.desc = desc;
     history.texture = made.texture;
@@ -202,12 +200,12 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
 
 bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, LightHistory& history) {
     gl::TextureDesc desc = map_desc(light, request);
-    const FilterStorage storage = filter_row(request.map.filter).storage;
+    const FilterStorage& storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = history.desc;
     if (history.texture &&
         !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
           history.storage == storage && is_same_store(history.moments, moments_of(held, request.map)))) {
-        // The light wants a map of another kind: this one has no use, nor has the memory of a failure.
+        // The light needs a map of another kind. The old map has no use, nor has the record of a failure.
         release(history);
         history.wanted_px = 0;
         history.failure = Reason::none;
@@ -222,13 +220,13 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
     history.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
-        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // as good
+        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // no larger
         const MomentDescs moments = moments_of(desc, request.map);
         const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
         Reason reason = has_room ? try_create(desc, request, history) : Reason::map_allocation_failed;
         if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
             spare_->release();
-            device_.finish();  // only then is what was freed given back
+            device_.finish();  // only then does the driver return what was freed
             reason = try_create(desc, request, history);
         }
         refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
@@ -237,7 +235,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
             break;
         }
         history.failure = reason;
-        if (reason == Reason::target_incomplete) break;  // smaller would fail alike
+        if (reason == Reason::target_incomplete) break;  // a smaller one would fail alike
     }
     if (history.failure != Reason::none) history.retry_frame = frame_ + kRetryFrames;
     if (history.failure != Reason::none && history.texture) history.failure = Reason::map_shrunk;
@@ -256,16 +254,15 @@ bool MapStore::stay() {
     return true;
 }
 
-/// Has others give up what they hold if it stands in the way of so many bytes more, which would fit without. Whether
-/// there was any.
+/// Evicts the spare cache if that makes room for `bytes_more`. Returns whether anything was evicted.
 bool MapStore::yield_spare(std::uint64_t bytes_more) const {
     if (!spare_ || spare_->bytes() == 0 || spare_->bytes() <= room() - std::min(room(), bytes_more)) return false;
     spare_->release();
     return true;
 }
 
-/// Frees what the picture does without until there is room for so many bytes more: what others keep to save time, maps
-/// that nobody looks at, the longest unused first, copies of still casters, and at last the map that is to be replaced.
+/// Evicts until `bytes_more` fit, in this order: the spare cache, unused maps (least recently used first), static
+/// copies, the map to be replaced. Returns false if they still do not fit.
 bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
     if (limit_ == kNoLimit) return true;
     yield_spare(bytes_more);
@@ -290,7 +287,8 @@ bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
     return true;
 }
 
-/// Of a light that has no map in this frame: whether it keeps what it holds, in case the camera turns back.
+/// Frees the map of a light without views in this frame after kHoldFrames, or at once if the budget leaves it none.
+/// Until then the camera may turn back.
 void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
     const LightHistory* held = find(light);
     if (!held) return;
@@ -318,7 +316,7 @@ void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
         return true;
     };
     if (std::erase_if(lights_, is_gone) > 0) note_places(0);
-    // Within a limit maps that become smaller go first, so that the others find the room.
+    // Within a limit, maps that become smaller are replaced first, so that the others find room.
     const bool limited = limit_ != kNoLimit;
     if (limited) make_room(0, nullptr);
     for (int round = 0; round < (limited ? 2 : 1); ++round)

@@ -21,7 +21,7 @@
 
 namespace gnomon::shadow {
 
-/// A prefiltered map: moments of a depth map's distances, layer by layer, and what its blur needs between its two
+/// Prefiltered map: moments of a depth map's distances, layer by layer, and scratch storage between its blur's two
 /// passes.
 struct MomentMap {
     gl::TextureDesc desc{.width = 0}, scratch_desc{.width = 0};  // width 0: there is none
@@ -31,49 +31,50 @@ struct MomentMap {
     std::vector<std::uint64_t> content;  // per layer, as LightHistory::content
 };
 
-/// Beside a depth map of FilterStorage::sheets (SheetDescs). What each texel shows is LightHistory::triangles.
+/// Conservative map beside a depth map of FilterStorage::conservative_bounds (SheetDescs). LightHistory::triangles has
+/// the triangle that each texel shows.
 struct SheetMap {
     gl::TextureHandle second{}, bounds{};  // {0}: there is none
-    gl::BufferHandle ends{};               // the same; FilterStorage::soft_sheets (occluder_pyramid.h)
+    gl::BufferHandle ends{};               // FilterStorage::occluder_pyramid (occluder_pyramid.h); {0}: none
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 
-/// What of one light outlives a frame: its map, the targets of its layers, what each layer last held, and when an
-/// allocation may be tried again.
+/// State of one light that outlives a frame: its map, the targets of its layers, and what each layer shows. Also
+/// records when an allocation may be tried again.
 struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    FilterStorage storage = FilterStorage::depth;  // what it was made for
-    gl::TextureHandle triangles{};                 // beside it for a filter that reads or peels triangles; else {0}
-    SheetMap sheets;                               // beside it for a filter of FilterStorage::sheets
-    MomentMap moments;                             // beside it for a filter of FilterStorage::moments
-    StillMap still;                                // beside it while some of its casters move and others do not
-    std::vector<gl::TargetHandle> targets;         // one per layer
-    gl::TargetHandle whole{};                      // all layers at once; made when first drawn that way
-    std::uint64_t wanted_content = 0;       // of all layers in the last frame, of lights that may do without a map
-    std::vector<std::uint64_t> content;     // per layer: signature of what was drawn, 0: nothing
-    std::vector<std::uint64_t> placements;  // per layer: ShadowSlot::placement of it
-    std::vector<ShownCasters> shown;        // per layer, of lights whose maps may be kept; else empty
-    bool waits = false;                     // one of them shows casters as they were (Grant::refresh_frames)
-    std::uint32_t wanted_px = 0;            // size asked for when the map was made
+    FilterStorage storage{};                // what the map was made for
+    gl::TextureHandle triangles{};          // triangle per texel, for a filter that reads or peels them; else {0}
+    SheetMap sheets;                        // conservative map, for a filter of FilterStorage::conservative_bounds
+    MomentMap moments;                      // prefiltered map, for a filter with FilterRow::moments
+    StillMap still;                         // copy of its static casters, while only some casters move
+    std::vector<gl::TargetHandle> targets;  // one per layer
+    gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
+    std::uint64_t wanted_content = 0;       // hash of all layers in the last frame, for lights that may skip their map
+    std::vector<std::uint64_t> content;     // per layer: hash of what was drawn, 0: nothing
+    std::vector<std::uint64_t> placements;  // per layer: its ContentSignature::placement
+    std::vector<ShownCasters> shown;        // per layer, for lights with maps that may be kept; else empty
+    bool waits = false;                     // an update of a layer is deferred (Grant::refresh_frames)
+    std::uint32_t wanted_px = 0;            // size requested when the map was made
     Reason failure = Reason::none;          // why there is no map, or a smaller one
     std::uint64_t retry_frame = 0;
     std::uint64_t last_wanted_frame = 0;
-    std::uint64_t kept_frame = 0;  // in which its light last asked for shadows
+    std::uint64_t kept_frame = 0;  // last frame in which its light requested shadows
 };
 
 /// Returns the bytes of one layer of a light's map, with its triangles.
 std::uint64_t layer_bytes(const LightHistory& map);
 
-/// What a store of still casters beside a light's map takes.
+/// Returns the bytes of a copy of static casters beside a light's map.
 std::uint64_t still_bytes(const LightHistory& map);
 
-/// One layer of a light's map, with its triangles, or gl::kAllLayers.
+/// Describes the target of one layer of a light's map, with its triangles; gl::kAllLayers: of all layers.
 gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer);
 
-/// The maps of all lights, and what their layers hold: with the fits' History what outlives a frame. Owns the device
-/// objects.
+/// Maps of all lights, and what their layers show. Owns the device objects. With the fit History, all that outlives a
+/// frame.
 class MapStore {
 public:
     explicit MapStore(gl::Device& device) : device_(device) {}
@@ -81,37 +82,38 @@ public:
     MapStore(const MapStore&) = delete;
     MapStore& operator=(const MapStore&) = delete;
 
-    /// Counts the frame; to be called once in each, first.
+    /// Counts the frame. Call it first in each frame.
     void begin_frame() { ++frame_; }
-    /// The most that maps may hold from now on, at any time; kNoLimit: anything. Within a limit a map that becomes
-    /// larger may go before the new one stands, and what only saves time goes first.
+    /// Sets the limit on the bytes of maps, valid at any time; kNoLimit: none. Within a limit a map to be enlarged may
+    /// be freed before the new one exists, and caches are evicted first.
     void set_limit(std::uint64_t bytes) { limit_ = bytes; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
-    /// Who else holds memory within the limit, and gives it up before any map has to. Outlives this; null: nobody.
+    /// Sets a cache that shares the limit and is evicted before any map. It must outlive this object; null: there is
+    /// none.
     void set_spare(SpareMemory* spare) { spare_ = spare; }
-    /// What the limit leaves beside the maps; kNoLimit: anything.
+    /// Returns the bytes that the limit leaves beside the maps; kNoLimit: unlimited.
     std::uint64_t room() const { return limit_ == kNoLimit ? kNoLimit : limit_ - std::min(limit_, bytes()); }
-    /// For kRetryFrames after the device had no room for a map: what all held then, since more is not to be had;
-    /// kNoLimit otherwise.
+    /// Returns the bytes of all maps when the device last refused one, for kRetryFrames: it has no room for more.
+    /// Otherwise kNoLimit.
     std::uint64_t available() const { return frame_ < short_until_frame_ ? available_ : kNoLimit; }
 
-    /// In a frame in which nothing changed, instead of assign_slots(): all stays as it is. False: something is due, as
-    /// the end of a map that nobody needs any more, or another try; then the stages have to run.
+    /// Keeps all maps, in a frame without changes, instead of assign(). Returns false if something is due, as the end
+    /// of an unused map or another try; then the stages have to run.
     bool stay();
 
-    /// Stage 5: gives every view its place, allocating, keeping and freeing maps; one entry per view. A light without
-    /// LightShadow, or disabled, or that the budget leaves without shadow, loses its map at once; one that nobody sees
-    /// for kHoldFrames later. A failed allocation is tried at half the edge, kHalvings times, then again after
-    /// kRetryFrames; meanwhile the light is lit, or uses rays alone.
+    /// Gives every view its place, one entry per view; allocates, keeps and frees maps (stage 5). A light loses its map
+    /// at once if it has no enabled LightShadow, or if the budget leaves it none. An unseen light loses it after
+    /// kHoldFrames. A failed allocation is repeated at half the edge, kHalvings times, and again after kRetryFrames.
+    /// Meanwhile the light is unshadowed, or uses rays alone.
     void assign(const SceneSnapshot& scene, const FittedViews& fitted, std::span<const BudgetDecision> decisions,
                 std::vector<MapAssignment>& maps, const LightAccounts& accounts);
 
-    /// Number of frames begun.
+    /// Returns the number of frames begun.
     std::uint64_t frame() const { return frame_; }
-    /// Returns what is remembered of the light, an empty entry if nothing is. Holds until the next assign().
+    /// Returns the entry of the light, empty if it has none yet. Valid until the next assign().
     LightHistory& entry(ecs::Entity light);
-    /// Makes the copy of static casters beside the light's map. False: there is no room now, in the device or the
-    /// limit. Nobody misses it: all is drawn, as without it.
+    /// Makes the copy of static casters beside the light's map. Returns false if the device or the limit has no room.
+    /// Then all casters are drawn, as without a copy.
     bool provide_still(LightHistory& map) const;
     /// Frees copies that were not used for kHoldFrames.
     void release_idle_still();
@@ -120,15 +122,15 @@ public:
     const gl::DeviceInfo& device() const { return device_.info(); }
 
     const LightHistory* find(ecs::Entity light) const;
-    /// One per light of the scene: bytes of its map, if that could not be had as it was wanted and it is not yet time
-    /// to try again; else empty.
+    /// Lists, for each light of the scene, the bytes of its map while a failed allocation is not yet to be tried again;
+    /// else empty.
     void waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const;
     std::uint64_t bytes() const;
     static std::uint64_t bytes(const LightHistory& history);
 
     static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
-    static constexpr std::uint64_t kRetryFrames = 30;  // shadows are back within a second after memory is
-    static constexpr std::uint32_t kHalvings = 4;      // down to a sixteenth of the edge; below, a shadow says nothing
+    static constexpr std::uint64_t kRetryFrames = 30;  // shadows return within a second after memory does
+    static constexpr std::uint32_t kHalvings = 4;      // down to a sixteenth of the edge; below, a shadow shows nothing
 
 private:
     void note_places(std::size_t first);
@@ -149,15 +151,15 @@ private:
 
     gl::Device& device_;
     std::vector<LightHistory> lights_;
-    std::unordered_map<std::uint32_t, std::uint32_t> places_;  // in lights_, by the entity's index, which may be any
+    std::unordered_map<std::uint32_t, std::uint32_t> places_;  // into lights_, by the entity's index (any number)
     std::uint64_t frame_ = 0, limit_ = kNoLimit;
     SpareMemory* spare_ = nullptr;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
-    bool refused_ = false;  // in this frame
+    bool refused_ = false;  // a map was refused in this frame
 };
 
-/// Computes the hash of what a view's layer is to hold.
-/// `casters`: view.still_casters that stand still, then those that move.
+/// Computes the hash of what a view's layer is to show.
+/// `casters`: the view's static casters, view.still_casters in number, then its moving ones.
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
                                    std::span<const std::uint32_t> casters, CasterFaces faces);
 

@@ -19,11 +19,11 @@ struct ShownCaster {
     double bent_m = 0.0;            // PoseItem::bent_m
 };
 
-/// What a layer shows.
+/// Casters that a layer shows, for lights with maps that may be kept.
 struct ShownCasters {
-    std::uint64_t still = 0;  // ShadowSlot::still_content; 0: nothing is known
+    std::uint64_t still = 0;  // ContentSignature::still; 0: unknown
     std::vector<ShownCaster> moving;
-    std::uint32_t waited_frames = 0;  // ShadowSlot::waited_frames, of the next frame
+    std::uint32_t waited_frames = 0;  // UpdatePlan::waited_frames for the next frame
 };
 
 }  // namespace gnomon::shadow

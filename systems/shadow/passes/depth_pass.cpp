@@ -26,14 +26,14 @@ gl::PipelineState depth_state(gl::ProgramHandle program) {
     return {program, gl::CullMode::none, false, gl::DepthTest::greater, true, true, gl::Blend::off};
 }
 
-/// All that a view draws in this frame.
+/// Returns the casters that the view draws in this frame.
 std::span<const std::uint32_t> drawn_casters(const DrawnViews& drawn, std::size_t v) {
     const ShadowView& view = drawn.view(v);
     if (drawn.updates[v].still_use == StillUse::copy) return drawn.fitted.moving_casters_of(view);
     return drawn.fitted.casters_of(view);
 }
 
-/// Copies a layer of the map into the store of static casters, or back.
+/// Copies a layer of the map into the copy of static casters, or back.
 void copy_layer(const DrawnViews& drawn, std::size_t v, bool back, gl::CommandList& list) {
     const MapAssignment& map = drawn.maps[v];
     const UpdatePlan& plan = drawn.updates[v];
@@ -54,7 +54,7 @@ DepthRecorder::~DepthRecorder() {
     for (const gl::ProgramHandle p : programs_) device_.destroy(p);
 }
 
-/// Index of a depth program. `automatic` has become one of the others by now.
+/// Returns the index of a depth program. The plan has replaced CubeRoute::automatic by a definite route.
 std::size_t DepthRecorder::which(const Way& way, bool masked) {
     if (way.peel) return kPlainPrograms - 1;
     const std::size_t route =
@@ -70,7 +70,7 @@ DepthRecorder::Way DepthRecorder::way_of(const PassInputs& in, std::size_t v) co
             static_cast<bool>(in.gpu.colours())};
 }
 
-/// Whether the view is drawn with the others of its light in one pass.
+/// Returns whether one pass draws the view with the others of its light.
 bool DepthRecorder::is_layered(const PassInputs& in, std::size_t v) const {
     const std::uint32_t light = in.drawn.view(v).light;
     return in.drawn.updates[v].whole && !std::binary_search(separate_.begin(), separate_.end(), light);
@@ -104,7 +104,8 @@ bool DepthRecorder::program(const Way& way, bool masked) {
     return static_cast<bool>(programs_[i]);
 }
 
-/// What keeps these casters from being drawn: nothing, a program, or that the device has no room for their records.
+/// Returns why these casters cannot be drawn: a program failed, or the device has no room for their records.
+/// Reason::none: they can.
 Reason DepthRecorder::ready(const PassInputs& in, const Way& way, std::span<const std::uint32_t> casters) {
     bool masked = false;
     for (const std::uint32_t i : casters) {
@@ -133,7 +134,7 @@ void DepthRecorder::prepare(const PassInputs& in, const LightAccounts& accounts)
         const std::uint32_t light = in.drawn.view(v).light;
         const LightTime time(accounts.cpu_us, light);
         const auto casters = drawn_casters(in.drawn, v);
-        // For want of a layered program: the maps are the same.
+        // Without a layered program, each view gets its own pass. The maps are the same.
         if (is_layered(in, v) && ready(in, way_of(in, v), casters) == Reason::depth_program_failed)
             separate_.push_back(light);
         const Reason reason = ready(in, way_of(in, v), casters);
@@ -157,8 +158,9 @@ void DepthRecorder::prepare(const PassInputs& in, const LightAccounts& accounts)
     }
 }
 
-/// From outside a solid the nearest surface is always a front face: one side of it is enough. From inside, where the
-/// light is in its box, there are only back faces, and the box does not tell which it is.
+/// Returns the pipeline state for an opaque caster; one side of a solid is culled. From outside a solid, the nearest
+/// surface is always a front face, so that one side is enough. From inside, there are only back faces. With the light
+/// in the caster's bounds, it may be on either side, so that nothing is culled.
 gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                               const InstanceItem& item) const {
     gl::PipelineState state = depth_state(programs_[which(way_, false)]);
@@ -195,8 +197,8 @@ void DepthRecorder::draw_run(const GpuScene& gpu, const MeshRun& meshes, const g
     });
 }
 
-/// Opens the pass on cleared faces, or on those of still casters alone. A layered clear would clear every face, so it
-/// is for when every face is drawn.
+/// Opens the pass on cleared faces, or on those of static casters alone. A layered clear would clear every face, so it
+/// is for a pass that draws every face.
 void DepthRecorder::begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const {
     const UpdatePlan& plan = in.drawn.updates[pass.first];
     const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
@@ -257,7 +259,7 @@ void DepthRecorder::draw(const PassInputs& in, const Pass& pass, const Way& way,
     });
 }
 
-/// The same once more, without what the first map shows.
+/// Draws the same casters once more, without the triangles that the first map shows.
 void DepthRecorder::peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report) {
     const MapAssignment& map = in.drawn.maps[pass.first];
     pipeline_ = {};

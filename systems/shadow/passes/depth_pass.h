@@ -11,7 +11,7 @@
 
 namespace gnomon::shadow {
 
-/// What depth passes need on the device. Programs are made when first called for.
+/// Recorder of depth passes, and what they need on the device. Programs are made on first use.
 class DepthRecorder {
 public:
     explicit DepthRecorder(gl::Device& device);
@@ -19,12 +19,12 @@ public:
     DepthRecorder(const DepthRecorder&) = delete;
     DepthRecorder& operator=(const DepthRecorder&) = delete;
 
-    /// Makes programs and buffers for the views that are drawn. A light whose views cannot be drawn loses its maps.
+    /// Makes programs and buffers for the views that are drawn. A light with views that cannot be drawn loses its maps.
     /// Call before record().
     void prepare(const PassInputs& in, const LightAccounts& accounts);
 
-    /// Stage 7, first half: records one pass per view that is drawn, in order, or one for all such views of a light
-    /// whose plans name a whole map.
+    /// Records the depth passes in order (stage 7, first half). There is one pass per drawn view, or one for all views
+    /// of a light with plans that name a whole map.
     void record(const PassInputs& in, const PassOutputs& out);
 
 private:
@@ -32,20 +32,20 @@ private:
         std::uint32_t instance;
         std::uint32_t place;  // layer, and above its three bits the first triangle of the draw
     };
-    /// Which of the depth programs a pass uses; each has an opaque and a masked one.
+    /// Variant of the depth program that a pass uses; each exists for opaque and for masked casters.
     struct Way {
         CubeRoute route = CubeRoute::six_passes;
         bool triangles = false;  // writes which triangle each texel shows
-        bool sheets = false;     // of no masked caster, and of both faces
-        bool peel = false;       // of the triangles behind those
-        bool coloured = false;   // the scene's vertices have colours, whose alpha counts in masks
+        bool sheets = false;     // conservative map: no masked casters, and both faces
+        bool peel = false;       // second depths: triangles behind the first ones
+        bool coloured = false;   // the scene's vertices have colours, with an alpha that counts in masks
     };
-    /// Casters that stand still, or those that move: never in one draw.
+    /// Static casters, or moving ones: never both in one draw.
     struct Group {
         IndexRange casters;            // into caster_scratch_ and layer_scratch_
         std::uint32_t first_item = 0;  // an item per caster; with triangles, one per caster and draw of its mesh
     };
-    /// Views [first, end) of one light that one pass draws (those of them that are drawn), and what they draw.
+    /// Views [first, end) of one light that one pass draws (if they are drawn), and what they draw.
     struct Pass {
         std::size_t first = 0, end = 0;
         bool layered = false;
@@ -87,8 +87,8 @@ private:
     static constexpr std::uint32_t kLayerBits = 3;
 
     gl::Device& device_;
-    /// Three ways to choose the layer, opaque and masked, depth alone or triangles, too; what peels; and masked ones
-    /// with colours, by the same way.
+    /// Number of programs. Plain ones: three routes, opaque or masked, with or without triangles, and the peeling one.
+    /// The others: masked with colours, by the same routes.
     static constexpr std::size_t kPlainPrograms = 13, kPrograms = 25;
     gl::ProgramHandle programs_[kPrograms]{};
     Retry retries_[kPrograms];
@@ -101,8 +101,8 @@ private:
     std::vector<std::uint32_t> layer_scratch_;                           // one per caster_scratch_
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pair_scratch_;  // instance, layer
     std::vector<std::byte> view_scratch_;
-    gl::PipelineState pipeline_;  // of the pass being recorded
-    Way way_;                     // of that pass
+    gl::PipelineState pipeline_;  // state of the pass being recorded
+    Way way_;                     // variant of that pass
 };
 
 }  // namespace gnomon::shadow

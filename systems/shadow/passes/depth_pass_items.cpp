@@ -6,11 +6,11 @@
 #include "systems/shadow/passes/depth_pass.h"
 #include "systems/shadow/passes/mesh_draw_ranges.h"
 
-/// The half of the depth passes that says what each of them draws.
+/// Gathering of the draws of each depth pass.
 namespace gnomon::shadow {
 namespace {
 
-/// By mesh; those that wind the other way last, so that few draws hold all that cull alike; then by index.
+/// Orders casters by mesh, then mirrored ones last, then by index. Few draws then need a change of culling.
 bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) {
     const InstanceItem &first = scene.instances[a], &second = scene.instances[b];
     if (first.mesh != second.mesh) return first.mesh < second.mesh;
@@ -26,7 +26,7 @@ void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
     std::memcpy(view_scratch_.data() + at, &record, sizeof record);
 }
 
-/// The casters of one view's group.
+/// Gathers the casters of one view's group.
 DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
     const std::size_t first = caster_scratch_.size();
     caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
@@ -38,7 +38,7 @@ DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std:
     return {{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(casters.size())}, 0};
 }
 
-/// Of one group the casters of all views, by mesh: one draw per mesh draws it into every face.
+/// Gathers the casters of a group over all views, sorted by mesh: one draw per mesh draws it into every face.
 DepthRecorder::Group DepthRecorder::gather_layers(const PassInputs& in, const Pass& pass, bool moving) {
     pair_scratch_.clear();
     for (std::size_t v = pass.first; v < pass.end; ++v) {
@@ -60,7 +60,7 @@ DepthRecorder::Group DepthRecorder::gather_layers(const PassInputs& in, const Pa
     return {range, 0};
 }
 
-/// The items of a group whose casters are known, in the order in which draw() takes them.
+/// Appends the items of a group with gathered casters, in the order in which draw() reads them.
 void DepthRecorder::append_items(const PassInputs& in, bool triangles, Group& group) {
     group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
     const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
@@ -79,7 +79,7 @@ void DepthRecorder::append_items(const PassInputs& in, bool triangles, Group& gr
     });
 }
 
-/// The matrices of a pass's views: of a layered one by face.
+/// Appends the matrices of a pass's views; a layered pass has them by face.
 void DepthRecorder::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
     const std::size_t at = view_scratch_.size();
     pass.uniform_offset = static_cast<std::uint32_t>(at);
@@ -95,7 +95,7 @@ void DepthRecorder::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
     }
 }
 
-/// What this frame draws, pass by pass.
+/// Gathers what this frame draws, pass by pass.
 void DepthRecorder::gather(const PassInputs& in) {
     passes_.clear();
     layer_scratch_.clear();

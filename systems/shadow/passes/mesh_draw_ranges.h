@@ -5,14 +5,14 @@
 
 namespace gnomon::shadow {
 
-/// Indices that one draw of a depth pass takes.
+/// Indices that one draw of a depth pass reads.
 struct DepthRun {
     std::uint32_t first_index = 0, index_count = 0;
-    const GpuScene::MaterialInfo* mask = nullptr;  // of a masked run
+    const GpuScene::MaterialInfo* mask = nullptr;  // material of a masked run; null: opaque
 };
 
-/// Calls `use(DepthRun)` for each draw of a mesh: opaque submeshes side by side are one, masked ones one each; blended
-/// ones let light through and are left out.
+/// Calls `use(DepthRun)` for each draw of a mesh. Adjacent opaque submeshes are one draw, masked ones one each. Blended
+/// ones transmit light and are left out.
 template <class Use>
 void for_each_depth_run(const GpuScene& gpu, std::uint32_t mesh, Use&& use) {
     const GpuScene::MeshRange& range = gpu.mesh(mesh);

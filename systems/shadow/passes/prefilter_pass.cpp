@@ -17,7 +17,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of a cube's far plane the corner is this much farther than the middle
+/// Distance of a corner of a cube's far plane over that of its middle
 /// (shaders/shadow/passes/prefilter/linear_distance.glsl).
 constexpr double kCubeCorner = 1.7320508075688772;
 
@@ -27,7 +27,7 @@ bool is_converted(const DrawnViews& drawn, std::size_t v) {
     return drawn.updates[v].convert && drawn.has_prefiltered(v);
 }
 
-/// A bit per face of the light's cube that has a view with a map.
+/// Returns a mask with one bit per face of the light's cube that has a view with a map.
 std::int32_t faces_of(const DrawnViews& drawn, std::uint32_t light) {
     const IndexRange range = drawn.fitted.lights[light].views;
     std::int32_t faces = 0;

@@ -26,8 +26,8 @@ static_assert(sizeof(MomentRecord) == std::size_t{6} * 16 + kMomentWeights * 4);
 /// Describes how a view of a map with these settings is made. `faces`: a bit per face of a cube that is drawn.
 MomentRecord moment_record(const MapSettings& map, const ShadowView& view, std::int32_t faces);
 
-/// Makes prefiltered maps of depth maps: two passes per view, one if nothing is blurred; mipmaps if asked for. Programs
-/// are made when first called for.
+/// Recorder of the passes that make prefiltered maps from depth maps. There are two passes per view, one without a
+/// blur, and mipmaps where the settings have them. Programs are made on first use.
 class MomentRecorder {
 public:
     explicit MomentRecorder(gl::Device& device) : device_(device), records_(device, "shadow moment records") {}
@@ -35,21 +35,21 @@ public:
     MomentRecorder(const MomentRecorder&) = delete;
     MomentRecorder& operator=(const MomentRecorder&) = delete;
 
-    /// Makes programs and buffers for the prefiltered maps that are made anew. A light that cannot have the programs
-    /// loses these maps, one that cannot have the buffer all of its maps. Call before record().
+    /// Makes programs and buffers for the prefiltered maps to be made in this frame. A light loses these maps if its
+    /// programs fail, and all of its maps if the buffer fails. Call before record().
     void prepare(const PassInputs& in, const LightAccounts& accounts);
 
-    /// Records the passes, after those that draw the depths.
+    /// Records the passes. Call after the depth passes were recorded.
     void record(const PassInputs& in, const PassOutputs& out);
 
-    /// What a pass reads: a depth map of this projection, or what the first pass left.
+    /// What a pass reads: a depth map of this projection, or the first pass's result.
     enum class Source : std::uint8_t { orthographic, perspective, cube, scratch };
-    /// {0}: not to be had. Of Source::scratch the filter is empty.
+    /// Returns the program, compiling it if needed; {0}: unavailable. `filter_file` is empty for Source::scratch.
     gl::ProgramHandle program(std::string_view filter_file, Source source);
 
 private:
     struct Program {
-        std::string_view filter_file;  // of the second pass: none
+        std::string_view filter_file;  // empty for the second pass
         Source source = Source::scratch;
         gl::ProgramHandle program{};
         Retry retry;

@@ -6,12 +6,13 @@
 namespace gnomon::shadow {
 namespace {
 
-/// A logarithm needs a start: a camera inside a receiver's box sees it from distance 0 as far as bounds can tell.
+/// Least start of logarithmic splits, as a share of the farthest distance. A camera inside a receiver's bounding box
+/// gives a nearest distance of 0, and 0 has no logarithm.
 constexpr double kNearestShare = 1.0 / 1024;
 
 constexpr float kMostBlend = 0.5f;
 
-/// A scale on which cascades have equal lengths: metres, or their logarithm.
+/// Scale on which cascades have equal lengths: metres, or their logarithm.
 struct Scale {
     bool logarithmic;
     double start;
@@ -24,7 +25,8 @@ double even(const Scale& scale, const DepthSpan& whole, double share) {
     return scale.to_m(low + (high - low) * share);
 }
 
-/// The place before which the given share of all depths lies that `receivers`, sorted, cover.
+/// Returns the depth before which the given share lies of all depths that the sorted `receivers` cover. Depths are
+/// measured on `scale` and within `whole`. Where receivers cover nothing, the share is of `whole` itself.
 double even_over(const Scale& scale, std::span<const DepthSpan> receivers, const DepthSpan& whole, double share) {
     const auto walk = [&](double wanted) {
         double covered = 0.0, reached = scale.from_m(whole.lowest);

@@ -19,7 +19,7 @@ const CubeFace& cube_face(std::uint32_t face) {
 }
 
 const glm::dquat& cube_turn() {
-    // No axis of the world, diagonal of two or diagonal of three comes near an axis or a diagonal of the cube.
+    // The world's axes and their diagonals (of two and of three axes) stay clear of axes and diagonals of the cube.
     static const glm::dquat kTurn = glm::normalize(glm::dquat(5.0, 1.0, 2.0, 1.0));
     return kTurn;
 }

@@ -3,23 +3,22 @@
 #include <glm/ext/quaternion_double.hpp>
 #include <glm/vec3.hpp>
 
-/// How a light sees in all directions: the faces of a cube, and how far a single view may open.
+/// Faces of a light's cube, and the widest angle of a single view.
 namespace gnomon::shadow {
 
-/// Half angle a single perspective map can hold at most: there, a texel at the rim is 1 / cos^2 = 33 times stretched
-/// against the centre.
+/// Largest half angle of a single perspective map, radians: 80 degrees. A texel at its rim is stretched by 1 / cos^2 =
+/// 33 against one at the centre.
 inline constexpr double kWidestMap_rad = 1.3962634015954636;
 
-/// OpenGL's cube-map table (GL 4.5 core, table 8.19): where a face looks and how its texture axes lie.
+/// Axes of a cube map's face (GL 4.5 core, table 8.19).
 struct CubeFace {
     glm::dvec3 axis_u, axis_v, axis_back;  // s and t grow along u and v; the face looks along -back
 };
 const CubeFace& cube_face(std::uint32_t face);
 
-/// How a point light's cube lies in the world, from the cube's axes to the world's: askew, the same for all. What
-/// people build runs along the world's axes; texels that do the same put the whole length of its edges off by the same
-/// part of a texel, where texels askew to it are wrong to either side in turn, which a filter evens out
-/// (docs/accuracy.md).
+/// Returns the rotation from the axes of a point light's cube to the world's: oblique, and the same for all lights.
+/// Buildings run along the world's axes. Texels along the same axes would displace a whole edge by the same part of a
+/// texel. The errors of oblique texels alternate along the edge, so that a filter evens them out (docs/accuracy.md).
 const glm::dquat& cube_turn();
 
 }  // namespace gnomon::shadow

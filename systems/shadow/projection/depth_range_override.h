@@ -3,17 +3,19 @@
 #include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/perspective_range.h"
 
-/// ShadowTuning's near_m and far_m against the fitted depth range. Distances are from the light, or from a sun's eye.
+/// Replacement of the fitted depth range by ShadowTuning's near_m and far_m, metres from the light or from a sun's eye.
 namespace gnomon::shadow {
 
-/// Whether they can be obeyed: each 0 (fitted) or positive and finite, near before far where both are given.
+/// Returns true if near_m and far_m are usable. Each must be 0 (fitted) or positive and finite, and near less than far
+/// where both are given.
 bool is_range(const ShadowTuning::Projection& tuning);
 
-/// Puts the ends that the request asks for in the place of fitted ones. A fitted end that a given one has passed moves
-/// out of its way, to half or twice the given distance. Afterwards near_m < far_m if that held before.
+/// Replaces fitted ends by the request's, where these are above 0. A fitted end on the wrong side of a given one moves
+/// to half or twice the given distance. near_m < far_m stays true if it was.
 void override_range(const ProjectionRequest& projection, double& near_m, double& far_m);
 
-/// The same for a perspective view; its near never falls below far * kLeastNear. A range without a volume stays one.
+/// Replaces the ends of a perspective view in the same way; near never falls below far * kLeastNear. Returns an empty
+/// range (near >= far) unchanged.
 PerspectiveRange overridden(const ProjectionRequest& projection, PerspectiveRange fitted);
 
 }  // namespace gnomon::shadow

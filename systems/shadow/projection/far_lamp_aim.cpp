@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/math/frustum.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/projection/light_range.h"
@@ -12,29 +13,30 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of what is seen, as the lamp sees it: half its angle's sine below which a point's map is aimed. A cube's face is 1.
+/// Threshold of aiming for a point light: sine of half the angle at which the lamp sees the visible receivers. The
+/// tangent of a cube's face is 1.
 constexpr double kPointAims = 1.0 / 16.0;
-/// The same of a spot, of its cone's tangent: what held_rectangle() can still crop to.
+/// Threshold for a spot, as a share of its cone's tangent: held_rectangle() can still crop to that share.
 constexpr double kSpotAims = 1.0 / 64.0;
-/// And of any: the rounding of a float matrix about the lamp, 2^-24, is then 2^-16 of the map, a 16th of a texel of
-/// 8192.
+/// Least threshold of any spot. A float matrix about the lamp rounds by 2^-24, which is then 2^-16 of the map: a 16th
+/// of a texel of 8192.
 constexpr double kAlwaysAims = 1.0 / 256.0;
-constexpr double kLeaves = 2.0;      // times that
-constexpr double kWidestBall = 0.6;  // sine of half the angle of a ball: that of a new one is half at most
-constexpr double kSpareSize = 4.0;   // of a new ball against what is seen: the camera may turn and walk in it
-constexpr double kMostSpare = 32.0;  // of a held one; half of what held_rectangle() crops
-/// Least radius for a metre of distance: positions are known to 2^-47 of it (math::kClippedRounding).
+constexpr double kLeaves = 2.0;      // factor on the threshold at which aiming ends
+constexpr double kWidestBall = 0.6;  // sine of half the angle of a ball that is kept; a new ball's is at most 1/2
+constexpr double kSpareSize = 4.0;   // radius of a new ball per radius of the receivers: room for camera movement
+constexpr double kMostSpare = 32.0;  // the same ratio at which a kept ball ends; half of what held_rectangle() crops
+/// Least radius per metre of distance: positions are known to 2^-47 of it (math::kClippedRounding).
 constexpr double kLeastRadius = 0x1p-30;
-/// A ball that is held keeps so much of its radius free, against rounding.
+/// Share of a kept ball's radius that stays free, against rounding.
 constexpr double kFree = 1.0 / 1024.0;
 
 double aims_below(const LightItem& light) {
-    if (light.kind == LightKind::point) return kPointAims;
+    if (!light_facts(light.kind).cone) return kPointAims;
     return std::max(kAlwaysAims, kSpotAims * std::min(std::tan(light.outer_cone_rad), 1.0));
 }
 
-/// Around the parts of receivers that some consumer sees and the light reaches. Stops, with whatever it has, at one
-/// that stands around the light: no ball that holds it is seen at a small angle.
+/// Returns the bounding box of all parts of receivers that are in some camera's frustum and in the light's range. Stops
+/// early at a receiver around the light, because no ball around it is small as the light sees it.
 math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
     const LightReach reach(light);
     math::Aabb lit;
@@ -66,7 +68,7 @@ math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
 }  // namespace
 
 LampAim next_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const LampAim& held) {
-    if (light.kind == LightKind::directional || !light.has_shadow) return {};
+    if (light_facts(light.kind).parallel || !light.has_shadow) return {};
     const math::Aabb lit = lit_box(scene, light);
     const bool fits = held.used && held.radius_m <= kWidestBall * glm::distance(held.middle_ws_m, light.position_ws_m);
     if (math::is_empty(lit)) return fits ? held : LampAim{};

@@ -3,21 +3,20 @@
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/projection/light_frusta.h"
 
-/// Where a far lamp looks. What is seen of what it lights then fills so little of a cube's face, or of a spot's cone,
-/// that texels laid over the whole would be coarse; a crop along the light's own axes would lie so far from its middle
-/// that floats place it badly. One view toward a ball around all that is seen serves such a lamp, and is cropped as a
-/// spot's view is.
+/// Aimed view of a far lamp. Its visible receivers fill little of a cube's face or a spot's cone, so that texels over
+/// the whole would be coarse. A crop along the light's own axes could lie so far off-centre that floats lose its
+/// position. Therefore one view looks at a ball around these receivers, and is cropped like a spot's view.
 namespace gnomon::shadow {
 
-/// The aimed view's place among the held views: beside a cone's faces and its single view.
+/// Index of the aimed view in the fit history, beside a cone's faces and its single view.
 inline constexpr std::uint32_t kAimedView = 6;
 
-/// One frame onward; not used: the lamp has the maps of its kind. `held`: what the last frame had; it stays, bit for
-/// bit, while it holds all that is seen and is no more than 32 times too large. Once begun, it ends at twice the angle
-/// at which it begins.
+/// Computes the aim of this frame. Not `used`: the lamp has the maps of its kind. `held`: aim of the last frame. It
+/// stays, bit for bit, while it contains all visible receivers and is at most 32 times too large. Aiming ends at twice
+/// the angle at which it begins.
 LampAim next_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const LampAim& held);
 
-/// Toward the ball, as wide as it is; layer 0.
+/// Returns the light frustum around the ball; layer 0.
 LightOpening aimed_opening(const LightItem& light, const LampAim& aim);
 
 }  // namespace gnomon::shadow

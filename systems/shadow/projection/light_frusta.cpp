@@ -6,7 +6,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "systems/shadow/projection/cube_faces.h"
-#include "systems/shadow/projection/far_lamp_aim.h"
 #include "systems/shadow/projection/perspective_view.h"
 #include "systems/shadow/projection/spot_cube_transition.h"
 
@@ -18,8 +17,8 @@ glm::dmat3 axes_of(const CubeFace& face) { return {face.axis_u, face.axis_v, fac
 /// Faces of a spot in the order of the layers: ahead along -Z, then the sides.
 constexpr std::uint32_t kConeFaceOrder[kConeFaces] = {5, 0, 1, 2, 3};
 
-/// What of a face the cone can light: a direction at the angle a from the axis, with coordinate 1 across it, has cot(a)
-/// along it.
+/// Returns the part of a face that the cone can light. A direction at the angle a from the axis, with coordinate 1
+/// across it, has cot(a) along it.
 LightOpening cone_in_face(const LightItem& light, std::uint32_t layer) {
     const CubeFace& face = cube_face(kConeFaceOrder[layer]);
     LightOpening opening;
@@ -36,7 +35,10 @@ LightOpening cone_in_face(const LightItem& light, std::uint32_t layer) {
     return opening;
 }
 
-void add_spot(const LightItem& light, int faces_eighths, LightOpenings& openings) {
+}  // namespace
+
+void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings) {
+    const int faces_eighths = request.projection.faces_eighths;
     if (has_faces(faces_eighths))
         for (std::uint32_t layer = 0; layer < kConeFaces; ++layer)
             openings.items[openings.count++] = cone_in_face(light, layer);
@@ -46,24 +48,13 @@ void add_spot(const LightItem& light, int faces_eighths, LightOpenings& openings
                                         has_faces(faces_eighths) ? kSingleView : 0, kSingleView};
 }
 
-}  // namespace
-
-LightOpenings light_openings(const LightItem& light, const ShadowRequest& request) {
-    LightOpenings openings;
-    if (request.projection.aim.used) {
-        openings.items[openings.count++] = aimed_opening(light, request.projection.aim);
-        return openings;
-    }
-    if (light.kind == LightKind::spot) add_spot(light, request.projection.faces_eighths, openings);
-    if (light.kind == LightKind::point) {
-        // A receiver in one face may be filtered with texels of the next.
-        const auto reach_texel = static_cast<double>(request.map.filtering.border_texel);
-        const TangentRectangle wide = with_border({}, request.map.resolution_px, reach_texel);
-        const glm::dmat3 turn = glm::mat3_cast(cube_turn());
-        for (std::uint32_t face = 0; face < 6; ++face)
-            openings.items[openings.count++] = {turn * axes_of(cube_face(face)), wide.low, wide.high, face, face};
-    }
-    return openings;
+void add_cube_frusta(const LightItem&, const ShadowRequest& request, LightOpenings& openings) {
+    // A receiver in one face may be filtered with texels of the next.
+    const auto reach_texel = static_cast<double>(request.map.filtering.border_texel);
+    const TangentRectangle wide = with_border({}, request.map.resolution_px, reach_texel);
+    const glm::dmat3 turn = glm::mat3_cast(cube_turn());
+    for (std::uint32_t face = 0; face < 6; ++face)
+        openings.items[openings.count++] = {turn * axes_of(cube_face(face)), wide.low, wide.high, face, face};
 }
 
 }  // namespace gnomon::shadow

@@ -8,13 +8,13 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_request.h"
 
-/// Through which openings a local light looks at the scene: receivers are sought, and views fitted, one for each.
+/// Light frusta of a local light. Receivers are searched, and one view is fitted, for each of them.
 namespace gnomon::shadow {
 
 struct LightOpening {
     glm::dmat3 axes{1.0};             // columns u, v, toward the light
     glm::dvec2 low{-1.0}, high{1.0};  // tangents along u and v
-    std::uint32_t layer = 0;          // of the map; opening i of a light is of layer i
+    std::uint32_t layer = 0;          // layer of the map; frustum i of a light has layer i
     std::uint32_t held_as = 0;        // index into HeldLight::views
 };
 
@@ -25,11 +25,16 @@ struct LightOpenings {
     std::span<const LightOpening> span() const&& = delete;  // it would outlive what it shows
 };
 
-/// Point: the six faces of its cube, in the order of OpenGL's table, turned by cube_turn(), each with the border that a
-/// filter reads beyond its seams. Spot: one around its cone,
-/// or a cube's five faces in its own axes, limited to what the cone can light, or these and then that
-/// (spot_cube_transition.h). A single opening holds no more than kWidestMap_rad to each side. A lamp that is aimed has
-/// one (far_lamp_aim.h), a sun none.
-LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
+/// Adds the light frusta of a light that is not aimed.
+using FrustaFunction = void (*)(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
+
+/// Adds one frustum around the cone, at most kWidestMap_rad to each side. A wide spot has five cube faces along its own
+/// axes instead, limited to the part that the cone can light. During a transition (spot_cube_transition.h) it has both,
+/// the faces first.
+void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
+
+/// Adds the six faces of a cube, in the order of OpenGL's table, turned by cube_turn(). Each has a border for the
+/// texels that a filter reads beyond its seams.
+void add_cube_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings);
 
 }  // namespace gnomon::shadow

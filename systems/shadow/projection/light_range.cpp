@@ -1,17 +1,19 @@
 #include "systems/shadow/projection/light_range.h"
 
+#include "systems/extract/light_facts.h"
+
 namespace gnomon::shadow {
 
 using math::Overlap;
 
 LightReach::LightReach(const LightItem& light) {
-    if (light.kind == LightKind::directional) return;
+    if (light_facts(light.kind).parallel) return;
     position_ws_m_ = light.position_ws_m;
     if (light.range_m > 0.0) {
         range_m_ = light.range_m;
         around_ = {light.position_ws_m - light.range_m, light.position_ws_m + light.range_m};
     }
-    if (light.kind == LightKind::spot)
+    if (light_facts(light.kind).cone)
         cone_ = math::planes_around({light.position_ws_m, -light.rotation_ws[2], light.outer_cone_rad});
 }
 

@@ -11,15 +11,16 @@
 
 namespace gnomon::shadow {
 
-/// What a light can reach, were nothing in the way.
+/// Volume that a light can reach without occluders: its range, and a spot's cone.
 class LightReach {
 public:
     explicit LightReach(const LightItem& light);
 
+    /// Classifies a box against the volume. Conservative: `inside` only if the volume is unlimited.
     math::Overlap overlap(const math::Aabb& box) const;
-    /// The part of a box that may be reached.
+    /// Returns the part of a box within the range's bounding box.
     math::Aabb clipped(const math::Aabb& box) const { return range_m_ ? math::intersection(box, around_) : box; }
-    /// Around a spot's cone; of other lights none.
+    /// Returns planes around a spot's cone; none for other lights.
     std::span<const math::Plane> cone() const;
 
 private:

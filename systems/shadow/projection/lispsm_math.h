@@ -4,30 +4,30 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-/// A perspective warp across the light: the point p of the light's plane goes to p / w with w = 1 + dot(gradient, p).
-/// Lengths are metres along a map's axes, from its anchor; there the warp changes nothing. Depth is not part of it, so
-/// that all of a ray has one w. No gradient: no warp.
+/// Perspective warp of the plane across the light, as in light-space perspective shadow maps (Wimmer et al. 2004). It
+/// maps a point p to p / w with w = 1 + dot(gradient, p). Lengths are metres along a map's axes, from its anchor, where
+/// the warp changes nothing. w does not depend on depth, so that it is constant along a ray. Gradient 0: no warp.
 namespace gnomon::shadow {
 
 inline double warp_w(const glm::dvec2& gradient, const glm::dvec2& p) { return 1.0 + glm::dot(gradient, p); }
 
-/// Where p goes. w > 0.
+/// Maps p into the warped plane. w must be above 0.
 inline glm::dvec2 warped(const glm::dvec2& gradient, const glm::dvec2& p) { return p / warp_w(gradient, p); }
 
-/// What goes to q. dot(gradient, q) < 1: beyond lies nothing.
+/// Maps q back from the warped plane. dot(gradient, q) must be below 1: points beyond have no preimage.
 inline glm::dvec2 unwarped(const glm::dvec2& gradient, const glm::dvec2& q) {
     return q / (1.0 - glm::dot(gradient, q));
 }
 
-/// The small displacement at p that becomes `step` in the warped plane: the inverse of the warp's derivative.
+/// Returns the small displacement at p that becomes `step` in the warped plane: the inverse of the warp's derivative.
 inline glm::dvec2 unwarped_step(const glm::dvec2& gradient, const glm::dvec2& p, const glm::dvec2& step) {
     return warp_w(gradient, p) * (step + p * glm::dot(gradient, step));
 }
 
-/// The most metres that either diagonal of a cell of the warped plane covers in the light's plane, wherever w is `w`
-/// and the warped point lies within `aside` of the line through the anchor along the gradient. `cell`: its sides along
-/// the axes. A convex function of w, so that over the depth below a camera it is largest at a corner of any convex
-/// part.
+/// Returns an upper bound, metres, on the diagonals in the light's plane of a cell of the warped plane. It holds where
+/// w is `w` and the warped point lies within `aside` of the line through the anchor along the gradient. `cell`: sides
+/// of the cell along the axes. The bound is a convex function of w. Divided by the depth below a camera, it is
+/// therefore largest at a corner of any convex part.
 inline double longest_cell(const glm::dvec2& gradient, const glm::dvec2& cell, double aside, double w) {
     const double steepness = glm::length(gradient);
     const glm::dvec2 along = steepness > 0.0 ? gradient / steepness : glm::dvec2(1.0, 0.0);

@@ -7,7 +7,7 @@
 
 namespace gnomon::shadow {
 
-/// What an orthographic map holds. Coordinates are metres from the anchor along the axes; depth runs along -axes[2].
+/// Box of an orthographic map. Coordinates are metres from the anchor along the axes; depth increases along -axes[2].
 struct OrthographicBox {
     glm::dvec3 anchor_ws_m{0.0};
     glm::dmat3 axes{1.0};  // columns: the map's u, its v, toward the light; orthonormal
@@ -15,7 +15,7 @@ struct OrthographicBox {
     double near_m = 0.0, far_m = 0.0;
 };
 
-/// The view of that box in a square map of size_px. Half extents > 0, near < far, all finite.
+/// Returns the view of the box in a square map of size_px. Half extents must be > 0, near < far, all finite.
 ShadowView orthographic_view(const OrthographicBox& box, double size_px);
 
 }  // namespace gnomon::shadow

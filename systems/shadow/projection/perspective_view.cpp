@@ -17,10 +17,11 @@ TangentRectangle with_border(const TangentRectangle& rectangle, double size_px, 
     return {rectangle.low - border, rectangle.high + border};
 }
 
-namespace {
+namespace {}  // namespace
 
-ShadowView anchored_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws, const TangentRectangle& rectangle,
-                         const PerspectiveRange& range, double size_px, double anchored_m) {
+ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
+                            const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px,
+                            double anchored_m) {
     ShadowView view;
     view.projection = ViewProjection::perspective;
     view.pose.anchor_ws_m = apex_ws_m - rotation_ws[2] * anchored_m;
@@ -46,20 +47,6 @@ ShadowView anchored_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation
     view.clip_from_anchor = glm::mat4(clip_from_anchor);
     view.map_from_anchor = glm::mat4(math::texture_from_clip() * clip_from_anchor);
     return view;
-}
-
-}  // namespace
-
-ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
-                            const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px) {
-    return anchored_view(apex_ws_m, rotation_ws, rectangle, range, size_px, 0.0);
-}
-
-ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
-                            const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px,
-                            double reach_texel, double anchored_m) {
-    return anchored_view(apex_ws_m, rotation_ws, with_border(rectangle, size_px, reach_texel), range, size_px,
-                         anchored_m);
 }
 
 }  // namespace gnomon::shadow

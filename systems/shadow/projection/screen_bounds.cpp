@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 
 namespace gnomon::shadow {
@@ -15,15 +16,15 @@ struct Ball {
     double radius_m = 0.0;
 };
 
-constexpr double kRounding = 1.0e-5;  // of the shaders' distances and cosines, in float
+constexpr double kRounding = 1.0e-5;  // relative error of distances and cosines in the shaders' float
 
-/// The smallest around what a local light of limited range reaches.
+/// Returns the smallest ball around the volume that a local light of limited range reaches.
 Ball reached_ball(const LightItem& light) {
     const double range_m = light.range_m * (1.0 + kRounding);
-    if (light.kind != LightKind::spot) return {light.position_ws_m, range_m};
+    if (!light_facts(light.kind).cone) return {light.position_ws_m, range_m};
     const double angle_rad = std::min(light.outer_cone_rad + kRounding, 0.5 * glm::pi<double>());
     const glm::dvec3 ahead = -light.rotation_ws[2];
-    // Narrow cones: through the apex and the rim. Wide ones: around the rim.
+    // The ball of a narrow cone passes through apex and rim. A wide cone's has the rim as its equator.
     if (angle_rad <= 0.25 * glm::pi<double>()) {
         const double radius_m = 0.5 * range_m / std::cos(angle_rad);
         return {light.position_ws_m + ahead * radius_m, radius_m};
@@ -35,7 +36,7 @@ Ball reached_ball(const LightItem& light) {
 
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
     const gl::Rect whole{0, 0, static_cast<std::int32_t>(c.viewport_px.x), static_cast<std::int32_t>(c.viewport_px.y)};
-    if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return whole;
+    if (light_facts(light.kind).parallel || !(light.range_m > 0.0)) return whole;
     const Ball ball = reached_ball(light);
     const glm::dvec3 p = (ball.centre_ws_m - c.position_ws_m) * c.rotation_ws;  // view axes
     const double r = ball.radius_m;
@@ -62,7 +63,7 @@ gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& c) {
 }
 
 float farthest_depth(const LightItem& light, const ConsumerItem& c) {
-    if (light.kind == LightKind::directional || !(light.range_m > 0.0)) return 0.0f;
+    if (light_facts(light.kind).parallel || !(light.range_m > 0.0)) return 0.0f;
     const Ball ball = reached_ball(light);
     const double centre_m = glm::dot(c.position_ws_m - ball.centre_ws_m, c.rotation_ws[2]);
     const bool orthographic = c.projection == CameraProjection::orthographic;

@@ -2,15 +2,15 @@
 #include "engine/gl/commands.h"
 #include "systems/extract/snapshot.h"
 
-/// What of a picture a light can reach.
+/// Screen-space bounds of a light's range.
 namespace gnomon::shadow {
 
-/// Pixels a light can reach in the consumer's picture: the whole viewport for a sun or an unlimited light, the bounding
-/// rectangle of a ball around its range, a spot's around its cone, otherwise; empty if that is behind the camera or
-/// beyond its far plane. Conservative.
+/// Returns the pixels that a light can reach in a camera view: the whole viewport for a sun or an unlimited light.
+/// Otherwise the rectangle around a ball that contains the range, or a spot's cone. Empty if the ball is behind the
+/// camera or beyond its far plane. Conservative.
 gl::Rect screen_rectangle(const LightItem& light, const ConsumerItem& consumer);
 
-/// Depth of the picture (reversed, in [0,1]) that all surfaces within the light's reach exceed; 0: any surface may be.
+/// Returns a lower bound on the reversed depths, in [0,1], of all surfaces within the light's range. 0: no bound.
 /// Conservative.
 float farthest_depth(const LightItem& light, const ConsumerItem& consumer);
 

@@ -9,8 +9,8 @@ namespace gnomon::shadow {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSwitch_rad = 60.0 * kDegree;      // to either side of the axis
-constexpr double kHysteresis_rad = 1.25 * kDegree;  // as much to either side: 5 degrees of the full angle
+constexpr double kSwitch_rad = 60.0 * kDegree;      // half angle of the cone
+constexpr double kHysteresis_rad = 1.25 * kDegree;  // above and below that: 5 degrees of the full angle
 
 }  // namespace
 

@@ -3,17 +3,17 @@
 
 #include "systems/shadow/frame/fit_history.h"
 
-/// Which maps serve a spot. Up to about 120 degrees of full angle one perspective view; above, where a texel at its rim
-/// would be stretched more than 1 / cos^2(60°) = 4 times, the faces of a cube whose front looks along the light.
+/// Maps of a spot: one perspective view up to a full angle of about 120 degrees, cube faces above. There a texel at the
+/// rim of a single view would be stretched by more than 1 / cos^2(60°) = 4. The cube's front looks along the light.
 namespace gnomon::shadow {
 
-/// Front and four sides: a cone reaches no farther back than the light's own plane.
+/// Number of cube faces: front and four sides. A cone does not extend behind the light's own plane.
 inline constexpr std::uint32_t kConeFaces = 5;
-/// The single view's place among the layers while both exist, and among the held views always.
+/// Layer of the single view while both exist; always its index in the fit history.
 inline constexpr std::uint32_t kSingleView = kConeFaces;
 
-/// One frame onward: the faces come at 122.5 degrees and go at 117.5, an eighth per frame. A light that is new, or too
-/// wide for the single view at all, does not fade.
+/// Computes the transition of this frame from the last one, `held`. Faces fade in above 122.5 degrees and out below
+/// 117.5, by an eighth per frame. A new light, or one too wide for a single view, switches at once.
 ConeFade next_cone_fade(double outer_cone_rad, const ConeFade& held);
 
 inline bool has_single_view(int faces_eighths) { return faces_eighths < 8; }

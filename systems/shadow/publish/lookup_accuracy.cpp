@@ -8,19 +8,20 @@
 namespace gnomon::shadow {
 namespace {
 
-/// What the fit predicts, which it does for the request's own filter.
+/// Returns the predicted error, pixels. The fit predicts it for the request's own filter, so that another filter's
+/// follows from its radius.
 double planned_error_px(const ShadowView& view, ShadowFilter own, ShadowFilter filter) {
     if (filter == own || !(view.error.edge_px > 0.0)) return view.error.edge_px;
     const FilterRow& row = filter_row(filter);
     return edge_error_px(view.error.extent_px, static_cast<double>(row.reach_texel - row.still_texel));
 }
 
-/// The same in a map of fewer texels than planned, of casters as they were when it was drawn.
+/// Returns the error in the map as drawn, pixels: with fewer texels than planned, and with earlier casters.
 double shown_error_px(const DrawnViews& drawn, std::size_t v, ShadowFilter filter) {
     const MapSettings& map = drawn.request_of(v).map;
     const double planned_px = planned_error_px(drawn.view(v), map.filter, filter);
     const double texels = static_cast<double>(map.resolution_px) / drawn.maps[v].size_px;
-    const double own_px = edge_error_px(0.0, 0.0);  // the picture's
+    const double own_px = edge_error_px(0.0, 0.0);  // the image's own share
     const double drawn_px = texels > 1.0 ? (planned_px - own_px) * texels + own_px : planned_px;
     return drawn_px + drawn.updates[v].stale.error_px;
 }
@@ -30,7 +31,7 @@ double shown_error_px(const DrawnViews& drawn, std::size_t v, ShadowFilter filte
 ShadowFilter map_filter(const DrawnViews& drawn, std::size_t v) {
     if (!drawn.has_map(v)) return ShadowFilter::automatic;
     const ShadowRequest& request = drawn.request_of(v);
-    const bool prefiltered = filter_row(request.map.filter).storage == FilterStorage::moments;
+    const bool prefiltered = filter_row(request.map.filter).moments != nullptr;
     return request.rays.used || (prefiltered && !drawn.has_prefiltered(v)) ? kPlainFilter : request.map.filter;
 }
 

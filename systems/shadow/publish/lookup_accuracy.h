@@ -11,12 +11,12 @@ namespace gnomon::shadow {
 /// Returns the filter that reads the map of view `v`, by itself. automatic: the view has no map.
 ShadowFilter map_filter(const DrawnViews& drawn, std::size_t v);
 
-/// Returns the filter that the light is published with. `rays`: what rays walk is on the device. automatic: none, it is
-/// lit.
+/// Returns the filter that the light is published with. `rays`: the casters' trees are on the device. automatic: no
+/// filter, the light is unshadowed.
 ShadowFilter published_filter(const DrawnViews& drawn, std::uint32_t light, bool rays);
 
-/// Raises what is said of a light by view `v`, which `accuracy.filter` looks up in its map. A view that is lit, or has
-/// no map, says nothing.
+/// Raises a light's published error to that of view `v`, looked up with `accuracy.filter`. A lit view, or a view
+/// without a map, changes nothing.
 void add_view(const LightItem& light, const DrawnViews& drawn, std::size_t v, LookupAccuracy& accuracy);
 
 }  // namespace gnomon::shadow

@@ -6,7 +6,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Cells after which the lattice repeats: what a float counts exactly.
+/// Cells after which the lattice repeats: 2^24, the integers that a float counts exactly.
 constexpr double kCells = 16777216.0;
 
 /// The lattice's axes, as in noise_seed.glsl: the rotation of the quaternion (1, 2, 3, 4) / sqrt 30.

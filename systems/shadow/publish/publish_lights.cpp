@@ -6,6 +6,7 @@
 #include <glm/gtc/constants.hpp>
 
 #include "engine/math/projection.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/culling/lamp_offsets.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
@@ -22,7 +23,7 @@
 namespace gnomon::shadow {
 namespace {
 
-// The rounding model of docs/architecture.md, "Bias". u = 2^-24.
+// The rounding model of docs/bias.md, "Rounding". u = 2^-24.
 constexpr double kUnitRoundoff = 5.9604644775390625e-8;
 /// Orthographic depth in [0,1]: half a quantum of D32F (u/2) and the projection's own rounding (4u).
 constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;
@@ -30,12 +31,12 @@ constexpr double kOrthographicRounding = 4.5 * kUnitRoundoff;
 /// alpha.
 constexpr double kAlphaRounding = 2.0 * kUnitRoundoff;
 
-/// About an anchor before the light: of a row's products with a place, and of its constant, each with its entry,
-/// product and sums, in the map and in the lookup.
+/// Rounding with an anchor before the light: of a row's products with a place, and of its constant. Each counts its
+/// entry, product and sums, in the map and in the lookup.
 constexpr double kProductRounding = 10.0 * kUnitRoundoff, kConstantRounding = 8.0 * kUnitRoundoff;
 
-/// How far a depth may be off beside a share of itself (bias/automatic.glsl). `reach_m`: how far receivers lie from the
-/// anchor, if that is not the light.
+/// Returns the error of depth that is not proportional to it (bias/automatic.glsl adds the proportional part).
+/// `reach_m`: distance of receivers from the anchor, if that is not the light.
 double projection_rounding(const ShadowView& view, double reach_m) {
     if (view.projection == ViewProjection::orthographic) return kOrthographicRounding;
     if (view.pose.apex_m == 0.0) return kAlphaRounding * std::abs(view.depth.alpha);
@@ -44,10 +45,10 @@ double projection_rounding(const ShadowView& view, double reach_m) {
     return terms_m * std::abs(view.depth.alpha) / (view.pose.apex_m - reach_m);
 }
 
-/// Of a view whose points are lit: light_block.glsl.
+/// Layer of a view without shadows (light_block.glsl).
 constexpr float kNoLayer = -1.0f;
 
-/// The next float above, of what is above 0.
+/// Returns the smallest float of at least `number`, for positive numbers.
 float at_least(double number) {
     const auto rounded = static_cast<float>(number);
     return static_cast<double>(rounded) < number ? std::nextafter(rounded, INFINITY) : rounded;
@@ -58,7 +59,7 @@ glm::vec4 with_w(const glm::dvec3& v, double w) { return {glm::vec3(v), static_c
 ViewRecord view_record(const DrawnViews& drawn, std::size_t v, const ConsumerItem& consumer) {
     const ShadowView& view = drawn.view(v);
     const ShadowRequest& request = drawn.request_of(v);
-    // A map that had to be shrunk has larger texels than the fit planned.
+    // A map that was shrunk has larger texels than the fit planned.
     const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(drawn.maps[v].size_px);
     const bool orthographic = view.projection == ViewProjection::orthographic;
     ViewRecord record;
@@ -82,7 +83,7 @@ std::string_view kind_file(const ProjectionRequest& projection, const LightKindR
     return projection.warp > 0.0f ? kWarpedSunFile : kind.file;
 }
 
-/// Fills in the program and the textures of a light by one of its views with a map.
+/// Sets the program and the textures of a light from one of its views with a map.
 void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind, const MapSamplers& samplers,
                 LightingLight& out) {
     const ShadowRequest& request = drawn.request_of(v);
@@ -97,13 +98,13 @@ void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind
     out.second = map.sheets.second;
     out.bounds = map.sheets.bounds;
     out.ends = map.sheets.ends;
-    // By itself the map of one that asks rays is good for no more; nor is one whose moments could not be made.
+    // A map of a light with rays serves one tap by itself, as does a map without its moments.
     if (map_filter(drawn, v) != request.map.filter) return;
-    const bool moments = filter.storage == FilterStorage::moments;
+    const bool moments = filter.moments != nullptr;
     out.row.filter_file = filter.file;
     out.row.reach_texel = request.map.filtering.reach_texel;
     out.row.depths = filter.reading == MapReading::depths;
-    out.row.triangles = filter.storage == FilterStorage::depth_and_triangle;
+    out.row.triangles = filter.storage.triangle_ids;
     out.row.moments = moments;
     out.row.footprint = request.map.moments.levels > 1 || request.map.moments.anisotropy > 1;
     out.row.fades = !request.projection.perspective_sun &&
@@ -113,19 +114,19 @@ void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind
     out.sampler = moments ? samplers.of(request.map.moments) : samplers.of(filter.reading);
 }
 
-/// A sun's cascades are chosen by distance along the view that they are fitted to, the consumer's unless that is
-/// frozen.
+/// Returns the direction and offset of the distance by which a sun's cascades are chosen. It is measured along the
+/// camera that they are fitted to: the drawing one, unless that is frozen.
 glm::vec4 view_distance(const ConsumerItem& fitted, const ConsumerItem& consumer) {
     const glm::dvec3 ahead = -fitted.rotation_ws[2];
     return with_w(ahead, glm::dot(ahead, consumer.position_ws_m - fitted.position_ws_m));
 }
 
-/// What every light has, map or not.
-/// `lamp_ws_m`: from where shadows of a local light are looked for.
+/// Returns the record of a light, with or without a map.
+/// `lamp_ws_m`: position from which shadows of a local light are computed.
 LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, const ConsumerItem& fitted,
                          const ConsumerItem& consumer) {
     LightRecord record;
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     const glm::dvec3 from_camera_m = light.position_ws_m - consumer.position_ws_m;
     record.position = sun ? view_distance(fitted, consumer) : with_w(from_camera_m, light.range_m);
     record.to_light = with_w(light.rotation_ws[2], light.shadow.layers);
@@ -137,14 +138,14 @@ LightRecord light_record(const LightItem& light, const glm::dvec3& lamp_ws_m, co
     constexpr double kLeastConeWidth = 0.001;
     record.cone = {static_cast<float>(cos_outer),
                    static_cast<float>(1.0 / std::max(kLeastConeWidth, cos_inner - cos_outer)), 0.0f, 0.0f};
-    if (light.kind == LightKind::point) {
+    if (light_kind_row(light.kind).texture == gl::TextureKind::cube) {
         const glm::dquat& turn = cube_turn();
         record.cone = with_w({turn.x, turn.y, turn.z}, turn.w);
     }
     return record;
 }
 
-/// What filters read.
+/// Sets the filter's part of the record.
 void filter_record(const ShadowTuning::Kernel& kernel, const FilterSettings& filter, const ConsumerItem& consumer,
                    LightRecord& record) {
     record.filtering = {static_cast<int>(filter.size), static_cast<int>(filter.taps), kernel.early_bail ? 1 : 0,
@@ -156,20 +157,21 @@ void filter_record(const ShadowTuning::Kernel& kernel, const FilterSettings& fil
     record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
 
-/// What of the source shaders read: metres, or a sun's tangent.
+/// Returns the size of the source for shaders: metres, or the tangent of a sun's angular radius.
 float source_size(LightKind kind, const FilterSettings& filter) {
-    return kind == LightKind::directional ? filter.sun_radius_tan : filter.source_radius_m;
+    return light_facts(kind).parallel ? filter.sun_radius_tan : filter.source_radius_m;
 }
 
-/// A sun that is seen from an eye gets a disk there, as wide as the sky's from the middle of the view's depth.
+/// Returns the size of the source for one view. A sun seen from an eye gets a disk there, metres, as wide as the sky's
+/// from the middle of the view's depth.
 float source_size(LightKind kind, const FilterSettings& filter, const ShadowView& view) {
-    if (kind != LightKind::directional || view.projection == ViewProjection::orthographic)
+    if (!light_facts(kind).parallel || view.projection == ViewProjection::orthographic)
         return source_size(kind, filter);
     return filter.sun_radius_tan * static_cast<float>(0.5 * (view.depth.near_m + view.depth.far_m));
 }
 
-/// Whether the maps hold all casters as far away as they are, and around a lamp how far away those are that they do
-/// not.
+/// Returns the source's part of the record. x: 1 if the maps contain all casters at their true distances. y: distance
+/// to the nearest caster around a lamp that no map shows whole, metres.
 glm::vec4 source_record(const ProjectionRequest& projection, double clearance_m) {
     const bool fitted = projection.near_m == 0.0 && projection.far_m == 0.0;
     return {fitted ? 1.0f : 0.0f, static_cast<float>(clearance_m), 0.0f, 0.0f};
@@ -216,8 +218,8 @@ CameraRecord camera_record(const ConsumerItem& c) {
 
 namespace {
 
-/// Publishes lights that use rays: with their maps, where they have any, for pixels of which those are not certain. A
-/// picture of another camera than those that maps are fitted to may show what is not in them.
+/// Publishes lights that use rays. Their maps, if any, classify pixels first. The maps are left out for cameras that
+/// they are not fitted to: these may see what is not in them.
 void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const ConsumerItem& consumer,
                   LightingInputs& inputs) {
     if (!in.rays.nodes) return;
@@ -235,28 +237,28 @@ void publish_rays(const SceneSnapshot& scene, const PublishInputs& in, const Con
         out.rays = in.rays;
         out.row.sheets = out.row.depths = out.bounds && scene.pictures.empty();
         if (!out.row.sheets) out.map = out.second = out.bounds = {}, out.ends = {};
-        // Also where it has no map.
+        // also without a map
         filter_record(light.tuning.kernel, request.map.filtering, consumer, out.record);
         out.record.radiance.w = source_size(light.kind, request.map.filtering);
         out.sampler = in.samplers.of(MapReading::depths);
     }
 }
 
-/// Publishes what every light has, map or not.
+/// Publishes what every light has, with or without a map.
 void publish_unshadowed(const SceneSnapshot& scene, const PublishInputs& in, std::uint32_t i,
                         const ConsumerItem& fitted, const ConsumerItem& consumer, LightingLight& out) {
     const LightItem& light = scene.lights[i];
     out = {};
     out.light = i;
     out.row.kind_define = light_kind_row(light.kind).define;
-    // The rectangle is the cheaper question: of many lights most are not on the screen.
+    // The rectangle is the cheaper test, and most of many lights are off screen.
     out.screen = screen_rectangle(light, consumer);
     if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
     out.farthest_depth = farthest_depth(light, consumer);
     out.record = light_record(light, lamp_ws_m(in.lamps_ws_m, scene, i), fitted, consumer);
 }
 
-/// Adds one view with a map to what its light is published with.
+/// Adds one view with a map to its light's published inputs.
 void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size_t v, const ConsumerItem& consumer,
                   LightingLight& out) {
     const ShadowView& view = in.drawn.view(v);
@@ -269,7 +271,7 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;
-    if (light.kind == LightKind::spot || request.projection.aim.used)
+    if (map_texture(light, request) != gl::TextureKind::cube)
         out.record.cone.z = static_cast<float>(request.projection.faces_eighths) / 8.0f;
     bias_record(light.tuning.bias, out);
     const MapSettings& map = request.map;
@@ -302,7 +304,7 @@ void publish_lights(const SceneSnapshot& scene, const PublishInputs& in, std::ve
             publish_unshadowed(scene, in, i, fitted, consumer, inputs.lights[i]);
             const IndexRange views = in.drawn.fitted.lights[i].views;
             for (std::size_t v = views.first; v < views.end(); ++v) {
-                // Other cameras than those that it is fitted to may see anything.
+                // Cameras that the view is not fitted to may see anything.
                 const bool sees = !scene.pictures.empty() || (in.drawn.view(v).consumer_mask & consumer_bit(c)) != 0;
                 if (sees && in.drawn.has_map(v)) publish_view(scene, in, v, consumer, inputs.lights[i]);
             }

@@ -11,7 +11,7 @@
 
 namespace gnomon::shadow {
 
-/// One per way of reading a map that the filter table names (MapReading); those that nobody asked for are {0}.
+/// One sampler per way of reading a map in the filter table (MapReading); {0}: no light needs it.
 struct MapSamplers {
     gl::SamplerHandle nearest{}, linear{}, depths{};
     struct OfMoments {
@@ -35,20 +35,20 @@ struct MapSamplers {
     }
 };
 
-/// The consumer's camera as shaders see it.
+/// Returns the record of a camera for shaders.
 CameraRecord camera_record(const ConsumerItem& consumer);
 
-/// What is published, beside the scene.
+/// Inputs of publication, beside the scene.
 struct PublishInputs {
     const DrawnViews& drawn;
-    std::span<const glm::dvec3> lamps_ws_m;  // one per light (culling/lamp_offsets.h); empty: where the lights are
+    std::span<const glm::dvec3> lamps_ws_m;  // one per light (culling/lamp_offsets.h); empty: the lights' own positions
     std::span<const double> clearances_m;    // one per light (exact/near_light_clearance.h)
     const MapSamplers& samplers;
     const visibility::RayBuffers& rays;  // nodes {0}: no light can use rays
-    bool masked = false;                 // GpuScene::caster_masks() has something for lights that read triangles
+    bool masked = false;                 // GpuScene::caster_masks() has masks for lights that read triangles
 };
 
-/// Stage 6: publishes, for each camera that draws, each light with its program row, record and textures. A light
+/// Publishes, for each camera that draws, each light with its program row, record and textures (stage 6). A light
 /// without a map is published unshadowed.
 void publish_lights(const SceneSnapshot& scene, const PublishInputs& in, std::vector<LightingInputs>& out,
                     std::span<double> cpu_us);

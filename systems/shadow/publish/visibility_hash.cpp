@@ -21,10 +21,10 @@ void add_row(const ProgramRow& row, Signature& s) {
     s.add(bits);
 }
 
-/// What is read, and where.
+/// Adds what the lookup reads, and where.
 void add_light(const LightingLight& light, Signature& s) {
     LightRecord record = light.record;
-    record.radiance = glm::vec4(0.0f, 0.0f, 0.0f, record.radiance.w);  // rgb: what arrives, not whether
+    record.radiance = glm::vec4(0.0f, 0.0f, 0.0f, record.radiance.w);  // rgb scales light, visibility is unchanged
     add_object(record, s);
     add_row(light.row, s);
     for (const std::uint32_t id :
@@ -37,8 +37,8 @@ void add_light(const LightingLight& light, Signature& s) {
     s.add(light.farthest_depth);
 }
 
-/// Adds what the layers of the light's map hold. False: not what stands there now, or it rests too little to be drawn,
-/// and what is kept meanwhile would go with the frame that draws it.
+/// Adds the content of the layers of the light's map. Returns false if they are stale, or if rays replace a map that
+/// changes in every frame: a kept result would not last.
 bool add_views(const DrawnViews& drawn, std::uint32_t light, Signature& s) {
     const IndexRange range = drawn.fitted.lights[light].views;
     for (std::size_t v = range.first; v < range.end(); ++v) {
@@ -59,7 +59,7 @@ void sign_lookups(const SceneSnapshot& scene, const DrawnViews& drawn, LightingI
         if (light.row.filter_file.empty() || !reuse.economy || !reuse.keep_visibility || scene.version == 0) continue;
         Signature s;
         add_light(light, s);
-        // Rays meet whatever casts anywhere.
+        // Rays meet casters anywhere.
         if (light.row.rays) s.add(scene.version);
         if (add_views(drawn, i, s)) light.lookup_signature = s.value();
     }

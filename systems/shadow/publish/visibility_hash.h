@@ -5,11 +5,13 @@
 
 namespace gnomon::shadow {
 
-/// Fills LightingLight::lookup_signature of one picture's lights, as they are published: a number that follows from the
-/// record without the light's colour and strength, from the program, the textures, the pixels that the light can reach,
-/// and from what its maps hold. 0 for a light that is not looked up, is to save nothing (LightShadow::economy,
-/// keep_visibility), whose maps show casters where they were while those go on or are left to rays as they
-/// change, and of scenes whose changes nobody counts.
+/// Sets LightingLight::lookup_signature of one camera's lights, as published. It hashes the record without the light's
+/// colour and strength, the program and the textures. It also hashes the pixels that the light can reach, and the
+/// content of its maps. 0:
+/// - the light is not looked up;
+/// - caching is off (ShadowTuning::Reuse::economy, keep_visibility);
+/// - its maps are stale, or rays replace them;
+/// - the scene does not count its changes.
 void sign_lookups(const SceneSnapshot& scene, const DrawnViews& drawn, LightingInputs& inputs);
 
 }  // namespace gnomon::shadow

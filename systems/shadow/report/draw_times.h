@@ -10,15 +10,15 @@
 
 namespace gnomon::shadow {
 
-/// What drawing one view of each light took on the GPU, when it was last measured. Devices may answer some frames late.
+/// GPU time of drawing one view of each light, as last measured. Devices may answer some frames late.
 class DrawTimes {
 public:
-    /// The frame that was just submitted: whose timers its measurements will name.
+    /// Records the frame that was just submitted; its timers will name it.
     void submitted(std::uint64_t submission, const SceneSnapshot& scene, const FrameReport& report);
-    /// What was measured since the last call; of other submissions than the last kFrames it means nothing.
+    /// Learns what was measured since the last call. Ignores submissions older than the last kFrames.
     void learn(std::span<const gl::Timing> timings);
 
-    /// Microseconds per view; empty: never measured.
+    /// Returns the microseconds per view; empty: never measured.
     std::optional<double> view_us(ecs::Entity light) const;
 
     static constexpr std::size_t kFrames = 8;  // more than drivers queue

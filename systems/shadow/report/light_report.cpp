@@ -2,14 +2,15 @@
 
 #include <algorithm>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/publish/lookup_accuracy.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Of a view that the fits left out: nothing is seen in it, or nothing stands before what is.
+/// Explains a view that the fits left out: no receiver is visible in it, or no caster stands before the visible ones.
 Reason why_left_out(const LightItem& light, std::span<const Beam> beams, std::uint32_t layer, Why& why) {
-    if (light.kind == LightKind::directional) return Reason::no_visible_receiver;
+    if (light_facts(light.kind).parallel) return Reason::no_visible_receiver;
     why.receivers = beams[layer].receivers;
     return why.receivers == 0 ? Reason::no_visible_receiver : Reason::no_caster;
 }
@@ -18,13 +19,13 @@ Reason why_reused(const UpdatePlan& plan) {
     return plan.hold == Hold::none ? Reason::content_unchanged : Reason::refresh_held;
 }
 
-/// Whether any of the light's views was left to rays.
+/// Returns whether rays replace any of the light's maps in this frame.
 bool is_left_to_rays(const DrawnViews& drawn, std::uint32_t light) {
     const IndexRange views = drawn.fitted.lights[light].views;
     return views.count > 0 && drawn.updates[views.first].left_to_rays;
 }
 
-/// Says what became of view `v`.
+/// Explains the state of view `v`.
 void explain_view(const DrawnViews& drawn, std::size_t v, ViewReport& view) {
     const UpdatePlan& plan = drawn.updates[v];
     const bool has_map = drawn.has_map(v);
@@ -33,14 +34,14 @@ void explain_view(const DrawnViews& drawn, std::size_t v, ViewReport& view) {
     if (has_map) view.why.stale_px = plan.stale.error_px;
     if (has_map && plan.reuse) view.state = LightState::reused;
     if (has_map && plan.reuse) view.reason = why_reused(plan);
-    if (!has_map) view.state = LightState::skipped;  // rays do without
+    if (!has_map) view.state = LightState::skipped;  // rays replace the map
     if (!has_map)
         view.reason = plan.left_to_rays ? Reason::rays_cheaper : drawn.statuses[drawn.view(v).light].degraded();
     if (drawn.view(v).lit) view.state = LightState::skipped;
     if (drawn.view(v).lit) view.reason = Reason::no_caster;
 }
 
-/// Says what became of each view that the light's map has room for.
+/// Explains the state of each view that the light's map has room for.
 void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t index, FrameReport& report) {
     LightReport& out = report.lights[index];
     const std::uint32_t count = in.drawn.lights[index].request.map.view_count;
@@ -65,11 +66,11 @@ void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t
     }
 }
 
-/// What a light's state follows from, beside its status.
+/// Inputs of a light's state, beside its status.
 struct LookupState {
-    bool lost = false;   // there is neither a map to look up nor a ray to ask
+    bool lost = false;   // there is neither a map to look up nor rays to trace
     bool drawn = false;  // what the light looks up was made or changed in this frame
-    bool held = false;   // a view of its maps shows casters as they were
+    bool held = false;   // a layer of its maps shows earlier casters
     bool left_to_rays = false;
 };
 
@@ -101,7 +102,7 @@ void explain_state(const LightStatus& status, const BudgetDecision& decision, co
     }
 }
 
-/// `filter`: that it is published with; another one than its own for want of something, as its status says.
+/// Reports the filter that the light is published with. If it replaces the light's own, the status gives the reason.
 FilterReport filter_report(const DrawnViews& drawn, std::uint32_t light, ShadowFilter filter) {
     const ShadowFilter own = drawn.lights[light].request.map.filter;
     if (filter != own) return {filter, drawn.statuses[light].degraded(), {}};
@@ -112,7 +113,7 @@ FilterReport filter_report(const DrawnViews& drawn, std::uint32_t light, ShadowF
     return out;
 }
 
-/// Of the whole light: what its views saved; all of them, and its map, if it is skipped.
+/// Reports what the light's views saved; if it is skipped, all of them and its map.
 void explain_savings(const LightItem& light, const ShadowRequest& request, std::optional<double> view_us,
                      const FrameReport& report, LightReport& out) {
     if (!light.has_shadow) return;

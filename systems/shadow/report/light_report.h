@@ -8,19 +8,19 @@
 
 namespace gnomon::shadow {
 
-/// What a report is made from.
+/// Inputs of a report.
 struct ReportInputs {
     const DrawnViews& drawn;
     const ReceiverCasterSets& sets;
     const MapStore& maps;
     const DrawTimes& times;
     const DimLights& dim;
-    bool has_rays = false;           // what rays walk is on the device
+    bool has_rays = false;           // the casters' trees are on the device
     std::span<const double> cpu_us;  // one per light
 };
 
-/// Says what became of each light and of each view that its map has room for, and the numbers behind it: fills
-/// report.lights, which counts what was drawn already, and report.views.
+/// Explains each light and each view that its map has room for, with the numbers behind it. Fills report.views, and
+/// report.lights, which already counts draws.
 void explain_lights(const SceneSnapshot& scene, const ReportInputs& in, FrameReport& report);
 
 }  // namespace gnomon::shadow

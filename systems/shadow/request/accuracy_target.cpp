@@ -4,19 +4,20 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/filter_settings.h"
 #include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Maps lose half of their edge before they are made anew: a quarter of the bytes, an eighth of the camera's way. A
-/// number of cascades stays until it takes twice the texels of another.
+/// Hysteresis: a map shrinks when half of its edge, a quarter of its bytes, suffices. A number of cascades changes when
+/// it takes twice the texels of another.
 constexpr std::uint32_t kPatience = 2;
-/// How much less another number's product of maps and error has to be: sqrt(2).
+/// Hysteresis of the product of count and error: sqrt(2).
 constexpr double kCountPatience = 1.4142135623730951;
 
-/// What of a predicted error is the texels' share.
+/// Returns the part of a predicted error that texels cause, without the pixel grid's.
 double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0.0, 0.0); }
 
 }  // namespace
@@ -33,9 +34,9 @@ double wished_error_px(const LightShadow& shadow) {
 }
 
 bool follows_contract(const LightItem& light, const ShadowRequest& request) {
-    const bool stable = light.kind == LightKind::directional && light.tuning.cascades.fit == ShadowFit::stable;
+    const bool stable = light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
     return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
-           !asks_rays(filter_row(request.map.filter));  // which err by nothing
+           !filter_row(request.map.filter).rays;  // rays have no such error
 }
 
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,

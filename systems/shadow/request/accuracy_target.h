@@ -5,79 +5,83 @@
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_request.h"
 
-/// The accuracy contract: as many texels as LightShadow::max_error_px asks for, and no more.
+/// Accuracy target: maps get the texels that LightShadow::max_error_px needs, and no more.
 ///
-/// An edge is off by (1/2 + E) m pixels, and one more that comes from pixels alone (error_bound.h); m shrinks as a
-/// map's edge grows. So the views of a fit, with maps of any size, tell which size keeps the light's word: coverage
-/// and distance decide, through what a texel is on the screen. Sizes are held: more texels are given at once, fewer
-/// only after half of them has done for a second, so that a walking camera seldom makes new maps. So is the number of a
-/// sun's cascades: more are chosen where maps have to grow or what is seen takes another step of size, fewer only in
-/// every kMovesToCount-th frame in which maps move, and are drawn, anyway.
+/// The error of an edge is (1/2 + E) m pixels, plus one pixel that the pixel grid causes by itself (error_bound.h). m,
+/// the length of a texel on the screen, shrinks as the map's edge grows. So a fit with maps of any size determines
+/// which size meets the target.
+///
+/// Hysteresis keeps a walking camera from causing new maps often:
+/// - Size: a map grows at once. It shrinks only after half of its edge has met the target for a second.
+/// - Number of a sun's cascades: it rises where maps have to grow, or where the visible receivers take another step of
+///   size. It falls only in every kMovesToCount-th frame in which maps move and are drawn anyway.
 namespace gnomon::shadow {
 
-/// How far off an edge may be where texels are `extent_px` long on screen (error_bound.h); `reach_texel` is E.
+/// Computes the bound on an edge's error, pixels, where texels are `extent_px` long on screen (error_bound.h).
+/// `reach_texel`: E.
 double edge_error_px(double extent_px, double reach_texel);
 
-/// What a view states holds for receivers that face the light within 60 degrees: there a texel is at most
-/// 1 / cos 60° = 2 times as long on them as across the light. Steeper ones show longer edges, in dimmer light; no
-/// single number bounds them, since any curved surface has places that the light only grazes.
+/// Stretch of a texel on the steepest receiver for which a view's error is stated: 1 / cos 60° = 2 against a texel
+/// across the light. Steeper receivers show longer errors, in dimmer light. No single number bounds them, because every
+/// curved surface has places at grazing incidence.
 inline constexpr double kSteepestReceiver = 2.0;
 
-/// How many times longer a texel is on a receiver whose normal has this cosine with the way to the light than on the
-/// steepest that is stated for; at least 1, infinite where the light grazes.
+/// Returns the stretch of a texel on a receiver, relative to the steepest receiver of the stated error. `cosine`: n·l
+/// of the receiver. At least 1; infinite at grazing incidence.
 double steeper_than_stated(double cosine);
 
-/// Map edges are multiples of it, and at least this: as many texels as a quantised grid needs, few enough that a window
-/// that grows by some pixels seldom makes new maps.
+/// Least edge of a map, texels; edges are multiples of it. It is as large as a quantised grid needs, and so coarse that
+/// a window that grows by some pixels seldom causes new maps.
 inline constexpr std::uint32_t kLeastMap_px = 256;
 
-/// max_error_px, or 1 where it is not above 0.
+/// Returns the target, pixels: max_error_px, or 1 where that is not above 0.
 double wished_error_px(const LightShadow& shadow);
 
-/// Whether the light's maps may be smaller than its request's most_px. Not where the size is given, where it must not
-/// depend on what is seen (ShadowFit::stable), or where a filter's width hangs on it (FilterWidth::source).
+/// Returns true if the target may make the light's maps smaller than MapLimits::max_px. False where the size is given,
+/// must not depend on visible receivers (ShadowFit::stable), or determines a filter's width (FilterWidth::source).
 bool follows_contract(const LightItem& light, const ShadowRequest& request);
 
-/// What maps of `size_px` that err by `predicted_px` should become: the least multiple of kLeastMap_px that errs by no
-/// more than `wished_px` beside the pixel of the picture's own, at most `most_px`; if they are `held`, size_px itself
-/// unless that is less or twice as much. `predicted_px` 0: nothing is seen. Infinite or NaN: most_px.
+/// Computes the edge that maps of `size_px` with the error `predicted_px` should get, at most `most_px`. It is the
+/// least multiple of kLeastMap_px with an error up to `wished_px` beside the pixel grid's own.
+/// `held`: the maps exist; they keep size_px unless it is too small, or at least twice the needed edge.
+/// `predicted_px`: 0 if no receiver is visible. Infinite or NaN: returns most_px.
 std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
                                std::uint32_t most_px);
 
-/// How many frames in a row half of a held map's edge has to do before it becomes smaller: a second at 60 Hz, longer
-/// than a glance aside.
+/// Consecutive frames in which half of a map's edge must meet the target before the map shrinks. A second at 60 Hz is
+/// longer than a short look aside.
 inline constexpr std::uint32_t kSpareFrames = 60;
 
-/// Choosing another number costs as many fits as there are numbers, and a change all maps: a second of steady moving,
-/// as for sizes.
+/// Frames with moving maps after which fewer cascades are considered: a second of steady movement, as for sizes. The
+/// choice costs one fit per candidate number, and a change draws all maps.
 inline constexpr std::uint32_t kMovesToCount = kSpareFrames;
 
-/// What a sun's cascades of one count come to.
+/// Fit of a sun with one number of cascades.
 struct CascadeTrial {
     std::uint32_t count = 0;
     double predicted_px = 0.0;
-    std::uint64_t texels = 0;  // of all their maps
+    std::uint64_t texels = 0;  // sum over all its maps
 };
 
-/// How many cascades a sun gets; trials are of rising counts. The fewest that keep its word with no more texels than
-/// the most of them take; the `held` number stays, unless fewer do, while it keeps the word with less than twice those
-/// texels (0: none is held).
+/// Chooses a sun's number of cascades from trials with rising counts. `held`: the present number; 0: none.
 ///
-/// Where none does, all have the largest maps, and the one is chosen whose count times error is least if they shared
-/// the same texels, whose edges err by the root of the count more: twice as many maps must halve the predicted error
-/// beyond what more texels do of themselves. That bound is of the worst place, near the camera; everywhere else
-/// cascades have no smaller texels, and what is thinner than these is lost. Measured, with the same texels in all:
-/// courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one; a valley of kilometres,
-/// where they divide it by 6 to 50, with two or four (docs/cost.md). The held number stays while the least is no less
-/// than 1 / sqrt(2) of its product, as much as rounding of two sides to steps makes of it.
+/// It is the fewest that meet the target with at most the texels of the last trial. The present number stays, unless
+/// fewer do, while it meets the target with less than twice those texels.
+///
+/// If no trial does, all have maps of the largest size, and the least product of count and error is chosen. The error
+/// is taken for equal texels in total, which is larger by the root of the count. So twice as many maps must halve the
+/// predicted error beyond the gain of their additional texels. Reason: the bound is that of the worst place, near the
+/// camera. Elsewhere texels of cascades are no smaller, and thinner casters are lost. Measured with equal texels
+/// (docs/cost.md): courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one. A valley of
+/// kilometres, where they divide it by 6 to 50, is best with two or four. The present number stays while the least
+/// product is at least 1 / sqrt(2) of its own. Rounding two sides to steps changes a product by as much.
 std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px);
 
-/// Whether maps that err by `predicted_px` keep the light's word.
+/// Returns true if maps with the error `predicted_px` meet the target `wished_px`.
 bool keeps_contract(double predicted_px, double wished_px);
 
-/// How far off an edge may be under a light that keeps its word, on a receiver whose normal has this cosine with the
-/// way to the light: `wished_px` up to 60 degrees, on steeper ones as much more as texels are longer there
-/// (steeper_than_stated), and the pixel of the picture's own.
+/// Computes the allowed error of an edge, pixels, under a light that meets its target. `cosine`: n·l of the receiver.
+/// Up to 60 degrees it is `wished_px` + 1; beyond, `wished_px` grows with the texel's stretch (steeper_than_stated).
 double allowed_error_px(double wished_px, double cosine);
 
 }  // namespace gnomon::shadow

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/projection/cascade_splits.h"
 #include "systems/shadow/projection/depth_range_override.h"
 #include "systems/shadow/projection/far_lamp_aim.h"
@@ -19,13 +20,14 @@
 namespace gnomon::shadow {
 namespace {
 
-/// 256 MiB for one D32F layer: who wants more asks for it by resolution_px.
+/// Largest automatic edge of a map, texels: 256 MiB for one D32F layer. resolution_px can request more.
 constexpr std::uint32_t kLargestAutomatic_px = 8192;
-/// Below this no margin for the filter is left around the content.
+/// Least edge that resolution_px can request, texels. A smaller map has no room for the filter's border.
 constexpr std::uint32_t kLeastRequested_px = 16;
 
-/// Of each of a sun's maps, per pixel of the picture's larger side, and up to which size: its edges are seen from
-/// nearer and farther than its texels are made for. 0.05 % of wrong pixels takes so many (docs/cost.md).
+/// Edge of a sun's map, texels per pixel of the picture's larger side, at most kUsualSunMap_px. The camera sees edges
+/// from nearer and farther than the distance for which the texels are sized. 0.05 % of wrong pixels needs this many
+/// (docs/cost.md).
 constexpr float kSunTexelsPerPixel = 1.6f;
 constexpr std::uint32_t kUsualSunMap_px = 2048;
 
@@ -37,30 +39,29 @@ Reason wanted(const LightItem& light, bool shadows) {
     return Reason::none;
 }
 
-/// How many cascades a sun has, and what fades between them.
-void decide_cascades(const LightItem& light, bool depths_failed, ShadowRequest& request) {
+/// Sets a sun's number of cascades and their fade, and notes unusable settings.
+void decide_cascades(const LightItem& light, ShadowRequest& request) {
     const ShadowTuning::Cascades& tuning = light.tuning.cascades;
-    if (depths_failed && tuning.splits == CascadeSplits::sampled) request.note = Reason::depths_unread;
     if (!are_splits(tuning)) request.note = Reason::splits_invalid;
     if (light.shadow.cascades > kMaxCascades) request.note = Reason::cascades_clamped;
-    // A finer map only saves rays: of itself a light asks for one.
-    const bool one = light.shadow.cascades == 0 && asks_rays(filter_row(request.map.filter));
+    // With rays, further cascades only save rays: one is the default.
+    const bool one = light.shadow.cascades == 0 && filter_row(request.map.filter).rays;
     set_cascades(tuning, one ? 1 : cascade_count(light, request.map.view_count), request);
 }
 
-/// Whether the fit may take fewer cascades: their number is not given, nor are their ends, and their maps are as large
-/// as the contract makes them.
+/// Returns true if the fit may take fewer cascades. Neither their number nor their splits may be given, and the size of
+/// their maps must follow the target.
 bool leaves_count(const LightItem& light, const ShadowRequest& request) {
-    return light.kind == LightKind::directional && light.shadow.cascades == 0 && follows_contract(light, request) &&
+    return light_facts(light.kind).parallel && light.shadow.cascades == 0 && follows_contract(light, request) &&
            light.tuning.cascades.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
            request.projection.warp == 0.0f;
 }
 
-/// Which projection and depth range the light's views have; what cannot be had is noted and left out.
-void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest& request) {
+/// Sets projection and depth range of the light's views. Notes and ignores unusable settings.
+void decide_projection(const LightItem& light, ShadowRequest& request) {
     const LightProjection wish = light.tuning.projection.kind;
-    const bool sun = light.kind == LightKind::directional;
-    if (sun) decide_cascades(light, depths_failed, request);
+    const bool sun = light_facts(light.kind).parallel;
+    if (sun) decide_cascades(light, request);
     if (is_range(light.tuning.projection)) {
         request.projection.near_m = static_cast<double>(light.tuning.projection.near_m);
         request.projection.far_m = static_cast<double>(light.tuning.projection.far_m);
@@ -69,7 +70,7 @@ void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest
     }
     if (sun && !is_eye(light.tuning.projection)) {
         request.note = Reason::eye_invalid;
-        request.projection.near_m = request.projection.far_m = 0.0;  // they would be counted from the eye
+        request.projection.near_m = request.projection.far_m = 0.0;  // they are distances from the eye
     } else if (sun && wish == LightProjection::perspective) {
         request.projection.perspective_sun = true;
         request.map.view_count = 1;
@@ -78,7 +79,7 @@ void decide_projection(const LightItem& light, bool depths_failed, ShadowRequest
     }
 }
 
-/// How far a sun's maps may be warped. The fit measures what a warp gains for one camera alone.
+/// Sets the largest warp of a sun's maps. Needs a single camera, because the fit measures a warp's gain for one only.
 void decide_warp(const ShadowTuning::Cascades& tuning, bool one_consumer, ShadowRequest& request) {
     if (tuning.warp == 0.0f) return;
     const bool possible = tuning.fit == ShadowFit::tight && one_consumer && !request.projection.perspective_sun &&
@@ -90,33 +91,36 @@ void decide_warp(const ShadowTuning::Cascades& tuning, bool one_consumer, Shadow
         request.note = Reason::warp_unsupported;
 }
 
-/// Of a point there is nothing to ask but whether it is seen.
+/// Replaces a filter with rays by RayRow::without_size for a light without a size: its shadow has no penumbra.
 ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
-    if (filter != ShadowFilter::exact_soft) return filter;
-    const bool has_size = needs_distances(filter_settings(filter_row(filter), light, kLeastMap_px));
-    return has_size ? filter : ShadowFilter::exact;
+    const FilterRow& row = filter_row(filter);
+    if (!row.rays) return filter;
+    const bool has_size = needs_distances(filter_settings(row, light, kLeastMap_px));
+    return has_size ? filter : row.rays->without_size;
 }
 
-/// A map of sheets costs as it is drawn and cleared, layer by layer, and saves rays: a cube's six are worth half the
-/// edge (docs/exact.md, "What it costs"), a sun's that is drawn once and for all (is_quiet) twice.
+/// Returns the texels of a map's edge per pixel of the picture's larger side. A conservative map costs time to draw and
+/// clear each layer, and saves rays. For a cube's six faces half the edge is best. For a sun's map that is drawn once
+/// (is_quiet) twice the edge is best (docs/exact.md, "What it costs").
 float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(request.map.filter);
-    if (!asks_rays(row)) return row.texels_per_pixel;
+    if (!row.rays) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
-    const bool waits = held && light.kind == LightKind::directional && is_quiet(*held);
+    const bool waits = held && light_facts(light.kind).parallel && is_quiet(*held);
     return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
 }
 
-/// What errs by nothing is no larger for a smaller error.
+/// Returns the target that determines the size of maps. 0 for a filter with rays, which is exact at any size.
 float wished_resolution_px(const LightItem& light, const ShadowRequest& request) {
-    return asks_rays(filter_row(request.map.filter)) ? 0.0f : light.shadow.max_error_px;
+    return filter_row(request.map.filter).rays ? 0.0f : light.shadow.max_error_px;
 }
 
-/// As large as the picture asks for, or as the fits found to be enough (accuracy_target.h).
+/// Sets the size of the light's maps: the given size, or a size computed from the picture's. Where the size follows the
+/// target, the last frame's smaller size stays (accuracy_target.h).
 void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, const HeldLight* held,
                        ShadowRequest& request) {
-    const std::uint32_t held_px = held ? held->map_px : 0;
+    const std::uint32_t held_px = held ? held->size.map_px : 0;
     const std::uint32_t asked_px = light.shadow.resolution_px;
     request.limits.max_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
                                          : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
@@ -127,7 +131,7 @@ void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint
         set_resolution(light, held_px, request);
 }
 
-/// Most edge of each map of a sun that follows the contract.
+/// Returns the largest edge of each map of a sun with a size that follows the target.
 std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
                           const ShadowRequest& request) {
     const FilterRow& row = filter_row(request.map.filter);
@@ -143,7 +147,7 @@ void decide_cone(const LightItem& light, const HeldLight* held, ShadowRequest& r
     request.map.view_count = cone_layers(request.projection.faces_eighths);
 }
 
-/// Nothing that is said of maps is of any account.
+/// Removes the light's map: rays trace all pixels. Notes on settings of maps are dropped.
 void leave_out_map(ShadowRequest& request) {
     request.rays.only = true;
     request.map.view_count = request.limits.max_views = 0;
@@ -151,8 +155,8 @@ void leave_out_map(ShadowRequest& request) {
     request.note = Reason::none;
 }
 
-/// Rays follow the sun, and what its maps are certain of has to as well: no eye, no warp. What they store is compared
-/// to the last digit, and drawn from all sides; whatever else is said of them is of no account.
+/// Adapts the request to a conservative map with rays. Rays of a sun are parallel, so that its map cannot have an eye
+/// or a warp. Its depths are compared exactly, so that they are floats, and cascades do not fade.
 void decide_sheets(ShadowRequest& request) {
     request.rays.used = true;
     if (request.projection.perspective_sun) return leave_out_map(request);
@@ -214,22 +218,22 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     request.limits.device_px = limit_px;
     request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, request);
-    decide_projection(light, scene.sampled_depths.failed, request);
-    if (light.kind == LightKind::directional) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
-    if (light.kind == LightKind::spot) decide_cone(light, held_light, request);
+    decide_projection(light, request);
+    if (light_facts(light.kind).parallel) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
+    if (light_facts(light.kind).cone) decide_cone(light, held_light, request);
     if (request.projection.aim.used) {
         request.projection.faces_eighths = 0;
         request.map.view_count = 1;
     }
     if (leaves_count(light, request)) {
         request.limits.max_views = request.map.view_count;
-        if (held_light && held_light->cascades > 0 && held_light->cascades < request.limits.max_views)
-            set_cascades(light.tuning.cascades, held_light->cascades, request);
+        if (held_light && held_light->count.cascades > 0 && held_light->count.cascades < request.limits.max_views)
+            set_cascades(light.tuning.cascades, held_light->count.cascades, request);
     }
-    if (light.kind == LightKind::directional && follows_contract(light, request))
-        set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->map_px : 0,
+    if (light_facts(light.kind).parallel && follows_contract(light, request))
+        set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->size.map_px : 0,
                  request);
-    if (asks_rays(filter_row(request.map.filter))) decide_sheets(request);
+    if (filter_row(request.map.filter).rays) decide_sheets(request);
     return request;
 }
 
@@ -238,7 +242,7 @@ bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
         const LightItem& light = scene.lights[i];
         const HeldLight* last = find(held, light.entity, i);
         const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
-        if (wanted(light, shadows) == Reason::none && asks_rays(filter_row(filter))) return true;
+        if (wanted(light, shadows) == Reason::none && filter_row(filter).rays) return true;
     }
     return false;
 }
@@ -256,7 +260,7 @@ void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, Ra
     choose_fallbacks(scene, inputs.held, inputs.rays, requests, fallbacks);
     for (std::uint32_t i = 0; i < requests.size(); ++i) {
         if (fallbacks.reasons[i] == Reason::none) continue;
-        const ShadowFilter filter = filtered_row(requests[i].map.filter);
+        const ShadowFilter filter = filter_row(requests[i].map.filter).rays->without_rays;
         requests[i] = request_of(scene, inputs.device, inputs.held, i, filter);
         requests[i].rays.fell_back = true;
         requests[i].note = fallbacks.reasons[i];

@@ -8,43 +8,44 @@
 
 namespace gnomon::shadow {
 
-/// Most texels along a map's edge when LightShadow::resolution_px is 0: the multiple of kLeastMap_px at or above
-/// texels_per_pixel (FilterRow) times the picture's larger side, divided by max_error_px where that is below 1; within
-/// [kLeastMap_px, min(limit_px, 8192)]. max_error_px not above 0, or NaN, counts as 1.
+/// Computes the largest edge of a map when LightShadow::resolution_px is 0. It is texels_per_pixel (FilterRow) times
+/// the picture's larger side, divided by max_error_px where that is below 1. The result is rounded up to a multiple of
+/// kLeastMap_px, within [kLeastMap_px, min(limit_px, 8192)]. max_error_px 0, negative or NaN counts as 1.
 std::uint32_t automatic_resolution(glm::uvec2 viewport_px, float texels_per_pixel, float max_error_px,
                                    std::uint32_t limit_px);
 
-/// Sets the size of the light's maps, and what of its filter's settings they bear.
+/// Sets the size of the light's maps, and the filter settings that fit into that size.
 void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest& request);
 
-/// Sets how many cascades a sun has, and whether they fade into each other.
+/// Sets a sun's number of cascades, and the fade between them; one cascade has none.
 void set_cascades(const ShadowTuning::Cascades& tuning, std::uint32_t count, ShadowRequest& request);
 
-/// What the light of that index deserves with that filter, if it deserves anything.
+/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `held`: history of all
+/// lights.
 ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
                          std::uint32_t light, ShadowFilter filter);
 
-/// The same within the device's limit on a map's edge; `held`: what the light's last fit left, null if there is none.
+/// Decides such a request within the device's limit on a map's edge. `held`: the light's history, null if it has none.
 ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held,
                            std::uint32_t light, ShadowFilter filter);
 
-/// Sets the size of the light's maps to the most they may have, or to `held_px`, their last one, if that is less and
-/// above 0.
+/// Limits the light's maps to most_px. Sets their size to that limit, or to their last size `held_px` if that is less
+/// and above 0.
 void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_px, ShadowRequest& request);
 
-/// Says whether any light asks for a filter that uses rays, before their limit is known.
+/// Returns true if any light requests a filter that uses rays, before the limit on rays is applied.
 bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows);
 
-/// What the requests of a frame follow from, beside the scene.
+/// Inputs of the requests of a frame, beside the scene.
 struct RequestInputs {
     const gl::DeviceInfo& device;
-    const History& held;  // what the fits left last frame
+    const History& held;  // history after the last frame
     bool shadows = true;  // false: every light counts as disabled
     RayLimit rays = {};
 };
 
-/// Stage 2: decides what each light asks for, one entry per light of the snapshot, same order. A light that asks for
-/// nothing says why in ShadowRequest::skip. `fallbacks` is overwritten.
+/// Decides the request of each light (stage 2), one entry per light of the snapshot, in the same order. A light without
+/// a shadow has the reason in ShadowRequest::skip. `fallbacks` is overwritten.
 void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, RayFallbacks& fallbacks,
                      std::vector<ShadowRequest>& requests);
 

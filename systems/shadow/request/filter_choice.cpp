@@ -1,11 +1,13 @@
 #include "systems/shadow/request/filter_choice.h"
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/accuracy_target.h"
 
 namespace gnomon::shadow {
 namespace {
 
-/// Bit for bit: the light's own setting, which was stored as it is.
+/// Returns true if the stored choice was made for this target. Compares bit for bit, because the setting was stored
+/// unchanged.
 bool is_of_word(const HeldFilter& held, double wished_px) {
     return held.wished_px <= wished_px && held.wished_px >= wished_px;
 }
@@ -20,7 +22,7 @@ bool leaves_filter(const LightItem& light) {
     const LightShadow& shadow = light.shadow;
     const ShadowTuning& tuning = light.tuning;
     if (shadow.filter != ShadowFilter::automatic || !(shadow.max_error_px > 0.0f)) return false;
-    const bool sun = light.kind == LightKind::directional;
+    const bool sun = light_facts(light.kind).parallel;
     const bool given = shadow.resolution_px > 0 || tuning.projection.near_m != 0.0f || tuning.projection.far_m != 0.0f;
     const bool apart =
         sun && (tuning.cascades.fit == ShadowFit::stable || tuning.projection.kind == LightProjection::perspective);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/prefilter_settings.h"
 
@@ -13,14 +14,14 @@ bool is_length(float value) { return std::isfinite(value) && value >= 0.0f; }
 
 using Kernel = ShadowTuning::Kernel;
 
-/// The field, or the default instead of what is no length.
+/// Returns the field, or its default if it is negative or not finite.
 float length_of(const Kernel& kernel, float Kernel::*field, FilterSettings& filter) {
     if (is_length(kernel.*field)) return kernel.*field;
     filter.cut = true;
     return Kernel{}.*field;
 }
 
-/// Taps that differ from point to point.
+/// Takes the settings of filters with a random pattern of taps.
 void take_seeds(const Kernel& kernel, FilterSettings& filter) {
     filter.taps = std::clamp(kernel.taps, 1u, kMostFilterTaps);
     filter.cell_m = length_of(kernel, &Kernel::cell_m, filter);
@@ -28,7 +29,7 @@ void take_seeds(const Kernel& kernel, FilterSettings& filter) {
     filter.cut = filter.cut || filter.taps != kernel.taps || filter.cell_m != kernel.cell_m;
 }
 
-/// In place of taps.
+/// Takes the number of rays of a penumbra in place of the taps.
 void take_rays(const Kernel& kernel, FilterSettings& filter) {
     filter.taps = std::clamp(kernel.penumbra_rays, 1u, kMostPenumbraRays);
     filter.cut = filter.cut || filter.taps != kernel.penumbra_rays;
@@ -45,12 +46,13 @@ void take_spread(const Kernel& kernel, float most_texel, FilterSettings& filter)
     filter.widest_texel += filter.most_spread_texel;
 }
 
-/// How many texels it reaches follows from where casters are: up to the most.
+/// Takes the size of the light's source. The width of its penumbra depends on the casters' distances; here it has its
+/// upper limit, most_texel.
 void take_source(const LightItem& light, float most_texel, FilterSettings& filter) {
     const float size = source_size(light);
-    const bool sun = light.kind == LightKind::directional;
-    const float taken = is_length(size) ? std::min(size, sun ? kMostSunRadius_rad : kMostSourceRadius_m) : 0.0f;
-    if (sun)
+    const LightFacts& facts = light_facts(light.kind);
+    const float taken = is_length(size) ? std::min(size, facts.most_source_size) : 0.0f;
+    if (facts.parallel)
         filter.sun_radius_tan = std::tan(taken);
     else
         filter.source_radius_m = taken;
@@ -71,9 +73,7 @@ bool needs_distances(const FilterSettings& filter) {
     return filter.source_radius_m > 0.0f || filter.sun_radius_tan > 0.0f;
 }
 
-float source_size(const LightItem& light) {
-    return light.kind == LightKind::directional ? light.sun_radius_rad : light.source_radius_m;
-}
+float source_size(const LightItem& light) { return light.*light_facts(light.kind).source_size; }
 
 FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px) {
     return filter_settings(filter_row(light.shadow.filter), light, resolution_px);
@@ -86,7 +86,7 @@ FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std
     FilterSettings filter;
     filter.reach_texel = row.reach_texel;
     if (row.width == FilterWidth::size) {
-        // The nearest odd size below.
+        // Even sizes become the next smaller odd one.
         const auto most = std::min(kMostFilterSize, 2 * static_cast<std::uint32_t>(most_texel) + 1);
         filter.size = (std::clamp(kernel.size_texel, 1u, most) - 1) / 2 * 2 + 1;
         filter.cut = filter.size != kernel.size_texel;
@@ -97,7 +97,7 @@ FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std
     filter.still_texel = row.still_texel;
     if (row.width == FilterWidth::spread || row.width == FilterWidth::source) take_seeds(kernel, filter);
     if (row.width == FilterWidth::spread) take_spread(kernel, most_texel, filter);
-    if (asks_rays(row)) take_rays(kernel, filter);
+    if (row.rays) take_rays(kernel, filter);
     if (row.width == FilterWidth::source) take_source(light, most_edge_texel, filter);
     filter.border_texel = border_texel(filter, filter.most_spread_texel);
     return filter;
@@ -107,7 +107,7 @@ double reach_texel_at(const FilterSettings& filter, double texel_m) {
     if (!(filter.spread_m > 0.0f) || filter.doubles_m > 0.0f) return static_cast<double>(filter.widest_texel);
     const double spread_texel = static_cast<double>(filter.spread_m) / texel_m;
     const auto most_texel = static_cast<double>(filter.most_spread_texel);
-    // Not a finite number: the widest.
+    // NaN and infinity take the widest.
     return static_cast<double>(filter.reach_texel) + (spread_texel < most_texel ? spread_texel : most_texel);
 }
 

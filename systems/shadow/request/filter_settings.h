@@ -9,31 +9,35 @@ namespace gnomon::shadow {
 struct FilterRow;
 
 inline constexpr std::uint32_t kMostFilterSize = 31, kMostFilterTaps = 32, kMostPenumbraRays = 256;
-/// Wider filters cost a map more border, and a plane more bias, than they are worth.
+/// Largest half-width of a spread, texels. A wider one costs a map too much border, and needs too much bias.
 inline constexpr float kMostSpread_texel = 16.0f;
-/// Half-width of the widest penumbra of FilterWidth::source: wider ones cost its search more taps; take fewer texels.
+/// Largest half-width of a penumbra of FilterWidth::source, texels. A wider one costs the blocker search more taps; a
+/// map with fewer texels avoids that.
 inline constexpr float kMostPenumbra_texel = 128.0f;
 
-/// Of a map's edge: a wider footprint would leave too little between its borders.
+/// Least ratio of a map's edge to the half-width of a footprint. A wider footprint leaves too little room between the
+/// map's borders.
 inline constexpr std::uint32_t kEdgesPerSpread = 8;
 
-/// Of the source's sizes the light's own kind's counts.
+/// Returns the effective settings of a filter for maps with an edge of resolution_px. The size of the source is the
+/// angle for a sun, and the radius for other lights.
 FilterSettings filter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px);
-/// The same with the light's own filter.
+/// Returns the effective settings of the light's own filter.
 FilterSettings filter_settings(const LightItem& light, std::uint32_t resolution_px);
 
-/// The size of the light's source: a sun's as an angle, others' in metres. 0 or no length: a point.
+/// Returns the size of the light's source: a sun's in radians, others' in metres. 0, negative or NaN: a point.
 float source_size(const LightItem& light);
 
-/// Whether a map has to hold how far casters truly are, instead of flattening those before its depth range.
+/// Returns true if the map must contain the true distances of casters. Otherwise casters before its depth range are
+/// flattened onto the near plane.
 bool needs_distances(const FilterSettings& filter);
 
-/// FilterSettings::border_texel where no penumbra is wider than that.
+/// Returns FilterSettings::border_texel for penumbrae of half-width up to penumbra_texel.
 float border_texel(const FilterSettings& filter, float penumbra_texel);
 
-/// Bound on E where no texel is finer than `texel_m` metres.
+/// Returns an upper bound on E, texels, where no texel is smaller than `texel_m` metres.
 double reach_texel_at(const FilterSettings& filter, double texel_m);
-/// The same of what can move a shadow's edge.
+/// Returns an upper bound, texels, on the part of E that can move a shadow's edge.
 double edge_texel_at(const FilterSettings& filter, double texel_m);
 
 }  // namespace gnomon::shadow

@@ -8,77 +8,96 @@
 
 namespace gnomon::shadow {
 
-/// Which settings the footprint of a filter follows.
+/// Settings that determine the width of a filter's footprint.
 enum class FilterWidth : std::uint8_t {
     fixed,
     size,    // ShadowTuning::Kernel::size_texel
-    spread,  // its spread_texel, spread_m, doubles_m
+    spread,  // spread_texel, spread_m and doubles_m of ShadowTuning::Kernel
     source   // Light::source_radius_m, sun_radius_rad; needs true distances of casters
 };
 
-/// What a map holds for a filter: depth, or also which triangle each texel shows
-/// (shaders/shadow/filters/triangles/mesh_walk.glsl), or also moments of distances, blurred (shaders/shadow/moments),
-/// or also what tells of which pixels it is certain (shaders/shadow/exact); rays ask the casters themselves
-/// (shaders/rays) about the others, or about all where the light has no such map; or also what of that a source with a
-/// size asks for.
-enum class FilterStorage : std::uint8_t { depth, depth_and_triangle, moments, sheets, soft_sheets };
+/// Work of drawing a view for its filter, relative to drawing depths of 4 bytes alone (budget/cost_model.h).
+struct DrawingWork {
+    double passes = 1.0;       // targets drawn into, one after the other
+    double casters = 1.0;      // number of times that each caster is drawn
+    double texel_bytes = 4.0;  // bytes cleared and written per texel, in all targets
+    bool operator==(const DrawingWork&) const = default;
+};
 
-/// What its sampler returns: results of comparing, as they are or blended by hardware, what is stored, or blurred
-/// moments of it.
+/// Content of a map for a filter beside its depths. Moments, which passes compute from the depths, are
+/// FilterRow::moments.
+struct FilterStorage {
+    /// Triangle and instance per texel, for lookups (shaders/shadow/filters/triangles/mesh_walk.glsl).
+    bool triangle_ids = false;
+    /// Conservative shadow map: error bounds and the next depths behind (shaders/shadow/filters/exact).
+    bool conservative_bounds = false;
+    bool occluder_pyramid = false;  // minima of depths over squares of texels, for area lights
+    DrawingWork work{};
+    bool operator==(const FilterStorage&) const = default;
+};
+
+/// Result of the map's sampler: depth comparisons, single or blended by hardware; stored depths; or blurred moments.
 enum class MapReading : std::uint8_t { compare_nearest, compare_linear, depths, moments };
 
-/// How a prefiltered map stores what its filter's file makes of distances: in 16 or 32 bits a channel.
+/// Storage of a prefiltered map with 16 or 32 bits per channel.
 struct MomentStore {
     gl::Format format;
-    float most_exponent;   // of warped distances e^(c s), s in [-1,1]; beyond, the largest power overflows; 0: no warp
-    float usual_exponent;  // where the light names none
-    /// How far rounding may take what is reconstructed: a variance, relative to the warped distance's square, or a
-    /// share of moments that are known to be possible (the filter's file says which).
+    float most_exponent;  // limit of c in the warp e^(c s), s in [-1,1], before the largest power overflows; 0: no warp
+    float usual_exponent;  // default of c
+    /// Bound on the rounding error of the reconstructed value. It is a variance relative to the warped distance's
+    /// square, or a share of moments that are known to be possible. The filter's file defines which.
     float least;
 };
 struct MomentRow {
     MomentStore bits_16, bits_32;
-    float usual_negative_exponent = 0.0f;  // of a second warp, -e^(-c s); 0: there is none
+    float usual_negative_exponent = 0.0f;  // default of c in a second warp, -e^(-c s); 0: there is none
 };
 
-/// One way of looking a depth map up. To add one: a file under shaders/shadow/filters, an enumerator, a row
+/// Rays to the light beside a map (shaders/ray_tracing). Rays trace undecided pixels, or all where the light has no
+/// map.
+struct RayRow {
+    bool per_source;            // true: Kernel::penumbra_rays per pixel, to places of the source; false: one ray
+    ShadowFilter without_rays;  // fallback where rays are unavailable: the most accurate filter without rays
+    ShadowFilter without_size;  // replacement where the light's source is a point
+};
+
+/// Filter of a depth map. A new one needs a file in shaders/shadow/filters, an enumerator and a row
 /// (docs/adding_a_filter.md).
 struct FilterRow {
     ShadowFilter id;
     std::string_view name;  // as in --set filter=
-    std::string_view file;  // under shaders/
-    /// Most texture fetches per lookup, without early bailing; `cube`: of a point light.
+    std::string_view file;  // below shaders/
+    /// Returns the largest number of texture fetches per lookup, without early exit. `cube`: for a point light's cube.
     std::uint32_t (*taps)(const ShadowTuning::Kernel& kernel, bool cube);
-    /// E, the half-width of the footprint that decides a pixel, in texels: this, and what `width` adds.
+    /// Kernel radius E, the half-width of the footprint that decides a pixel, texels, without the part that `width`
+    /// adds.
     float reach_texel;
     FilterWidth width;
     MapReading reading;
-    FilterStorage storage = FilterStorage::depth;
-    /// What of E is read but cannot move a shadow's edge.
+    FilterStorage storage{};
+    /// Part of E that is read but cannot move a shadow's edge, texels.
     float still_texel = 0.0f;
-    /// Of one cascade, spot view or cube face, per pixel of the picture's larger side, where the light says no size.
-    /// What is seen lies obliquely in the map, so that one to one is not enough. Measured in docs/accuracy.md.
+    /// Default edge of a cascade, spot view or cube face, texels per pixel of the picture's larger side. More than 1,
+    /// because receivers lie obliquely in the map. Measured in docs/accuracy.md.
     float texels_per_pixel = 1.5f;
-    const MomentRow* moments = nullptr;  // of FilterStorage::moments
+    /// Blurred moments of distances beside the map (shaders/shadow/passes/prefilter). nullptr: none.
+    const MomentRow* moments = nullptr;
+    const RayRow* rays = nullptr;  // rays beside the map; nullptr: none
 };
 
-/// The row that measures best, and what ShadowFilter::automatic is where nothing speaks for another.
+/// Default filter, and meaning of ShadowFilter::automatic unless the target chooses another: the row that measures
+/// best.
 inline constexpr ShadowFilter kUsualFilter = ShadowFilter::triangles;
 
-/// What is looked up where a budget leaves no more, or the light's own row cannot be had. One fetch, one texel, no
-/// store beside the map, and the narrowest footprint: no border or bias is too small for it.
+/// Cheapest filter: fallback under a budget, and while the light's own program is unavailable. One fetch of one texel,
+/// no texture beside the map, and the narrowest footprint, so that every border and bias suffices for it.
 inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
 
-inline bool has_sheets(FilterStorage storage) {
-    return storage == FilterStorage::sheets || storage == FilterStorage::soft_sheets;
-}
-inline bool asks_rays(const FilterRow& row) { return has_sheets(row.storage); }
-
-/// In the order of ShadowFilter.
+/// Returns all rows in the order of ShadowFilter.
 std::span<const FilterRow> filter_table();
-/// Of ShadowFilter::automatic: kUsualFilter's.
+/// Returns the row of a filter. ShadowFilter::automatic: kUsualFilter's row. Other values outside the table: the first.
 const FilterRow& filter_row(ShadowFilter filter);
-/// nullptr if there is none of that name.
+/// Returns the row with that name, or nullptr.
 const FilterRow* find_filter(std::string_view name);
 
 }  // namespace gnomon::shadow

@@ -2,17 +2,21 @@
 
 #include <iterator>
 
+#include "systems/shadow/projection/far_lamp_aim.h"
+
 namespace gnomon::shadow {
 namespace {
 
-/// Cascades of a sun: each about doubles the depth that one texel size can serve; docs/accuracy.md has the figures.
+/// Default number of a sun's cascades. Each about doubles the depth range of one texel size (docs/accuracy.md).
 constexpr std::uint32_t kCascades = 4;
 
 constexpr LightKindRow kKindRows[] = {
     {LightKind::directional, "directional", "LIGHT_DIRECTIONAL", "shadow/lookup/kinds/directional.glsl",
-     gl::TextureKind::array, kCascades, fit_directional},
-    {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot},
-    {LightKind::point, "point", "LIGHT_POINT", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point},
+     gl::TextureKind::array, kCascades, fit_directional, nullptr},
+    {LightKind::spot, "spot", "LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", gl::TextureKind::array, 1, fit_spot,
+     add_spot_frusta},
+    {LightKind::point, "point", "LIGHT_POINT", "shadow/lookup/kinds/point.glsl", gl::TextureKind::cube, 6, fit_point,
+     add_cube_frusta},
 };
 
 constexpr bool kinds_are_in_order() {
@@ -27,6 +31,16 @@ static_assert(kinds_are_in_order());
 std::span<const LightKindRow> light_kind_table() { return kKindRows; }
 
 const LightKindRow& light_kind_row(LightKind kind) { return kKindRows[static_cast<std::size_t>(kind)]; }
+
+LightOpenings light_openings(const LightItem& light, const ShadowRequest& request) {
+    LightOpenings openings;
+    const FrustaFunction add = light_kind_row(light.kind).frusta;
+    if (request.projection.aim.used)
+        openings.items[openings.count++] = aimed_opening(light, request.projection.aim);
+    else if (add)
+        add(light, request, openings);
+    return openings;
+}
 
 gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request) {
     return request.projection.aim.used ? gl::TextureKind::array : light_kind_row(light.kind).texture;

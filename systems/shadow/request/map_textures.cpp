@@ -32,7 +32,7 @@ std::uint32_t scratch_rows(const MapSettings& settings, bool cube) { return cube
 
 MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings) {
     MomentDescs moments;
-    if (filter_row(settings.filter).storage != FilterStorage::moments) return moments;
+    if (!filter_row(settings.filter).moments) return moments;
     moments.texture = without_label(map);
     moments.texture.format = settings.moments.format;
     moments.texture.mips = std::min(settings.moments.levels, static_cast<std::uint32_t>(std::bit_width(map.width)));
@@ -54,14 +54,14 @@ SheetDescs sheets_of(const gl::TextureDesc& map) {
     return {beside(kTriangleFormat, 1), beside(map.format, views), beside(gl::Format::rg32f, views)};
 }
 
-std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
+std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch) {
     std::uint64_t bytes = gl::byte_size(map);
-    if (storage == FilterStorage::depth_and_triangle) bytes += gl::byte_size(triangles_of(map));
-    if (has_sheets(storage)) {
+    if (storage.triangle_ids) bytes += gl::byte_size(triangles_of(map));
+    if (storage.conservative_bounds) {
         const SheetDescs sheets = sheets_of(map);
         bytes += gl::byte_size(sheets.triangles) + gl::byte_size(sheets.second) + gl::byte_size(sheets.bounds);
-        if (storage == FilterStorage::soft_sheets) bytes += ends_bytes(map.width, gl::layer_count(map));
+        if (storage.occluder_pyramid) bytes += ends_bytes(map.width, gl::layer_count(map));
     }
     if (moments.width > 0) bytes += gl::byte_size(moments);
     if (scratch.width > 0) bytes += gl::byte_size(scratch);

@@ -6,42 +6,45 @@
 #include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// Which textures a light's request asks for. None has a label: those are for what is made, and a longer one takes
-/// memory, which a steady frame must not.
+/// Descriptions of the textures that a light's request needs. They have no labels, because a long label allocates
+/// memory, which a steady frame must not do. Labels are added when a texture is created.
 namespace gnomon::shadow {
 
-/// Of what each texel of a map shows: an instance and a triangle (shaders/shadow/filters/triangles/mesh_walk.glsl).
+/// Format of the triangle texture: instance and triangle per texel (shaders/shadow/filters/triangles/mesh_walk.glsl).
 inline constexpr gl::Format kTriangleFormat = gl::Format::rg32ui;
 
 gl::TextureDesc without_label(const gl::TextureDesc& desc);
 
-/// The depth map, of the edge that the light is given in this frame.
+/// Describes the depth map, with the light's edge in this frame.
 gl::TextureDesc map_desc(const LightItem& light, const ShadowRequest& request);
 
-/// What each of its texels shows.
+/// Describes the texture of the triangles that the map's texels show.
 gl::TextureDesc triangles_of(const gl::TextureDesc& map);
 
-/// Its moments, and what their blur needs between its two passes; width 0: there is none.
+/// Prefiltered map, and the result of its blur's first pass. Width 0: there is none.
 struct MomentDescs {
     gl::TextureDesc texture{.width = 0}, scratch{.width = 0};
 };
 MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings);
 
-/// Rows of the scratch texture beyond the map's, above and below: a cube's neighbours go on there.
+/// Returns the additional rows of the scratch texture above and below the map's: a cube face's neighbours continue
+/// there.
 std::uint32_t scratch_rows(const MapSettings& settings, bool cube);
 
-/// What else a map of FilterStorage::sheets has (docs/exact.md): what each texel shows, until the next triangles behind
-/// are drawn, view by view in one layer; and, per view, those triangles' depths, and where sheets end and how far they
-/// depart.
+/// Textures of a conservative map (FilterStorage::conservative_bounds) beside its depths (docs/exact.md).
+/// - `triangles`: triangle of each texel, read while the second layer is drawn; one layer for all views in turn.
+/// - `second`: per view, depths of the next triangles behind.
+/// - `bounds`: per view, depth of the nearest silhouette edge, and depth slope bound.
 struct SheetDescs {
     gl::TextureDesc triangles, second, bounds;
 };
 SheetDescs sheets_of(const gl::TextureDesc& map);
 
-/// Of all that a map for this storage has; of `moments` and `scratch` those with a width.
-std::uint64_t map_bytes(const gl::TextureDesc& map, FilterStorage storage, const gl::TextureDesc& moments,
+/// Returns the bytes of a map with all textures of its storage, and of `moments` and `scratch` where their width is not
+/// 0.
+std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage, const gl::TextureDesc& moments,
                         const gl::TextureDesc& scratch);
-/// 0: it has no map.
+/// Returns the bytes of the light's map. 0: it has none.
 std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request);
 
 }  // namespace gnomon::shadow

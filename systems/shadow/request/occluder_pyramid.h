@@ -3,32 +3,38 @@
 
 #include "systems/shadow/frame/shadow_view.h"
 
-/// What a source with a size asks of a map of sheets (docs/exact.md, "A source with a size"): per texel how near to the
-/// light anything comes there that may keep a place from being lit by all of the source, or dark to all of it; and the
-/// nearest of those in ever larger squares. The texels themselves are told by the map's other textures.
+/// Occluder pyramid over a conservative shadow map, for area lights (docs/exact.md, "A source with a size"). A texel
+/// has two depths. The first is that of the occluder nearest to the light that may keep a place from full light. The
+/// second is that of the nearest surface with a possible edge, which may keep it from full shadow. Each level stores
+/// the nearest of these in squares of kEndsAcross by kEndsAcross. The texels' own depths are not stored, because they
+/// follow from the map's other textures.
 namespace gnomon::shadow {
 
-/// Squares a side that one of the next level holds: kEndsAcross in shaders/shadow/filters/exact/occluder_pyramid.glsl.
+/// Edge of a square, in squares of the level below. Equals kEndsAcross in
+/// shaders/shadow/filters/exact/occluder_pyramid.glsl.
 inline constexpr std::uint32_t kEndsAcross = 4;
 
-/// One level of squares of one view.
+/// One level of the pyramid of one view. `first`: index of its first square, from the view's start in the buffer.
+/// `side`: number of squares along an edge.
 struct EndsLevel {
-    std::uint32_t first = 0, side = 0;  // in the buffer, from where the view's begin; squares along an edge
+    std::uint32_t first = 0, side = 0;
 };
-/// The level above a map of `size_px` texels, or above another level; that of one square is the last.
+/// Returns the level above a map of `size_px` texels.
 EndsLevel first_ends(std::uint32_t size_px);
+/// Returns the level above another one. A level of one square is the last.
 EndsLevel next_ends(const EndsLevel& level);
 
-/// Squares of one view, and bytes of so many.
+/// Returns the number of squares of one view.
 std::uint32_t ends_count(std::uint32_t size_px);
+/// Returns the bytes of the pyramids of all views.
 std::uint64_t ends_bytes(std::uint32_t size_px, std::uint32_t views);
 
-/// By so much an ellipse may be longer, and a penumbra wider, away from a lamp's axis: kMostStretch in
+/// Limit of the stretch of the source's ellipse, and of a penumbra, away from a lamp's axis. Equals kMostStretch in
 /// shaders/shadow/filters/exact/light_cone.glsl.
 inline constexpr double kMostStretch = 2.5;
 
-/// Change of depth in a texel from which a facet may lie within the cone between a place and a source of this size:
-/// metres, or a sun's tangent.
+/// Returns the change of depth per texel above which a facet may lie within the cone between a place and the source.
+/// `source_size`: metres, or the tangent of a sun's angular radius.
 double steepest(const ShadowView& view, double texel_u, double texel_v, double source_size);
 
 }  // namespace gnomon::shadow

@@ -13,20 +13,21 @@ namespace {
 static_assert(kMomentWeights == kMostFilterSize / 2 + 1);
 constexpr float kCutOff_deviations = 2.0f;
 
-/// 0 asks for the usual one.
+/// Returns the effective exponent, at most `most`. `asked` 0, negative or NaN: `usual`. Sets `cut` if a value other
+/// than 0 was replaced.
 float exponent(float asked, float usual, float most, bool& cut) {
     if (asked == 0.0f || most == 0.0f) return std::min(usual, most);
     const bool good = asked > 0.0f && asked <= most;
     cut = cut || !good;
     if (good) return asked;
-    return asked > most ? most : std::min(usual, most);  // not a number: the usual one
+    return asked > most ? most : std::min(usual, most);
 }
 
-/// Footprints of more texels would ask for more border and bias than they are worth.
+/// Largest footprint of a pixel, texels. A larger one needs too much border and bias.
 constexpr float kMostFootprint_texel = 16.0f;
 
-/// A sampler's blend at the coarsest level reads texels up to one and a half of its own away, of which E has one of the
-/// finest already; anisotropy moves it along the footprint, by half of it.
+/// Sets the footprint and the part of E that it adds. At the coarsest level the sampler blends texels up to 1.5 of that
+/// level's away; E already includes one of the finest. Anisotropy moves the taps along the footprint, by half of it.
 void set_footprint(PrefilterSettings& request) {
     const auto coarsest_texel = static_cast<float>(1u << (request.levels - 1));
     request.footprint_texel = std::min(coarsest_texel * static_cast<float>(request.anisotropy), kMostFootprint_texel);
@@ -34,7 +35,8 @@ void set_footprint(PrefilterSettings& request) {
     if (request.anisotropy > 1) request.reach_texel += 0.5f * request.footprint_texel;
 }
 
-/// Of FilterWidth::source, as filter_settings() takes its size.
+/// Returns the mipmap levels that the widest penumbra needs; 1 without FilterWidth::source or without a source's size.
+/// The size has the limits of filter_settings().
 std::uint32_t penumbra_levels(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
     const float size = source_size(light);
     const bool soft = row.width == FilterWidth::source && std::isfinite(size) && size > 0.0f;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
@@ -10,7 +11,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Room that a light needs to come back.
+/// Hysteresis: factor on the predicted rays of a light that fell back.
 constexpr double kBackAgain = 1.25;
 
 double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request) {
@@ -18,18 +19,15 @@ double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowR
     return pixels * rays_per_pixel(request.map);
 }
 
-/// What a light's shadow means to the picture, to compare lights by: pixels times illuminance at the camera.
+/// Returns the importance of a light's shadow to the picture: pixels times illuminance at the nearest camera.
 double meaning(const SceneSnapshot& scene, const LightItem& light) {
-    const double emitted = static_cast<double>(light.intensity) *
-                           static_cast<double>(std::max({light.colour.r, light.colour.g, light.colour.b}));
     double nearest_m2 = std::numeric_limits<double>::infinity();
     for (const ConsumerItem& consumer : scene.consumers) {
         const glm::dvec3 way_m = light.position_ws_m - consumer.position_ws_m;
         nearest_m2 = std::min(nearest_m2, glm::dot(way_m, way_m));
     }
-    constexpr double kLeast_m2 = 1.0;  // nearer than a metre all is as bright as there
-    const double lux = light.kind == LightKind::directional ? emitted : emitted / std::max(nearest_m2, kLeast_m2);
-    return lux * asking_pixels(scene, light);
+    constexpr double kLeast_m2 = 1.0;  // lights nearer than a metre count as at a metre
+    return illuminance_lux(light, std::max(nearest_m2, kLeast_m2)) * asking_pixels(scene, light);
 }
 
 bool uses_rays(const ShadowRequest& request) { return request.skip == Reason::none && request.rays.used; }
@@ -37,7 +35,8 @@ bool uses_rays(const ShadowRequest& request) { return request.skip == Reason::no
 }  // namespace
 
 double rays_per_pixel(const MapSettings& map) {
-    return filter_row(map.filter).storage == FilterStorage::soft_sheets ? map.filtering.taps : 1.0;
+    const RayRow* rays = filter_row(map.filter).rays;
+    return rays && rays->per_source ? map.filtering.taps : 1.0;
 }
 
 double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {
@@ -70,7 +69,7 @@ void choose_fallbacks(const SceneSnapshot& scene, const History& held, const Ray
         const LightItem& light = scene.lights[asker.light];
         const HeldLight* last = find(held, light.entity, asker.light);
         const double rays = rays_of(scene, light, requests[asker.light]);
-        if (rays * (last && last->gave_way ? kBackAgain : 1.0) <= left)
+        if (rays * (last && last->rays.gave_way ? kBackAgain : 1.0) <= left)
             left -= rays;
         else
             out.reasons[asker.light] = Reason::ray_budget;

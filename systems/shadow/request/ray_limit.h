@@ -7,47 +7,40 @@
 #include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// How many rays lights ask, before any is counted; and what follows from that.
+/// Prediction of the rays that lights need, and fallback of lights without room for their rays.
 namespace gnomon::shadow {
 
-/// What an exact light falls back to when others' rays use a budget up: the row that errs least without any.
-inline constexpr ShadowFilter kFilteredRow = kUsualFilter;
-/// The same of a source with a size.
-inline constexpr ShadowFilter kFilteredSoftRow = ShadowFilter::pcss;
-constexpr ShadowFilter filtered_row(ShadowFilter filter) {
-    return filter == ShadowFilter::exact_soft ? kFilteredSoftRow : kFilteredRow;
-}
-
-/// Of the pixels that ask a light, so many its map is taken not to be certain of: more than in all but one of the
-/// scenes of docs/exact.md.
+/// Assumed share of a light's pixels that its map leaves undecided: more than in all but one of the scenes of
+/// docs/exact.md.
 inline constexpr double kUncertainShare = 0.2;
 
-/// Pixels that ask the light: of its rectangles in all pictures.
+/// Returns the pixels that look the light up: the area of its screen rectangles in all pictures.
 double asking_pixels(const SceneSnapshot& scene, const LightItem& light);
 
-/// Returns the rays for each of those pixels of which the map is not certain.
+/// Returns the rays per undecided pixel.
 double rays_per_pixel(const MapSettings& map);
 
-/// What lights may use of rays in one frame.
+/// Limits on the rays of all lights in one frame.
 struct RayLimit {
-    std::uint64_t rays = 0;     // predicted rays of all lights; 0: any number
-    bool lacks_memory = false;  // the device has no room for what rays walk
+    std::uint64_t rays = 0;     // predicted rays of all lights; 0: no limit
+    bool lacks_memory = false;  // the device has no memory for the ray-tracing structures
 };
 
-/// A light that uses rays, and what its shadow means to the picture: pixels times illuminance at the camera.
+/// Light that uses rays. Its importance is pixels times illuminance at the camera.
 struct RayLight {
     double importance = 0.0;
     std::uint32_t light = 0;
 };
 
-/// Lights whose filter another one stands in for, with the reason; Reason::none: its own filter stays.
+/// Reasons why lights fell back to another filter. Reason::none: the light has its own filter.
 struct RayFallbacks {
     std::vector<Reason> reasons;   // one per light
     std::vector<RayLight> lights;  // scratch
 };
 
-/// Chooses which lights fall back to filtered_row() until the others use no more rays than the limit: first the lights
-/// that mean least to the picture. A light that fell back returns when there is room for a quarter more than it uses.
+/// Chooses the lights that fall back to RayRow::without_rays, so that the others use no more rays than the limit. Rays
+/// are granted by falling importance. A light that fell back returns when there is room for a quarter more than its
+/// rays.
 void choose_fallbacks(const SceneSnapshot& scene, const History& held, const RayLimit& limit,
                       std::span<const ShadowRequest> requests, RayFallbacks& out);
 

@@ -6,7 +6,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Notes what a layer shows now that was just drawn, where it may have to be known later how far off that is.
+/// Records the casters that a layer just drawn shows, if its map may be kept when they move.
 void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t v, bool takes_turns,
                 LightHistory& history) {
     const ShadowView& view = drawn.view(v);

@@ -5,13 +5,13 @@
 
 namespace gnomon::shadow {
 
-/// How a frame ended.
+/// Outcome of a frame.
 struct FrameEnd {
-    bool executed = true;      // false: the submission failed, and nobody knows what the layers hold
-    bool takes_turns = false;  // a budget may have views wait: what they show is remembered
+    bool executed = true;      // false: the submission failed, so that the layers' content is unknown
+    bool takes_turns = false;  // a budget may defer views, so that the casters they show are recorded
 };
 
-/// Remembers in the store what the frame drew, after it was submitted.
+/// Records in the store what the frame drew. Call it after the frame was submitted.
 void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapStore& maps);
 
 }  // namespace gnomon::shadow

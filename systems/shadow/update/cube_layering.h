@@ -6,8 +6,8 @@
 
 namespace gnomon::shadow {
 
-/// How `faces` faces of one light are drawn this frame. One face is always a pass of its own, as is what the device
-/// cannot layer. docs/architecture.md (Point) has the figures behind `automatic`.
+/// Chooses how `faces` faces of one light are drawn in this frame. A single face is always a pass of its own, as are
+/// faces that the device cannot layer. docs/fits.md, "A point light", has the figures behind `automatic`.
 inline CubeRoute cube_route(CubeRoute wish, const gl::DeviceInfo& device, std::uint32_t faces) {
     if (faces < 2 || wish == CubeRoute::automatic) return CubeRoute::six_passes;
     if (wish == CubeRoute::layered_vertex && !device.vertex_layer) return CubeRoute::six_passes;

@@ -3,7 +3,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Takes `now` over; whether it was the same.
+/// Stores `now`. Returns whether it was the same.
 template <class T>
 bool keep(T& last, const T& now) {
     if (last == now) return true;
@@ -13,14 +13,14 @@ bool keep(T& last, const T& now) {
 
 }  // namespace
 
-bool StillFrame::unchanged(const SceneSnapshot& scene, bool shadows, const ShadowBudget& budget) {
+bool StillFrame::unchanged(const SceneSnapshot& scene, const ShadowSettings& settings) {
     bool same = keep(version_, scene.version) && scene.version != 0;
-    same &= keep(shadows_, shadows);
-    same &= keep(budget_, budget);
+    same &= keep(shadows_, settings.shadows);
+    same &= keep(budget_, settings.budget);
     same &= keep(consumers_, scene.consumers);
     same &= keep(pictures_, scene.pictures);
-    same &= keep(sampled_depths_, scene.sampled_depths);
-    same &= keep(exposure_, scene.exposure);
+    same &= keep(sampled_depths_, settings.feedback.sampled_depths);
+    same &= keep(exposure_, settings.feedback.exposure);
     return same;
 }
 

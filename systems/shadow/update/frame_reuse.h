@@ -4,16 +4,17 @@
 #include <vector>
 
 #include "systems/extract/snapshot.h"
-#include "systems/shadow/frame/quality_limits.h"
+#include "systems/shadow/frame/shadow_settings.h"
 
 namespace gnomon::shadow {
 
-/// Remembers what the stages read of the last frame, to tell whether they would read the same again. Costs a comparison
-/// per camera, however large the scene: its version stands for the rest.
+/// Records what the stages read in the last frame, and detects a frame in which they would read the same. Costs one
+/// comparison per camera, whatever the size of the scene: its version stands for the rest.
 class StillFrame {
 public:
-    /// Whether all that is given is as it was in the last call. Never of a scene whose version is 0: nobody counts it.
-    bool unchanged(const SceneSnapshot& scene, bool shadows, const ShadowBudget& budget);
+    /// Returns whether all inputs equal those of the last call. Never for a scene of version 0: it does not count
+    /// changes.
+    bool unchanged(const SceneSnapshot& scene, const ShadowSettings& settings);
 
 private:
     std::uint64_t version_ = 0;

@@ -9,7 +9,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Calls with the range of views of each cube that has a map.
+/// Calls `use` with the range of views of each cube that has a map.
 template <class Use>
 void for_each_cube(const UpdateInputs& inputs, const std::vector<UpdatePlan>& plans, Use use) {
     for (const FitChoice& light : inputs.fitted.lights) {
@@ -19,8 +19,8 @@ void for_each_cube(const UpdateInputs& inputs, const std::vector<UpdatePlan>& pl
     }
 }
 
-/// A cube is looked up with one offset, that of the face whose casters moved farthest. So its faces are kept together,
-/// or drawn together, as many as show other than they should.
+/// Gives all faces of a cube that are due one joint staleness, so that they are kept or drawn together. A cube is
+/// looked up with one offset, that of the face with the farthest movement.
 void join_cubes(const UpdateInputs& inputs, std::vector<UpdatePlan>& plans) {
     for_each_cube(inputs, plans, [&](IndexRange range) {
         Staleness all;
@@ -31,7 +31,7 @@ void join_cubes(const UpdateInputs& inputs, std::vector<UpdatePlan>& plans) {
             if (plans[v].reuse) continue;
             const Staleness& face = plans[v].if_held;
             all.moved_m = std::max(all.moved_m, face.moved_m);
-            // Without its own offset; of what cannot be told that is no number.
+            // The error without the face's own offset. It is NaN for an unknown error.
             const double across_px = face.error_px - face.moved_m * face_px;
             all.error_px = std::max(all.error_px, std::isnan(across_px) ? face.error_px : across_px);
         }
@@ -41,14 +41,14 @@ void join_cubes(const UpdateInputs& inputs, std::vector<UpdatePlan>& plans) {
     });
 }
 
-/// Whether others are drawn in this frame, of those that a budget lets take turns.
+/// Returns whether a budget draws this view in another frame, because the light's views are drawn in turn.
 bool is_others_turn(const UpdateInputs& inputs, std::size_t v, std::uint64_t frame, const UpdatePlan& plan) {
     const ShadowView& view = inputs.fitted.views[v];
     const std::uint32_t every = inputs.decisions[view.light].refresh_frames;
     return every > 1 && (frame + view.light + view.layer) % every != 0 && plan.waited_frames < kMostWait_frames;
 }
 
-/// Whether the layer is kept, and why.
+/// Returns why the layer is kept; Hold::none: it is drawn.
 Hold hold_of(const SceneSnapshot& scene, const UpdateInputs& inputs, std::size_t v, std::uint64_t frame,
              const UpdatePlan& plan) {
     const LightItem& light = scene.lights[inputs.fitted.views[v].light];
@@ -68,7 +68,7 @@ Staleness staleness_if_held(const SceneSnapshot& scene, const UpdateInputs& inpu
                             const LightHistory& history, std::uint64_t shown_content) {
     const ShadowView& view = inputs.fitted.views[v];
     const MapAssignment& map = inputs.maps[v];
-    const bool certain = static_cast<bool>(map.sheets.second);  // what sheets say would no longer be
+    const bool certain = static_cast<bool>(map.sheets.second);  // a stale conservative map would classify wrongly
     const bool shows_it = shown_content != 0 && history.placements[view.layer] == map.content.placement;
     if (certain || !scene.lights[view.light].tuning.reuse.economy || !shows_it || view.layer >= history.shown.size())
         return kUnknownStaleness;

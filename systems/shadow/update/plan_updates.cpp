@@ -13,7 +13,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Compares what layers hold with what they are to hold.
+/// Compares what layers show with what they are to show.
 void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, const MapStore& maps,
                     std::vector<UpdatePlan>& plans) {
     for (std::size_t v = 0; v < plans.size(); ++v) {
@@ -32,7 +32,7 @@ void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, cons
     }
 }
 
-/// Has views wait where all that are due would take more than the budget leaves for drawing in one frame.
+/// Defers views where all that are due would take more time than the budget leaves for drawing in one frame.
 void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, std::vector<DueView>& due,
                  std::vector<UpdatePlan>& plans) {
     if (!inputs.allowance.limited) return;
@@ -44,7 +44,7 @@ void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateIn
         const BudgetDecision& decision = inputs.decisions[view.light];
         const MapSettings& map = decision.request.map;
         const DrawCounts counts = count_draws(scene, gpu, inputs.fitted.casters_of(view));
-        const double casters = storage_work(filter_row(map.filter).storage).casters;
+        const double casters = filter_row(map.filter).storage.work.casters;
         const double ns = drawing_ns(map, inputs.maps[v].size_px, 1.0, static_cast<double>(counts.triangles) * casters,
                                      static_cast<double>(counts.draws) * casters);
         const bool may_wait = std::isfinite(plan.if_held.error_px) && plan.waited_frames < kMostWait_frames;
@@ -55,10 +55,10 @@ void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateIn
     for (std::size_t i = 0; i < waiting; ++i) keep_layer(plans[due[i].view], Hold::by_turn);
 }
 
-/// OpenGL's table has them side by side.
+/// Returns whether two faces of a cube are opposite. OpenGL numbers such faces side by side.
 bool are_opposite_faces(std::uint32_t a, std::uint32_t b) { return a != b && a / 2 == b / 2; }
 
-/// A view's moments follow from its own depths and, of a cube, those of the faces beside it.
+/// Plans the prefiltered maps. A view's moments depend on its own depths and, in a cube, on those of adjacent faces.
 void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, const MapStore& maps,
                        std::vector<UpdatePlan>& plans) {
     for (std::size_t v = 0; v < plans.size(); ++v) {
@@ -85,7 +85,7 @@ void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, c
     }
 }
 
-/// Chooses how the faces of cubes are drawn: a pass each, or all in one.
+/// Chooses how the faces of cubes are drawn: one pass per face, or one for all.
 void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapStore& maps,
                    std::vector<UpdatePlan>& plans) {
     const auto drawn = [&](std::size_t v) {
@@ -95,7 +95,7 @@ void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapSt
         const IndexRange range = inputs.fitted.lights[i].views;
         if (range.count == 0 || inputs.fitted.views[range.first].projection != ViewProjection::cube_face) continue;
         std::uint32_t faces = 0;
-        bool apart = static_cast<bool>(inputs.maps[range.first].sheets.second);  // a map of sheets is peeled by face
+        bool apart = static_cast<bool>(inputs.maps[range.first].sheets.second);  // these are peeled face by face
         for (std::size_t v = range.first; v < range.end(); ++v) {
             faces += drawn(v) ? 1 : 0;
             apart = apart || plans[v].still_use != StillUse::none;

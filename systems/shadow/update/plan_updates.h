@@ -9,8 +9,8 @@
 
 namespace gnomon::shadow {
 
-/// Plans for each view with a map whether it is drawn, copied in part, kept, or left to rays; one entry per view. The
-/// store remembers what lights want. `due` is overwritten.
+/// Plans for each view with a map whether it is drawn, partly copied, kept, or replaced by rays; one entry per view.
+/// Records in the store what lights need. `due` is overwritten.
 void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
                   std::vector<DueView>& due, std::vector<UpdatePlan>& plans);
 

@@ -6,11 +6,11 @@
 namespace gnomon::shadow {
 namespace {
 
-/// What a ray costs, and in rays what else does: a triangle of a caster, drawn three times and measured; a texel of a
-/// map, cleared and written as often; a pixel's verdict. Ratios of one run (docs/exact.md, "What it costs").
+/// Costs of a conservative map, in rays: a caster's triangle, drawn three times and measured; a texel, cleared and
+/// written as often; one pixel's classification. Ratios of one run (docs/exact.md, "What it costs").
 constexpr double kTriangle_rays = 2.5, kTexel_rays = 0.1, kVerdict_rays = 0.15;
 
-/// What the views of the range hold after this frame.
+/// Returns a hash of what the views of the range show after this frame.
 std::uint64_t content_of(const std::vector<UpdatePlan>& plans, IndexRange range) {
     Signature s;
     for (std::size_t v = range.first; v < range.end(); ++v) s.add(plans[v].content);

@@ -8,16 +8,16 @@
 
 namespace gnomon::shadow {
 
-/// What drawing a light's maps of sheets would draw.
+/// Work of drawing a light's conservative maps.
 struct SheetLoad {
     double triangles = 0.0, texels = 0.0;
 };
 
-/// Says whether rays for all pixels cost less than to draw that and use rays for the uncertain pixels.
+/// Returns whether rays for all pixels cost less than drawing the maps and tracing rays for undecided pixels.
 bool are_rays_cheaper(double pixels, double rays_per_pixel, const SheetLoad& load);
 
-/// Leaves lights to rays whose maps would be drawn anew, and probably in the next frame again, for more than rays for
-/// all their pixels cost (UpdatePlan::left_to_rays).
+/// Replaces maps by rays for lights with maps that change in every frame (UpdatePlan::left_to_rays). Applies where rays
+/// for all their pixels cost less than drawing the maps.
 void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
                         std::vector<UpdatePlan>& plans);
 

@@ -17,18 +17,19 @@ struct Pose {
 };
 Pose read(const PoseItem* pose) { return pose ? Pose{pose->since, pose->bent_m} : Pose{}; }
 
-/// Of vectors: how far across the light. Both are convex in what moved, so that a box's corners say it for the box.
+/// Returns the length of a vector across the light. It is convex, as is the distance along the light, so that a box's
+/// corners bound the whole box.
 double across_m(const ShadowView& view, const glm::dvec3& v) {
     return std::hypot(glm::dot(v, view.pose.axis_u), glm::dot(v, view.pose.axis_v));
 }
 
-/// The largest tangent that the view's map holds.
+/// Returns the largest tangent inside the view's map.
 double widest_tangent(const ShadowView& view) {
     const glm::dvec2 side = glm::max(glm::abs(view.plane.tan_low), glm::abs(view.plane.tan_high));
     return glm::length(side);
 }
 
-/// In front of a light, along its view's axis.
+/// Returns the least distance of a box from the light along the view's axis, metres. Negative behind the light.
 double least_distance_m(const ShadowView& view, const math::Aabb& box) {
     double least_m = kInfinity;
     for (const glm::dvec3& corner : math::corners(box))
@@ -36,7 +37,8 @@ double least_distance_m(const ShadowView& view, const math::Aabb& box) {
     return least_m;
 }
 
-/// Of the points of a box, each moved by up to `bent_m` besides what `moved` does to it.
+/// Greatest movement of a box's points, metres: in any direction, across and along the light. Each point moves by up to
+/// `bent_m` beside the instance's own movement.
 struct BoxShift {
     double any_m = 0.0, across_m = 0.0, along_m = 0.0;
 };
@@ -54,7 +56,7 @@ BoxShift box_shift(const ShadowView& view, const ShownCaster& then, const Instan
     return {most.any_m + bent_m, most.across_m + bent_m, most.along_m + bent_m};
 }
 
-/// What no linear map takes to be longer by more than this factor.
+/// Returns a bound on the factor by which the linear map lengthens a vector (its Frobenius norm).
 double longest(const glm::dmat3& basis) {
     return std::sqrt(glm::dot(basis[0], basis[0]) + glm::dot(basis[1], basis[1]) + glm::dot(basis[2], basis[2]));
 }
@@ -81,8 +83,8 @@ CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const 
     const double bent_m = (bends.bent_m - then.bent_m) * longest(now.basis);
     const BoxShift shift = box_shift(view, then, now, bent_m);
     if (view.projection == ViewProjection::orthographic) return {shift.any_m, shift.across_m};
-    // x1/z1 - x0/z0 = ((x1 - x0) - (x0/z0)(z1 - z0)) / z1, and the same with 0 and 1 swapped: the one whose tangent the
-    // map holds counts, since where it holds neither, neither is seen.
+    // x1/z1 - x0/z0 = ((x1 - x0) - (x0/z0)(z1 - z0)) / z1, and the same with 0 and 1 swapped. The form with a tangent
+    // inside the map applies. If neither place is inside, neither is visible.
     const double distance_m = std::min(least_distance_m(view, then.bounds_ws), least_distance_m(view, now.bounds_ws));
     if (!(distance_m > 0.0)) return {kInfinity, kInfinity};
     return {shift.any_m, (shift.across_m + widest_tangent(view) * shift.along_m) / distance_m};
@@ -103,7 +105,7 @@ Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const Sh
         most = {std::max(most.any_m, shift.any_m), std::max(most.across, shift.across)};
     }
     const bool orthographic = view.projection == ViewProjection::orthographic;
-    // Of a perspective view a tangent is as much longer than a texel as it is in the texel's own coordinates.
+    // In a perspective view, tangents convert to pixels by the texel's own size in tangents.
     const double across_px =
         orthographic ? view.error.metre_px
                      : view.error.extent_px / glm::length(glm::dvec2(view.plane.texel_u, view.plane.texel_v));

@@ -26,7 +26,8 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         map.still.layers.resize(map.targets.size());
         StillMap::Layer& layer = map.still.layers[view.layer];
         const bool held = layer.content == assigned.content.still;
-        // What is seen once may never come again: a fit may follow the camera, or something moves but one step.
+        // Copies only what was shown twice. A fit that follows the camera, or an object that moves one step, may never
+        // show it again.
         const bool again = layer.drawn == assigned.content.still;
         layer.drawn = assigned.content.still;
         if (!held && !again) continue;

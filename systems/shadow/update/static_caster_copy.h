@@ -10,15 +10,15 @@
 
 namespace gnomon::shadow {
 
-/// Copied bytes that cost as much as drawing a triangle (docs/architecture.md, "Caching", has the measurement).
+/// Bytes that take as long to copy as one triangle takes to draw (docs/economy.md, "Caching", has the measurement).
 inline constexpr std::uint64_t kCopiedBytesPerTriangle = 256;
 
-/// Whether drawing these casters is more work than copying so many bytes. Counted, not timed, so that it is the same on
-/// every device.
+/// Returns whether drawing these casters is more work than copying `bytes`. Counted, not timed, so that the result is
+/// the same on every device.
 bool pays_to_copy(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> still_casters,
                   std::uint64_t bytes);
 
-/// Has views whose casters move in part copy the static ones, where that is less work than drawing them again.
+/// Plans copies of static casters for views in which only some casters move, where copying is less work than drawing.
 void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
                          std::vector<UpdatePlan>& plans);
 

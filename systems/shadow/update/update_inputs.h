@@ -9,7 +9,7 @@
 
 namespace gnomon::shadow {
 
-/// What the updates of maps follow from, beside the scene and what layers hold.
+/// Inputs of the updates of maps, beside the scene and what layers show.
 struct UpdateInputs {
     const FittedViews& fitted;
     std::span<const BudgetDecision> decisions;  // one per light

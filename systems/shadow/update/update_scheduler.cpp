@@ -6,7 +6,8 @@
 namespace gnomon::shadow {
 namespace {
 
-/// The cheapest to leave waiting first; those that must not wait have no price, and come last.
+/// Orders views by error cost per ns, the cheapest to defer first. Views that must not be deferred have an infinite
+/// cost and come last.
 bool waits_before(const DueView& a, const DueView& b) {
     const auto rank = [](const DueView& due) { return std::tuple(due.harm / due.ns, due.key, due.view); };
     return rank(a) < rank(b);
@@ -19,8 +20,8 @@ bool loses_more(const DueView& a, const DueView& b) {
 }  // namespace
 
 std::size_t choose_waiting(double room_ns, std::vector<DueView>& due) {
-    std::erase_if(due, [](const DueView& view) { return !(view.ns > 0.0); });  // waiting frees nothing
-    std::sort(due.begin(), due.end(), waits_before);  // and a sum does not hang on the order in which they come
+    std::erase_if(due, [](const DueView& view) { return !(view.ns > 0.0); });  // deferring it frees nothing
+    std::sort(due.begin(), due.end(), waits_before);  // also makes the sum independent of the input order
     double sum_ns = 0.0;
     for (const DueView& view : due) {
         sum_ns += view.ns;

@@ -4,27 +4,27 @@
 #include <limits>
 #include <vector>
 
-/// A budget is of a frame, what it shares out is an average over frames: where many views are due at once, because one
-/// thing moved that all of them show, some wait for the next frames.
+/// Deferral of views within a frame's budget. The budget's allocation is an average over frames. Many views are due at
+/// once when one object moves that all of them show. Some of them are then drawn in later frames.
 namespace gnomon::shadow {
 
-/// A view that is to be drawn in this frame.
+/// View that is due in this frame.
 struct DueView {
     static constexpr double kMustNotWait = std::numeric_limits<double>::infinity();
     std::size_t view = 0;   // index into ShadowFrame::views
-    double ns = 0.0;        // that drawing it takes
-    double harm = 0.0;      // what is lost by leaving it as it is for now, or kMustNotWait
-    std::uint64_t key = 0;  // of the view itself, wherever it stands in a list: decides between equals
+    double ns = 0.0;        // time of drawing it
+    double harm = 0.0;      // error cost of keeping it as it is for now, or kMustNotWait
+    std::uint64_t key = 0;  // hash of the view itself, independent of its place in a list: decides between equals
 };
 
-/// No view waits for longer: every fourth frame is as slow as a budget makes any light (Grant::refresh_frames), slower
-/// ones are seen to jump.
+/// Most frames for which a view is deferred. Every fourth frame is also the slowest refresh that a budget allows
+/// (Grant::refresh_frames). Slower updates are seen to jump.
 inline constexpr std::uint32_t kMostWait_frames = 3;
 
-/// Moves those that wait to the front, and says how many they are. Those go first that lose least for what they free,
-/// until the others take no more than `room_ns`, or than the largest of all: one view at least is drawn, since its
-/// light's share is of an average frame. Then whoever still fits is let off, what would lose most first. None waits for
-/// nothing: where all fit, none does. The order in which they are given decides nothing.
+/// Moves deferred views to the front of `due` and returns their number. Greedy: defers the view with the least error
+/// cost per ns until the rest fits `room_ns`. At least the time of the largest view counts as room, so that one view is
+/// always drawn. Then admits deferred views that still fit, the greatest error cost first. No view is deferred if all
+/// fit. The result is independent of the input order.
 std::size_t choose_waiting(double room_ns, std::vector<DueView>& due);
 
 }  // namespace gnomon::shadow

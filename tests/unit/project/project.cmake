@@ -2,12 +2,14 @@
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME Arrows.EveryFileKeepsThem COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_arrows.py)
 add_test(NAME Arrows.AWrongOneIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_arrows.py --self-test)
+add_test(NAME Tables.CodeReadsTheirFacts COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_tables.py)
+add_test(NAME Tables.AComparisonIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_tables.py --self-test)
 add_test(NAME Prose.BreachesOnlyFall COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_prose.py)
 add_test(NAME Prose.ABreachIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_prose.py --self-test)
 add_test(NAME Summary.CountsWhatCtestReports
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/project/summary_test.py ${PROJECT_SOURCE_DIR}/.ci)
 add_test(NAME Launcher.KeepsItsPromises
   COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/launcher_test.sh ${PROJECT_SOURCE_DIR}/gnomon)
-set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound
+set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.CodeReadsTheirFacts Tables.AComparisonIsFound
   Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports
   Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)

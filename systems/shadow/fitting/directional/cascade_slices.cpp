@@ -17,14 +17,15 @@
 namespace gnomon::shadow {
 namespace {
 
-/// The depths that cascades share are held while what is seen fills at least a quarter of them.
+/// Steps by which the depth range of all cascades may exceed the closest one. The range stays while what is seen fills
+/// a quarter of it.
 constexpr int kHoldDepthSteps = 8;
 
 double view_distance(const ConsumerItem& consumer, const glm::dvec3& p_ws) {
     return -glm::dot(p_ws - consumer.position_ws_m, consumer.rotation_ws[2]);
 }
 
-/// Of all that can be seen and receives.
+/// Returns bounds of all visible receivers; empty: there are none.
 math::Aabb bounds_of_receivers(const SceneSnapshot& scene) {
     const auto least = [&](auto&& side) {
         return lowest_of_instances(scene, side, [&](std::uint32_t i, double lowest) {
@@ -40,8 +41,8 @@ math::Aabb bounds_of_receivers(const SceneSnapshot& scene) {
     return all;
 }
 
-/// Neither turning nor walking among receivers may change it: as far as receivers lie apart; seen from outside, as far
-/// as the farthest one.
+/// Returns the view distances for ShadowFit::stable: as far as receivers lie apart, or to the farthest one from
+/// outside. Neither turning nor walking among receivers changes them.
 DepthSpan stable_span(const SceneSnapshot& scene, const ConsumerItem& consumer) {
     const math::Aabb all = bounds_of_receivers(scene);
     if (math::is_empty(all)) return {consumer.near_m, 0.0};
@@ -59,7 +60,7 @@ DepthSpan seen_span(std::span<const glm::dvec3> points_ws, const ConsumerItem& c
     return span;
 }
 
-/// Between which view distances the cascades lie.
+/// Returns the view distances that all cascades cover together, rounded outward to steps unless the fit is tight.
 DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
     const ShadowFit fit = input.light.tuning.cascades.fit;
     DepthSpan span =
@@ -77,7 +78,7 @@ DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
     return {step_size(next.near_step), step_size(next.far_step)};
 }
 
-/// Diagonal of what is seen, across the view.
+/// Returns the diagonal of what is seen across the view, metres.
 double seen_width_m(std::span<const glm::dvec3> points_ws, const ConsumerItem& consumer) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     glm::dvec2 low(kInfinity), high(-kInfinity);
@@ -89,19 +90,20 @@ double seen_width_m(std::span<const glm::dvec3> points_ws, const ConsumerItem& c
     return glm::distance(low, high);
 }
 
-/// By the pixels of an earlier picture. False: nothing is known of them.
+/// Places the splits by the pixels counted in an earlier frame. Returns false if there are no counts for this camera.
 bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const DepthSpan& whole, CascadeEnds& ends) {
     const ShadowTuning::Cascades& tuning = input.light.tuning.cascades;
     if (tuning.splits != CascadeSplits::sampled || !are_splits(tuning)) return false;
     const double width_m = tuning.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
                                                            : seen_width_m(input.receiver_points_ws, consumer);
-    const SampledSplit split{input.scene.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
+    const SampledSplit split{input.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
     if (tuning.fit == ShadowFit::tight) return sampled_ends(split, ends);
     return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
 }
 
-/// More than one map is chosen only where depths lie so far apart that even parts of them, however small their share,
-/// leave nothing to what is near: 4.6 % wrong instead of 0.8 in a valley of kilometres (docs/cost.md).
+/// Returns the tuning with logarithmic splits where the number of cascades is the system's to choose. It chooses more
+/// than one only where depths lie far apart. Uniform splits, however small their share, then leave too few texels to
+/// what is near. In a valley of kilometres 4.6 % of the pixels are wrong with them, 0.8 % without (docs/cost.md).
 ShadowTuning::Cascades with_ends_for_count(ShadowTuning::Cascades tuning, const ShadowRequest& request) {
     if (request.limits.max_views > 0 && tuning.splits == CascadeSplits::practical) tuning.split_lambda = 1.0f;
     return tuning;
@@ -131,7 +133,7 @@ CascadeSlices cascade_slices(const FitInput& input) {
     const ConsumerItem& consumer = input.scene.consumers.front();
     const CascadeEnds wanted = wanted_ends(input, consumer);
     const std::uint32_t count = input.request.map.view_count;
-    // Several consumers: all cascades serve by what they hold, none by distance.
+    // Several cameras share the cascades: each cascade serves by what its map contains, none by distance.
     const bool moves_slowly = input.light.tuning.cascades.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
     const double blend = static_cast<double>(input.request.map.cascade_blend);
     const GlidingEnds ends = moves_slowly ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)

@@ -11,7 +11,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Moves near_m toward the sun until the highest caster that matters is held.
+/// Moves near_m toward the sun until the range contains the highest caster that matters.
 void include_casters(const FitInput& input, double radius_tan, OrthographicBox& box) {
     const glm::dmat3 size_along = {glm::abs(box.axes[0]), glm::abs(box.axes[1]), glm::abs(box.axes[2])};
     double near_m = box.near_m;
@@ -43,7 +43,7 @@ bool fit_cascade(const CascadeInput& input, OrthographicBox& box) {
     const CascadeFit fit = cascade_fit(input.light.light.tuning.cascades.fit);
     if (!needs_distances(filter)) return fit(input, box);
     const auto radius_tan = static_cast<double>(filter.sun_radius_tan);
-    // First for the depth alone: how wide penumbrae are follows from it.
+    // Fits first for the depth range alone, because the widths of penumbrae follow from it.
     FitInput light = input.light;
     light.reach_texel = filter.reach_texel;
     CascadeInput cascade{light,      input.basis,  input.index,     input.from_m,

@@ -19,9 +19,9 @@
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 
-/// Directional light: cascades along the first consumer's view, each an orthographic view that ShadowFit places.
-/// Casters nearer to the light than the depth range are flattened onto the near plane by depth clamping and cast all
-/// the same.
+/// Directional light: cascades along the first camera's view, each an orthographic view placed by ShadowFit. Casters
+/// nearer to the light than the depth range are flattened onto the near plane by depth clamping. They cast all the
+/// same.
 namespace gnomon::shadow {
 
 CascadeFit cascade_fit(ShadowFit mode) {
@@ -48,8 +48,9 @@ double with_border(double extent_m, const FitInput& input) {
 
 namespace {
 
-/// Texels of height by which the bias may lift a receiver, per texel of the filter's reach: kSteepTangent of
-/// bias/automatic.glsl along both sides of a texel, 4 sqrt(2), and rounding. Beyond it moves along the normal, by less.
+/// Greatest lift of a receiver by the bias along the depth axis, in texels per texel of the filter's radius. It is
+/// kSteepTangent of bias/automatic.glsl along both sides of a texel, 4 sqrt(2), and rounding. Steeper receivers move
+/// along the normal, by less.
 constexpr double kMostRise = 6.0;
 
 double bias_room(const ShadowRequest& request, const glm::dvec2& extent_m) {
@@ -74,23 +75,24 @@ void place(const CascadeInput& input, const glm::dvec3& centre_ws, const glm::dv
 
 namespace {
 
-/// Filters that weigh distances lose a caster that is flattened onto the receiver nearest to the light: before it they
-/// get as much room, in depth ranges, as tells the two apart in 16 bits (docs/filters.md, "Prefiltered maps").
+/// Room before the receiver nearest to the light, in depth ranges, for filters that weigh distances. A caster flattened
+/// onto that receiver would be lost. 16 bits resolve this gap (docs/filters.md, "Prefiltered maps").
 constexpr double kRoomForCasters = 0.5;
 
-/// The depth range that the request asks for, counted from the sun's eye.
+/// Replaces the depth range by the request's, counted from the sun's eye.
 void override_from_eye(const ShadowRequest& request, const SunEye& eye, OrthographicBox& box) {
     const double eye_at_m = -glm::dot(eye.position_ws_m - box.anchor_ws_m, box.axes[2]);
     double near_m = box.near_m - eye_at_m, far_m = box.far_m - eye_at_m;
     override_range(request.projection, near_m, far_m);
     box.near_m = near_m + eye_at_m;
     box.far_m = far_m + eye_at_m;
-    // A range that its own place rounds away.
+    // Least range that does not vanish in the rounding of its own place.
     const double least_m = (std::abs(box.near_m) + std::abs(box.far_m)) * kLeastExtent;
     box.far_m = std::max(box.far_m, box.near_m + least_m);
 }
 
-/// Corners of what is seen of the receivers in the slice, and of how many; they live until the next slice's.
+/// Returns corners of the visible parts of receivers in the slice, and in `receivers` their count. Valid until the next
+/// call.
 std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerItem& consumer, const FitInput& input,
                                       std::uint32_t& receivers) {
     std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
@@ -103,13 +105,13 @@ std::span<const glm::dvec3> points_in(const CascadeSlice& slice, const ConsumerI
     return points_ws;
 }
 
-/// The view serves up to there, and fades into none.
+/// Makes the view serve up to that distance and fade into no other.
 void end_before(double distance_m, ShadowView& view) {
     if (view.cascade.seen_to_m > 0.0)
         view.cascade.seen_to_m = view.cascade.fades_from_m = view.cascade.fades_to_m = distance_m;
 }
 
-/// Whether a held size of some cascade is no longer the one that the last frame had.
+/// Returns whether a kept size of some cascade differs from the last frame's.
 bool has_stepped(const FitInput& input) {
     for (std::size_t i = 0; i < kHeldViews; ++i) {
         const HeldView &held = input.held.views[i], &next = input.next.views[i];
@@ -124,11 +126,11 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
     const SunEye eye =
         counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.tuning.projection) : SunEye{};
     const ConsumerItem& consumer = input.scene.consumers.front();
-    // Several consumers share the cascades: the last one then holds whatever any of them sees.
+    // Several cameras share the cascades: the last one then contains what any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.request.map.view_count;
     const std::size_t before = views.size();
-    for (HeldView& view : input.next.views) view.too_large = false;  // of those that are fitted the fit says it
+    for (HeldView& view : input.next.views) view.too_large = false;  // each cascade with receivers sets it again
     for (std::uint32_t i = 0; i < count; ++i) {
         const CascadeSlice& slice = slices[i];
         const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
@@ -138,15 +140,14 @@ void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeS
         OrthographicBox box;
         const CascadeInput cascade{input, basis, i, slice.holds_from_m, slice.holds_to_m, of_all, points_ws, stepping};
         if (points_ws.empty() || !fit_cascade(cascade, box)) continue;
-        // Where maps hold true distances they reach up to the casters.
-        if (filter_row(input.request.map.filter).storage == FilterStorage::moments &&
-            !needs_distances(input.request.map.filtering))
+        // Maps with true distances contain the casters already.
+        if (filter_row(input.request.map.filter).moments && !needs_distances(input.request.map.filtering))
             box.near_m -= kRoomForCasters * (box.far_m - box.near_m);
         if (counts_from_eye) override_from_eye(input.request, eye, box);
-        // No receiver lies in the slices that were left out, their part of the fading included.
+        // No receiver lies in the slices that were left out, nor in their fades.
         if (!first && views.back().layer + 1 < i) end_before(slice.holds_from_m, views.back());
-        // What a map holds beyond its slice it serves as well, with the texels that a warp makes coarsest: only the
-        // last one holds nothing of others.
+        // Only the last cascade is warped. A map also serves what it contains beyond its slice, there with the coarsest
+        // texels of a warp. The last one contains nothing of other slices.
         const auto warp = static_cast<double>(input.request.projection.warp);
         ShadowView view = warp > 0.0 ? warped_view(cascade, last ? warp : 0.0, box)
                                      : orthographic_view(box, input.request.map.resolution_px);
@@ -173,18 +174,19 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     const std::size_t before = views.size();
     const HeldLight& held = input.held;
     HeldLight& next = input.next;
-    fit_cascades(input, basis, slices, held.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
+    fit_cascades(input, basis, slices, held.size.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
     const bool too_large =
         std::any_of(next.views.begin(), next.views.end(), [](const HeldView& view) { return view.too_large; });
-    next.large_frames = too_large ? held.large_frames + 1 : 0;
-    next.tired_frames = std::max(held.tired_frames, 1u) - 1;
-    if (has_stepped(input) || next.large_frames >= kSpareFrames) {
-        // A step shows. Sizes that would soon follow do it in the same frame, and what becomes smaller then waits.
+    next.size.large_frames = too_large ? held.size.large_frames + 1 : 0;
+    next.size.tired_frames = std::max(held.size.tired_frames, 1u) - 1;
+    if (has_stepped(input) || next.size.large_frames >= kSpareFrames) {
+        // Each change of a size shows. So sizes that would soon change do so in this frame, and none shrinks for
+        // kSpareFrames frames.
         views.resize(before);
         next.views = held.views;
         fit_cascades(input, basis, slices, Stepping::together, views);
-        next.large_frames = 0;
-        next.tired_frames = kSpareFrames;
+        next.size.large_frames = 0;
+        next.size.tired_frames = kSpareFrames;
     }
     return views.size() > before;
 }

@@ -17,29 +17,30 @@ namespace gnomon::shadow {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Steps of the search for the share of the warp that is looked for: 0.618^24 leaves 1e-5 of it.
+/// Steps of the golden-section search for the best share of the warp. They narrow it to 0.618^24, 1e-5.
 constexpr int kSearchSteps = 24;
-/// Depths at which the mean is taken: 16 to a factor of the largest ratio that a view is likely to have (2^16).
+/// Depths at which the mean is sampled, evenly in their logarithm: two per octave of the largest likely ratio, 2^16.
 constexpr std::size_t kDepths = 32;
 constexpr double kGolden = 0.6180339887498949;
-/// A warp that gains less than this is taken in part, so that no gain and no warp meet.
+/// Gain in the mean texel below which the warp is reduced in proportion, so that both fade to none together.
 constexpr double kFullGain = 0.1;
 
-/// One amount of warp, and the rectangle that then holds the points.
+/// One strength of warp, and the rectangle that then contains the points.
 struct Candidate {
-    glm::dvec2 gradient{0.0};  // along the light's own axes
-    Rectangle rectangle;       // of the warped points, from the anchor
-    glm::dvec2 extent_m{0.0};  // of the map: the rectangle and the filter's border
+    glm::dvec2 gradient{0.0};  // gradient of w along the light's own axes, per metre
+    Rectangle rectangle;       // rectangle of the warped points, from the anchor
+    glm::dvec2 extent_m{0.0};  // sides of the map: the rectangle and the filter's border
     double worst = 0.0;        // largest texel over the camera's depth there
     double mean = 0.0;         // the same, mean over the depths' logarithm
 };
 
-/// Between which places along the view, across the light, points lie at one depth below the camera.
+/// Range of places along the view, across the light, of the points at one depth from the camera.
 struct Span {
     double depth_m = 0.0, nearest_m = 0.0, farthest_m = 0.0;
 };
 
-/// The cascade's points, along the light's own axes, from a point on the camera's line of sight as the light sees it.
+/// Search for the best warp of one cascade. Points are given along the light's own axes, from a point on the camera's
+/// line of sight as the light sees it.
 class WarpSearch {
 public:
     WarpSearch(const CascadeInput& input, double strength)
@@ -70,8 +71,8 @@ public:
         const glm::dvec2 least(std::max({extent.x, extent.y, depth_m_}) * kLeastExtent);
         c.extent_m = glm::max(extent, least);
         for (int i = 0; i < 2; ++i) c.extent_m[i] = with_border(c.extent_m[i], input_.light);
-        // Judged by a square texel of the same area: the smallest rectangle may turn at once, its area does not change
-        // then.
+        // A square texel of the same area stands for the real one. The rectangle may turn at any time, but its area
+        // changes steadily.
         const double side_m = std::sqrt(c.extent_m.x * c.extent_m.y) / input_.light.request.map.resolution_px;
         const glm::dvec2 steepness(glm::length(c.gradient), 0.0);
         const auto texel_at = [&](double t) {
@@ -115,7 +116,7 @@ public:
     }
 
 private:
-    /// Along the rectangle's axes instead of the light's.
+    /// Returns `d` along the rectangle's axes instead of the light's.
     static glm::dvec2 in_axes(const Rectangle& r, const glm::dvec2& d) {
         return {glm::dot(r.axis_u, d), r.axis_u.x * d.y - r.axis_u.y * d.x};
     }
@@ -143,8 +144,8 @@ private:
         depth_m_ = highest - lowest;
         highest_ = highest;
         anchor_m_ = aside * camera_aside + along_ * nearest;
-        // Texels grow with the distance along the view, screen space shrinks with depth: their ratio is largest on the
-        // hull.
+        // Texels grow with the distance along the view, pixels with the depth. Both are linear, so their ratio is
+        // largest on the hull.
         math::convex_hull(scratch_.outline, scratch_.profile);
         glm::dvec2 depths(kInfinity, 0.0);
         for (glm::dvec2& at : scratch_.profile) {
@@ -160,8 +161,8 @@ private:
         if (camera_.projection == CameraProjection::perspective) depth_ratio_ = 1.0 + length_m_ * sine_ / depths.x;
     }
 
-    /// How near to the camera surfaces may be: a box around the camera tells nothing of what is in it but its own
-    /// sides.
+    /// Returns the least distance from the camera to a surface. A box around the camera bounds only the distance to its
+    /// own sides.
     double nearest_surface() const {
         double nearest_m = kInfinity;
         for (const std::uint32_t r : input_.light.receivers) {
@@ -174,7 +175,7 @@ private:
         return std::isfinite(nearest_m) ? std::min(nearest_m, input_.to_m) : 0.0;
     }
 
-    /// Where the profile lies at that depth.
+    /// Returns where the profile lies at that depth.
     Span span_at(double depth) const {
         Span span{depth, kInfinity, -kInfinity};
         const std::size_t count = scratch_.profile.size();
@@ -194,7 +195,8 @@ private:
         return std::max({depth, camera_.near_m, input_.from_m});
     }
 
-    /// Share of the full warp whose mean texel on the screen is smallest (Kiefer 1953).
+    /// Returns the share of the full warp with the smallest mean texel on the screen (golden-section search, Kiefer
+    /// 1953).
     double best_share() const {
         double low = 0.0, high = 1.0;
         double left = high - kGolden, right = kGolden;
@@ -215,7 +217,8 @@ private:
         return 0.5 * (low + high);
     }
 
-    /// Depth range at the anchor: in proportion to w it holds every point, with as much to spare as the tight box.
+    /// Returns the depth range at the anchor, metres. In proportion to w it contains every point, with the tight box's
+    /// slack.
     double range(const Candidate& c, double far_z, double tight_m) const {
         double range_m = 0.0;
         const double slack_m = tight_m + far_z - highest_;
@@ -232,11 +235,11 @@ private:
     const ConsumerItem& camera_;
     double strength_;
     glm::dvec3 origin_ws_m_;
-    glm::dvec2 along_{1.0, 0.0};  // the view's direction across the light
+    glm::dvec2 along_{1.0, 0.0};  // direction of the view across the light
     glm::dvec2 anchor_m_{0.0};
-    double sine_ = 0.0;  // of the angle between view and light
+    double sine_ = 0.0;  // sine of the angle between view and light
     double length_m_ = 0.0, depth_m_ = 0.0,
-           highest_ = 0.0;  // of the points: along the view across the light; along the light
+           highest_ = 0.0;  // extents of the points, along the view across the light and along it; their top
     double depth_ratio_ = 1.0, slack_m_ = 0.0;
     std::array<Span, kDepths> spans_{};
 };

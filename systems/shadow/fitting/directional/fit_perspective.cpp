@@ -27,8 +27,9 @@ bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::ve
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     const double tan_half = std::tan(0.5 * static_cast<double>(input.light.tuning.projection.eye_angle_rad));
     const TangentRectangle square{glm::dvec2(-tan_half), glm::dvec2(tan_half)};
-    views.push_back(perspective_view(eye.position_ws_m, basis, square, range, input.request.map.resolution_px,
-                                     static_cast<double>(input.reach_texel)));
+    const double size_px = input.request.map.resolution_px;
+    const TangentRectangle sides = with_border(square, size_px, static_cast<double>(input.reach_texel));
+    views.push_back(perspective_view(eye.position_ws_m, basis, sides, range, size_px));
     return true;
 }
 

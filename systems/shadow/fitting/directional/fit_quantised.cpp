@@ -8,27 +8,27 @@
 namespace gnomon::shadow {
 namespace {
 
-/// One side of the box, along one of the light's axes, from the world's origin.
+/// One side of the box, along one of the light's axes, metres from the world's origin.
 struct Side {
     double low = 0.0, size = 0.0;
 };
 
-/// How long a size is kept, in steps: one that is more than `patience` too large is given up in time, one more than
-/// `most` at once; what follows is `headroom` larger than it need be.
+/// Hysteresis of one size, in steps. A size more than `patience` too large is replaced after some time, more than
+/// `most` at once. The next size is `headroom` larger than needed.
 struct Holding {
     int patience, most, headroom;
 };
 
-/// A turning camera lengthens and shortens a slice's sides all the time, and each change of a size shows: over a roll
-/// by 300 degrees sides vary by six to twelve steps (tests/stability/camera_paths_test.cpp).
+/// Hysteresis of the sides. A turning camera lengthens and shortens them all the time, and each change shows. Over a
+/// roll by 300 degrees they vary by six to twelve steps (tests/stability/camera_paths_test.cpp).
 constexpr Holding kAcross{6, 12, 2};
-/// A depth range costs no sharpness: its rounding is a hundred-thousandth of a texel. So it may be generous.
+/// Hysteresis of the depth range. A generous range costs no sharpness: its rounding is a hundred-thousandth of a texel.
 constexpr Holding kAlong{12, 12, 4};
 
-/// Steps beyond the headroom that stay in a frame in which another size steps anyway.
+/// Steps beyond the headroom that a size keeps in a frame in which another size changes anyway.
 constexpr int kSpare = 2;
 
-/// The step for `needed`, and whether it is held.
+/// Returns the step for `needed`: the last frame's by hysteresis, or another.
 int held_step_for(double needed, const HeldView& held, int held_step, const Holding& holding, Stepping stepping,
                   HeldView& next) {
     const int closest = step_at_or_above(needed);
@@ -41,21 +41,27 @@ int held_step_for(double needed, const HeldView& held, int held_step, const Hold
     return stays ? held_step : closest + holding.headroom;
 }
 
-/// What is seen along an axis.
+/// Range of what is seen along one axis.
 struct CoordinateRange {
     double low, high;
 };
 
-/// Around `seen`, of which it is no longer than `room` of a step, on parts of `grid` of it; the held one where that
-/// still holds it.
-Side hold(const CoordinateRange& seen, double room, double grid, const HeldView& held, double held_low, int held_step,
-          int step) {
+/// Place of a side in the last frame.
+struct LastPlace {
+    bool used;
+    double low;
+    int step;
+};
+
+/// Places a side around `seen`, on a grid of `grid` times its size. `seen` must be at most `room` of the size. Keeps
+/// the last frame's place while that contains `seen`.
+Side hold(const CoordinateRange& seen, double room, double grid, const LastPlace& last, int step) {
     Side side{0.0, step_size(step)};
     const auto [low, high] = seen;
     const double margin = 0.5 * (1.0 - room) * side.size - 0.5 * grid * side.size;
-    const bool holds = held_low + margin <= low && held_low + side.size - margin >= high;
-    if (held.used && step == held_step && holds) {
-        side.low = held_low;
+    const bool holds = last.low + margin <= low && last.low + side.size - margin >= high;
+    if (last.used && step == last.step && holds) {
+        side.low = last.low;
     } else {
         const double part = grid * side.size;
         side.low = std::round((0.5 * (low + high) - 0.5 * side.size) / part) * part;
@@ -77,7 +83,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const HeldView& held = input.light.held.views[input.index];
     HeldView& next = input.light.next.views[input.index];
     const double texel = 1.0 / input.light.request.map.resolution_px;
-    const double room = 1.0 / with_border(1.0, input.light) - texel;  // a texel of it for the grid
+    const double room = 1.0 / with_border(1.0, input.light) - texel;  // one texel less, for the grid
     glm::dvec3 low, size;
     next.too_large = false;
     for (int axis = 0; axis < 2; ++axis) {
@@ -85,7 +91,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
         const int held_step = held.extent_step[axis];
         int& step = next.extent_step[axis];
         step = held_step_for((span.high - span.low) / room, held, held_step, kAcross, input.stepping, next);
-        const Side side = hold(span, room, texel, held, held.low[axis], held_step, step);
+        const Side side = hold(span, room, texel, {held.used, held.low[axis], held_step}, step);
         low[axis] = next.low[axis] = side.low;
         size[axis] = side.size;
     }
@@ -93,7 +99,7 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     const CoordinateRange span{seen.low.z, seen.high.z};
     next.far_step =
         held_step_for((span.high - span.low) / kDepthRoom, held, held.far_step, kAlong, input.stepping, next);
-    const Side depth = hold(span, kDepthRoom, kDepthSlack, held, held.near_m, held.far_step, next.far_step);
+    const Side depth = hold(span, kDepthRoom, kDepthSlack, {held.used, held.near_m, held.far_step}, next.far_step);
     low.z = next.near_m = depth.low;
     size.z = depth.size;
     next.used = true;

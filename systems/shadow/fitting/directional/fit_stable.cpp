@@ -6,14 +6,13 @@
 namespace gnomon::shadow {
 namespace {
 
-/// The map moves by this many of its own parts at a time: a still map for each walk of a 32nd of it, for 3 % of its
-/// edge.
+/// Number of grid steps along the map's edge. A map stays for each walk of a 32nd of its edge, at 3 % more length.
 constexpr double kPlaces = 32.0;
 
 }  // namespace
 
 bool fit_stable(const CascadeInput& input, OrthographicBox& box) {
-    // Several consumers have no slice in common.
+    // Several cameras have no slice in common.
     if (input.of_all) return fit_quantised(input, box);
     const ConsumerItem& consumer = input.light.scene.consumers.front();
     const SliceSphere sphere = slice_sphere(consumer, input.from_m, input.to_m);

@@ -9,9 +9,9 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Of the largest extent. The anchor lies up to eight of it away (place()), where a float is worth 2^-21 of it; a
-/// lookup rounds about four times. Finer texels would tell nothing apart, and whole maps of edge-on receivers be
-/// missed.
+/// Edge of the smallest texel, as a share of the largest extent. The anchor lies up to eight extents away (place()),
+/// where a float resolves 2^-21 of one, and a lookup rounds about four times. Finer texels would resolve nothing, and
+/// maps of edge-on receivers would be missed altogether.
 constexpr double kLeastTexel = 4.0 / (1 << 21);
 
 }  // namespace

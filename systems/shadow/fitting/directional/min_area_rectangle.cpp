@@ -22,11 +22,12 @@ Rectangle along(const glm::dvec2& axis_u, std::span<const glm::dvec2> points) {
     return r;
 }
 
-/// Sides of equal area (those of any triangle, opposite sides of anything) must not take turns by rounding: the first
-/// in the hull's order stays unless another is clearly smaller.
+/// Ratio below which an area counts as smaller. Any triangle has sides of equal area, as have opposite sides. The first
+/// one in the hull's order stays, so that rounding does not alternate between them.
 constexpr double kClearlyLess = 1.0 - 1.0 / (1 << 20);
 
-/// In slacks: two points that are one but for rounding are up to 2 √2 apart, with an edge of any direction between.
+/// Least length of an edge that decides, in slacks. Two points that differ only by rounding are up to 2 √2 apart, with
+/// an edge of any direction between.
 constexpr double kShortestEdge = 4.0;
 
 }  // namespace

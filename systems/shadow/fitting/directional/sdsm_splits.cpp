@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "systems/extract/light_facts.h"
 #include "systems/extract/volumes.h"
 #include "systems/shadow/fitting/size_steps.h"
 #include "systems/shadow/projection/cascade_splits.h"
@@ -11,18 +12,18 @@
 namespace gnomon::shadow {
 namespace {
 
-/// The bins between the first and the last end, and sums over them from the first on.
+/// Bins between the first and the last split distance, and running sums over them.
 struct Counted {
     bool perspective = true;
     DepthSpan whole;
-    double view_width = 0.0;  // diagonal of the picture: at distance 1 m (perspective), anywhere
+    double view_width = 0.0;  // diagonal of the camera's view: at distance 1 m (perspective), anywhere
     double width_m = 0.0;
     std::uint32_t size = 0;
     std::array<double, kDepthBins> end_m{};
-    std::array<double, kDepthBins + 1> weight{};  // of the first so many bins
+    std::array<double, kDepthBins + 1> weight{};  // pixels in all lower bins
 
     bool empty() const { return !(weight[size] > 0.0); }
-    /// What the pixels of bins [from, to) suffer in a slice that ends at `end_m`.
+    /// Returns the error cost of the pixels in bins [from, to), in a slice that ends at `end_m`.
     double cost(std::uint32_t from, std::uint32_t to, double slice_end_m) const {
         const double start_m = from == 0 ? whole.lowest : end_m[from - 1];
         const double seen_m = std::min(perspective ? view_width * slice_end_m : view_width, width_m);
@@ -61,7 +62,8 @@ double cost_of(const Counted& bins, std::uint32_t count, const CascadeEnds& ends
     return sum;
 }
 
-/// Exhaustive: the best ends of c cascades before a bin follow from those of c - 1 before each earlier one.
+/// Searches exhaustively by dynamic programming: the best c splits before a bin follow from the best c - 1 before each
+/// earlier one.
 CascadeEnds best_ends(const Counted& bins, std::uint32_t count) {
     const std::uint32_t size = bins.size;
     std::array<std::array<std::uint16_t, kDepthBins + 1>, kMaxCascades + 1> from{};
@@ -71,7 +73,7 @@ CascadeEnds best_ends(const Counted& bins, std::uint32_t count) {
     for (std::uint32_t c = 1; c <= count; ++c, before = now)
         for (std::uint32_t to = 0; to <= size; ++to) {
             const double end_m = c == count ? bins.whole.highest : to == 0 ? bins.whole.lowest : bins.end_m[to - 1];
-            now[to] = before[to];  // a slice without a bin
+            now[to] = before[to];  // slice without a bin
             from[c][to] = static_cast<std::uint16_t>(to);
             for (std::uint32_t i = 0; i < to; ++i) {
                 const double cost = before[i] + bins.cost(i, to, end_m);
@@ -103,8 +105,9 @@ bool wants_sampled_depths(const SceneSnapshot& scene, const FittedViews& fitted,
     for (std::size_t i = 0; i < fitted.lights.size(); ++i) {
         const ShadowRequest& request = fitted.lights[i].request;
         const LightItem& light = scene.lights[i];
-        if (!statuses[i].is_skipped() && light.kind == LightKind::directional && !request.projection.perspective_sun &&
-            request.map.view_count > 1 && light.tuning.cascades.splits == CascadeSplits::sampled && are_splits(light.tuning.cascades))
+        if (!statuses[i].is_skipped() && light_facts(light.kind).parallel && !request.projection.perspective_sun &&
+            request.map.view_count > 1 && light.tuning.cascades.splits == CascadeSplits::sampled &&
+            are_splits(light.tuning.cascades))
             return true;
     }
     return false;

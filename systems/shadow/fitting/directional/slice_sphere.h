@@ -8,9 +8,9 @@ struct SliceSphere {
     double radius_m = 0.0;
 };
 
-/// The smallest sphere around the slice of what the consumer sees from from_m to to_m, in view space: its centre lies
-/// on the view's axis, where the corners of both ends are equally far, or in the far end if that would lie beyond it.
-/// Depends on the lens and the slice alone, so that moving and turning the camera changes nothing. 0 <= from_m <= to_m.
+/// Returns the smallest sphere around the slice of a camera's view from from_m to to_m, in view space. 0 <= from_m <=
+/// to_m. Its centre lies on the view's axis, equally far from the corners of both ends, but at most in the far end. It
+/// depends on lens and slice alone, so that moving and turning the camera changes nothing.
 SliceSphere slice_sphere(const ConsumerItem& consumer, double from_m, double to_m);
 
 }  // namespace gnomon::shadow

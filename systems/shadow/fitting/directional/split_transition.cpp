@@ -9,12 +9,12 @@
 namespace gnomon::shadow {
 namespace {
 
-/// Half of what may pass in a frame is left to the camera's movement. When that alone exceeds what may pass, borders go
-/// on slowly, lest a camera that keeps turning keeps them from where they should be.
+/// Share of a fade that splits may move per frame. Half of the allowed change is reserved for camera motion. If that
+/// alone exceeds it, splits move at a quarter, so that they still converge while the camera turns.
 constexpr double kGlide = kMostFade / 2.0, kHastyGlide = kMostFade / 4.0;
 
-/// By how much the view distance of a resting point that was seen at `distance_m` can have changed since the last
-/// frame: it is linear across the picture, so that a corner has the most.
+/// Bounds the change of a static point's view distance since the last frame, for a point seen at `distance_m`, metres.
+/// The change is linear across the view, so that a corner has the most.
 double carried_m(const HeldSplits& held, const ConsumerItem& now, double distance_m) {
     const bool flat = now.projection == CameraProjection::orthographic;
     const double half_y = flat ? now.half_height_m : distance_m * std::tan(0.5 * now.fov_y_rad);
@@ -29,7 +29,7 @@ double carried_m(const HeldSplits& held, const ConsumerItem& now, double distanc
     return most;
 }
 
-/// Share of the way that remains which the ends may go in this frame.
+/// Returns the share of the remaining way that the splits may move in this frame, 0 to 1.
 double next_share(const GlidingEnds& ends, std::uint32_t count, double blend, const ConsumerItem& consumer,
                   const HeldSplits& held) {
     double share = 1.0;

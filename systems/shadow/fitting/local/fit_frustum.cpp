@@ -14,12 +14,12 @@
 namespace gnomon::shadow {
 namespace {
 
-/// What the view's border is made from.
+/// Returns the filter radius that the view's border is made for, texels.
 float reach_texel(const FitInput& input, const TangentRectangle& crop, const PerspectiveRange& range) {
     const FilterSettings& filter = input.request.map.filtering;
     if (!needs_distances(filter)) return input.reach_texel;
     const glm::dvec2 sides = crop.high - crop.low;
-    // The source stands across the ray: away from the axis its picture is longer, as 1 / cos (light_size.glsl).
+    // The source stands across the ray. Away from the axis its image is longer, as 1 / cos (light_size.glsl).
     const glm::dvec2 corner = glm::max(glm::abs(crop.low), glm::abs(crop.high));
     const double longer = std::sqrt(1.0 + glm::dot(corner, corner));
     const double widest =
@@ -27,20 +27,22 @@ float reach_texel(const FitInput& input, const TangentRectangle& crop, const Per
     return penumbra_border_texel(input, std::min(sides.x, sides.y), widest);
 }
 
-/// How far before the light its view's anchor lies. About an aimed lamp floats tell nothing apart that is small where
-/// its light falls. Sheets keep the light's own place: what they are not certain of rays decide.
+/// Returns the distance from the light to its view's anchor, metres. 0: the light itself. Around an aimed far lamp,
+/// floats do not resolve small things where its light falls. Conservative maps are anchored at the light: rays decide
+/// what they leave undecided.
 double anchored_m(const FitInput& input) {
     if (!input.request.projection.aim.used || input.request.rays.used) return 0.0;
     return glm::distance(input.light.position_ws_m, input.request.projection.aim.middle_ws_m);
 }
 
-/// An aimed view's depth is told apart by a share of its range instead of the distance: it is as short as the ball.
+/// Returns the depth range of the view. In an aimed view it is as short as the lit sphere, so that depths resolve a
+/// share of the range instead of the distance.
 PerspectiveRange depth_range(const FitInput& input, const LocalContent& content, const HeldView& held, HeldView& next) {
     const double anchor_m = anchored_m(input), nearest_m = content.nearest_m, farthest_m = content.farthest_m;
     const bool near_is_free = is_near_free(input.request);
     if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
-    return held_range_around(anchor_m, input.request.projection.aim.radius_m, nearest_m, farthest_m, near_is_free, held,
-                             next);
+    return held_range_around({anchor_m, input.request.projection.aim.radius_m}, nearest_m, farthest_m, near_is_free,
+                             held, next);
 }
 
 }  // namespace
@@ -60,8 +62,10 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[opening.held_as] = next;
-    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, crop, range, input.request.map.resolution_px,
-                                       static_cast<double>(reach_texel(input, crop, range)), anchored_m(input));
+    const double size_px = input.request.map.resolution_px;
+    const auto border_texel = static_cast<double>(reach_texel(input, crop, range));
+    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, with_border(crop, size_px, border_texel), range,
+                                       size_px, anchored_m(input));
     view.layer = opening.layer;
     view.held = true;
     views.push_back(view);

@@ -6,10 +6,10 @@
 
 namespace gnomon::shadow {
 
-/// Appends a local light's view through an opening, if there are both a receiver and a caster: cropped to what is seen
-/// of the receivers in it, its depth from the nearest caster or receiver to the farthest receiver. Both are in steps
-/// that are held (fit_hysteresis.h), so that a map stays valid while the camera walks. False if the depth range is no
-/// range.
+/// Appends a local light's view through a light frustum that contains both a receiver and a caster. Crops it to what is
+/// seen of the receivers. Depth reaches from the nearest caster or receiver to the farthest receiver. Both are kept by
+/// hysteresis (fit_hysteresis.h), so that a map stays valid while the camera walks. Returns false if the range is
+/// empty.
 bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam& beam, std::vector<ShadowView>& views);
 
 }  // namespace gnomon::shadow

@@ -14,10 +14,10 @@ struct Side {
     double size() const { return high - low; }
 };
 
-constexpr double kPlaces = 16.0;           // of a cropped side, per its own length
-constexpr double kLeastCrop = 1.0 / 64.0;  // of the full side
+constexpr double kPlaces = 16.0;           // grid steps per length of a cropped side
+constexpr double kLeastCrop = 1.0 / 64.0;  // least cropped side, as a share of the full one
 
-/// The smallest step, on its own grid, that holds `needed`; `full` if it is no smaller.
+/// Returns the smallest step, on its own grid, that contains `needed`; `full` if it is no smaller.
 Side closest(const Side& needed, const Side& full) {
     const double least = std::max(needed.size(), full.size() * kLeastCrop);
     const double size = step_size(step_at_or_above(least * (kPlaces / (kPlaces - 1.0))));
@@ -36,8 +36,7 @@ Side hold(const Side& needed, const Side& full, bool used, const Side& held) {
 }  // namespace
 
 bool is_near_free(const ShadowRequest& request) {
-    return request.map.depth_format == DepthFormat::d32f &&
-           filter_row(request.map.filter).storage != FilterStorage::moments &&
+    return request.map.depth_format == DepthFormat::d32f && !filter_row(request.map.filter).moments &&
            !needs_distances(request.map.filtering) && !(request.map.filtering.spread_m > 0.0f);
 }
 
@@ -52,18 +51,18 @@ PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_fr
     return {step_size(next.near_step), step_size(next.far_step)};
 }
 
-PerspectiveRange held_range_around(double anchor_m, double least_m, double nearest_m, double farthest_m,
-                                   bool near_is_free, const HeldView& held, HeldView& next) {
+PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, double farthest_m, bool near_is_free,
+                                   const HeldView& held, HeldView& next) {
     constexpr double kSlack = 1.0 + 1.0 / (1 << 10);  // as in perspective_range()
-    const double before_m = kSlack * std::max(anchor_m - nearest_m, least_m);
-    const double behind_m = kSlack * std::max(farthest_m - anchor_m, least_m);
-    if (!(before_m < anchor_m) || !std::isfinite(behind_m))
+    const double before_m = kSlack * std::max(anchor.at_m - nearest_m, anchor.least_m);
+    const double behind_m = kSlack * std::max(farthest_m - anchor.at_m, anchor.least_m);
+    if (!(before_m < anchor.at_m) || !std::isfinite(behind_m))
         return held_range(nearest_m, farthest_m, near_is_free, held, next);
     next.near_step = hold_above(before_m, held.used, held.near_step, kHoldSteps);
     next.far_step = hold_above(behind_m, held.used, held.far_step, kHoldSteps);
-    const double near_m = anchor_m - step_size(next.near_step);
-    if (!(near_m > kLeastNear * anchor_m)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
-    return {near_m, anchor_m + step_size(next.far_step)};
+    const double near_m = anchor.at_m - step_size(next.near_step);
+    if (!(near_m > kLeastNear * anchor.at_m)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
+    return {near_m, anchor.at_m + step_size(next.far_step)};
 }
 
 TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,

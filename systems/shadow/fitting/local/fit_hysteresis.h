@@ -5,35 +5,41 @@
 #include "systems/shadow/projection/perspective_range.h"
 #include "systems/shadow/projection/perspective_view.h"
 
-/// Hysteresis of a local light's views: what is needed is rounded to steps, and what was chosen last stays as long as
-/// it is good enough. Any `held` is safe; a choice always holds what is needed. `next` takes the choice.
+/// Hysteresis of a local light's views. Sizes are rounded up to steps, and the last choice stays while it is good
+/// enough. Any `held` is safe: a choice always contains what is needed. `next` receives the choice.
 namespace gnomon::shadow {
 
-/// A held choice may be this many steps (of 2^(1/4)) larger than the closest one: a factor of 1.41. An object that
-/// bobs across a step then moves nothing.
+/// Steps of 2^(1/4) by which a kept choice may exceed the closest one: a factor of 1.41. An object that bobs across a
+/// step then moves nothing.
 inline constexpr int kHoldSteps = 2;
 
-/// The same of a near plane that costs nothing: a factor of 16. What comes nearer than anything did moves it by an
-/// octave more than it need, so that a thing on its way to the light moves it seldom, and one that goes to and fro but
-/// once.
+/// The same for a near plane that costs nothing: a factor of 16. It moves an octave farther than needed. So an
+/// approaching object moves it seldom, and an object that moves to and fro only once.
 inline constexpr int kHoldFreeNearSteps = 4 * kStepsPerOctave, kFreeNearHeadroom = kStepsPerOctave;
 
-/// Whether near may be anywhere before what is seen: reversed floats tell depths apart by a share of the distance, and
-/// results of comparing them hang on nothing else. Not where a filter's width in texels follows from near.
+/// Returns whether near may lie anywhere before what is seen. Reversed floats resolve a share of the distance, so
+/// results of comparing them depend on nothing else. False where a filter's width in texels follows from near.
 bool is_near_free(const ShadowRequest& request);
 
-/// The range of perspective_range(), rounded outward to steps. near >= far only if nothing lies before the light.
+/// Returns the range of perspective_range(), rounded outward to steps. near >= far only if nothing lies before the
+/// light.
 PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
                             HeldView& next);
 
-/// The same as distances to both sides of an anchor that stays, none less than `least_m`: where it is far, steps of the
-/// distance itself would be much longer than what is seen. As held_range() where the near side reaches the light.
-PerspectiveRange held_range_around(double anchor_m, double least_m, double nearest_m, double farthest_m,
-                                   bool near_is_free, const HeldView& held, HeldView& next);
+/// A fixed anchor that a range lies around: its distance from the light, and the least distance to both of its sides.
+struct RangeAnchor {
+    double at_m = 0.0, least_m = 0.0;
+};
 
-/// `needed` within `full`, rounded outward: each side becomes a step, placed on sixteenths of itself. A side that would
-/// not gain a step against the full one stays full. Cropped to no less than a 64th of the full side: a float matrix
-/// still places a texel of an 8192 px map there to a sixteenth.
+/// Does the same with distances to both sides of a fixed anchor. For a far anchor, steps of
+/// the distance itself would be much longer than what is seen. Equals held_range() where the near side reaches the
+/// light.
+PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, double farthest_m, bool near_is_free,
+                                   const HeldView& held, HeldView& next);
+
+/// Returns `needed` within `full`, rounded outward: each side becomes a step, placed on sixteenths of itself. A side
+/// that would not be a step shorter than the full one stays full. None is cropped below a 64th of it: there a float
+/// matrix still places a texel of an 8192 px map to a sixteenth.
 TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,
                                 HeldView& next);
 

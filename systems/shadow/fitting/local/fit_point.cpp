@@ -10,14 +10,14 @@
 #include "systems/shadow/projection/light_frusta.h"
 #include "systems/shadow/request/light_kinds.h"
 
-/// Point light: views of those faces of a cube map in which a receiver is seen and a caster stands. Near and far are
-/// common, since a filter's tap may cross a seam, and held in steps (fit_hysteresis.h). A far one has one view of what
-/// is seen instead (far_lamp_aim.h), and is looked up as a spot is.
+/// Point light: views of the faces of a cube map in which a receiver is seen and a caster stands. All faces share near
+/// and far, since a filter's tap may cross a seam. Both are kept by hysteresis (fit_hysteresis.h). A far point light
+/// has one view of what is seen instead (far_lamp_aim.h), and is looked up as a spot is.
 namespace gnomon::shadow {
 
 namespace {
 
-constexpr double kOneTap_texel = 0.5;  // half-width of a filter that reads the nearest texel and no other
+constexpr double kOneTap_texel = 0.5;  // radius of a filter that reads the nearest texel only
 
 ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening& opening,
                      const PerspectiveRange& range) {
@@ -56,7 +56,7 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
     next.used = true;
     input.next.views[0] = next;
-    // A filter that blends texels reads across seams on its own: what is seen but has no caster must then hold nothing.
+    // A filter that blends texels reads across seams. A face that is seen but has no caster must then be empty.
     const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
     for (std::uint32_t face = 0; face < openings.count; ++face)
         if (faces[face].receivers && (faces[face].casters || blends))

@@ -3,8 +3,8 @@
 #include "systems/shadow/projection/spot_cube_transition.h"
 #include "systems/shadow/request/light_kinds.h"
 
-/// Spot light: one perspective view of its cone, the faces of a cube for a wide one (spot_cube_transition.h), or for a
-/// far one a view of what is seen (far_lamp_aim.h).
+/// Spot light: one perspective view of its cone. A wide cone has the faces of a cube (spot_cube_transition.h). A far
+/// spot has a view of what is seen (far_lamp_aim.h).
 namespace gnomon::shadow {
 
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {

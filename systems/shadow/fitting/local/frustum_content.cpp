@@ -10,7 +10,7 @@
 namespace gnomon::shadow {
 namespace {
 
-/// The four sides, the light's own plane, and an end.
+/// Returns the four sides, the light's own plane and a far plane at `end_m`.
 std::array<math::Plane, 6> planes_of(const Beam& beam, const TangentRectangle& opening, double end_m) {
     const auto plane = [&](const glm::dvec3& normal, double inset_m) {
         return math::Plane{normal, -glm::dot(normal, beam.origin_ws_m) - inset_m};
@@ -24,7 +24,7 @@ std::array<math::Plane, 6> planes_of(const Beam& beam, const TangentRectangle& o
             plane(back, -end_m)};
 }
 
-/// Along the axis, of a box's nearest corner.
+/// Returns the distance to a box's nearest corner along the axis, metres.
 double nearest_m(const Beam& beam, const math::Aabb& box_ws) {
     const glm::dvec3& back = beam.axes[2];
     return glm::dot(beam.origin_ws_m - math::centre(box_ws), back) -

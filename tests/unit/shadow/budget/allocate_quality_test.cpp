@@ -350,13 +350,13 @@ TEST(BudgetCost, CountsEveryByteOfATexelThatAFilterHasDrawn) {
     LightItem light;
     light.kind = LightKind::spot;
     for (const FilterRow& row : filter_table()) {
-        if (row.storage == FilterStorage::moments) continue;      // whose blur is counted as fetches
-        if (row.storage == FilterStorage::soft_sheets) continue;  // sheets, and what is made of them
+        if (row.moments) continue;      // whose blur is counted as fetches
+        if (row.storage.occluder_pyramid) continue;  // sheets, and what is made of them
         ShadowRequest demand;
         demand.map.filter = row.id;
         demand.map.view_count = 1;
         set_resolution(light, 512, demand);
-        EXPECT_EQ(storage_work(row.storage).texel_bytes * 512.0 * 512.0, static_cast<double>(map_bytes(light, demand)))
+        EXPECT_EQ(row.storage.work.texel_bytes * 512.0 * 512.0, static_cast<double>(map_bytes(light, demand)))
             << row.name;
     }
 }

@@ -185,7 +185,7 @@ TEST_P(Contract, ComesToRest) {
                 // A size may be tried for so long, and another one be kept as long after it.
                 for (std::uint32_t f = 0; f < 3 * kSpareFrames; ++f) held = fitted(s, held).next_history;
                 EXPECT_TRUE(fitted(s, held).next_history == held) << i;
-                tried_in_vain += held.lights[0].spare_frames > kSpareFrames ? 1 : 0;
+                tried_in_vain += held.lights[0].size.spare_frames > kSpareFrames ? 1 : 0;
             }
         }
     }

@@ -107,7 +107,7 @@ TEST_F(CountedCascades, AreFewWhereAllThatIsSeenIsAsFarAndNeverCostMoreTexelsOrT
                 EXPECT_TRUE(keeps_contract(predicted_px(chosen), wish_px)) << far_m;
             }
             fewer += chosen.fitted.lights[0].request.map.view_count < 4 ? 1 : 0;
-            EXPECT_EQ(fitted(s).next_history.lights[0].cascades, 0u) << "a number that is given is no choice";
+            EXPECT_EQ(fitted(s).next_history.lights[0].count.cascades, 0u) << "a number that is given is no choice";
         }
     EXPECT_GT(fewer, 5);
 }

@@ -18,7 +18,7 @@ struct Case {
         const FilterRow& row = filter_row(filter);
         decision.request.map.filter = filter;
         decision.request.map.resolution_px = 512;
-        decision.request.rays.used = asks_rays(row);
+        decision.request.rays.used = row.rays;
         fitted.lights[0].views.count = 1;
         view().error.extent_px = kExtent_px;
         view().error.edge_px = edge_error_px(kExtent_px, static_cast<double>(row.reach_texel - row.still_texel));

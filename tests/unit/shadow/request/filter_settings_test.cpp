@@ -43,7 +43,7 @@ TEST(FilterSettings, WhatIsReadButCannotMoveAnEdgeIsLeftOutOfTheEdgesBound) {
         const FilterSettings filter = filter_settings(row, {}, kMap_px);
         EXPECT_EQ(edge_texel_at(filter, 0.01), reach_texel_at(filter, 0.01) - static_cast<double>(row.still_texel));
         EXPECT_GE(edge_texel_at(filter, 0.01), 0.5) << "the texel that is hit";
-        EXPECT_EQ(row.still_texel > 0.0f, row.reading == MapReading::depths && !asks_rays(row)) << "rays move none";
+        EXPECT_EQ(row.still_texel > 0.0f, row.reading == MapReading::depths && !row.rays) << "rays move none";
     }
     EXPECT_EQ(edge_texel_at(filter_settings(of(ShadowFilter::sharp_4x4), kMap_px), 0.01), 0.5);
 }
