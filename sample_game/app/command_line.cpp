@@ -71,7 +71,7 @@ void declare(CLI::App& app, Typed& typed) {
         "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
 }
 
-/// 1 to kMaxSize_px, or 0 if `text` says anything else.
+/// Reads a side of the picture, 1 to kMaxSize_px pixels. Returns 0 if `text` is none.
 std::uint64_t read_side(std::string_view text) {
     const std::uint64_t side = read_count(text).value_or(0);
     return side <= kMaxSize_px ? side : 0;

@@ -8,13 +8,14 @@ inline constexpr double kStepLimit_m = 0.25;   // what is higher is a wall; stai
 inline constexpr double kClimb_m_per_s = 3.0;  // running up stairs of 0.18 m in 0.3 m takes 2.5
 
 struct Footing {
-    double height_m = 0.0;      // of the feet
+    double height_m = 0.0;      // height of the feet
     double fall_m_per_s = 0.0;  // 0 on the ground
     bool operator==(const Footing&) const = default;
 };
 
-/// Where the feet are kStep_s later over ground of `ground_m`. Up to kStepLimit_m apart they follow it, smoothly; from
-/// higher above they fall and land. Ground above the limit does not lift them: it is a wall for others to see to.
+/// Returns where the feet are kStep_s later over ground at `ground_m`. Up to kStepLimit_m apart they follow it
+/// smoothly. From higher above they fall and land. Ground above the limit does not lift them: it is a wall
+/// (collision_boxes.h).
 Footing stepped(const Footing& now, double ground_m);
 
 }  // namespace gnomon::game
