@@ -12,8 +12,8 @@ struct SpeedGroup {
 };
 inline constexpr std::uint32_t kSpeedPlates = 256;  // in each group
 
-/// A ground, seen from above, with the plates of all groups over it, and `lamps` spots above those that reach all of
-/// it. Nodes of group g are named "group<g>"; which lamp's light meets which is for the caller to say (ShadowLayers).
+/// Makes a ground, seen from above, with the plates of all groups over it. `lamps` spots above them reach all of it.
+/// Nodes of group g are named "group<g>". The caller chooses which lamp's light meets which group (ShadowLayers).
 assets::SceneData speed_scene(const SpeedGroup* groups, std::uint32_t count, std::uint32_t lamps);
 
 }  // namespace gnomon::bench
