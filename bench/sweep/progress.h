@@ -11,8 +11,8 @@ struct SweepProgress {
     double rounds_timed = 0.0;            // and a part of the next one
 };
 
-/// "about 40 s left". Rounds take as long as those before; before the first of their rows "at most 17 min left" is all
-/// that is known, since no round begins that would go beyond `budget_s`.
+/// Estimates the time left, as in "about 40 s left". A round takes as long as the ones before. Before the first timed
+/// row only a bound is known, "at most 17 min left": no round begins that would exceed `budget_s`.
 std::string time_left(const SweepProgress& progress, std::uint32_t rounds, double budget_s);
 
 }  // namespace gnomon::bench
