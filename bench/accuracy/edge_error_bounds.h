@@ -7,8 +7,8 @@
 
 namespace gnomon::bench {
 
-/// What the fits predict of shadow edges, surface point by surface point: systems/shadow/fitting/error_bound.h for the
-/// view that serves the point. Works from a copy of the frame's own fits, which are pure.
+/// Predicted errors of shadow edges, surface point by surface point: systems/shadow/fitting/error_bound.h for the view
+/// that serves the point. Repeats the frame's own fits, which are pure functions.
 class EdgeBounds {
 public:
     /// Repeats the fits of a frame from the history that they left, with the budget's limits per light. The scene must

@@ -15,8 +15,8 @@ namespace {
 using oracle::PlacedTriangle;
 
 constexpr std::string_view kFragmentPath = "bench/drawn_triangles.frag";
-/// As lighting/gbuffer/gbuffer.frag finds a triangle. An instance's number is one more than it is: 0 is what a pass
-/// clears to.
+/// Writes instance and triangle, found as lighting/gbuffer/gbuffer.frag finds them. The instance's number is one more
+/// than its index: 0 is the cleared value.
 constexpr std::string_view kFragment =
     "#include \"common/material.glsl\"\n"
     R"(
@@ -56,7 +56,7 @@ gl::TextureHandle surface_depth(const gl::CommandList& list) {
     return {};
 }
 
-/// What is made on the device for one picture of numbers.
+/// Objects of the device for one picture of numbers.
 class NumberPicture {
 public:
     explicit NumberPicture(gl::Device& device) : device_(device) {}

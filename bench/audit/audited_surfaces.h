@@ -6,10 +6,10 @@
 #include "systems/visibility/caster_trees.h"
 #include "tests/oracle/reference_tracer.h"
 
-/// Where the triangles of an audit lie.
+/// Places of the triangles of an audit.
 namespace gnomon::bench {
 
-/// As the tracer has them: in double, bent meshes too. Both must outlive this.
+/// Triangles as the tracer has them: in double, also bent meshes. Scene and library must outlive this.
 class TrueSurfaces {
 public:
     TrueSurfaces(const SceneSnapshot& scene, const assets::MeshLibrary& library) : scene_(scene), library_(library) {}
@@ -26,8 +26,8 @@ private:
     std::map<std::uint32_t, std::vector<glm::dvec3>> positions_;  // by mesh
 };
 
-/// As visibility queries have them: the corners of a mesh that bends are rounded to float, once. A place on the
-/// tracer's surface may lie below that by as much, and would be in its shadow.
+/// Triangles as visibility queries have them: the corners of a bending mesh are rounded to float, once. A place on the
+/// tracer's surface may lie below that triangle by the rounding, and would be in its shadow.
 class AskedSurfaces {
 public:
     /// Refers to scene and trees, which must outlive this. The trees must be up to date with the scene.

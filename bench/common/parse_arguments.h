@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-/// What users type of pictures and scenes.
+/// Parsers of arguments about pictures and scenes.
 namespace gnomon::bench {
 
 /// Reads "WIDTHxHEIGHT", each 1 to 16384, which OpenGL 4.5 guarantees for pictures.

@@ -18,8 +18,8 @@ inline constexpr glm::uvec2 kShownPart_px{240, 135};
 /// on the truth alone, so that all rows show the same part.
 glm::uvec2 shown_part(const oracle::LightTruth& truth, glm::uvec2 size_px);
 
-/// What is seen of one light in one row: files <stem>_render.jpg, _shown.png and _error.png; of the light itself
-/// <light>_point.png and _disk.png, the truths.
+/// Pictures of one light in one row: files <stem>_render.jpg, _shown.png and _error.png. The truths of a light are in
+/// <light>_point.png and _disk.png.
 class RowPictures {
 public:
     /// Makes the folder and writes the truths. Errors: those of game::make_writable_folder and write_file.

@@ -11,7 +11,7 @@
 
 namespace gnomon::bench {
 
-/// What a front is made of: which error, and which time.
+/// Axes of a front: its error and its time.
 enum class RowTruth : std::uint8_t { point, disk };
 enum class RowCost : std::uint8_t { drawn, kept };
 inline constexpr std::array<RowTruth, 2> kRowTruths = {RowTruth::point, RowTruth::disk};

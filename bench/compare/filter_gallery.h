@@ -9,7 +9,7 @@
 
 namespace gnomon::bench {
 
-/// What early bailing saves one light, counted by the shaders' own text in double: a tap is a call.
+/// Savings of early bailing for one light, counted by the shaders' own text in double: a tap is a call.
 struct TapCount {
     std::string light;
     std::size_t points = 0;         // on surfaces in view that the light shines on

@@ -9,7 +9,7 @@ namespace gnomon::bench {
 /// Empty: it was not measured, or cannot be of such a row.
 using Figure = std::optional<double>;
 
-/// What one row is worth for one light: how far off its shadows are, and what they take. Shares are 0 to 1.
+/// Figures of one row for one light: errors of its shadows, and their cost. Shares are 0 to 1.
 struct RowFigures {
     Figure taps, views, texels, bytes, draws;
     /// Against the truth about a point, of scored pixels; none of filters that soften by the source's size.

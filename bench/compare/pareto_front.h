@@ -5,7 +5,7 @@
 
 namespace gnomon::bench {
 
-/// What a choice is off by, and what it takes; the less of either the better.
+/// Error and cost of a choice; the less of either the better.
 struct ErrorAndCost {
     double error = 0.0, cost = 0.0;
 };

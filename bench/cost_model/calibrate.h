@@ -7,7 +7,7 @@
 #include "bench/common/median_range.h"
 #include "engine/core/result.h"
 
-/// How fast the device at hand does the kinds of work that budgets reckon with (systems/shadow/budget/cost_model.h).
+/// Speed of the device at hand for the kinds of work in the budgets' model (systems/shadow/budget/cost_model.h).
 namespace gnomon::bench {
 
 struct SpeedOptions {

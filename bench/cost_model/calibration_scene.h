@@ -5,7 +5,7 @@
 
 namespace gnomon::bench {
 
-/// What casters a group has: as many plates in each, of as much area, cut into more triangles or more meshes.
+/// Casters of a group. All groups have equally many plates of the same area, cut into more triangles or meshes.
 struct SpeedGroup {
     std::uint32_t meshes = 1;  // draws of a view
     std::uint32_t cells = 2;   // along a plate's edge, two triangles each

@@ -11,7 +11,7 @@
 #include "bench/text/svg.h"
 #include "engine/math/convex_polygon.h"
 
-/// What drawings of fits are made of: a square part of a plane, and a map in it.
+/// Parts of the drawings of fits: a square part of a plane, and a map in it.
 namespace gnomon::bench {
 
 using Points = std::vector<glm::dvec2>;
@@ -73,7 +73,7 @@ private:
     double scale_ = 1.0;
 };
 
-/// Where a map lies in some plane: the place of each share of its width and height. Its texels' borders are straight.
+/// Place of a map in some plane, for each share of its width and height. Borders of texels are straight.
 struct MapOutline {
     std::function<glm::dvec2(const glm::dvec2& share)> at;
     Points corners() const { return {at({0.0, 0.0}), at({1.0, 0.0}), at({1.0, 1.0}), at({0.0, 1.0})}; }

@@ -16,7 +16,7 @@ constexpr double kBytesPerMb = 1.0e6;
 /// An exact sun gets finer maps once its casters have stayed for so long while the camera moves.
 constexpr std::uint32_t kWalkSettlingFrames = shadow::kQuietFrames + kSettlingFrames;
 
-/// What goes on while frames are timed.
+/// Motion and drawing while frames are timed.
 enum class Going : std::uint8_t { still, drawn_anew, walk, walk_drawn_anew, everything, count };
 constexpr std::size_t kGoings = static_cast<std::size_t>(Going::count);
 

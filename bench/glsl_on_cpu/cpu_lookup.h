@@ -31,10 +31,10 @@ inline bool knows_filter(const shadow::FilterRow& row) {
     return row.storage == shadow::FilterStorage::depth || row.storage == shadow::FilterStorage::depth_and_triangle;
 }
 
-/// What the shader makes of one point.
+/// Result of the shader's lookup for one point.
 struct ExactVisibility {
     float value = 1.0f;
-    std::uint8_t layers = 0;  // bit per layer that was looked up; a cube counts as one; 0: no map holds the point
+    std::uint8_t layers = 0;  // bit per layer that was looked up; a cube counts as one; 0: no map contains the point
     bool on_edge = false;     // some tap lies within kEdge_texel of a texel border, or of a depth tie
     std::uint16_t taps = 0;   // texture fetches
     bool operator==(const ExactVisibility&) const = default;

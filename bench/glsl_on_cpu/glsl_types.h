@@ -320,7 +320,7 @@ struct mat4 {
 };
 inline vec4 operator*(const mat4& m, const vec4& v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z + m[3] * v.w; }
 
-/// What a `readonly buffer` holds. Copies share it.
+/// Contents of a `readonly buffer`. Copies share them.
 template <class T>
 struct StorageBuffer {
     using Element = T;

@@ -6,7 +6,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/shadow/frame/shadow_frame.h"
 
-/// What a light was published with, for a row of shader_structs.inc.
+/// Values of a published light, for a row of shader_structs.inc.
 namespace gnomon::bench::glsl {
 
 inline vec3 to_vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }

@@ -8,7 +8,7 @@
 #include "bench/common/median_range.h"
 #include "bench/common/stage.h"
 
-/// What shadows cost by the number of lights.
+/// Cost of shadows by the number of lights.
 namespace gnomon::bench {
 
 /// still: nothing moves; mover: one column slides to and fro before the camera; walk: the camera walks.

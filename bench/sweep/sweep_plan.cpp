@@ -50,7 +50,7 @@ std::vector<Value> biases(SweepSize size) {
     return values;
 }
 
-/// What the quick sweep has of the filter table, in the first variant of each.
+/// Filters of the quick sweep, each in its first variant.
 constexpr std::string_view kQuickFilters[] = {"hard",      "hardware_2x2", "pcf_grid", "poisson",
                                               "sharp_4x4", "evsm4",        "moments",  "pcss"};
 

@@ -17,7 +17,7 @@ constexpr double kMaxExposure_ev = 64.0;
 constexpr double kMaxBudget_ms = 1.0e6;
 constexpr double kFramesPerSecond = 60.0;
 
-/// What was typed, before it is understood.
+/// Arguments as typed, before they are parsed.
 struct Typed {
     std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms,
         shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;

@@ -7,7 +7,7 @@
 
 #include "components/transform.h"
 
-/// What a walker cannot pass: upright boxes that stand, turn and move with nodes of the scene.
+/// Obstacles of a walker: upright boxes that stand, turn and move with nodes of the scene.
 namespace gnomon::game {
 
 /// Box in the frame of its node. The node's +Y stays upright.

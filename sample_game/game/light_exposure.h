@@ -9,7 +9,7 @@
 #include "engine/assets/mesh_library.h"
 #include "systems/visibility/light_queries.h"
 
-/// How much of a lamp reaches points of a scene, by the library's visibility queries: for rules that know no entities.
+/// Share of a lamp's light at points of a scene, by the library's visibility queries, for rules that know no entities.
 namespace gnomon::game {
 
 /// Shadow casters of a scene, as a snapshot of their own. Copies what it needs: the scene may go afterwards. Walkers

@@ -15,7 +15,7 @@ inline constexpr double kHiddenLight = 0.35;   // below this the player is in th
 enum class Phase : std::uint8_t { playing, paused, won, lost };
 const char* to_text(Phase phase);
 
-/// What the player does during one step.
+/// Input of the player during one step.
 struct GameInput {
     double forward = 0.0, right = 0.0;      // -1 ... 1
     double yaw_rad = 0.0, pitch_rad = 0.0;  // turn of the head in this step; left and up are positive

@@ -1,7 +1,7 @@
 #pragma once
 #include "sample_game/game/rules.h"
 
-/// How a walker goes up and down, as character controllers do it: steps are climbed, ledges are fallen from.
+/// Height of a walker, as character controllers compute it: it climbs steps and falls from ledges.
 namespace gnomon::game {
 
 inline constexpr double kStepLimit_m = 0.25;   // what is higher is a wall; stairs rise by 0.15 to 0.2 m

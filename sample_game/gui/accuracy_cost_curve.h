@@ -15,7 +15,7 @@ float contract_px(int step);
 /// Returns the step nearest to a value, within the range.
 int contract_step(float max_error_px);
 
-/// What was measured at one setting.
+/// Measurement at one setting.
 struct ContractPoint {
     float max_error_px = 0.0f;  // 0: no target was set
     /// GPU time per frame: median over the last frames that drew maps, and over the last that kept all maps. Empty: no

@@ -11,7 +11,7 @@ namespace gnomon::game {
 namespace {
 
 constexpr double kBytesPerMiB = 1024.0 * 1024.0;
-// Where the sliders end: what the largest of today's devices hold, and more than any frame should take.
+// Ends of the sliders: the memory of today's largest devices, and more time than any frame should take.
 constexpr float kMost_MiB = 4096.0f, kMost_ms = 100.0f;
 constexpr float kWidth_px = 240.0f;
 

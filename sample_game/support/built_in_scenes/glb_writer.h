@@ -24,7 +24,7 @@ struct MaterialSpec {
     bool double_sided = false;
 };
 
-/// Which joints of its skin a vertex follows: one, and partly another.
+/// Joints of its skin that a vertex follows: one, and partly another.
 struct JointShare {
     std::uint8_t joint = 0, other = 0;
     float of_other = 0.0f;
@@ -43,7 +43,7 @@ struct JointSpec {
     glm::dvec3 rest_m{0.0};
 };
 
-/// What moves a node: "translation" or "rotation" (x, y, z, w), a value per key, linear in between.
+/// Motion of a node: "translation" or "rotation" (x, y, z, w), a value per key, linear in between.
 struct ChannelSpec {
     std::uint32_t node = 0;
     std::string path;

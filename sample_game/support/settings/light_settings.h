@@ -35,8 +35,8 @@ void change_settings(ecs::Registry& registry, ecs::Entity light, Change&& change
     put_settings(registry, light, *settings);
 }
 
-/// How a panel edits a setting: on or off, one of LightSetting::choice's words, a number of 0 to slider_most, or typed
-/// text.
+/// Editor of a setting in a panel: on or off, one of LightSetting::choice's words, a number of 0 to slider_most, or
+/// typed text.
 enum class SettingEditor : std::uint8_t { toggle, choice, number, text };
 inline constexpr SettingEditor kToggle = SettingEditor::toggle, kChoice = SettingEditor::choice,
                                kNumber = SettingEditor::number, kText = SettingEditor::text;

@@ -7,7 +7,7 @@
 #include "sample_game/support/built_in_scenes/glb_writer.h"
 #include "sample_game/support/built_in_scenes/look_rotation.h"
 
-/// What the parts of the courtyard share.
+/// Builders and materials that the parts of the courtyard share.
 namespace gnomon::game {
 
 struct Materials {

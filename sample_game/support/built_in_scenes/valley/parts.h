@@ -4,7 +4,7 @@
 
 #include "sample_game/support/built_in_scenes/glb_writer.h"
 
-/// What the parts of the valley share.
+/// Builders and materials that the parts of the valley share.
 namespace gnomon::game {
 
 struct ValleyMaterials {

@@ -59,7 +59,7 @@ uvec2 shown_at(FourTriangles shown, int bits) {
 // One loop takes all steps of all walks. Neighbouring pixels go in step: no walk stands still until another's ends.
 int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca), view = to_camera(position_ca);
-    // The receiver faces the camera. Only then does it show on which side of a triangle the receiver lies.
+    // True: the receiver faces the camera. Only then the side of a triangle that the camera sees is the receiver's.
     bool shows = dot(receiver_normal, view) > 0.0;
     bool blocked = false, unknown = false;
     uvec2 at = shown_at(shown, left);   // instance, triangle
