@@ -44,14 +44,14 @@ std::optional<Error> put_out(const Arguments& arguments, const std::string& tabl
     return game::write_file(arguments.json, std::as_bytes(std::span(json)));
 }
 
-/// A measurement that is a table of text alone.
+/// Prints the table of a measurement. Returns the exit status.
 int put_table(const Result<std::string>& table) {
     if (!table) return fail(table.error());
     std::fputs(table.value().c_str(), stdout);
     return 0;
 }
 
-/// Into the page that was named, if one was.
+/// Writes a text into its marked part of the page that --markdown names; without a page does nothing.
 std::optional<Error> put_marked(const Arguments& arguments, const char* part, const std::string& text) {
     return arguments.markdown.empty() ? std::nullopt : replace_marked(arguments.markdown, part, text);
 }

@@ -5,7 +5,7 @@
 
 namespace gnomon {
 
-/// Every file under shaders/ that the build lists, for expand_shader().
+/// Returns every file under shaders/ that the build lists, for expand_shader().
 std::span<const gl::ShaderFile> shader_files();
 
 }  // namespace gnomon

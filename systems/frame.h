@@ -75,7 +75,7 @@ public:
     const gl::CommandList& commands() const { return commands_; }  // last frame
     /// Returns the fit history of all lights. It needs no device and outlives one.
     const shadow::History& held_fits() const;
-    /// What lighting handed back to the shadows of the last frame.
+    /// Returns what lighting measured for the shadows of the next frame.
     const shadow::LightingFeedback& feedback() const { return feedback_; }
 
     /// Reads the last frame's picture: viewport_px, 4 bytes sRGB per pixel, top row first. Returns false if there is
@@ -110,8 +110,8 @@ private:
     std::unique_ptr<debug::DebugPainter> debug_;
     std::optional<std::vector<ConsumerItem>> frozen_;  // cameras that shadows are fitted to
     std::vector<ConsumerItem> pictures_;               // drawing cameras meanwhile
-    shadow::LightingFeedback feedback_;                // of earlier frames to the next one
-    shadow::LightingOutcome outcome_;                  // of the frame's picture
+    shadow::LightingFeedback feedback_;                // result of earlier frames, input of the next one
+    shadow::LightingOutcome outcome_;                  // what became of lights in this frame's pictures
     TimedLights timed_lights_;
     FrameReport report_;
     gl::CommandList commands_;

@@ -11,7 +11,7 @@
 namespace gnomon::bench {
 namespace {
 
-// The second frame is the first whose automatic choices (sizes, caches) could have settled.
+// Automatic choices (sizes, caches) can have settled in the second frame at the earliest.
 constexpr int kSettlingFrames = 2;
 // Timings of a query may arrive this many frames late.
 constexpr std::uint32_t kTimingLag = 3;

@@ -26,27 +26,28 @@ struct SoftAccuracy {
 };
 
 struct LightAccuracy {
-    LightReport report;  // of the frame that was measured; is_left_out(): nothing below is counted
+    LightReport report;  // report of the measured frame; is_left_out(): nothing below is counted
     oracle::Metrics metrics;
-    std::vector<float> measured;               // as of --visibility
+    std::vector<float> measured;               // visibility per pixel, as --visibility writes it
     oracle::LightTruth truth;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
     oracle::EdgeExceptions exceptions;         // edges farther off than predicted there, by name
-    oracle::EdgeExceptions contract;           // farther off than max_error_px allows, where the report says it is kept
+    oracle::EdgeExceptions contract;           // edges farther off than max_error_px, where the report states it is met
     oracle::FarErrors far;                     // wrong pixels that neither an edge nor the map's texels there explain
-    std::optional<PromisedErrors> promised;  // as defaults are judged; none of filters that soften by the source's size
+    std::optional<PromisedErrors>
+        promised;  // errors that defaults are judged by; none if the filter softens by the source's size
     std::size_t beyond_stated = 0;     // scored pixels with a larger bound than their view states for their slope: 0
-    std::optional<SoftAccuracy> soft;  // of lights whose source has a size
+    std::optional<SoftAccuracy> soft;  // accuracy about a source with a size; empty: the light has none
     Spread gpu_us, cpu_us;             // shadow and lighting pass, economy off: every view drawn in every frame
-    std::size_t redrawn_differs = 0;   // pixels that changed when every view was drawn anew; must be 0
+    std::size_t redrawn_differs = 0;   // pixels that changed when every view was drawn again; must be 0
 };
 
 struct Accuracy {
     std::string scene, device;
     glm::uvec2 size_px{0, 0};
     glm::dvec3 camera_ws_m{0.0};
-    std::vector<LightAccuracy> lights;    // those with a LightShadow
-    std::vector<std::string> unshadowed;  // names of the others
+    std::vector<LightAccuracy> lights;    // lights with a LightShadow
+    std::vector<std::string> unshadowed;  // names of the other lights
     double trace_s = 0.0;                 // tree, primary rays and all lights
     std::uint32_t gl_complaints = 0;
 };
@@ -54,17 +55,17 @@ struct Accuracy {
 struct AccuracyOptions {
     std::uint32_t timed_frames = 9;  // 0: no timing
     bool with_ambiguous = true;
-    double telling = 1.0;  // of predicted texels, see EdgeBounds::at
-    double wished = 1.0;   // of max_error_px, see EdgeBounds::promised
+    double telling = 1.0;  // factor on predicted texels, see EdgeBounds::at()
+    double wished = 1.0;   // factor on max_error_px, see EdgeBounds::promised()
 };
 
-/// Runs frames as the scene asks for them, reads each light's visibility and compares it with ray-traced truth about
-/// the very snapshot that was drawn. Errors: "bench.visibility" if a light's visibility cannot be read, "bench.camera".
+/// Runs frames of the scene, reads each light's visibility and compares it with ray-traced truth about the very
+/// snapshot that was drawn. Errors: "bench.visibility" if a light's visibility cannot be read, "bench.camera".
 Result<Accuracy> measure_accuracy(Stage& stage, const AccuracyOptions& options);
 
-/// A table for people.
+/// Returns a table for people.
 std::string accuracy_table(const Accuracy& accuracy);
-/// Everything, for scripts: bench/README.md lists the keys.
+/// Returns all results for scripts: bench/README.md lists the keys.
 std::string accuracy_json(const Accuracy& accuracy);
 
 }  // namespace gnomon::bench

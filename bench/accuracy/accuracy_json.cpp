@@ -30,7 +30,7 @@ Json to_json(const SoftAccuracy& soft) {
         {"width_ratio", {{"p10", m.widths.p10_ratio}, {"median", m.widths.median_ratio}, {"p90", m.widths.p90_ratio}}}};
 }
 
-/// What is counted against the truth.
+/// Adds the figures that are counted against the truth.
 void add_errors(const LightAccuracy& light, Json& json) {
     const oracle::Metrics& m = light.metrics;
     json["scored_px"] = m.scored;

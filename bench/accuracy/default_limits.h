@@ -4,19 +4,19 @@
 
 namespace gnomon::bench {
 
-/// What the defaults promise of every light in every scene, as shares of the pixels that are scored: the bounds of
-/// docs/cost.md; and no acne. They cannot be had where shadows are narrower than their map's texels.
+/// Bounds that the defaults meet for every light in every scene, as shares of scored pixels (docs/cost.md). No acne is
+/// allowed, either. Shadows narrower than their map's texels are beyond them.
 inline constexpr double kMostWrongByDefault = 0.0005, kMostLeakByDefault = 0.0001;
 
-/// What a light is judged by, as shares of its scored pixels. Far: what neither an edge nor the map's texels there
-/// explain (oracle::FarErrors); empty: nobody asked.
+/// Errors that a light is judged by, as shares of its scored pixels. Far: neither an edge nor the map's texels there
+/// explain them (oracle::FarErrors); empty: not computed.
 struct PromisedErrors {
     double wrong = 0.0, leak = 0.0, acne = 0.0;
     std::optional<double> false_shadow_far, false_light_far;
 };
 
-/// What is above its bound, how far, and how much of it lies nearer to a true edge than half a texel of the map is wide
-/// there: "0.101 % wrong (0.05 %), 93.8 % of that within ...; ...". Empty: nothing is.
+/// Describes the errors above their bounds, each with the share that lies within half a texel of the map from a true
+/// edge. Example: "0.101 % wrong (0.05 %), 93.8 % of that within ...; ...". Empty: none is above.
 std::string promise_words(const PromisedErrors& errors);
 
 }  // namespace gnomon::bench

@@ -23,7 +23,7 @@ constexpr double kHalf = 0.5;
 
 bool orthographic(const ShadowView& view) { return view.projection == shadow::ViewProjection::orthographic; }
 
-/// Where the point lies in the map of a cascade: u, v, depth, each 0 to 1 if inside.
+/// Returns where the point lies in the map of a cascade: u, v, depth, each 0 to 1 if inside.
 glm::dvec3 in_map(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec4 q = glm::dmat4(view.map_from_anchor) * glm::dvec4(p_ws - view.pose.anchor_ws_m, 1.0);
     return q.w > 0.0 ? glm::dvec3(q) / q.w : glm::dvec3(-1.0);
@@ -34,8 +34,8 @@ bool holds(const glm::dvec3& at, double margin) {
            at.z <= 1.0;
 }
 
-/// How far a point has faded out of a cascade that holds it, 0 to 1: what a map holds beyond its slice it serves up to
-/// its border, unless it serves by distance.
+/// Returns how far a point in a cascade's map has faded out of it, 0 to 1. A map also serves what lies beyond its
+/// slice, up to its border, unless it serves by distance.
 double faded(const ShadowView& view, const glm::dvec3& at, double distance_m, double margin, double blend) {
     if (!(blend > 0.0)) return 0.0;
     const double share = faded_by_distance(view.cascade.fades_from_m, view.cascade.fades_to_m, distance_m);
@@ -48,19 +48,20 @@ double depth_from(const ShadowView& view, const glm::dvec3& p_ws) {
     return glm::dot(apex_ws_m(view) - p_ws, view.pose.axis_back);
 }
 
-/// Unit.
+/// Returns the unit vector toward the light.
 glm::dvec3 to_light(const ShadowView& view, const glm::dvec3& p_ws) {
     return orthographic(view) ? view.pose.axis_back : glm::normalize(apex_ws_m(view) - p_ws);
 }
 
-/// Nothing to be off but the picture's own pixels.
+/// Returns the bound for a lit point: no texel, and only the picture's own pixels as error.
 oracle::TexelThere lit() {
     oracle::TexelThere texel;
     texel.error_px = shadow::edge_error_px(0.0, 0.0);
     return texel;
 }
 
-/// How many texels aside the offset along the normal takes a lookup: shaders/shadow/lookup/bias/automatic.glsl.
+/// Returns how many texels aside the offset along the normal moves a lookup
+/// (shaders/shadow/lookup/bias/automatic.glsl).
 double moved_texel(const ShadowView& view, const shadow::ShadowRequest& demand, const shadow::TexelSides& sides,
                    const glm::dvec3& p_ws, const glm::dvec3& normal, double filter_texel) {
     const double along_m =
@@ -69,7 +70,7 @@ double moved_texel(const ShadowView& view, const shadow::ShadowRequest& demand, 
     return std::max(moved.x, moved.y) * demand.map.resolution_px;
 }
 
-/// The texel around the point, under a filter of that half-width, without an error.
+/// Returns the texel around the point, under a filter of that half-width, without an error.
 oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowRequest& demand, const glm::dvec3& p_ws,
                                const glm::dvec3& normal, double filter_texel) {
     const shadow::TexelSides sides = shadow::texel_sides(view, p_ws);
@@ -109,8 +110,8 @@ double EdgeBounds::edge_texel(const ShadowView& view) const {
     return static_cast<double>(filter.widest_texel - filter.still_texel);
 }
 
-/// As the shaders choose. Near the border of a cascade's map the next one, which is coarser, may serve: it is taken, as
-/// where most of the light has faded into it.
+/// Chooses as the shaders do. Near the border of a cascade's map the next, coarser one may serve. It is taken there,
+/// and where most of the light has faded into it.
 const ShadowView* EdgeBounds::view_of(std::uint32_t light, const glm::dvec3& point_ws_m) const {
     const ConsumerItem& consumer = scene_.consumers.front();
     const double distance_m = -glm::dot(point_ws_m - consumer.position_ws_m, consumer.rotation_ws[2]);

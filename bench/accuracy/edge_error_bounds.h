@@ -7,32 +7,35 @@
 
 namespace gnomon::bench {
 
-/// What the fits predict of shadow edges, surface point by surface point: systems/shadow/fitting/error_bound.h for the
-/// view that serves the point. Works from a copy of the frame's own fits, which are pure.
+/// Predicted errors of shadow edges, surface point by surface point: systems/shadow/fitting/error_bound.h for the view
+/// that serves the point. Repeats the frame's own fits, which are pure functions.
 class EdgeBounds {
 public:
-    /// `held`: what the fits of that frame left, and what a budget left each light. The scene must outlive this.
-    /// Positions below are relative to its first consumer.
+    /// Repeats the fits of a frame from the history that they left, with the budget's limits per light. The scene must
+    /// outlive this. Positions below are relative to its first consumer.
     EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device, const shadow::History& held);
 
-    /// `telling`: 1; else every texel is taken to be that many times as large as it is, to see what a wrong prediction
-    /// looks like. Points that no view holds are lit: no texel, and an edge is off by the picture's own pixels alone.
+    /// Returns the texel at a point and the predicted error of an edge there. Points in no view are lit: no texel, and
+    /// only the picture's own pixels as error. `telling`: factor on the texel's size; other than 1 it shows how a wrong
+    /// prediction looks.
     oracle::TexelThere at(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                           double telling = 1.0) const;
 
-    /// The texel that may move an edge there, and how far off the light's contract lets it be (shadow/contract.h).
-    /// `wished`: 1; else both are taken to be that many times as large, to see what a broken contract looks like.
+    /// Returns the texel that may move an edge there, and the error that the light's target allows
+    /// (systems/shadow/request/accuracy_target.h). `wished`: factor on both; other than 1 it shows how a missed target
+    /// looks.
     oracle::TexelThere promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                                 double wished) const;
 
-    /// The same where an edge may be off by `error_px` beside the picture's own pixel, whatever the contract.
+    /// Returns the same for an allowed error of `error_px` beside the picture's own pixel, whatever the light's target.
     oracle::TexelThere within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                               double error_px, double wished = 1.0) const;
 
-    /// Edge of the light's maps, for which all of this is said; 0: it has none.
+    /// Returns the edge of the light's maps that the bounds are for, texels; 0: it has none.
     std::uint32_t map_px(std::uint32_t light) const { return fitted_.lights[light].request.map.resolution_px; }
 
-    /// What the view that serves the point states for receivers of its slope; 0 where none does.
+    /// Returns the error that the view serving the point states for receivers of its slope, pixels; 0: no view serves
+    /// it.
     double stated_px(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal) const;
 
 private:

@@ -15,8 +15,8 @@ namespace {
 using oracle::PlacedTriangle;
 
 constexpr std::string_view kFragmentPath = "bench/drawn_triangles.frag";
-/// As lighting/gbuffer/gbuffer.frag finds a triangle. An instance's number is one more than it is: 0 is what a pass
-/// clears to.
+/// Writes instance and triangle, found as lighting/gbuffer/gbuffer.frag finds them. The instance's number is one more
+/// than its index: 0 is the cleared value.
 constexpr std::string_view kFragment =
     "#include \"common/material.glsl\"\n"
     R"(
@@ -32,7 +32,7 @@ void main() {
 
 Error failed(const std::string& what) { return {what, "", "", "bench.surfaces"}; }
 
-/// The commands of the frame's surface pass, from its BeginPass to its EndPass.
+/// Returns the commands of the frame's surface pass, from its BeginPass to its EndPass.
 std::span<const gl::Command> surface_pass(const gl::CommandList& list) {
     const auto named = std::find_if(list.commands.begin(), list.commands.end(), [](const gl::Command& command) {
         const auto* group = std::get_if<gl::BeginGroup>(&command);
@@ -45,7 +45,7 @@ std::span<const gl::Command> surface_pass(const gl::CommandList& list) {
     return end == list.commands.end() ? std::span<const gl::Command>{} : std::span(begin, end + 1);
 }
 
-/// What the exposure is measured from first: the depths that the surfaces left.
+/// Returns the depths of the surfaces: the first texture that measuring of the exposure reads.
 gl::TextureHandle surface_depth(const gl::CommandList& list) {
     bool in_group = false;
     for (const gl::Command& command : list.commands) {
@@ -56,7 +56,7 @@ gl::TextureHandle surface_depth(const gl::CommandList& list) {
     return {};
 }
 
-/// What is made on the device for one picture of numbers.
+/// Objects of the device for one picture of numbers.
 class NumberPicture {
 public:
     explicit NumberPicture(gl::Device& device) : device_(device) {}

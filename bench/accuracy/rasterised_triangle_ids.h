@@ -8,8 +8,8 @@
 
 namespace gnomon::bench {
 
-/// Which triangle the last picture of `frame` shows at each pixel, rows bottom to top: its own surface pass over again,
-/// command by command, with a shader that writes numbers. `library` must be the frame's, its device `device`.
+/// Returns the triangle that the last picture of `frame` shows at each pixel, rows bottom to top. It repeats the
+/// surface pass, command by command, with a shader that writes numbers. `library` and `device` must be the frame's.
 /// Errors: "bench.surfaces" if there is no picture, the device cannot, or a pixel's depth is not that of the picture.
 Result<std::vector<oracle::PlacedTriangle>> drawn_triangles(gl::Device& device, const Frame& frame,
                                                             const assets::MeshLibrary& library);

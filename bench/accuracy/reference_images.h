@@ -16,17 +16,17 @@ struct TracedLight {
     LightKind kind = LightKind::point;
     oracle::LightTruth point;                  // ambiguous as well where other_surfaces() are
     std::optional<std::size_t> other_surface;  // scored pixels that are left out for that alone; empty: not known
-    oracle::SoftTruth disk;                    // about disk_source(); empty if it was not asked for
+    oracle::SoftTruth disk;                    // truth about disk_source(); empty: not computed
 };
 
-/// What every row is held against: of a scene that stands still, traced once.
+/// Truth that every row is compared with: of a scene that stands still, traced once.
 struct TracedTruths {
     std::unique_ptr<oracle::ReferenceTracer> tracer;
     oracle::PrimaryHits hits;
     std::vector<std::uint8_t> creases;  // oracle::creases(hits)
-    std::vector<TracedLight> lights;    // those with a LightShadow
+    std::vector<TracedLight> lights;    // lights with a LightShadow
     double trace_s = 0.0;
-    std::vector<std::uint32_t> indices() const;  // of the lights
+    std::vector<std::uint32_t> indices() const;  // indices of the lights
 };
 
 /// Leaves the lights with disk_source() if `disks`. Errors: "bench.camera", "set.*".

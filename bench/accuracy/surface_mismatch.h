@@ -6,12 +6,12 @@
 #include "bench/common/stage.h"
 #include "tests/oracle/reference_tracer.h"
 
-/// Where the picture shows another surface than the ray through the pixel's middle meets: vertices are snapped to 1/256
-/// px. What reaches the one says nothing about the other.
+/// Pixels in which the picture shows another surface than the ray through the pixel's middle meets: vertices are
+/// snapped to 1/256 px. Light on one of them does not imply light on the other.
 namespace gnomon::bench {
 
-/// A flag per pixel of the stage's last picture. Triangles of one plane are the same surface. Empty: the device does
-/// not draw the picture's surfaces over again bit for bit, so that nobody knows.
+/// Returns a flag per pixel of the stage's last picture. Triangles of one plane are the same surface. Empty: unknown,
+/// because the device does not repeat the picture's surfaces to the bit.
 std::optional<std::vector<std::uint8_t>> other_surfaces(Stage& stage, const oracle::ReferenceTracer& tracer,
                                                         const oracle::PrimaryHits& hits);
 

@@ -16,12 +16,12 @@ struct TracedPicture {
     const oracle::PrimaryHits& hits;
     std::span<const std::uint8_t> creases;
     const SceneSnapshot& scene;
-    std::uint32_t light = 0;  // of the scene
+    std::uint32_t light = 0;  // index into the scene's lights
     const oracle::LightTruth& truth;
 };
 
-/// Wrong pixels that lie farther from every true edge than half a texel of the map and the filter's half-width measure
-/// on the screen: on planes the bias is proven, so that there should be none.
+/// Returns the wrong pixels that lie farther from every true edge than half a texel and the filter's half-width, as
+/// they measure on the screen. There should be none: on planes the bias is proven.
 oracle::FarErrors errors_beyond_texels(const TracedPicture& picture, const EdgeBounds& bounds,
                                        const std::vector<float>& measured);
 

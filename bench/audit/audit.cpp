@@ -14,7 +14,7 @@ double share(std::size_t part, std::size_t whole) {
     return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// One light of a picture whose primary rays are traced.
+/// Audit of one light of a picture with traced primary rays.
 class LightAuditor {
 public:
     LightAuditor(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& traced,
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    /// Pixels whose answer hangs on a ray.
+    /// Returns the pixels for which a ray decides.
     std::vector<std::uint32_t> compared_pixels(const LightItem& light, const oracle::LightTruth& truth) const {
         std::vector<std::uint32_t> pixels;
         for (std::uint32_t i = 0; i < hits_.count(); ++i)

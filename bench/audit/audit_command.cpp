@@ -6,7 +6,7 @@
 namespace gnomon::bench {
 namespace {
 
-/// Of the built-in level: one light in three is a sun or a point or a spot, and few see the same boxes.
+/// Lights of the built-in level: suns, points and spots in turn. Few of them see the same boxes.
 constexpr std::uint32_t kLevelLights = 12;
 constexpr std::uint64_t kLevelSeed = 20240917;
 
@@ -29,7 +29,7 @@ std::vector<Source> sources_of(const AuditCommand& command) {
     return sources;
 }
 
-/// What is seen and what is traced hang on no shadow map, so that none is drawn.
+/// Audits the stage's cameras. It draws no shadow map, since neither surfaces nor rays depend on one.
 std::optional<Error> audit_cameras(Stage& stage, const AuditCommand& command, std::vector<Audit>& audits) {
     stage.show_shadows(false);
     const std::size_t cameras = command.stage.camera ? 1 : stage.spawned().cameras.size();

@@ -14,7 +14,7 @@ struct AuditCommand {
     std::function<void(const Audit& audit)> on_audit = [](const Audit&) {};  // as each picture is done
 };
 
-/// Every picture of every scene. Errors: those of Stage::open and audit_frame().
+/// Audits every picture of every scene. Errors: those of Stage::open and audit_frame().
 Result<std::vector<Audit>> run_audit(const AuditCommand& command);
 
 }  // namespace gnomon::bench

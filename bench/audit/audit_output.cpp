@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 using oracle::PlacedTriangle;
 
 constexpr double kPercent = 100.0;
-/// More lines of other triangles than anybody reads; all are in the JSON.
+/// Most lines of other triangles in a table. The JSON has all.
 constexpr std::size_t kShownTriangles = 20;
 
 std::string words(const PlacedTriangle& triangle) {

@@ -6,16 +6,16 @@
 #include "systems/visibility/caster_trees.h"
 #include "tests/oracle/reference_tracer.h"
 
-/// Where the triangles of an audit lie.
+/// Places of the triangles of an audit.
 namespace gnomon::bench {
 
-/// As the tracer has them: in double, bent meshes too. Both must outlive this.
+/// Triangles as the tracer has them: in double, also bent meshes. Scene and library must outlive this.
 class TrueSurfaces {
 public:
     TrueSurfaces(const SceneSnapshot& scene, const assets::MeshLibrary& library) : scene_(scene), library_(library) {}
 
-    /// Whether each corner of `a` lies nearer to the plane of `b` than oracle::kJitter of its distance from the camera.
-    /// False where one of them is no triangle.
+    /// Returns whether each corner of `a` lies nearer to the plane of `b` than oracle::kJitter times its distance from
+    /// the camera. False if one of them is no triangle.
     bool in_one_plane(const oracle::PlacedTriangle& a, const oracle::PlacedTriangle& b);
 
 private:
@@ -26,14 +26,14 @@ private:
     std::map<std::uint32_t, std::vector<glm::dvec3>> positions_;  // by mesh
 };
 
-/// As visibility queries have them: the corners of a mesh that bends are rounded to float, once. A place on the
-/// tracer's surface may lie below that by as much, and would be in its shadow.
+/// Triangles as visibility queries have them: the corners of a bending mesh are rounded to float, once. A place on the
+/// tracer's surface may lie below that triangle by the rounding, and would be in its shadow.
 class AskedSurfaces {
 public:
-    /// `trees` must be up to date with the scene. Both must outlive this.
+    /// Refers to scene and trees, which must outlive this. The trees must be up to date with the scene.
     AskedSurfaces(const SceneSnapshot& scene, const visibility::CasterTrees& trees) : scene_(scene), trees_(trees) {}
 
-    /// The place on the plane that queries have for that triangle: of meshes at rest the same.
+    /// Moves a point onto the plane that queries have for that triangle. For meshes at rest it stays.
     glm::dvec3 on_surface(const oracle::PlacedTriangle& triangle, const glm::dvec3& point_ws_m);
 
 private:

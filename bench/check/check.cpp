@@ -53,8 +53,8 @@ Result<OwnDevice> make_own_device() {
     return OwnDevice{std::move(context).value(), std::move(device).value()};
 }
 
-// Drivers compile on as many threads as have a context; beyond some they wait
-// for each other.
+// Drivers compile on every thread with a context. Beyond some number the
+// threads block each other.
 constexpr unsigned kMostThreads = 8;
 
 std::optional<Error> check_device_and_programs(std::span<const gl::ProgramDesc> programs, const CheckOptions& options,

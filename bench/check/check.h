@@ -16,7 +16,7 @@ struct CheckOptions {
     std::string programs, rows;         // regular expressions for names; empty: all
     std::vector<std::string> settings;  // KEY=VALUE on top of every row's; the
                                         // truth is traced without them
-    std::uint32_t frames = 5;           // of each row that are timed, maps drawn anew and kept; 0: none
+    std::uint32_t frames = 5;           // timed per row, maps drawn again and kept; 0: none
     CheckProgress progress = [](const std::string&, std::size_t, std::size_t) {};
 };
 
@@ -29,20 +29,21 @@ struct Check {
     double took_s = 0.0;
 };
 
-/// Asks the device, compiles the programs, draws and judges the rows. Errors:
-/// those of Stage::open and trace_check_truths(); "check.pattern" for no
-/// regular expression, or one that no program and no row has; "set.*".
+/// Queries the device, compiles the programs, draws and judges the rows. Errors:
+/// as Stage::open and trace_check_truths(); "set.*"; "check.pattern" for no
+/// regular expression, or if no program and no row matches it.
 Result<Check> run_check(const CheckOptions& options);
 
-/// Nothing below is other than it should be.
+/// Returns whether nothing in the check failed.
 bool is_well(const Check& check);
-/// The last line, without its end: "all is well here: ..." or "not all is well
-/// here: ...".
+/// Returns the last line, without its end: "all is well here: ..." or "not all
+/// is well here: ...".
 std::string check_verdict(const Check& check);
 
-/// For people; at most 120 characters a line. Ends with check_verdict().
+/// Returns a text for people, at most 120 characters a line. It ends with
+/// check_verdict().
 std::string check_text(const Check& check);
-/// Everything, for reports and scripts: docs/check.md lists the keys.
+/// Returns all results for reports and scripts: docs/check.md lists the keys.
 std::string check_json(const Check& check);
 
 }  // namespace gnomon::bench

@@ -17,8 +17,8 @@ struct CheckCommand {
 
 void add_check_options(CLI::App& command, CheckCommand& check);
 
-/// Runs it, prints it, writes the file; says on standard error how far it is.
-/// 0: all is well; 1: not all is. Errors: those of run_check(); "output.write".
+/// Runs the check, prints it and writes the file. Reports its progress on
+/// standard error. Returns 0 if all is well, else 1. Errors: those of run_check(); "output.write".
 Result<int> run_check_command(const CheckCommand& command);
 
 }  // namespace gnomon::bench

@@ -9,7 +9,7 @@ namespace gnomon::bench {
 namespace {
 
 constexpr double kMiB = 1024.0 * 1024.0;
-constexpr std::uint64_t kInstanceBytes = 64;  // of a record that shaders read as texels
+constexpr std::uint64_t kInstanceBytes = 64;  // size of a record that shaders read as texels
 constexpr std::uint32_t kFaces = 6;
 
 const char* route_words(CubeRoute route) {

@@ -14,7 +14,7 @@ struct DeviceCheck {
     std::vector<std::string> short_of;  // limits that do not serve; empty: all do
 };
 
-/// What follows from what a context says of itself.
+/// Derives what works on a device from the facts that its context reports.
 DeviceCheck check_device(gl::DeviceFacts facts, const gl::DeviceInfo& info);
 
 }  // namespace gnomon::bench

@@ -13,16 +13,16 @@ namespace {
 
 constexpr float kHalf = 0.5f;
 constexpr double kByteStep = 1.0 / 255.0;
-constexpr std::uint32_t kTruthRays = 256;  // of oracle::SourceSampling, along both sides of its square
+constexpr std::uint32_t kTruthRays = 256;  // rays of oracle::SourceSampling, along both sides of its square
 
 bool softens(const shadow::FilterRow& filter) { return filter.width == shadow::FilterWidth::source; }
 
-/// Blurred moments and searched blockers are estimates of what lies between, so
-/// that only their halves are certain.
+/// Returns whether a filter estimates: blurred moments and searched blockers
+/// only bound on which side of a half a value lies.
 bool estimates(const shadow::FilterRow& filter) { return filter.moments || (softens(filter) && !filter.rays); }
 
-/// The truth where the measured value is within the tolerance of it, its
-/// opposite elsewhere; NaN and -1 stay.
+/// Returns the truth where the measured value is within the tolerance of it, and
+/// its opposite elsewhere; NaN and -1 stay.
 std::vector<float> held_against(const std::vector<float>& truth, const std::vector<float>& measured, double tolerance) {
     std::vector<float> shown = measured;
     for (std::size_t i = 0; i < shown.size(); ++i) {
@@ -48,9 +48,9 @@ oracle::Metrics compare(const TracedTruths& truths, const oracle::LightTruth& tr
     return oracle::compare({truths.hits.size_px, measured, truth.visibility, truth.scored, truth.ambiguous});
 }
 
-/// The truth about a disk as one about a point: pixels that see all of it (or
-/// else none of it) against all others, which are not judged. An edge is where
-/// that ends, so that a penumbra may begin as far off as texels explain.
+/// Converts the truth about a disk to one about a point. Pixels that see all of
+/// the disk (or else none) are judged; others are not. The edge is between the
+/// two, so that a penumbra may begin as far off as texels explain.
 oracle::LightTruth one_side(const TracedLight& light, bool all_of_it) {
     oracle::LightTruth truth = light.point;
     for (std::size_t i = 0; i < truth.visibility.size(); ++i) {
@@ -71,8 +71,8 @@ void add(const oracle::Metrics& metrics, CheckErrors& errors) {
     errors.uncovered += metrics.uncovered;
 }
 
-/// Mean error of a fair coin's share of n throws, held against that of
-/// kTruthRays: no penumbra of random rays is worse.
+/// Returns the mean error of a fair coin's share of n throws, compared with that
+/// of kTruthRays: no penumbra of random rays is worse.
 double worst_penumbra_error(std::uint32_t rays) {
     const double variance = 0.25 * (1.0 / rays + 1.0 / kTruthRays);
     return std::sqrt(variance * 2.0 * std::numbers::inv_pi);

@@ -23,7 +23,7 @@ void add(std::vector<gl::ProgramDesc>& programs, const std::string& label, const
                         whole && layer_by_geometry ? layer.value() : ""});
 }
 
-/// Of cubes drawn in one pass, masked casters and maps of triangles included.
+/// Adds programs of cubes drawn in one pass, with masked casters and maps of triangles.
 void add_layered(std::vector<gl::ProgramDesc>& programs) {
     for (const bool by_geometry : {false, true})
         for (const bool masked : {false, true})
@@ -40,8 +40,8 @@ void add_layered(std::vector<gl::ProgramDesc>& programs) {
             }
 }
 
-/// The second depth pass of exact maps, and what says where surfaces end in
-/// their texels.
+/// Adds the second depth pass of exact maps, and the passes that bound where
+/// surfaces end in their texels.
 void add_sheets(std::vector<gl::ProgramDesc>& programs) {
     add(programs, "depth opaque, peeled", "shadow/passes/depth/depth.vert", "shadow/passes/depth/depth_peel.frag",
         {"TRIANGLES 1"});

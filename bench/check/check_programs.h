@@ -16,22 +16,21 @@ struct ProgramFailure {
 struct ProgramChecks {
     std::size_t all = 0;                // that there are
     std::size_t compiled = 0;           // and linked
-    std::size_t left_out = 0;           // by the selection
-    std::vector<std::string> not_here;  // labels of those that need an extension which is not there;
-                                        // nothing asks for them
+    std::size_t left_out = 0;           // number that the selection leaves out
+    std::vector<std::string> not_here;  // labels of programs that need a missing extension;
+                                        // no frame uses them here
     std::vector<ProgramFailure> failed;
     double took_s = 0.0;
 };
 
-/// Those that frames of the check's rows ask for, as a device without a GPU records them: of all outputs, and of the
-/// widths that the rows have.
+/// Returns the programs that frames of the check's rows use, for all outputs and the rows' widths. A device without a
+/// GPU records them.
 std::vector<gl::ProgramDesc> programs_of_rows();
 
-/// Every program that a frame can ask for, each once, labels told apart where
-/// two would have the same.
+/// Returns every program that a frame can use, each once, with distinct labels.
 std::vector<gl::ProgramDesc> check_programs();
 
-/// Whether this device cannot have it, and Gnomon does not ask for it there.
+/// Returns whether this device cannot have a program, so that no frame uses it.
 bool is_not_here(const gl::ProgramDesc& program, const gl::DeviceInfo& info);
 
 /// Calls `use` on the calling thread with a device that only it uses, or not at

@@ -65,7 +65,7 @@ void fail(CheckRow& row, std::string why) {
     row.why = std::move(why);
 }
 
-/// Why the device or the filter draws the faces of a cube otherwise than the row asks; empty: as it asks.
+/// Returns why the device or the filter draws a cube's faces by another route than the row's; empty: by the same.
 std::string why_not_judged(const CheckRowSetup& setup, const gl::DeviceInfo& info) {
     constexpr std::uint32_t kFaces = 6;
     if (setup.route == CubeRoute::automatic || setup.route == CubeRoute::six_passes) return {};
@@ -75,15 +75,15 @@ std::string why_not_judged(const CheckRowSetup& setup, const gl::DeviceInfo& inf
     return {};
 }
 
-/// With all of its maps, new or kept from the frame before, and by no other
-/// filter for want of a program.
+/// Returns whether a light has all of its maps, new or kept from the frame
+/// before, and its own filter. Another filter stands in for a missing program.
 bool drawn_as_asked(const LightRow& light) {
     const bool kept =
         light.state == to_text(LightState::reused) && light.reason == reason_code(Reason::content_unchanged);
     return kept || (light.state == to_text(LightState::rendered) && light.reason.empty());
 }
 
-/// The row's picture against the truth.
+/// Judges the row's picture by the truth.
 void judge(Stage& stage, const TracedTruths& truths, CheckRow& row) {
     const std::uint32_t rays = rays_of(row.setup);
     row.tolerance = row_tolerance(*row.setup.filter, rays);

@@ -17,21 +17,21 @@ namespace gnomon::bench {
 struct CheckRowSetup : RowSetup {
     LightKind kind = LightKind::point;
     const shadow::FilterRow* filter = nullptr;
-    CubeRoute route = CubeRoute::automatic;  // of a point light: one of the others
+    CubeRoute route = CubeRoute::automatic;  // point light: any other value
 };
 
 enum class CheckVerdict : std::uint8_t { ok, failed, not_judged };
 const char* to_text(CheckVerdict verdict);
 
-/// What a row's picture is from the truth. Counts are pixels; those that hang
-/// on the last digits are in none.
+/// Differences of a row's picture from the truth. Counts are pixels. Pixels that
+/// depend on the last digits are in none.
 struct CheckErrors {
     std::size_t scored = 0;
-    /// On the wrong side of a half; of filters that soften by the source's size,
-    /// where it sees all or nothing.
+    /// Pixels on the wrong side of a half. For filters that soften by the source's
+    /// size only pixels that see all or nothing of it count.
     std::size_t wrong = 0;
-    std::size_t acne = 0, leak = 0;  // of those: too dark, too bright, over
-                                     // oracle::kEdgeBandPx from true edges
+    std::size_t acne = 0, leak = 0;  // wrong, over oracle::kEdgeBandPx from true
+                                     // edges: too dark, too bright
     std::size_t uncovered = 0;       // a surface, and no value there
     /// Farther from the truth than `tolerance` where neither an edge nor the
     /// map's texels explain it (oracle::FarErrors).
@@ -42,7 +42,7 @@ struct CheckErrors {
 struct CheckRow {
     CheckRowSetup setup;
     CheckVerdict verdict = CheckVerdict::not_judged;
-    std::string why;  // of every verdict but ok
+    std::string why;  // reason of every verdict except ok
     double tolerance = 0.0;
     CheckErrors errors;
     std::uint32_t map_px = 0;
@@ -64,11 +64,11 @@ struct RowCheckOptions {
     std::uint32_t frames = 5;
 };
 
-/// Every row: kinds, in them filters, in them routes.
+/// Returns every row: by kind, then filter, then route.
 std::vector<CheckRowSetup> check_row_setups();
 
-/// What all of them are held against; of a source with a size, too. Errors:
-/// those of trace_truths().
+/// Traces the truths that all rows are compared with, also for sources with a
+/// size. Errors: those of trace_truths().
 Result<TracedTruths> trace_check_truths(Stage& stage);
 
 /// Draws, judges and times one row.

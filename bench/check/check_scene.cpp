@@ -20,7 +20,7 @@ assets::Node& add_node(assets::SceneData& scene, const char* name, const glm::dv
     return node;
 }
 
-/// A node of its own mesh.
+/// Adds a mesh and a node for it.
 assets::Node& add_shape(assets::SceneData& scene, const char* name, const game::Shape& shape, MaterialNumber material,
                         const glm::dvec3& at_m) {
     assets::Mesh& mesh = scene.meshes.emplace_back();

@@ -3,9 +3,9 @@
 
 namespace gnomon::bench {
 
-/// A yard of a few boxes, a masked fence and a board overhead, with a sun, a
-/// spot and a point light in its middle that cast shadows to all sides; few
-/// triangles, flat surfaces, every shadow some pixels wide in a small picture.
+/// Makes a yard of a few boxes, a masked fence and a board overhead. A sun, a spot
+/// and a point light in its middle cast shadows to all sides. Triangles are few,
+/// surfaces flat, and every shadow is some pixels wide in a small picture.
 assets::SceneData check_scene();
 
 /// The node that a test takes away to see every row fail.

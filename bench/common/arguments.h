@@ -17,7 +17,7 @@ class App;
 
 namespace gnomon::bench {
 
-/// Of all commands; each reads those that it has options for.
+/// Arguments of all commands; each command reads its own.
 
 struct Arguments {
     StageOptions stage;
@@ -41,7 +41,7 @@ using AddOptions = void(CLI::App& command, Arguments& arguments);
 AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
     add_budget, add_redraws, add_common, add_queries, add_check;
 
-/// What follows from what was given. Errors: "scene", "size", "offset", "time".
+/// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "time".
 std::optional<Error> complete(Arguments& arguments);
 
 }  // namespace gnomon::bench

@@ -10,8 +10,8 @@ namespace gnomon::bench {
 
 inline constexpr std::uint32_t kPlainMeshes = 50;
 
-/// Boxes of about a metre, of kPlainMeshes meshes in turn, on a plain, four to a hundred square metres, with a light of
-/// `kind` and a camera above them. `sight_m`: how far the camera sees; as far as the plain goes if 0.
+/// Makes a plain with boxes of about a metre, four to a hundred square metres, a light of `kind` and a camera above.
+/// The boxes use kPlainMeshes meshes in turn. `sight_m`: range of the camera; 0: as far as the plain goes.
 SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m);
 
 /// Returns what a fit of the only light gets after the sets are found. Refers to all four.

@@ -5,7 +5,7 @@
 
 namespace gnomon::bench {
 
-/// Of repeated measurements. A median alone hides noise.
+/// Median and range of repeated measurements. A median alone hides noise.
 struct Spread {
     double median = 0.0, min = 0.0, max = 0.0;
     std::size_t count = 0;  // 0: nothing was measured

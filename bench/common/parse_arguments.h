@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-/// What users type of pictures and scenes.
+/// Parsers of arguments about pictures and scenes.
 namespace gnomon::bench {
 
-/// "WIDTHxHEIGHT", each 1 to 16384, which OpenGL 4.5 guarantees for pictures.
+/// Reads "WIDTHxHEIGHT", each 1 to 16384, which OpenGL 4.5 guarantees for pictures.
 std::optional<glm::uvec2> parse_size(const std::string& text);
-/// "X,Y,Z" in metres; 0 of nothing.
+/// Reads "X,Y,Z" in metres. An empty text stands for 0.
 std::optional<glm::dvec3> parse_offset(const std::string& text);
 
 }  // namespace gnomon::bench

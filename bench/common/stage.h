@@ -36,25 +36,25 @@ class Stage {
 public:
     /// Errors: those of the loader, the context and the device; "set.*"; "camera.unknown".
     static Result<std::unique_ptr<Stage>> open(const StageOptions& options);
-    /// The same with a scene that was made, not loaded; `options.scene` is its name.
+    /// Opens a stage with a scene that was made, not loaded; `options.scene` is its name.
     static Result<std::unique_ptr<Stage>> open(const StageOptions& options, assets::SceneData scene);
     ~Stage();
 
     void run_frame() { frame_->run(world_, settings_); }
-    /// Everything in the scene where it is at that time, see everything_moving(). Until then only what the file moves
-    /// has left its place.
+    /// Moves everything in the scene to where it is at that time, see everything_moving(). Before the first call only
+    /// nodes that the file moves have left their places.
     void move_to(double time_s) {
         game::apply_motion(moving_, time_s, world_);
         game::play(spawned_.played, time_s, world_);
     }
     void show_shadows(bool on) { settings_.shadows = on; }
     void set_economy(bool on);
-    /// "KEY=VALUE" for every light with a shadow. Errors: "set.*".
+    /// Applies "KEY=VALUE" to every light with a shadow. Errors: "set.*".
     std::optional<Error> apply_setting(const std::string& key_value);
-    /// Every light of these kinds as it was when the scene was opened, with these settings; lights of other kinds cast
-    /// no shadows. Runs a frame without any shadows in between, so that neither fits nor maps remember what was before.
-    /// Lights are looked up in every frame, still ones as well (ShadowTuning::Reuse::keep_visibility): that tells rows
-    /// apart. Errors: "set.*"; then nothing is changed.
+    /// Resets every light of these kinds to how the scene was opened, with these settings. Lights of other kinds cast
+    /// no shadows. Runs a frame without shadows in between, so that neither fits nor maps keep any history. Lights are
+    /// looked up in every frame, also still ones (ShadowTuning::Reuse::keep_visibility): otherwise rows would not
+    /// differ. Errors: "set.*"; then nothing is changed.
     std::optional<Error> start_over(std::span<const std::string> settings, LightKinds kinds = kAllKinds);
 
     Frame& frame() { return *frame_; }
@@ -62,7 +62,7 @@ public:
     const assets::MeshLibrary& library() const { return library_; }
     ecs::Registry& world() { return world_; }
     const FrameSettings& settings() const { return settings_; }
-    double time_s() const { return time_s_; }  // of the scene when it was opened
+    double time_s() const { return time_s_; }  // time of the scene when it was opened
     const game::SpawnedScene& spawned() const { return spawned_; }
     const std::string& scene_name() const { return scene_name_; }
     const StageOptions& options() const { return options_; }

@@ -14,8 +14,8 @@ inline constexpr double kStep_s = 1.0 / 60.0;  // by which what moves goes on fr
 
 inline constexpr double kUsPerMs = 1000.0;
 
-/// Of each frame of a block: wall-clock time from its start until the device has finished it, and the process's time
-/// on all cores, which another process's work does not touch.
+/// Times of each frame of a block. us: wall-clock time from its start until the device has finished it. cpu_us: the
+/// process's time on all cores, which other processes do not change.
 struct BlockTimes {
     std::vector<double> us, cpu_us;
 };
@@ -23,16 +23,16 @@ struct BlockTimes {
 /// Frames of one kind in all rounds.
 struct TimedFrames {
     Spread us, cpu_us;
-    Spread ratio, cpu_ratio;  // to what they are held against, one ratio of medians per round; none of those
+    Spread ratio, cpu_ratio;  // ratio to the base, of medians per round; none without a base
 };
 
-/// Gathers them. Rounds of several kinds take turns, so that a machine that slows down slows all kinds.
+/// Collects timed frames. Rounds of several kinds take turns, so that a machine that slows down slows all kinds.
 class TimedRounds {
 public:
     struct Medians {
         double us = 0.0, cpu_us = 0.0;
     };
-    /// `base`: what this round is held against.
+    /// Adds a round. `base`: medians that it is compared with; null: none.
     Medians add(const BlockTimes& block, const Medians* base);
     TimedFrames frames() const;
 

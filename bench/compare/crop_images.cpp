@@ -45,7 +45,7 @@ private:
     std::vector<std::int64_t> sums_;
 };
 
-/// The shown part, top row first, of colours by pixel, whose rows start at the bottom.
+/// Returns the shown part, top row first. `colour_of(pixel)` counts rows from the bottom.
 template <class ColourOf>
 std::vector<std::uint8_t> part_of(glm::uvec2 low, glm::uvec2 part_px, std::uint32_t width, const ColourOf& colour_of) {
     std::vector<std::uint8_t> rgba;

@@ -14,22 +14,22 @@ namespace gnomon::bench {
 /// Size of the part of the picture that is shown for each row, at most the picture's, one pixel to one.
 inline constexpr glm::uvec2 kShownPart_px{240, 135};
 
-/// Where the picture has most edges of that light's true shadow: lower corner, rows from the bottom. By the truth
-/// alone, so that all rows show the same part.
+/// Returns the lower corner of the part with most edges of that light's true shadow, rows from the bottom. It depends
+/// on the truth alone, so that all rows show the same part.
 glm::uvec2 shown_part(const oracle::LightTruth& truth, glm::uvec2 size_px);
 
-/// What is seen of one light in one row: files <stem>_render.jpg, _shown.png and _error.png; of the light itself
-/// <light>_point.png and _disk.png, the truths.
+/// Pictures of one light in one row: files <stem>_render.jpg, _shown.png and _error.png. The truths of a light are in
+/// <light>_point.png and _disk.png.
 class RowPictures {
 public:
     /// Makes the folder and writes the truths. Errors: those of game::make_writable_folder and write_file.
     static Result<RowPictures> make(const std::filesystem::path& folder, const TracedTruths& truths);
 
-    /// `rgba`: the picture, top row first; `by_disk`: which truth the error is against.
+    /// Writes the files. `rgba`: the picture, top row first; `by_disk`: the error is against the truth about the disk.
     std::optional<Error> write(const std::string& stem, const TracedLight& light, const std::vector<float>& measured,
                                const std::vector<std::uint8_t>& rgba, bool by_disk) const;
 
-    /// The files' common name of row `row` of a plan.
+    /// Returns the common name of the files of row `row` of a plan.
     static std::string stem(std::size_t row, const std::string& light) { return std::to_string(row) + "_" + light; }
 
 private:

@@ -93,7 +93,7 @@ void judge_by_disk(const TracedTruths& truths, const TracedLight& light, const s
     if (m.widths.places > 0) figures.width_ratio = m.widths.median_ratio;
 }
 
-/// What the light's report says; `draws`: the most of any frame since the row began.
+/// Copies the light's report into the row. `draws`: most of any frame since the row began.
 void take_report(const LightItem& light, const LightReport& report, std::uint32_t draws, LightRow& row) {
     row.kind = light.kind;
     row.state = to_text(report.state);

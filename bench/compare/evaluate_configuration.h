@@ -14,7 +14,7 @@ namespace gnomon::bench {
 struct LightRow {
     std::string light;
     LightKind kind = LightKind::point;
-    std::string state, reason;  // of its report, as in --stats
+    std::string state, reason;  // words of its report, as in --stats
     RowFigures figures;
 };
 /// One row, a LightRow per shadowed light of its kinds, or why there is none.
@@ -32,7 +32,7 @@ struct JudgeOptions {
     OnMeasured on_measured = {};
 };
 
-/// Everything about a row but its times. A row that fails says so; it never throws for it.
+/// Judges a row in everything except its times. A row that fails has an error; nothing is thrown.
 JudgedRow judge_row(Stage& stage, const TracedTruths& truths, const RowSetup& row, const JudgeOptions& options);
 
 }  // namespace gnomon::bench

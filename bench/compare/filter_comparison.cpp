@@ -15,7 +15,7 @@ FilterVariant at_size(FilterVariant variant, std::uint32_t resolution_px) {
     return variant;
 }
 
-/// Each variant right after `hard`, so that what slows the machine for a while slows both.
+/// Times each variant right after `hard`, so that a machine that slows down for a while slows both.
 void time_rows(Stage& stage, const FilterRowsOptions& options, const TracedTruths& truths,
                const std::vector<FilterVariant>& variants, std::vector<std::vector<RowFigures>>& figures) {
     const BlockOptions block = block_options(stage.device().info(), options.frames);

@@ -11,7 +11,7 @@
 
 namespace gnomon::bench {
 
-/// What a front is made of: which error, and which time.
+/// Axes of a front: its error and its time.
 enum class RowTruth : std::uint8_t { point, disk };
 enum class RowCost : std::uint8_t { drawn, kept };
 inline constexpr std::array<RowTruth, 2> kRowTruths = {RowTruth::point, RowTruth::disk};
@@ -23,35 +23,35 @@ struct FilterRows {
     std::vector<FilterVariant> variants;
     std::vector<std::string> lights;
     std::vector<std::uint32_t> resolutions_px;  // 0: each row's own
-    /// Of a resolution, a variant, a light.
+    /// Figures by resolution, variant and light.
     std::vector<std::vector<std::vector<RowFigures>>> figures;
 
-    /// Whether the truth judges that row: none does where the light's shadow is left out on purpose.
+    /// Returns whether the truth judges that row. None does where the light's shadow is left out on purpose.
     bool is_judged(std::size_t resolution, std::size_t variant, std::size_t light, RowTruth truth) const {
         const RowFigures& row = figures[resolution][variant][light];
         return truth == RowTruth::point ? row.wrong.has_value() : row.disk_error.has_value();
     }
-    /// Of each variant, whether it is the best at some cost; 0 also for those that the truth does not judge.
+    /// Returns for each variant whether it is the best at some cost; 0 also if the truth does not judge it.
     std::vector<std::uint8_t> front(std::size_t resolution, std::size_t light, RowTruth truth, RowCost cost) const;
-    /// Names of rows none of whose variants is on any front.
+    /// Returns the names of rows without a variant on any front.
     std::vector<std::string> never_best() const;
 };
 
 struct FilterRowsOptions {
-    std::string only;                      // rows whose name has this part, and `hard`; empty: all
-    std::uint32_t rounds = 5, frames = 9;  // frames of each kind that are timed per round; 0: no timing
+    std::string only;                      // rows with this part in their name, and `hard`; empty: all
+    std::uint32_t rounds = 5, frames = 9;  // frames: timed of each kind per round; 0: no timing
 };
 
-/// Every row of the filter table against the truths that it may be judged by, at one size of maps for all (the power of
-/// two at most the picture's larger side, so that what is coarse shows) and at each row's own. Truth is traced once.
+/// Compares every row of the filter table with the truths that may judge it. Maps have each row's own size, and one
+/// size for all: the largest power of two within the picture's larger side, so that texels show. Truth is traced once.
 /// Errors: "bench.visibility", "bench.camera", "set.*".
 Result<FilterRows> measure_filter_rows(Stage& stage, const FilterRowsOptions& options);
 
-/// A table for people, and which rows are the best at some cost.
+/// Returns a table for people, and the rows that are the best at some cost.
 std::string filter_rows_table(const FilterRows& rows);
-/// The same in Markdown.
+/// Returns the same in Markdown.
 std::string filter_rows_markdown(const FilterRows& rows);
-/// Everything, for scripts: bench/README.md lists the keys.
+/// Returns all results for scripts: bench/README.md lists the keys.
 std::string filter_rows_json(const FilterRows& rows);
 
 }  // namespace gnomon::bench

@@ -24,7 +24,7 @@ std::string size_name(std::uint32_t resolution_px) {
     return resolution_px == 0 ? "its own size" : std::to_string(resolution_px) + " texels";
 }
 
-/// One value for each light, with a stroke between.
+/// Joins one value per light, with strokes between them.
 template <typename F>
 std::string each_light(const std::vector<RowFigures>& lights, const F& value) {
     std::vector<std::string> values;
@@ -33,7 +33,7 @@ std::string each_light(const std::vector<RowFigures>& lights, const F& value) {
     return same && !values.empty() ? values.front() : joined(values, " / ");
 }
 
-/// For which truths, lights and times a variant is on the front; "never": for none.
+/// Names the truths, lights and times for which a variant is on the front; "never": none.
 std::string best_when(const FilterRows& rows, std::size_t resolution, std::size_t variant) {
     std::vector<std::string> truths;
     for (const RowTruth truth : kRowTruths) {
@@ -52,7 +52,7 @@ std::string best_when(const FilterRows& rows, std::size_t resolution, std::size_
     return truths.empty() ? "never" : joined(truths, "; ");
 }
 
-/// One size of maps: a line per variant.
+/// Returns the table of one size of maps: a line per variant.
 std::string markdown_of(const FilterRows& rows, std::size_t resolution) {
     std::string table = "Maps of " + size_name(rows.resolutions_px[resolution]) + "; " + joined(rows.lights, " / ") +
                         ":\n\n| filter | taps | MB | time drawn | time kept | wrong % | off the disk % | best when "
@@ -76,7 +76,7 @@ std::string markdown_of(const FilterRows& rows, std::size_t resolution) {
     return table;
 }
 
-/// Which variants are best at some cost, and which beaten, for one light and one size of maps.
+/// Lists the variants that are best at some cost, and the beaten ones, for one light and one size of maps.
 std::string fronts_of(const FilterRows& rows, std::size_t resolution, std::size_t light) {
     std::string lines = rows.lights[light] + ", maps of " + size_name(rows.resolutions_px[resolution]) + "\n";
     for (const RowTruth truth : kRowTruths)

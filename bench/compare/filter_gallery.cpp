@@ -16,9 +16,10 @@
 namespace gnomon::bench {
 namespace {
 
-constexpr std::uint32_t kShownGrid = 7;  // of pcf_grid, beside soft shadows
+constexpr std::uint32_t kShownGrid = 7;  // size of pcf_grid beside soft shadows
 
-/// Rows that take the light as a point, judged as if it were the disk: by how far a fixed width is off.
+/// Returns a row that takes the light as a point, judged by the truth about the disk: that shows the error of a fixed
+/// width.
 FilterVariant judged_by_disk(const FilterVariant& variant) {
     FilterVariant other = variant;
     other.name += "_disk";
@@ -26,7 +27,7 @@ FilterVariant judged_by_disk(const FilterVariant& variant) {
     return other;
 }
 
-/// All rows, and after them what is shown beside those that soften by the source.
+/// Returns all rows, and after them the rows to show beside filters that soften by the source.
 std::vector<FilterVariant> pictured() {
     std::vector<FilterVariant> found = filter_variants(), by_disk;
     for (const FilterVariant& variant : found) {
@@ -42,7 +43,7 @@ std::vector<FilterVariant> pictured() {
 constexpr glm::uvec2 kWindow_px{80, 48};
 constexpr std::uint32_t kMagnified = 4;
 
-/// Where the truth has the most edges: the lower left corner of such a window.
+/// Returns the lower left corner of the window in which the truth has the most edges.
 glm::uvec2 busiest_window(const LightAccuracy& light, glm::uvec2 size_px) {
     const glm::uvec2 window = glm::min(kWindow_px, size_px);
     const std::size_t width = size_px.x;
@@ -82,7 +83,8 @@ std::optional<Error> write_window(const std::vector<float>& values, glm::uvec2 s
     return game::write_png(file, shown.x, shown.y, rgba);
 }
 
-/// Mean difference from the truth, of a source with a size where it has one: what a filter blurs counts by how much.
+/// Returns the mean difference from the truth, about the source with its size if it has one. A blurred value counts by
+/// its difference.
 double mean_error(const LightAccuracy& light) {
     if (light.soft) return light.soft->metrics.mean_error;
     double sum = 0.0;
@@ -125,7 +127,7 @@ std::optional<Error> apply(Stage& stage, const std::vector<std::string>& setting
     return std::nullopt;
 }
 
-/// Visibility and taps of each point, as the lights' settings are now.
+/// Computes visibility and taps of each point, under the lights' present settings.
 std::optional<Error> evaluate(Stage& stage, std::uint32_t count, std::vector<std::vector<ExactVisibility>>& lights,
                               std::vector<std::string>& names) {
     constexpr int kSettlingFrames = 2;

@@ -14,7 +14,7 @@ constexpr std::array<std::uint32_t, 4> kTaps = {4, 8, 16, 32};
 /// More take a software device half a minute a frame.
 constexpr std::array<std::uint32_t, 2> kRays = {4, 16};
 
-/// `value` of `key`, if the row has such a choice.
+/// Adds the row with `value` of `key`, if the row has such a choice.
 void add(std::vector<FilterVariant>& found, const shadow::FilterRow& row, const char* key = nullptr,
          std::uint32_t value = 0) {
     const std::string name(row.name), number = std::to_string(value);

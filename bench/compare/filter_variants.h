@@ -12,12 +12,12 @@ namespace gnomon::bench {
 struct FilterVariant : RowSetup {
     const shadow::FilterRow* row = nullptr;
     game::LightSettings light;  // what the settings make of the defaults
-    /// It softens by the source's size, so that it is judged by a source with a size alone.
+    /// Returns whether the row softens by the source's size: then only the truth about a source with a size judges it.
     bool by_source() const { return row->width == shadow::FilterWidth::source; }
 };
 
-/// Every row, those of a chosen width or number of taps with several; those that soften by the source have
-/// disk_source().
+/// Returns every row. Rows with a choice of width or number of taps come with several values. Rows that soften by the
+/// source have disk_source().
 std::vector<FilterVariant> filter_variants();
 
 /// Settings of the disk that softened rows are judged by: two degrees of sky, and four centimetres of lamp.

@@ -9,20 +9,20 @@
 
 namespace gnomon::bench {
 
-/// Medians of one block of frames for one light: of its depth and lighting pass with every view drawn in every frame,
-/// the same with kept maps, and of its shadow stages on the processor. Empty: the device did not say.
+/// Median times of one light over a block of frames. drawn_us: depth and lighting pass with every view drawn in every
+/// frame. kept_us: the same with kept maps. cpu_us: shadow stages. Empty: the device did not report it.
 struct LightTimes {
     std::optional<double> drawn_us, kept_us, cpu_us;
 };
 
 struct BlockOptions {
-    std::uint32_t settling = 1;  // frames before those that are timed: programs are there, maps are made
-    std::uint32_t frames = 9;    // of each of the two
+    std::uint32_t settling = 1;  // frames before the timed ones: they compile programs and make maps
+    std::uint32_t frames = 9;    // frames with drawn maps, and as many with kept ones
 };
-/// As many as it takes for timings that arrive late to be of the row that they are taken for.
+/// Returns the numbers of frames with which timings that arrive late still belong to their row.
 BlockOptions block_options(const gl::DeviceInfo& device, std::uint32_t frames);
 
-/// Times of the lights of these indices as `row` sets them. Rows whose settings are none have no times.
+/// Times the lights of these indices under the settings of `row`. Invalid settings have no times.
 std::vector<LightTimes> time_block(Stage& stage, std::span<const std::uint32_t> lights, const RowSetup& row,
                                    const BlockOptions& options);
 
@@ -30,7 +30,7 @@ std::vector<LightTimes> time_block(Stage& stage, std::span<const std::uint32_t> 
 class RatioRounds {
 public:
     void add(const LightTimes& times, const LightTimes& base);
-    /// The spreads over the rounds so far.
+    /// Writes the spreads over the rounds so far.
     void put_into(RowFigures& figures) const;
 
 private:

@@ -5,7 +5,7 @@
 
 namespace gnomon::bench {
 
-/// What a choice is off by, and what it takes; the less of either the better.
+/// Error and cost of a choice; the less of either the better.
 struct ErrorAndCost {
     double error = 0.0, cost = 0.0;
 };
@@ -13,8 +13,8 @@ struct ErrorAndCost {
 /// Costs that differ by less are the same: what a median of rounds on a busy machine still wavers by.
 inline constexpr double kCostNoise = 0.05;
 
-/// Which choices are the best at some cost: 1 for those that no other one beats, with less error for no more cost than
-/// kCostNoise above theirs, or with the same error for less than kCostNoise below. Quadratic.
+/// Returns 1 for each choice that is the best at some cost, 0 for a beaten one. Less error beats a choice at a cost of
+/// up to kCostNoise above its own. The same error beats it at a cost of more than kCostNoise below. Quadratic.
 std::vector<std::uint8_t> on_front(std::span<const ErrorAndCost> choices);
 
 }  // namespace gnomon::bench

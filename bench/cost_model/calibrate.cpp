@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::array<SpeedGroup, 3> kGroups{SpeedGroup{}, SpeedGroup{.meshes = 256}, SpeedGroup{.cells = 24}};
 
-/// Drawing: so many lamps' maps of that size show that group.
+/// Row that draws: maps of `lamps` lamps show one group.
 struct DrawingRow {
     std::uint32_t group, lamps, map_px;
 };
@@ -29,7 +29,7 @@ constexpr std::array<DrawingRow, 8> kDrawing{DrawingRow{0, 1, 256},  DrawingRow{
                                              DrawingRow{1, 4, 256},  DrawingRow{2, 1, 256}};
 constexpr std::uint32_t kMostLamps = 16;
 
-/// Lighting: a lookup of so many fetches, of a map that is kept.
+/// Rows that light: a kept map is looked up by a grid of that edge.
 constexpr std::array<std::uint32_t, 4> kGridSizes{1, 3, 5, 9};
 constexpr std::uint32_t kLookedUp_px = 1024;
 
@@ -42,7 +42,7 @@ struct Row {
     double ns = 0.0;
 };
 
-/// Least squares of `rows`, each relative to its own time; `residual`: how far the worst is from it.
+/// Solves `rows` by least squares, each relative to its own time. `residual`: relative error of the worst row.
 template <class Matrix, class Vector>
 Vector solved(const std::vector<Row<Vector>>& rows, double& residual) {
     Matrix normal(0.0);
@@ -106,7 +106,7 @@ public:
 private:
     static ShadowLayers layer_of(std::uint32_t group) { return static_cast<ShadowLayers>(1u << group); }
 
-    /// That many lamps shine with such shadows, the others not at all.
+    /// Lets the first `lamps` lamps shine, with these shadows, and the others not at all.
     void light_up(std::uint32_t lamps, const LightShadow& shadow, const ShadowTuning& tuning) {
         std::uint32_t i = 0;
         for (const auto& light : stage_.spawned().lights) {

@@ -7,12 +7,12 @@
 #include "bench/common/median_range.h"
 #include "engine/core/result.h"
 
-/// How fast the device at hand does the kinds of work that budgets reckon with (systems/shadow/budget/cost_model.h).
+/// Speed of the device at hand for the kinds of work in the budgets' model (systems/shadow/budget/cost_model.h).
 namespace gnomon::bench {
 
 struct SpeedOptions {
     glm::uvec2 size_px{640, 360};
-    std::uint32_t frames = 5;  // of each row in a round, of which the median counts
+    std::uint32_t frames = 5;  // frames per row and round; their median counts
     std::uint32_t rounds = 9;
 };
 
@@ -30,8 +30,8 @@ struct BudgetSpeeds {
     double drawing_residual = 0.0, lighting_residual = 0.0;
 };
 
-/// Rows that differ in one kind of work each, in turn, round by round; each round's times are solved by least squares,
-/// relative to each row's time, for what a unit of each kind takes. Errors: those of the stage.
+/// Measures the time per unit of each kind of work. Rows that differ in one kind each take turns, round by round. Least
+/// squares over a round's times, relative to each row's time, yield the units. Errors: those of the stage.
 Result<BudgetSpeeds> measure_budget_speeds(const SpeedOptions& options);
 
 std::string budget_speeds_markdown(const BudgetSpeeds& speeds);

@@ -16,7 +16,7 @@ constexpr double kGround_m = 20.0, kPlates_m = 12.0, kPlate_m = 0.5;  // edges; 
 constexpr double kPlateHeight_m = 1.0, kLampHeight_m = 14.0, kEyeHeight_m = 24.0;
 constexpr float kCone_rad = 0.7f, kLamp_cd = 500.0f;
 
-/// Flat, facing up.
+/// Makes a flat mesh that faces up.
 assets::Mesh plate(std::uint32_t cells) {
     assets::Mesh mesh;
     mesh.name = "plate";

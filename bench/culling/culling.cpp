@@ -41,7 +41,7 @@ constexpr double kSight_m = 60.0;
 void sets_all_seen(benchmark::State& state) { run_sets(state, 0.0); }
 void sets_sight_60_m(benchmark::State& state) { run_sets(state, kSight_m); }
 
-/// The lists of each view, which need a fit first; the fit is not timed.
+/// Times the search for each view's casters. The fit before it is not timed.
 void view_casters(benchmark::State& state) {
     const SceneSnapshot scene = plain(state.range(0), kind_of(state), 0.0);
     shadow::FitStages stages;
@@ -62,7 +62,7 @@ void view_casters(benchmark::State& state) {
     state.SetLabel(std::string(shadow::light_kind_row(kind_of(state)).name));
 }
 
-/// One fit alone, to the receivers that are seen.
+/// Times one fit alone, to the visible receivers.
 void fit(benchmark::State& state) {
     const SceneSnapshot scene = plain(state.range(0), kind_of(state), 0.0);
     shadow::FitStages stages;
@@ -88,7 +88,7 @@ void tree_build(benchmark::State& state) {
     state.SetComplexityN(state.range(0));
 }
 
-/// `moved` of the instances go a centimetre up and down.
+/// Times fits while `moved` of the instances go a centimetre up and down.
 void run_refit(benchmark::State& state, std::int64_t moved) {
     SceneSnapshot scene = plain(state.range(0), LightKind::point, 0.0);
     for (std::int64_t i = 0; i < moved; ++i)

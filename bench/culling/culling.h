@@ -3,9 +3,9 @@
 
 namespace gnomon::bench {
 
-/// What finding receivers and casters, and fitting views to them, costs the CPU: random boxes on a plain, 1000 to 100
-/// 000, by Google Benchmark. Prints its table. `filter`: a regular expression for names of benchmarks; empty: all. No
-/// GPU is used.
+/// Measures the CPU's time for finding receivers and casters and for fitting views to them, by Google Benchmark. The
+/// scenes are 1000 to 100 000 random boxes on a plain. Prints its table. `filter`: regular expression for names of
+/// benchmarks; empty: all. Uses no GPU.
 void run_culling(const std::string& filter);
 
 }  // namespace gnomon::bench

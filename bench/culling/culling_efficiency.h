@@ -6,7 +6,7 @@
 
 namespace gnomon::bench {
 
-/// How much of a scene each light's sets hold, and how much of that in vain: a table. Without a GPU.
+/// Returns a table of the share of a scene in each light's sets, and of the useless part of them. Uses no GPU.
 /// Errors: those of the loader; "set.*"; "camera.unknown".
 Result<std::string> set_shares(const StageOptions& options);
 

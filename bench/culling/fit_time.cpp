@@ -23,13 +23,13 @@ constexpr std::array<std::size_t, 3> kCounts = {100, 1000, 10000};
 constexpr std::size_t kUsual = 1000;
 constexpr std::int64_t kBoxes = 16000;  // four of five are seen
 constexpr int kRepeats = 101;
-constexpr double kLeast_us = 200.0;  // of a measurement, so that the clock's own steps do not count
+constexpr double kLeast_us = 200.0;  // least time of a measurement, so that the clock's own steps do not count
 
 struct Kind {
     const char* name;
     LightKind kind;
     ShadowFit fit;
-    bool whole_light;  // with what a sun's views have in common: the slices, and whose points are whose
+    bool whole_light;  // includes the work that a sun's views share: slices, and their points
 };
 constexpr Kind kKinds[] = {{"sun's view, tight", LightKind::directional, ShadowFit::tight, false},
                            {"sun's view, quantised", LightKind::directional, ShadowFit::quantised, false},
@@ -39,7 +39,7 @@ constexpr Kind kKinds[] = {{"sun's view, tight", LightKind::directional, ShadowF
                            {"sun of one, stable", LightKind::directional, ShadowFit::stable, true},
                            {"spot", LightKind::spot, ShadowFit::tight, true}};
 
-/// So many of the boxes receive, so many cast; the light, with one view, reaches all.
+/// Makes a scene with these numbers of receivers and casters. The light, with one view, reaches all.
 SceneSnapshot scene_of(const Kind& kind, std::size_t receivers, std::size_t casters) {
     SceneSnapshot scene = plain(kBoxes, kind.kind, 0.0);
     scene.lights[0].tuning.cascades.fit = kind.fit;
@@ -92,8 +92,8 @@ Spread measure(const Kind& kind, std::size_t receivers, std::size_t casters) {
     return spread_of(each);
 }
 
-/// Three measurements and the slope of cost over count, both in logarithms, from the first to the last. The least of
-/// each counts there: what else runs on the machine can only add.
+/// Returns a line of measurements and the slope of cost over count, both in logarithms, from first to last. The slope
+/// uses the least times: other work on the machine can only add.
 template <class Measure>
 std::string row(const char* name, const char* what, Measure measure_at) {
     std::array<Spread, kCounts.size()> at;

@@ -82,7 +82,7 @@ private:
         list_.clear();
         report_.clear();
         gpu_->update(scene_, list_);
-        list_.clear();  // a million records, which nobody looks at
+        list_.clear();  // a million records without a reader
         const auto start = std::chrono::steady_clock::now();
         shadows_->update(scene_, *gpu_, {}, list_, report_);
         const auto end = std::chrono::steady_clock::now();

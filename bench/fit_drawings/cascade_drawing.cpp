@@ -43,12 +43,12 @@ std::vector<glm::dvec3> corners_of(const ConsumerItem& c) {
     return corners;
 }
 
-/// Of a map's warped plane.
+/// Returns a place of the map's warped plane, given as shares of the map.
 glm::dvec2 at_share(const shadow::ShadowView& v, const glm::dvec2& share) {
     return v.plane.centre_ls_m + v.plane.half_extent_m * (2.0 * share - 1.0);
 }
 
-/// Shortest and longest diagonal of a texel at a corner of the map, metres across the light.
+/// Returns the shortest and longest diagonal of a texel at a corner of the map, metres across the light.
 glm::dvec2 diagonals_m(const shadow::ShadowView& v) {
     glm::dvec2 range(INFINITY, 0.0);
     for (const glm::dvec2 share : {glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
@@ -130,7 +130,7 @@ std::string SunDrawing::warp() const {
     return svg.str();
 }
 
-/// Along the light, metres from the camera.
+/// Projects a point along the light, metres from the camera.
 glm::dvec2 SunDrawing::flat(const glm::dvec3& p_ws) const {
     const glm::dvec3 p = (p_ws - camera_.position_ws_m) * basis_;
     return {p.x, p.y};
@@ -143,7 +143,7 @@ MapOutline SunDrawing::outline(const shadow::ShadowView& v) const {
     }};
 }
 
-/// The part of the view that the cascade serves.
+/// Returns the part of the camera's view that the cascade serves.
 ConsumerItem SunDrawing::slice(std::size_t i) const {
     ConsumerItem c = camera_;
     double farthest_m = 0.0;
@@ -178,7 +178,7 @@ void SunDrawing::draw_camera(Panel& panel) const {
     panel.text(flat(camera_.position_ws_m), "camera");
 }
 
-/// Its end in the view, and the receivers there.
+/// Draws the end of a cascade's slice, and the receivers there.
 void SunDrawing::draw_slice(Panel& panel, std::size_t cascade, const Projection& projection) const {
     const std::string colour = colour_of(frame_.fitted.views[views_[cascade]]);
     const ConsumerItem part = slice(cascade);
@@ -186,7 +186,7 @@ void SunDrawing::draw_slice(Panel& panel, std::size_t cascade, const Projection&
     panel.hull(projected(corners_of(part), projection), "fill='none' stroke-dasharray='5 3' stroke='" + colour + "'");
 }
 
-/// `near`: the first cascade alone, with its texels; says in words how many.
+/// Draws all cascades, or with `near` the first alone with its texels. Returns a sentence with their number.
 std::string SunDrawing::draw_cascades(Svg& svg, const glm::dvec2& corner, const Points& shown, bool near,
                                       bool spheres) const {
     Panel panel(svg, corner, shown, near ? "the first cascade that is drawn" : "all cascades");

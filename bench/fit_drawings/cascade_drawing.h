@@ -7,7 +7,7 @@
 
 namespace gnomon::bench {
 
-/// Indices of a light's views.
+/// Returns the indices of a light's views.
 std::vector<std::uint32_t> views_of(const shadow::ShadowFrame& frame, std::uint32_t light);
 
 /// A sun's fit, seen along the light. The frames must outlive it; the light must have views.
@@ -15,9 +15,9 @@ class SunDrawing {
 public:
     SunDrawing(const ShadowFrames& frames, std::uint32_t light);
 
-    /// All cascades, and the first of them with its texels.
+    /// Draws all cascades, and the first of them with its texels.
     std::string cascades(const std::string& fit) const;
-    /// The last cascade across the light, and what its map makes of that: where it is warped the two differ.
+    /// Draws the last cascade across the light, and as its map shows it. Where the map is warped the two differ.
     std::string warp() const;
 
 private:

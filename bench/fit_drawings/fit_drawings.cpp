@@ -74,7 +74,7 @@ std::string draw_spot(const ShadowFrames& frames, std::uint32_t light) {
     return svg.str();
 }
 
-/// The cube's faces, unfolded: which of them are drawn, and what is seen through them.
+/// Draws the cube's faces, unfolded. Faces with a view are filled and have their number of casters.
 std::string draw_point(const ShadowFrames& frames, std::uint32_t light) {
     constexpr double kFace = 150.0;
     // Places of +x -x +y -y +z -z in a cross.
@@ -105,7 +105,7 @@ std::optional<Error> write(const std::filesystem::path& file, const std::string&
     return game::write_file(file, std::as_bytes(std::span(text)));
 }
 
-/// First light of the kind that has views; empty: none.
+/// Returns the first light of the kind with views; empty: none.
 std::optional<std::uint32_t> first_of(const ShadowFrames& frames, LightKind kind) {
     for (std::uint32_t l = 0; l < frames.snapshot().lights.size(); ++l)
         if (frames.snapshot().lights[l].kind == kind && !views_of(frames.frame(), l).empty()) return l;

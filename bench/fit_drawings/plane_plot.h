@@ -11,12 +11,12 @@
 #include "bench/text/svg.h"
 #include "engine/math/convex_polygon.h"
 
-/// What drawings of fits are made of: a square part of a plane, and a map in it.
+/// Parts of the drawings of fits: a square part of a plane, and a map in it.
 namespace gnomon::bench {
 
 using Points = std::vector<glm::dvec2>;
 
-inline constexpr double kMargin = 24.0, kSide = 460.0, kHead = 52.0;  // of a panel, in pixels of the drawing
+inline constexpr double kMargin = 24.0, kSide = 460.0, kHead = 52.0;  // sizes of a panel, pixels of the drawing
 inline constexpr std::array<const char*, 8> kColours = {"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad",
                                                         "#b8860b", "#16a2a2", "#7f5539", "#555555"};
 
@@ -60,7 +60,7 @@ public:
         svg_.circle(at(centre), length(radius), style);
     }
     void dot(const glm::dvec2& p, const std::string& style) { svg_.circle(at(p), 4.0, style); }
-    /// Beside the point, on the side that has room; nothing if the panel does not show the point.
+    /// Writes beside a point, on the side with room. Writes nothing if the panel does not show the point.
     void text(const glm::dvec2& p, const std::string& words) {
         if (glm::any(glm::greaterThan(glm::abs(at(p) - corner_ - 0.5 * kSide), glm::dvec2(0.5 * kSide)))) return;
         const bool right = at(p).x > corner_.x + 0.5 * kSide;
@@ -73,13 +73,13 @@ private:
     double scale_ = 1.0;
 };
 
-/// Where a map lies in some plane: the place of each share of its width and height. Its texels' borders are straight.
+/// Place of a map in some plane, for each share of its width and height. Borders of texels are straight.
 struct MapOutline {
     std::function<glm::dvec2(const glm::dvec2& share)> at;
     Points corners() const { return {at({0.0, 0.0}), at({1.0, 0.0}), at({1.0, 1.0}), at({0.0, 1.0})}; }
 };
 
-/// Lines every so many texels that they can be told apart; says how many.
+/// Draws grid lines, with as many texels between them as make lines distinguishable. Returns that number.
 int draw_grid(Panel& panel, const MapOutline& map, const glm::dvec2& texels, const std::string& colour);
 
 }  // namespace gnomon::bench

@@ -17,19 +17,19 @@ namespace gnomon::bench {
 struct CameraPath {
     std::string_view name, meaning;
 };
-/// pan, walk, roll, zoom.
+/// Returns the paths: pan, walk, roll, zoom.
 std::span<const CameraPath> camera_paths();
 
-/// `start` moved along a path; share 0 is the start itself. distance_m: how far what it looks at is.
+/// Moves `start` along a path; share 0 is the start itself. distance_m: distance of what it looks at.
 ConsumerItem on_path(const ConsumerItem& start, std::string_view path, double share, double distance_m);
 
 /// Writes a consumer's place and lens to the camera entity it came from (without parent).
 Transform transform_of(const ConsumerItem& consumer);
 void write_lens(const ConsumerItem& consumer, Camera& camera);
 
-/// A place of the picture, -1 to 1 each way, as a ray; its parameter counts metres along the view.
+/// Returns the ray through a place of the picture, -1 to 1 each way. Its parameter counts metres along the view.
 oracle::ExactRay ray_through(const ConsumerItem& consumer, const glm::dvec2& place, const glm::dvec3& origin_ws_m);
-/// Whether the point is inside what the camera sees, clear of its border by the rounding of the planes.
+/// Returns whether the camera sees a point, clear of the view's border by the rounding of its planes.
 bool in_view(const ConsumerItem& consumer, const glm::dvec3& point_ws_m);
 
 }  // namespace gnomon::bench

@@ -27,7 +27,7 @@ std::vector<std::string> known_paths() {
     return names;
 }
 
-/// Those asked for, or all. Error: one that is unknown.
+/// Returns the wanted names; all known ones if none is given. Error: a name is unknown.
 Result<std::vector<std::string>> chosen(const std::vector<std::string>& wanted, const std::vector<std::string>& known,
                                         const char* what) {
     for (const std::string& name : wanted) {
@@ -40,13 +40,13 @@ Result<std::vector<std::string>> chosen(const std::vector<std::string>& wanted, 
     return wanted.empty() ? known : wanted;
 }
 
-/// What one light did to its points in the last frame.
+/// One light's effect on its points in the last frame.
 struct WatchedLight {
-    std::vector<std::uint32_t> points;    // those it shines on
+    std::vector<std::uint32_t> points;    // points that the light shines on
     std::vector<ExactVisibility> values;  // same order
     std::vector<std::uint8_t> seen;       // same order: in view in the last frame
-    std::uint32_t moved_layers = 0;       // bit per layer whose view's matrices changed with this frame
-    std::uint32_t stepped_layers = 0;     // of those, more than a shift
+    std::uint32_t moved_layers = 0;       // bit per layer with a view that changed its matrices
+    std::uint32_t stepped_layers = 0;     // bit per moved layer that changed by more than a shift
 };
 
 /// One run along one path under one fit.
@@ -131,7 +131,7 @@ private:
         }
         for (std::size_t l = 0; l < rows_.size(); ++l) rows_[l].frames_stepped += states_[l].stepped_layers != 0;
     }
-    /// Equal but for a shift: what remains are roundings of the shift itself.
+    /// Returns whether two views are equal up to a shift. The tolerance covers roundings of the shift.
     static bool same_size(const shadow::ShadowView& a, const shadow::ShadowView& b) {
         constexpr double kRounding = 1e-9;
         const auto near = [](double x, double y) { return std::abs(x - y) <= kRounding * std::abs(x); };

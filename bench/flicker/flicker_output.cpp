@@ -30,7 +30,7 @@ std::string line_of(const PathFlicker& r) {
     return text;
 }
 
-/// In order of first appearance.
+/// Returns the distinct names in order of first appearance.
 template <class Member>
 std::vector<std::string> distinct(const std::vector<PathFlicker>& rows, Member member) {
     std::vector<std::string> names;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 20240229;
 constexpr std::uint32_t kTriesPerPoint = 4;  // rays may end in the sky, or on what receives no shadow
-constexpr std::uint32_t kProbes = 2048;      // rays whose median distance is taken
+constexpr std::uint32_t kProbes = 2048;      // rays for the median distance
 
 glm::dvec2 random_place(std::mt19937_64& random) {
     std::uniform_real_distribution<double> place(-1.0, 1.0);

@@ -29,8 +29,8 @@ public:
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const shadow::ShadowFrame& frame() const { return shadows_.frame(); }
     const FrameReport& report() const { return report_; }
-    /// The light's lookup in double, valid until the next run; null if its row is not known. To filters that read
-    /// triangles, meshes that bend are at rest.
+    /// Returns the light's lookup in double, valid until the next run; null if its row is not known. Filters that read
+    /// triangles get bending meshes at rest.
     std::unique_ptr<ExactLight> exact_light(std::uint32_t light) const {
         return make_exact_light(frame(), snapshot_, light, maps_[light].copy, caster_triangles_);
     }
@@ -61,10 +61,10 @@ private:
 std::vector<SurfacePoint> surface_points(const SceneSnapshot& scene, const assets::MeshLibrary& library,
                                          std::span<const ConsumerItem> stations, std::uint32_t count);
 
-/// Median distance along the view of what the camera sees; 1 if it sees nothing.
+/// Returns the median distance along the view of what the camera sees; 1 if it sees nothing.
 double seen_distance_m(const SceneSnapshot& scene, const assets::MeshLibrary& library, const ConsumerItem& consumer);
 
-/// Whether the light shines on the point, were nothing in the way: within its reach, and facing it.
+/// Returns whether the point is within the light's reach and faces it, so that only casters can darken it.
 bool shines_on(const LightItem& light, const SurfacePoint& point);
 
 }  // namespace gnomon::bench

@@ -7,8 +7,8 @@
 
 namespace gnomon::bench {
 
-/// What the scene itself moves, and to it all that a game would: suns that do not move turn to and fro, cameras and
-/// the entity named "player" walk to and fro. For game::apply_motion.
+/// Returns the motions of the scene itself, and all that a game would add, for game::apply_motion(). Suns without a
+/// motion turn to and fro; cameras and the entity named "player" walk to and fro.
 std::vector<game::MovingEntity> everything_moving(const game::SpawnedScene& spawned, const ecs::Registry& world);
 
 }  // namespace gnomon::bench

@@ -16,7 +16,7 @@ constexpr double kBytesPerMb = 1.0e6;
 /// An exact sun gets finer maps once its casters have stayed for so long while the camera moves.
 constexpr std::uint32_t kWalkSettlingFrames = shadow::kQuietFrames + kSettlingFrames;
 
-/// What goes on while frames are timed.
+/// Motion and drawing while frames are timed.
 enum class Going : std::uint8_t { still, drawn_anew, walk, walk_drawn_anew, everything, count };
 constexpr std::size_t kGoings = static_cast<std::size_t>(Going::count);
 
@@ -47,7 +47,7 @@ Block run_going(Stage& stage, Going going, std::uint32_t frames) {
     return block;
 }
 
-/// What is held against what.
+/// Two kinds of frames that are compared.
 struct Pair {
     const char* words;
     const char* key;
@@ -62,7 +62,7 @@ constexpr std::array kPairs = {
     Pair{"maps drawn anew", "drawn", Going::drawn_anew, Going::drawn_anew},
 };
 
-/// Whether a way is asked for frames in which that goes on.
+/// Returns whether a comparison needs frames of that kind, from the first settings or the others.
 bool is_asked(bool others, Going going) {
     return std::any_of(kPairs.begin(), kPairs.end(),
                        [&](const Pair& p) { return (others ? p.other : p.own) == going; });

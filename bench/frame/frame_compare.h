@@ -12,7 +12,7 @@ struct FramesAgainst {
     std::string scene, device;
     std::vector<std::string> settings, other_settings;  // "KEY=VALUE"; the others come on top of the first
     struct Way {
-        TimedFrames frames;  // of the first way, ratio: to the other's
+        TimedFrames frames;  // frames of the first way; ratio: to the other's
         std::uint32_t views_drawn = 0;
         std::uint64_t bytes = 0;  // both of all lights in the last frame
     };
@@ -24,8 +24,9 @@ struct FramesAgainst {
     std::vector<Held> held;
 };
 
-/// Pixels are looked up in every frame, still ones as well: this tells filters apart, not what keeping saves. Rounds of
-/// `frames` frames as measure_frame_times(). Errors: "set.*".
+/// Compares frames under two groups of settings. Rounds of `frames` frames take turns as in measure_frame_times().
+/// Pixels are looked up in every frame, also still ones: this compares filters, not the savings of cached visibility.
+/// Errors: "set.*".
 Result<FramesAgainst> measure_frames_against(Stage& stage, std::span<const std::string> other_settings,
                                              std::uint32_t rounds, std::uint32_t frames);
 

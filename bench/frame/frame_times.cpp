@@ -28,7 +28,7 @@ std::string line(const char* what, const TimedFrames& frames) {
     return std::string(text) + "\n";
 }
 
-/// What each is called, in the table and in the file.
+/// Name of each kind of frame, in the table and in the file.
 struct Named {
     const char* words;
     const char* key;

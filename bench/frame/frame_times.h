@@ -17,12 +17,12 @@ struct FrameTimes {
     TimedFrames redrawn;                                     // economy off: every view drawn in every frame
     TimedFrames walk_without, walk;                          // the camera walks ahead at 1.4 m/s
     TimedFrames moving_without, moving;                      // everything moves (everything_moving())
-    std::uint32_t moving_views = 0, moving_views_drawn = 0;  // of the last of these frames
+    std::uint32_t moving_views = 0, moving_views_drawn = 0;  // numbers of the last moving frame
 };
 
-/// Each round runs `frames` frames of each kind, after as many as it takes to settle; rounds take turns, so that a
-/// machine that slows down slows all kinds. What moves goes on by 1/60 s per frame, over the same times with shadows
-/// and without.
+/// Measures frames of each kind. A round runs `frames` frames of each kind, after enough to settle. Rounds take turns,
+/// so that a machine that slows down slows all kinds. Motion goes on by 1/60 s per frame, over the same times with
+/// shadows and without.
 FrameTimes measure_frame_times(Stage& stage, std::uint32_t rounds, std::uint32_t frames);
 
 std::string frame_times_table(const FrameTimes& times);

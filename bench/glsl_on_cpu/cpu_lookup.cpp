@@ -10,7 +10,7 @@ namespace {
 
 #include "bench/glsl_on_cpu/shader_structs.inc"
 
-/// The views of a light in the order in which they were published.
+/// Returns the views of a light in the order in which they were published.
 std::vector<const shadow::ShadowView*> published_views(const shadow::ShadowFrame& frame, std::uint32_t light) {
     const shadow::DrawnViews drawn = shadow::drawn_views(frame);
     std::vector<const shadow::ShadowView*> views;

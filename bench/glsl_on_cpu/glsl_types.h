@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-/// As much of GLSL as shaders/shadow is written in, with every float a double: cpu_lookup.cpp compiles the
-/// shaders' own text with it, so that there is no second copy of the lookup. Names are GLSL's.
+/// The part of GLSL that shaders/shadow uses, with every float a double. cpu_lookup.cpp compiles the shaders' own text
+/// with it, so that there is no second copy of the lookup. Names are GLSL's.
 namespace gnomon::bench::glsl {
 
 using uint = std::uint32_t;
@@ -266,7 +266,7 @@ inline vec3 cross(const vec3& a, const vec3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Componentwise comparison: 1 or 0 in each component.
+/// Compares componentwise: 1 or 0 in each component.
 template <Vector V>
 V greaterThanEqual(const V& a, const V& b) {
     return each(a, b, [](double p, double q) { return p >= q ? 1.0 : 0.0; });
@@ -320,7 +320,7 @@ struct mat4 {
 };
 inline vec4 operator*(const mat4& m, const vec4& v) { return m[0] * v.x + m[1] * v.y + m[2] * v.z + m[3] * v.w; }
 
-/// What a `readonly buffer` holds. Copies share it.
+/// Contents of a `readonly buffer`. Copies share them.
 template <class T>
 struct StorageBuffer {
     using Element = T;

@@ -6,7 +6,7 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/shadow/frame/shadow_frame.h"
 
-/// What a light was published with, for a row of shader_structs.inc.
+/// Values of a published light, for a row of shader_structs.inc.
 namespace gnomon::bench::glsl {
 
 inline vec3 to_vec3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -32,7 +32,8 @@ void set_view(const shadow::ViewRecord& from, const shadow::ShadowView& view, co
     scale.texels_per_depth = (view.depth.far_m - view.depth.near_m) / std::max(view.plane.texel_u, view.plane.texel_v);
 }
 
-/// `views`: the light's, in the order in which they were published; a cube's samplers take the first one's scale.
+/// Fills the row's light block. `views`: the light's views in the order in which they were published. A cube's samplers
+/// take the scale of the first.
 template <class Row>
 void set_light(const shadow::LightingLight& published, std::span<const shadow::ShadowView* const> views,
                const glm::dvec3& camera_ws_m, Row& row) {
@@ -56,13 +57,13 @@ void set_light(const shadow::LightingLight& published, std::span<const shadow::S
         scales[0] = scales[views.front()->layer];
 }
 
-/// Rows that ask the casters' own corners.
+/// Row that reads the casters' own corners.
 template <class Row>
 concept ReadsTriangles = requires(Row row) {
     row.caster_triangles;
 };
 
-/// Where the casters are in double, not where the records' floats have them: points are as exact.
+/// Fills the row's casters with their places in double, not with those of the records' floats: points are as exact.
 template <ReadsTriangles Row>
 void set_casters(std::span<const InstanceItem> instances, const CasterTriangleList& casters,
                  const glm::dvec3& camera_ws_m, Row& row) {
@@ -89,7 +90,7 @@ void set_casters(std::span<const InstanceItem> instances, const CasterTriangleLi
     row.camera.anchor_low = vec4();
 }
 
-/// The map that the row's samplers read, and where they count what they met.
+/// Sets the map that the row's samplers read, and the trace that they write.
 template <class Row>
 void set_map(const MapTexels& map, Trace& trace, Row& row) {
     row.shadow_map.map = &map;

@@ -8,30 +8,30 @@
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/request/light_kinds.h"
 
-/// What shader_structs.inc samples: maps of any origin, a texel at a time, as OpenGL's samplers look them up.
+/// Samplers of shader_structs.inc: they look up maps of any origin as OpenGL's samplers do, a texel at a time.
 namespace gnomon::bench::glsl {
 
 inline constexpr uvec2 kShowsNone{0, 0xffffffffu};
 
-/// The depths of a map, or of all faces of a cube, and what they show. column and row < size_px.
+/// Depths of a map, or of all faces of a cube, and the triangles that they show. column and row < size_px.
 struct MapTexels {
     std::uint32_t size_px = 0;
     virtual double texel(int layer, std::uint32_t column, std::uint32_t row) const = 0;
-    /// Instance and triangle, for rows that read them.
+    /// Returns instance and triangle, for rows that read them.
     virtual uvec2 triangle(int, std::uint32_t, std::uint32_t) const { return kShowsNone; }
 
 protected:
     ~MapTexels() = default;
 };
 
-/// What the taps of one lookup met.
+/// Record of the taps of one lookup.
 struct Trace {
     std::uint8_t layers = 0;
     std::uint16_t taps = 0;
-    double margin_texel = std::numeric_limits<double>::infinity();  // to the nearest change of mind
+    double margin_texel = std::numeric_limits<double>::infinity();  // distance to the nearest change of a tap's result
 };
 
-/// From a difference of depth to texels of the map at that depth.
+/// Conversion of a difference of depth to texels of the map at that depth.
 struct DepthScale {
     bool perspective = false;
     double texels_per_depth = 0.0;        // orthographic
@@ -47,7 +47,7 @@ struct ShadowSampler {
     DepthScale scales[shadow::kMaxViews];
     Trace* trace = nullptr;
 
-    /// Texels beyond the border hold 0.
+    /// Returns the stored depth; 0 beyond the border.
     double stored(int layer, double column, double row) const {
         const double size = map->size_px;
         if (!(column >= 0.0 && column < size && row >= 0.0 && row < size)) return 0.0;
@@ -118,7 +118,7 @@ inline OnFace on_face(const vec3& direction, double size) {
     return at;
 }
 
-/// Texel `texel` of a face; beyond its edge, that of the neighbour which lies in the same direction.
+/// Returns a texel of a face. Beyond its edge it is the neighbour's texel in the same direction.
 inline double stored_seamless(const samplerCubeShadow& s, std::uint32_t face, const vec2& texel) {
     const double size = s.map->size_px;
     const bool inside = texel.x >= 0.0 && texel.y >= 0.0 && texel.x < size && texel.y < size;
@@ -172,7 +172,7 @@ inline vec4 textureLod(const samplerCubeDepths& s, const vec3& at, double) {
     return {s.stored(static_cast<int>(face.face), texel.x, texel.y), 0.0, 0.0, 0.0};
 }
 
-/// Inside a face only: that is all the shader asks for.
+/// Gathers inside a face only: the shader needs no more.
 inline vec4 textureGather(const samplerCubeDepths& s, const vec3& at) {
     s.trace->layers |= 1u;
     ++s.trace->taps;
@@ -184,7 +184,7 @@ inline vec4 textureGather(const samplerCubeDepths& s, const vec3& at) {
     return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
 }
 
-/// Of the four texels around that corner.
+/// Gathers a component of the four texels around a corner.
 inline uvec4 gathered(const TriangleSampler& s, int layer, const vec2& corner, int component) {
     ++s.trace->taps;
     const auto tap = [&](double x, double y) {
@@ -194,12 +194,12 @@ inline uvec4 gathered(const TriangleSampler& s, int layer, const vec2& corner, i
     return {tap(-1.0, 0.0), tap(0.0, 0.0), tap(0.0, -1.0), tap(-1.0, -1.0)};
 }
 
-/// Inside the map only.
+/// Gathers inside the map only.
 inline uvec4 textureGather(const usampler2DArray& s, const vec3& at, int component) {
     return gathered(s, static_cast<int>(at.z), floor(at.xy_() * static_cast<double>(s.map->size_px) + 0.5), component);
 }
 
-/// Inside a face only.
+/// Gathers inside a face only.
 inline uvec4 textureGather(const usamplerCube& s, const vec3& at, int component) {
     const OnFace face = on_face(at, s.map->size_px);
     return gathered(s, static_cast<int>(face.face), floor(face.texel + 0.5), component);

@@ -33,14 +33,14 @@ double seconds_of(const auto& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What all threads together spent, which a busy machine stretches less than time itself.
+/// Measures the time that all threads together spent: a busy machine stretches it less than wall-clock time.
 double cpu_seconds_of(const auto& work) {
     const std::clock_t start = std::clock();
     work();
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// The scene without a GPU, and what is asked of it.
+/// Scene without a GPU, and the queries on it.
 class QueryBench {
 public:
     QueryBench(assets::SceneData scene, const StageOptions& stage, const QueriesOptions& options) : options_(options) {
@@ -90,7 +90,7 @@ private:
         return text;
     }
 
-    /// The scene's own, and a lamp in its upper middle.
+    /// Returns the scene's own lights, and a lamp in its upper middle.
     std::vector<LightItem> lights() const {
         std::vector<LightItem> lights = snapshot_.lights;
         LightItem& lamp = lights.emplace_back();
@@ -111,7 +111,7 @@ private:
         return places;
     }
 
-    /// As many on every triangle's side as its area asks for, just off it.
+    /// Returns places just off both sides of the triangles, in proportion to their area.
     std::vector<Place> on_surfaces() const {
         struct Corner {
             glm::dvec3 a, ab, ac, normal;

@@ -11,8 +11,8 @@ struct QueriesOptions {
     unsigned threads = 2;
 };
 
-/// How fast visibility queries are answered in a scene, and what the trees behind them take to build, to refit and to
-/// hold: a table. Without a GPU. Errors: those of the loader.
+/// Returns a table of the speed of visibility queries in a scene, and of their trees' memory and times to build and
+/// refit. Uses no GPU. Errors: those of the loader.
 Result<std::string> measure_queries(const StageOptions& stage, const QueriesOptions& options);
 
 }  // namespace gnomon::bench

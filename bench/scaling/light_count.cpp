@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 7;
 constexpr std::uint32_t kSettlingFrames = 3;
-constexpr std::uint32_t kMostSettlingFrames = 90;  // some fits and maps wait a second before they let go
+constexpr std::uint32_t kMostSettlingFrames = 90;  // some fits and maps are kept for a second after their last use
 // A metre to and fro in 4 s is 1.6 m/s at most; a walk of 1.4 m/s; both in frames of 1/60 s.
 constexpr double kFrame_s = 1.0 / 60.0, kSlide_m = 1.0, kSlidePeriod_s = 4.0, kWalk_m_s = 1.4;
 
@@ -59,7 +59,7 @@ public:
         return spread_of(frame_us).median;
     }
 
-    /// Distinct ones that frames have used so far.
+    /// Returns the number of distinct programs that frames have used so far.
     std::uint32_t programs() const { return static_cast<std::uint32_t>(programs_.size()); }
 
 private:
@@ -67,7 +67,7 @@ private:
         return static_cast<std::size_t>(motion) * kDemandModes.size() + static_cast<std::size_t>(mode);
     }
 
-    /// Only what stands still comes to rest.
+    /// Returns the frames to settle: many where a still scene comes to rest, else one.
     static std::uint32_t settling_frames(DemandMotion motion, DemandMode mode) {
         return motion == DemandMotion::still && mode == DemandMode::economy ? kMostSettlingFrames : 1;
     }

@@ -8,7 +8,7 @@
 #include "bench/common/median_range.h"
 #include "bench/common/stage.h"
 
-/// What shadows cost by the number of lights.
+/// Cost of shadows by the number of lights.
 namespace gnomon::bench {
 
 /// still: nothing moves; mover: one column slides to and fro before the camera; walk: the camera walks.
@@ -21,14 +21,14 @@ const char* to_text(DemandMode mode);
 
 /// Times are of every timed frame, counts of the last one.
 struct DemandFigures {
-    Spread frame_us;                 // from its start until the device has finished it
-    Spread shadow_cpu_us;            // of the shadow stages (FrameReport::shadow_cpu_us)
+    Spread frame_us;                 // time from its start until the device has finished it
+    Spread shadow_cpu_us;            // time of the shadow stages (FrameReport::shadow_cpu_us)
     double frame_ratio = 0.0;        // median over rounds of the ratio to the same frames without shadows
     std::uint32_t lights_given = 0;  // lights with at least one view
     std::uint32_t views = 0, views_drawn = 0;
-    std::uint32_t draws = 0;   // of depth passes
-    std::uint64_t bytes = 0;   // all that lights hold
-    std::uint32_t passes = 0;  // of the frame
+    std::uint32_t draws = 0;   // draws of depth passes
+    std::uint64_t bytes = 0;   // memory of all lights
+    std::uint32_t passes = 0;  // passes of the frame
 };
 
 struct DemandRow {
@@ -54,14 +54,15 @@ struct Demand {
     std::vector<DemandRow> rows;
 };
 
-/// A stage per number of lights. In each, for each motion, `rounds` rounds in which the modes take turns, so that a
+/// Measures a stage per number of lights. In each, for each motion, the modes take turns in `rounds` rounds, so that a
 /// machine that slows down slows all. Errors: those of Stage::open.
 Result<Demand> measure_demand(const DemandOptions& options);
 
-/// What was measured on what, and a table per motion.
+/// Returns the machine and the subject of the measurement, and a table per motion.
 std::string demand_markdown(const Demand& demand);
 std::string demand_json(const Demand& demand);
-/// SVG: frame times, times of the stages, draws and bytes against the number of lights; both axes are logarithmic.
+/// Plots frame times, times of the stages, draws and bytes over the number of lights, as SVG. Both axes are
+/// logarithmic.
 std::string demand_plot(const Demand& demand);
 
 }  // namespace gnomon::bench

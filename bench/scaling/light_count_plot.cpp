@@ -63,7 +63,7 @@ void draw_axes(Svg& svg, const Panel& panel, bool first, bool last) {
     svg.rectangle(panel.corner, panel.corner + glm::dvec2(kWide, kHigh), "fill='none' stroke='#999'");
 }
 
-/// What is 0 is a ring on the lowest line, and no line leads to it.
+/// Draws a curve. A value of 0 is a ring on the lowest line, and no line leads to it.
 void draw_curve(Svg& svg, const Panel& panel, const std::vector<glm::dvec2>& lights_and_values, const char* colour) {
     const std::string paint = "'" + std::string(colour) + "'";
     std::vector<glm::dvec2> points;

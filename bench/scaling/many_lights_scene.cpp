@@ -27,7 +27,7 @@ enum MeshNumber : std::int32_t { kTileMesh, kColumnMesh, kBlockMesh };
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
-    /// In [from, to), from the upper 53 bits: std's distributions differ between libraries.
+    /// Returns a random number in [from, to), from the upper 53 bits: std's distributions differ between libraries.
     double number(double from, double to) {
         return from + (to - from) * std::ldexp(static_cast<double>(engine_() >> 11U), -53);
     }
@@ -52,7 +52,7 @@ void add_ground(assets::SceneData& scene) {
                 .mesh = kTileMesh;
 }
 
-/// A column or a block in each cell, anywhere and at any angle in it.
+/// Adds a column or a block in each cell, anywhere and at any angle in it.
 void add_things(assets::SceneData& scene, Random random) {
     for (int z = 0; z < kCells; ++z)
         for (int x = 0; x < kCells; ++x) {
@@ -74,8 +74,9 @@ void add_things(assets::SceneData& scene, Random random) {
     mover.mesh = kColumnMesh;
 }
 
-/// Where the i-th of any number of things lies, all of them spread evenly over the unit square: the additive recurrence
-/// by the powers of the plastic number (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+/// Returns place i of a sequence that spreads any number of things evenly over the unit square. It is the additive
+/// recurrence by the powers of the plastic number (Roberts 2018, "The unreasonable effectiveness of quasirandom
+/// sequences").
 glm::dvec2 spread_point(std::uint32_t i) {
     constexpr double kPlastic = 1.32471795724474602596;
     const auto part = [&](double step) {

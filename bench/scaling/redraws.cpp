@@ -26,14 +26,14 @@ namespace {
 
 constexpr std::array kFits = {"tight", "stable", "quantised"};
 constexpr std::array kPaths = {"still", "walk", "pan"};
-/// What stood still for so long counts as still, and maps that nobody needs are gone.
+/// Frames after which resting casters count as still, and unused maps are freed.
 constexpr std::uint32_t kSettlingFrames = 100;
-/// The walk goes half of it: 1.4 m/s over five seconds.
+/// Distance of what the camera looks at. The walk goes half of it: 1.4 m/s over five seconds.
 constexpr double kLookedAt_m = 14.0;
 constexpr double kMover_m = 0.3, kMoverPeriod_frames = 240.0;
 constexpr double kNearLamp = 0.15, kNearGround = 0.9;  // shares of the mover's way
 
-/// Of one light, summed over frames.
+/// Counts of one light, summed over frames.
 struct Counts {
     LightKind kind = LightKind::point;
     std::uint64_t drawn = 0, anew = 0, refitted = 0;
@@ -97,8 +97,8 @@ public:
 private:
     ecs::Entity camera() const { return start_.entity; }
 
-    /// The smallest closed mesh of the scene, as a thing of kMover_m, between the first point light and what the camera
-    /// looks at.
+    /// Adds the mover: the smallest closed mesh of the scene, scaled to kMover_m, between the first point light and
+    /// what the camera looks at.
     void add_mover() {
         std::uint32_t mesh = 0;
         for (std::uint32_t m = 0; m < library_.meshes.size(); ++m)

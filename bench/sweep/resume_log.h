@@ -18,20 +18,20 @@ struct TimedRow {
     std::vector<LightTimes> times, base;
 };
 
-/// What a sweep has found so far, a line of JSON per finding: a sweep that was interrupted goes on from it. The first
-/// line is `header`, which says what was measured, of what, on what; a journal with another one is begun anew. A last
+/// Results of a sweep so far, a line of JSON each. An interrupted sweep goes on from them. The first line is `header`,
+/// which names the measurement, its subject and the device. A journal with another header starts from empty. A last
 /// line that was cut short counts as not written.
 class SweepJournal {
 public:
-    /// `header`: one line. Errors: "output.write".
+    /// Opens or starts a journal. `header`: one line. Errors: "output.write".
     static Result<SweepJournal> open(const std::filesystem::path& file, const std::string& header);
 
     const std::vector<JudgedRow>& judged() const { return judged_; }
     const std::vector<TimedRow>& timed() const { return timed_; }
-    double spent_s() const { return spent_s_; }  // on all that it holds
-    double timed_s() const { return timed_s_; }  // of that on times
+    double spent_s() const { return spent_s_; }  // time spent on all its results
+    double timed_s() const { return timed_s_; }  // part of it that was spent on timing
 
-    /// `spent_s`: what this finding took. Errors: "output.write".
+    /// Adds a result. `spent_s`: time that it took. Errors: "output.write".
     std::optional<Error> add(const JudgedRow& row, double spent_s);
     std::optional<Error> add(const TimedRow& row, double spent_s);
 

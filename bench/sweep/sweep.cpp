@@ -20,9 +20,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-/// Of what a journal's lines mean.
+/// Version of the meaning of a journal's lines.
 constexpr int kJournalVersion = 1;
-/// Rows that share one block of the defaults: a fifth of the time goes into what all are compared with.
+/// Rows that share one block of the defaults: a fifth of the time goes into the base of all comparisons.
 constexpr std::size_t kRowsPerBase = 4;
 /// Rows that are timed between two lines of progress.
 constexpr std::size_t kRowsPerLine = 16;
@@ -37,7 +37,7 @@ LightKinds kinds_of(const TracedTruths& truths) {
     return kinds;
 }
 
-/// Size and time of a file: another program, or another scene of the same name, makes another journal.
+/// Returns size and time of a file. Another program, or another scene of the same name, makes another journal.
 Json stamp_of(const std::filesystem::path& file) {
     std::error_code error;
     const auto bytes = std::filesystem::file_size(file, error);
@@ -45,7 +45,7 @@ Json stamp_of(const std::filesystem::path& file) {
     return {bytes, std::filesystem::last_write_time(file, error).time_since_epoch().count()};
 }
 
-/// The defaults, and rows whose names match. Errors: "rows.regex".
+/// Returns the defaults, and rows with names that match. Errors: "rows.regex".
 Result<std::vector<SweepRow>> chosen(std::vector<SweepRow> plan, const std::string& only) {
     if (only.empty()) return plan;
     // POSIX's: std::regex does not compile with GCC 12's warnings under the sanitizers.
@@ -118,7 +118,7 @@ public:
         return std::nullopt;
     }
 
-    /// What the journal holds, in the plan's order.
+    /// Copies the journal's results in the plan's order.
     void collect(SceneSweep& sweep) && {
         std::map<std::string, std::vector<RatioRounds>> times;
         std::map<std::string, std::uint32_t> rounds;
@@ -152,7 +152,7 @@ private:
                                 options_.budget_s);
     }
 
-    /// Whether another round, which takes as long as those before, would go beyond it. There is one at least.
+    /// Returns whether another round, as long as the ones before, would exceed the budget. The first round always runs.
     bool is_spent(std::uint32_t round) const {
         return round > 0 && journal_.spent_s() + journal_.timed_s() / round > options_.budget_s;
     }

@@ -12,31 +12,31 @@ namespace gnomon::bench {
 struct SweepOptions {
     SweepSize size = SweepSize::full;
     std::filesystem::path folder;  // for the journal and pictures; it exists
-    std::uint32_t rounds = 5;      // of times, at most; 0: none
-    std::uint32_t frames = 0;      // of each kind that are timed per row and round; 0: by the device
-    double budget_s = 1080.0;      // nothing is timed later, but for the first round
+    std::uint32_t rounds = 5;      // most rounds of times; 0: none
+    std::uint32_t frames = 0;      // timed frames of each kind per row and round; 0: by the device
+    double budget_s = 1080.0;      // nothing is timed later, except the first round
     bool disks = true;             // soft shadows as well
     std::function<void(const std::string& line)> progress = [](const std::string&) {};
     std::vector<SweepRow> plan = {};  // empty: sweep_plan()
-    std::string only = {};            // of these the defaults, and rows whose names match; a regular expression
+    std::string only = {};            // regular expression: only the defaults and rows that match; empty: all
 };
 
-/// One scene's rows, of which each has a SweepRow: what it was, and a JudgedRow: what came of it.
+/// Rows of one scene. Each has a SweepRow, its settings, and a JudgedRow, its result.
 struct SceneSweep {
     std::string scene, device, camera;
     glm::uvec2 size_px{0, 0};
     double trace_s = 0.0, spent_s = 0.0;  // spent: interrupted runs that this one went on from included
-    std::uint32_t rounds = 0;             // of times that every row has
+    std::uint32_t rounds = 0;             // rounds of times that every row has
     std::uint32_t gl_complaints = 0;
     std::vector<SweepRow> plan;
     std::vector<JudgedRow> rows;  // in the plan's order
 };
 
-/// Judges every row of the plan by truths that are traced once, then times them all in rounds: in each, every few rows
-/// share a block of the defaults right before them, whose times theirs are divided by, so that a machine that slows
-/// down slows both. What was found in an earlier, interrupted run with the same plan, scene and device is taken from
-/// the journal. Rows that fail are in the result with their error. Errors: "bench.camera", "output.write",
-/// "output.folder", "rows.regex".
+/// Judges every row of the plan by truths that are traced once, then times them all in rounds. In each round every few
+/// rows share a block of the defaults right before them. Their times are divided by that block's, so that a machine
+/// that slows down slows both. The journal supplies the results of an interrupted run with the same plan, scene and
+/// device. Rows that fail are in the result with their error. Errors: "bench.camera", "output.write", "output.folder",
+/// "rows.regex".
 Result<SceneSweep> measure_sweep(Stage& stage, const SweepOptions& options);
 
 }  // namespace gnomon::bench

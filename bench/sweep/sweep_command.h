@@ -18,8 +18,8 @@ struct SweepCommand {
     std::uint32_t frames = 0;  // 0: by the device
 };
 
-/// Sweeps each scene in turn, says on stderr how far it is, and writes report.json into the folder. report.py makes the
-/// page and the tables of it. Errors: those of Stage::open, measure_sweep and game::write_file.
+/// Sweeps each scene in turn, reports its progress on stderr, and writes report.json into the folder. report.py makes
+/// the page and the tables of it. Errors: those of Stage::open, measure_sweep and game::write_file.
 std::optional<Error> run_sweep(const SweepCommand& command);
 
 }  // namespace gnomon::bench

@@ -13,7 +13,7 @@ namespace {
 /// Returns the name of a kind of light as in --stats.
 std::string_view kind_name(LightKind kind) { return shadow::light_kind_row(kind).name; }
 
-/// Says which bounds of the defaults the figures are above. Empty: none, or filters that soften by the source's size.
+/// Names the bounds of the defaults that the figures exceed. Empty: none, or the filter softens by the source's size.
 std::string above_bounds(const RowFigures& figures) {
     if (!figures.wrong) return {};
     return promise_words({*figures.wrong, figures.leak.value_or(0.0), figures.acne.value_or(0.0),

@@ -19,7 +19,7 @@ struct Value {
     LightKinds kinds = kAllKinds;
 };
 
-/// "KEY=VALUE" is its own name.
+/// Makes a value that has its "KEY=VALUE" as its name.
 Value of(const std::string& setting, LightKinds kinds = kAllKinds) { return {setting, {setting}, kinds}; }
 
 std::vector<Value> fits() { return {of("fit=tight", kSun), of("fit=stable", kSun)}; }
@@ -32,7 +32,7 @@ std::vector<Value> cascades(SweepSize size) {
     return values;
 }
 
-/// Six faces of 4096 texels of the widest filters are gigabytes.
+/// Returns the sizes of maps. 4096 is not for cubes: with the widest filters six such faces take gigabytes.
 std::vector<Value> resolutions(SweepSize size) {
     if (size == SweepSize::quick) return {of("resolution=512"), of("resolution=1024"), of("resolution=2048")};
     return {of("resolution=512"),  of("resolution=768"),  of("resolution=1024"),
@@ -50,11 +50,11 @@ std::vector<Value> biases(SweepSize size) {
     return values;
 }
 
-/// What the quick sweep has of the filter table, in the first variant of each.
+/// Filters of the quick sweep, each in its first variant.
 constexpr std::string_view kQuickFilters[] = {"hard",      "hardware_2x2", "pcf_grid", "poisson",
                                               "sharp_4x4", "evsm4",        "moments",  "pcss"};
 
-/// Rows of the filter table but the default one.
+/// Returns the rows of the filter table, except the default one.
 std::vector<Value> filters(SweepSize size) {
     std::vector<Value> values;
     const shadow::FilterRow* last = nullptr;
@@ -69,7 +69,7 @@ std::vector<Value> filters(SweepSize size) {
     return values;
 }
 
-/// Those of `values` of these names.
+/// Returns the values with these names.
 std::vector<Value> named(const std::vector<Value>& values, std::span<const std::string_view> names) {
     std::vector<Value> found;
     for (const Value& value : values)
@@ -77,7 +77,7 @@ std::vector<Value> named(const std::vector<Value>& values, std::span<const std::
     return found;
 }
 
-/// A bias is told from another where single texels decide.
+/// Combines values with the filter `hard`: biases differ most where single texels decide.
 std::vector<Value> with_hard(std::vector<Value> values) {
     for (Value& value : values) {
         value.name = "hard, " + value.name;
@@ -86,8 +86,8 @@ std::vector<Value> with_hard(std::vector<Value> values) {
     return values;
 }
 
-/// What LearnOpenGL's and opengl-tutorial.org's chapters set up: one map around the scene, 1024 texels or, for the one
-/// that asks for more, 8428; no cascades; their bias and their filters.
+/// Returns the settings of LearnOpenGL's and opengl-tutorial.org's chapters: one map around the scene without cascades,
+/// their bias and their filters. Maps have 1024 texels, or 8428 in the chapter that uses more.
 std::vector<Value> tutorials() {
     const std::vector<std::string> box = {"fit=stable", "cascades=1", "caster_faces=both"};
     const auto sun = [&](std::string name, std::vector<std::string> settings) {

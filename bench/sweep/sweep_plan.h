@@ -18,13 +18,15 @@ struct SweepRow : RowSetup {
     std::string factor;  // what is varied: kDefaultsRow, "filter", "resolution x bias", kTutorialFactor ...
 };
 
-/// More lights' rows than anybody compares, or waits for.
+/// Most rows of a sweep: beyond it neither a comparison nor its time is practical.
 inline constexpr std::size_t kMostSweepRows = 400;
 
-/// What is compared: the defaults, one factor at a time around them (fit, cascades, resolution, format, filter, bias),
-/// resolution against filter, bias and cascades, and what tutorials set up; for lights of these kinds, each with what
-/// its kind knows. No two rows have the same settings for a kind of light; the first is kDefaultsRow. Pure: the same
-/// rows in the same order every time.
+/// Returns the rows of a sweep for lights of these kinds, each with the settings of its kind. No two rows have the same
+/// settings for a kind of light; the first is kDefaultsRow. Pure function. Rows:
+/// - the defaults;
+/// - one factor at a time around them: fit, cascades, resolution, format, filter, bias;
+/// - resolution against filter, bias and cascades;
+/// - settings of tutorials.
 std::vector<SweepRow> sweep_plan(SweepSize size, LightKinds kinds = kAllKinds);
 
 }  // namespace gnomon::bench

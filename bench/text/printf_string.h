@@ -3,7 +3,7 @@
 
 namespace gnomon::bench {
 
-/// As printf would write it, of any length.
+/// Formats as printf does, to a string of any length.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 
 }  // namespace gnomon::bench

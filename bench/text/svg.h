@@ -18,11 +18,11 @@ public:
     void circle(const glm::dvec2& centre, double radius, std::string_view style);
     void rectangle(const glm::dvec2& low, const glm::dvec2& high, std::string_view style);
     void text(const glm::dvec2& at, std::string_view words, std::string_view style = "");
-    /// What is drawn until close_clip() shows only inside the rectangle.
+    /// Clips all drawing until close_clip() to the rectangle.
     void open_clip(const glm::dvec2& low, const glm::dvec2& high);
     void close_clip();
 
-    /// The whole file.
+    /// Returns the whole file.
     std::string str() const { return text_ + "</svg>\n"; }
 
 private:
@@ -31,7 +31,7 @@ private:
     int clips_ = 0;
 };
 
-/// A number as short as it stays readable: four significant digits.
+/// Formats a number to four significant digits.
 std::string short_number(double value);
 
 }  // namespace gnomon::bench

@@ -89,8 +89,8 @@ private:
         return std::nullopt;
     }
 
-    /// Returns the path that a line includes, in quotes or by the name of a define; the name itself if no define gives
-    /// it a path.
+    /// Returns the path that a line includes, in quotes or by the name of a define. Returns the name itself if no
+    /// define gives it a path, and nothing if the line includes no file.
     std::optional<std::string_view> included_path(std::string_view line) const {
         const auto rest = included(line);
         if (!rest) return std::nullopt;

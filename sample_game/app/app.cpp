@@ -84,7 +84,7 @@ bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, c
 }
 
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
-    // Without a debug context the driver reports nothing; whoever hunts a driver bug puts a sink here.
+    // Without a debug context the driver reports nothing. A search for a driver bug begins with a real sink here.
     Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
     if (!device) return device.error();
     Renderer renderer{std::move(device).value(), nullptr};

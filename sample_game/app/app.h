@@ -17,7 +17,7 @@ namespace gnomon::game {
 /// Loads, spawns, applies --set, chooses the cameras, finds the light of --debug.
 Result<std::unique_ptr<GameWorld>> make_world(const CommandLine& line);
 
-/// Whether every output named on the command line can be written; makes the folder of --visibility.
+/// Checks that every output named on the command line can be written. Makes the folder of --visibility.
 std::optional<Error> check_outputs(const CommandLine& line);
 
 /// Device and frame for the context that is current on this thread.
@@ -27,19 +27,19 @@ struct Renderer {
 };
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {});
 
-/// With --fit-camera: runs a frame for that camera and freezes its fits, so that what follows shows them from the
-/// other.
+/// Runs a frame for the camera of --fit-camera and freezes its fits, so that later frames show them from the other
+/// camera. Does nothing without --fit-camera.
 void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings);
 
-/// Measures the GPU's time from now on, in the way that this device answers rightly, or stops it.
+/// Switches measuring of the GPU's time, by the method that is right on this device.
 void set_timing(gl::Device& device, bool on);
-/// Whether the times are needed: for --stats, or for a budget of them, unless measuring would slow each frame down.
+/// Returns whether GPU times are needed: for --stats, or for a time budget unless measuring slows each frame down.
 bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, const gl::Device& device);
 
 /// Warns once of everything that is odd about the scene and yet no error.
 void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog::logger& log);
 
-/// The threads that a trace may take beside the one that draws.
+/// Returns the number of threads that a trace may take beside the drawing one.
 unsigned trace_threads();
 
 /// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
@@ -48,7 +48,7 @@ std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::u
 /// Writes the picture as it is to `file`.
 std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px);
 
-/// Run until done. Empty: all went well.
+/// Runs all frames without a window, as run_window() does in one. Returns nothing on success.
 std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);
 std::optional<Error> run_window(const CommandLine& line, GameWorld& world, spdlog::logger& log);
 

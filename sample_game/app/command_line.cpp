@@ -17,7 +17,7 @@ constexpr double kMaxExposure_ev = 64.0;
 constexpr double kMaxBudget_ms = 1.0e6;
 constexpr double kFramesPerSecond = 60.0;
 
-/// What was typed, before it is understood.
+/// Arguments as typed, before they are parsed.
 struct Typed {
     std::string scene, camera, fit_camera, animation, size, frames, time, exposure, shadow_bytes, shadow_ms,
         shadow_rays, stats, screenshot, visibility, truth, truth_light, preset, debug;
@@ -71,7 +71,7 @@ void declare(CLI::App& app, Typed& typed) {
         "R restarts, Left and Right move the sun. With any of these, the scene is looked at: Q and E fly down and up.");
 }
 
-/// 1 to kMaxSize_px, or 0 if `text` says anything else.
+/// Reads a side of the picture, 1 to kMaxSize_px pixels. Returns 0 if `text` is none.
 std::uint64_t read_side(std::string_view text) {
     const std::uint64_t side = read_count(text).value_or(0);
     return side <= kMaxSize_px ? side : 0;

@@ -27,22 +27,23 @@ struct CommandLine {
     std::optional<float> exposure_ev;     // empty: automatic
     shadow::ShadowBudget shadow_budget;   // what shadows may take
     std::optional<std::filesystem::path> stats, screenshot, visibility;
-    std::optional<std::filesystem::path> truth;          // the last frame beside its truth: picture with errors over it
-    std::optional<std::string> truth_light;              // whose errors it shows; empty: each pixel's worst
-    debug::Request debug;                                // its light is not checked against a scene
-    const Preset* preset = nullptr;                      // applied before the settings
-    std::vector<std::string> settings;                   // KEY=VALUE, each known to be right
-    std::string print;                                   // not empty (--help, --list): print it and exit with 0
+    std::optional<std::filesystem::path> truth;  // the last frame beside its truth: picture with errors over it
+    std::optional<std::string> truth_light;      // light with the errors to show; empty: each pixel's worst
+    debug::Request debug;                        // its light is not checked against a scene
+    const Preset* preset = nullptr;              // applied before the settings
+    std::vector<std::string> settings;           // KEY=VALUE, each known to be right
+    std::string print;                           // not empty (--help, --list): print it and exit with 0
 };
 
 /// Errors: rules "command_line" and those of apply_setting() and read_debug_request(); the message is one line.
 Result<CommandLine> parse_command_line(int argc, const char* const* argv);
 
-/// Whether the game is played: --demo, or a window without --scene, --camera, --fit-camera, --animation, --frames and
-/// --time.
+/// Returns whether the game is played: --demo, or a window without --scene, --camera, --fit-camera, --animation,
+/// --frames and --time.
 bool plays_game(const CommandLine& line);
 
-/// Scene time of frame `index` of `frames`: the last one is at `line.time_s`, or, without it, the first one at 0.
+/// Returns the scene time of frame `index` of `frames`. The last frame is at `line.time_s`; without it the first is at
+/// 0.
 double frame_time_s(const CommandLine& line, std::uint64_t index, std::uint64_t frames);
 
 }  // namespace gnomon::game

@@ -21,7 +21,7 @@ bool held(const platform::Input& input, platform::Key key) {
     return input.down[i] || input.pressed[i];
 }
 
-/// Right, up, back: what the keys ask for, each -1, 0 or 1.
+/// Returns the direction that the keys stand for: right, up and back, each -1, 0 or 1.
 glm::dvec3 wished_step(const platform::Input& input) {
     using platform::Key;
     const auto axis = [&](Key minus, Key plus) {

@@ -10,10 +10,10 @@ namespace gnomon::game {
 /// then a free one starts from where it was.
 class FlyCamera {
 public:
-    /// `speed_m_per_s` when walking; Shift is faster.
+    /// Takes the speed of walking; Shift is faster.
     explicit FlyCamera(double speed_m_per_s) : speed_m_per_s_(speed_m_per_s) {}
 
-    /// `seen`: the camera of the last frame. `look`: whether the mouse turns the head.
+    /// Moves the camera by one frame's input. `seen`: camera of the last frame. `look`: the mouse turns the head.
     void update(const platform::Input& input, bool look, double dt_s, const ConsumerItem& seen,
                 ecs::Registry& registry);
 

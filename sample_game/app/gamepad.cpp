@@ -13,7 +13,7 @@ using platform::PadButton;
 
 constexpr float kTriggerPressed = 0.0f;  // half its way
 
-/// The stick without its dead zone: length 0 to 1, right and up positive.
+/// Returns the stick's way without its dead zone: length 0 to 1, right and up positive.
 glm::dvec2 stick(float x, float down) {
     if (!std::isfinite(x) || !std::isfinite(down)) return glm::dvec2(0.0);
     const glm::dvec2 way(static_cast<double>(x), -static_cast<double>(down));

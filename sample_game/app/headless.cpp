@@ -40,7 +40,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
     settings.viewport_px = line.size_px;
     settings.exposure_ev = line.exposure_ev;
     settings.shadow_budget = line.shadow_budget;
-    settings.leave_out_dim_lights = !line.visibility;  // every light's shadow is asked for by itself
+    settings.leave_out_dim_lights = !line.visibility;  // --visibility shows every light by itself
     settings.debug = line.debug;
     settings.repeatable = true;
     StatsFile stats(stage->renderer.device->info().name);

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Unknown is null, never 0.
+/// Returns the value; null, never 0, where it is unknown.
 Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
 void add_why(const Why& why, Json& json) {
@@ -22,7 +22,7 @@ void add_why(const Why& why, Json& json) {
     json["saved_us"] = or_null(why.saved_us);
 }
 
-/// A light's why, its views' included.
+/// Returns a light's reasons and savings, and those of its views.
 Json why_stats(const FrameReport& report, const LightReport& light) {
     Json why, views = Json::array();
     add_why(light.why, why);

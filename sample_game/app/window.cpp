@@ -55,7 +55,7 @@ private:
 /// Frames per second, shown in the title now and then.
 class TitleMeter {
 public:
-    /// `state`: shown at once when it changes; empty if there is nothing to say.
+    /// Counts a frame and updates the title. `state` is shown at once when it changes; empty: none.
     void frame_done(platform::Window& window, const std::string& state, const std::string& device) {
         ++frames_;
         if (state != state_ && !rate_.empty()) show(window, state, device);
@@ -83,7 +83,7 @@ bool pressed(const platform::Input& input, platform::Key key) { return input.pre
 
 bool wants_out(const platform::Input& input) { return input.close_requested || pressed(input, platform::Key::escape); }
 
-/// A click captures the mouse, Tab frees it; the panel keeps it free.
+/// Captures the mouse at a click. Tab frees it, and it stays free while the panel is shown.
 void update_capture(const platform::Input& input, platform::Window& window, bool panel, bool& captured) {
     const bool want = (captured || input.mouse_pressed) && !pressed(input, platform::Key::tab) && !panel;
     if (want == captured) return;
@@ -105,13 +105,13 @@ void toggle_frozen(const GameWorld& world, const Frame& frame, FrozenFrame& froz
         frozen.freeze(frame, world.library, trace_threads());
 }
 
-/// Whatever runs in the window: the game, or the motion of a scene and a walk through it.
+/// Motion in the window: that of the game, or that of a scene with a walk through it.
 class Play {
 public:
     Play(GameWorld& world, const CommandLine& line)
         : world_(world), line_(line), walker_(walking_speed(world.scene.bounds_ws)), clock_(line) {}
 
-    /// Goes on to the next frame. `look`: whether the mouse turns the head. `stop_or_go`: asked for by the panel.
+    /// Goes on to the next frame. `look`: the mouse turns the head. `stop_or_go`: the panel toggles the motion.
     void advance(const platform::Input& input, bool look, bool stop_or_go, double dt_s, const SceneSnapshot& last) {
         if (world_.game)
             advance_game(input, look, stop_or_go, dt_s);
@@ -120,10 +120,10 @@ public:
         pads_ = input.gamepads;
         ++frame_;
     }
-    /// Frames so far.
+    /// Returns the number of frames so far.
     std::uint64_t frame() const { return frame_; }
     bool moving() const { return world_.game ? world_.game->state().phase == Phase::playing : clock_.runs(); }
-    /// Scene time of the last frame.
+    /// Returns the scene time of the last frame.
     double time_s() const {
         return world_.game && !line_.frames ? world_.game->state().time_s() : clock_.time_s(frame_ - 1);
     }
@@ -155,7 +155,7 @@ private:
     const CommandLine& line_;
     FlyCamera walker_;
     SceneClock clock_;
-    std::array<platform::Gamepad, platform::kMaxGamepads> pads_ = {};  // of the frame before
+    std::array<platform::Gamepad, platform::kMaxGamepads> pads_ = {};  // pads of the frame before
     std::uint64_t frame_ = 0;
 };
 

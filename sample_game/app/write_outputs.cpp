@@ -3,7 +3,7 @@
 namespace gnomon::game {
 namespace {
 
-/// Freezes it, waits for the truth about it, and gives its figures to `stats`.
+/// Freezes the last frame, compares it with its ray-traced truth, and adds the result to `stats`.
 std::optional<Error> judge(const CommandLine& line, const GameWorld& world, Frame& frame, FrozenFrame& frozen,
                            StatsFile& stats) {
     frozen.freeze(frame, world.library, trace_threads() + 1);  // nothing is drawn meanwhile

@@ -4,8 +4,8 @@
 
 namespace gnomon::game {
 
-/// Writes what the command line asks of the frame that was run last, with these settings: its outputs and, with
-/// --truth, once it is traced and judged, its picture again with the errors over it. `gui`: needed for that alone.
+/// Writes the outputs that the command line names, from the last frame, run with `settings`. With --truth it also
+/// traces the frame and writes its picture with the errors over it. `gui`: needed for --truth alone.
 std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
                                       const FrameSettings& settings, Gui* gui, StatsFile& stats);
 

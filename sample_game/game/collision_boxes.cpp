@@ -29,14 +29,14 @@ Placed placed(const Solid& solid, std::span<const WorldTransform> poses) {
     return p;
 }
 
-/// A place on the ground in the solid's own frame.
+/// Returns a place on the ground in the solid's own frame.
 glm::dvec2 in_plan(const Placed& p, const glm::dvec2& at_ws_m) {
     const glm::dvec3 at =
         glm::transpose(p.turn) * glm::dvec3(at_ws_m.x - p.origin_ws_m.x, 0.0, at_ws_m.y - p.origin_ws_m.z);
     return {at.x, at.z};
 }
 
-/// The way out of a rectangle for a circle at `centre`; zero if they do not overlap.
+/// Returns the way out of a rectangle for a circle at `centre`; zero if they do not overlap.
 glm::dvec2 way_out(const glm::dvec2& centre, double radius, const glm::dvec2& min, const glm::dvec2& max) {
     const glm::dvec2 nearest = glm::clamp(centre, min, max), away = centre - nearest;
     const double distance = glm::length(away);

@@ -7,10 +7,10 @@
 
 #include "components/transform.h"
 
-/// What a walker cannot pass: upright boxes that stand, turn and move with nodes of the scene.
+/// Obstacles of a walker: upright boxes that stand, turn and move with nodes of the scene.
 namespace gnomon::game {
 
-/// A box in the frame of its node, whose +Y stays upright.
+/// Box in the frame of its node. The node's +Y stays upright.
 struct Solid {
     std::size_t node = 0;
     glm::dvec3 min_m{0.0}, max_m{0.0};
@@ -21,12 +21,12 @@ struct Solid {
 glm::dvec2 pushed_out(glm::dvec2 centre_m, double radius_m, double low_m, double high_m, std::span<const Solid> solids,
                       std::span<const WorldTransform> poses);
 
-/// Height that an upright circle stands on: the highest top of the solids below it that is not above `reach_m`; else
-/// `floor_m`.
+/// Returns the height that an upright circle stands on: the highest top of the solids below it that is not above
+/// `reach_m`; else `floor_m`.
 double ground_below(glm::dvec2 centre_m, double radius_m, double reach_m, double floor_m, std::span<const Solid> solids,
                     std::span<const WorldTransform> poses);
 
-/// Fraction of the way from `from` to `to` at which the first solid is met; 1 if none is.
+/// Returns the fraction of the way to `to_ws_m` at which the first solid is met; 1: none is.
 double free_way(const glm::dvec3& from_ws_m, const glm::dvec3& to_ws_m, std::span<const Solid> solids,
                 std::span<const WorldTransform> poses);
 

@@ -17,9 +17,9 @@ struct GameWorld {
     assets::MeshLibrary library;
     SpawnedScene scene;
     std::size_t camera = 0;                 // index into scene.cameras: the active one
-    std::optional<std::size_t> fit_camera;  // the one that shadows are fitted to
+    std::optional<std::size_t> fit_camera;  // index of the camera that shadows are fitted to; empty: the active one
     std::unique_ptr<GameSession> game;      // null: the scene is only looked at
-    std::vector<std::string> warnings;      // of the loader, one line each
+    std::vector<std::string> warnings;      // warnings of the loader, one line each
 };
 
 }  // namespace gnomon::game

@@ -28,7 +28,7 @@ struct Level {
     std::int32_t sun = assets::kNone;     // node that the time of day turns
 };
 
-/// The level of the courtyard made with CourtyardOptions::game. Error: rule "game.level", naming the node that misses.
+/// Builds the level of the courtyard made with CourtyardOptions::game. Error: rule "game.level", with the missing node.
 Result<Level> courtyard_level(const assets::SceneData& scene);
 
 }  // namespace gnomon::game

@@ -9,7 +9,7 @@
 namespace gnomon::game {
 namespace {
 
-/// What queries read: of textures, masks alone.
+/// Copies what queries read: meshes, materials and the textures of masks.
 std::shared_ptr<const assets::MeshLibrary> library_of(const assets::SceneData& scene) {
     auto library = std::make_shared<assets::MeshLibrary>();
     library->meshes = scene.meshes;

@@ -9,16 +9,16 @@
 #include "engine/assets/mesh_library.h"
 #include "systems/visibility/light_queries.h"
 
-/// How much of a lamp reaches points of a scene, by the library's visibility queries: for rules that know no entities.
+/// Share of a lamp's light at points of a scene, by the library's visibility queries, for rules that know no entities.
 namespace gnomon::game {
 
-/// The shadow casters of a scene, as a snapshot of their own. Copies what it needs: the scene may go afterwards.
-/// Who walks about lets light through: nobody hides behind a mesh that bends.
+/// Shadow casters of a scene, as a snapshot of their own. Copies what it needs: the scene may go afterwards. Walkers
+/// let light through: the player cannot hide behind a mesh that bends.
 class Occluders {
 public:
-    /// `left_out`: nodes that never block, e.g. the player's own body.
+    /// Copies the casters, except the nodes `left_out`, which never block, e.g. the player's own body.
     Occluders(const assets::SceneData& scene, std::span<const std::int32_t> left_out);
-    /// A copy makes trees of its own when it is first asked.
+    /// Copies the casters. The copy makes its own trees at its first query.
     Occluders(const Occluders& other) : library_(other.library_), scene_(other.scene_), nodes_(other.nodes_) {}
     Occluders& operator=(const Occluders& other) { return *this = Occluders(other); }
     Occluders(Occluders&&) noexcept = default;
@@ -28,7 +28,8 @@ public:
     /// Puts every caster where its node is now. `poses`: one per node of the scene.
     void place(std::span<const WorldTransform> poses);
 
-    /// shares[i] of the lamp's light reach places[i]: visibility::LightQueries::ask(). place() must have been called.
+    /// Computes the shares of the lamp's light that reach the places (visibility::LightQueries::ask()). Call place()
+    /// before.
     void ask(const LightItem& lamp, std::span<const visibility::Place> places, std::span<float> shares);
 
 private:
@@ -39,7 +40,7 @@ private:
     };
     std::shared_ptr<const assets::MeshLibrary> library_;
     SceneSnapshot scene_;             // instances alone
-    std::vector<std::size_t> nodes_;  // of the instances
+    std::vector<std::size_t> nodes_;  // node of each instance
     std::unique_ptr<Queries> queries_;
 };
 

@@ -34,7 +34,7 @@ bool holds(const math::Aabb& box, const glm::dvec3& point) {
     return glm::all(glm::greaterThanEqual(point, box.min)) && glm::all(glm::lessThanEqual(point, box.max));
 }
 
-/// The lamp as visibility queries take it.
+/// Converts a lamp to the form that visibility queries take.
 LightItem light_item(const Lamp& lamp, const WorldTransform& pose) {
     LightItem item;
     item.kind = lamp.light.type == assets::LightType::spot ? LightKind::spot : LightKind::point;
@@ -61,7 +61,7 @@ const char* to_text(Phase phase) {
     return "lost";
 }
 
-/// As KHR_lights_punctual has it: inverse square, cut off at the range, the cone's edge squared.
+/// Follows KHR_lights_punctual: inverse square, cut off at the range, the cone's edge squared.
 double lamp_lux(const Lamp& lamp, const WorldTransform& pose, const glm::dvec3& point_ws_m) {
     const glm::dvec3 to_point = point_ws_m - pose.translation_ws_m;
     const double distance = glm::length(to_point), range = lamp.light.range_m;
@@ -125,7 +125,7 @@ void Game::walk(const GameInput& input) {
     state_.fall_m_per_s = footing.fall_m_per_s;
 }
 
-/// Everything to where it is at the state's time.
+/// Moves all nodes to where they are at the state's time.
 void Game::place() {
     assets::SceneData now;
     now.nodes = level_.nodes;

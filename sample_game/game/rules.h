@@ -15,7 +15,7 @@ inline constexpr double kHiddenLight = 0.35;   // below this the player is in th
 enum class Phase : std::uint8_t { playing, paused, won, lost };
 const char* to_text(Phase phase);
 
-/// What the player does during one step.
+/// Input of the player during one step.
 struct GameInput {
     double forward = 0.0, right = 0.0;      // -1 ... 1
     double yaw_rad = 0.0, pitch_rad = 0.0;  // turn of the head in this step; left and up are positive
@@ -28,7 +28,7 @@ struct GameState {
     Phase phase = Phase::playing;
     std::uint64_t steps = 0;  // played; scene time is steps / 60
     glm::dvec3 feet_m{0.0};
-    double fall_m_per_s = 0.0;  // of the feet, down
+    double fall_m_per_s = 0.0;  // speed of the feet, down
     double yaw_rad = 0.0, pitch_rad = 0.0;
     double light = 0.0;      // the meter: 0 dark, 1 fully lit
     double seen = 0.0;       // 1: caught
@@ -47,7 +47,7 @@ public:
     const GameState& state() const { return state_; }
     const Level& level() const { return level_; }
 
-    /// Where the camera stands behind the player, before any wall, and looks along yaw and pitch.
+    /// Returns the camera's place: behind the player, before any wall. It looks along yaw and pitch.
     glm::dvec3 camera_m() const;
 
 private:
@@ -60,7 +60,7 @@ private:
     std::vector<WorldTransform> poses_;
 };
 
-/// Share of full light that `lamp`, placed at `pose`, throws at `point_ws_m` if nothing is in between, in lux.
+/// Returns the illuminance of `lamp` at a point if nothing is in between, lux.
 double lamp_lux(const Lamp& lamp, const WorldTransform& pose, const glm::dvec3& point_ws_m);
 
 }  // namespace gnomon::game

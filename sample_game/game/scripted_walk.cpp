@@ -14,8 +14,8 @@ struct Leg {
     double from_s;
     glm::dvec2 goal_m;  // x, z
 };
-// The guard lamp points away from the south side for the first half of its 16 s. The walker waits behind a screen
-// while it comes by, and sees its own shadow vanish in the screen's.
+// The guard lamp points away from the south side for the first half of its 16 s. The walker stands behind a screen
+// while the lamp comes by, and its shadow vanishes in the screen's.
 constexpr std::array kLegs{Leg{0.0, {-4.0, 9.7}}, Leg{1.7, {-1.4, 9.75}}, Leg{2.8, {0.3, 8.7}}, Leg{15.0, {2.4, 9.7}},
                            Leg{16.0, {10.4, 9.5}}};
 constexpr double kNear_m = 0.1, kMaxTurn_rad = 0.05;

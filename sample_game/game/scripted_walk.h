@@ -3,8 +3,8 @@
 
 namespace gnomon::game {
 
-/// The scripted walk of --demo: from the start of the courtyard behind its screens to the gate.
-/// A function of the state alone, so that the same level gives the same walk.
+/// Returns the next input of the scripted walk of --demo: from the start of the courtyard, behind its screens, to the
+/// gate. It depends on the state alone, so that the same level gives the same walk.
 GameInput demo_input(const GameState& state);
 
 }  // namespace gnomon::game

@@ -9,12 +9,12 @@ namespace gnomon::game {
 /// The game among the entities: its state moves the player's body, the camera behind it, the sun and all that moves.
 class GameSession {
 public:
-    /// `scene`: spawned from the scene that `level` was made of. Makes its camera the only active one.
+    /// Takes over `scene`, spawned from the scene that `level` was made of. Makes its camera the only active one.
     GameSession(Level level, const SpawnedScene& scene, ecs::Registry& registry);
 
-    /// Plays `dt_s` more in whole steps; what is left over waits for the next call, as do presses and turns.
+    /// Plays `dt_s` more in whole steps. The remainder is added to the next call, as are presses and turns.
     void advance(double dt_s, const GameInput& input);
-    /// The same by the script of --demo.
+    /// Does the same by the script of --demo.
     void advance_demo(double dt_s);
     /// Plays the script from where the game is until `time_s` or the end of the game.
     void play_demo_until(double time_s);
@@ -40,8 +40,7 @@ private:
     double applied_time_s_ = -1.0;
 };
 
-/// What keys and mouse ask for since the last poll.
-/// `look`: whether the mouse turns the head.
+/// Translates keys and mouse since the last poll. `look`: the mouse turns the head.
 GameInput to_game_input(const platform::Input& input, bool look);
 
 }  // namespace gnomon::game

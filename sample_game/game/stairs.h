@@ -6,8 +6,9 @@
 
 namespace gnomon::game {
 
-/// One solid per tread of a flight of stairs, lowest first: each box stands at the bottom of `mesh` and ends at a
-/// height at which the mesh has faces that look straight up, over the rectangle around these. Empty if there are none.
+/// Returns a box per tread of a flight of stairs, lowest first; empty if the mesh has none. A tread is made of the
+/// faces at one height that look straight up. Its box fills the rectangle around them, from the bottom of `mesh` to
+/// there.
 std::vector<Solid> treads_of(const assets::Mesh& mesh, std::size_t node);
 
 }  // namespace gnomon::game

@@ -21,7 +21,8 @@ bool is_meant(const NamedEntity& light, const ContractState& state) {
     return state.light.empty() || light.name == state.light;
 }
 
-/// What the lights that are meant have in common, 0 if none says it; empty: they differ, or there is none.
+/// Returns the max_error_px that all chosen lights share; 0: none has a target. Empty: they differ, or there is no
+/// light.
 std::optional<float> common_px(const GameWorld& world, const ContractState& state) {
     std::optional<float> common;
     for (const NamedEntity& light : world.scene.lights) {
@@ -33,14 +34,14 @@ std::optional<float> common_px(const GameWorld& world, const ContractState& stat
     return common;
 }
 
-/// Changes the settings of every light that is meant.
+/// Changes the settings of every chosen light.
 template <class Change>
 void change(GameWorld& world, const ContractState& state, const Change& changed) {
     for (const NamedEntity& light : world.scene.lights)
         if (is_meant(light, state)) change_settings(world.registry, light.entity, changed);
 }
 
-/// Whether the size of any map that is meant was given, so that it does not follow max_error_px.
+/// Returns whether a chosen light has a map size of its own, so that it does not follow max_error_px.
 bool is_given(const GameWorld& world, const ContractState& state) {
     for (const NamedEntity& light : world.scene.lights) {
         const LightShadow* shadow = world.registry.get<LightShadow>(light.entity);
@@ -137,7 +138,7 @@ void draw_points(const std::vector<ContractPoint>& points, std::optional<float> 
     ImGui::EndTable();
 }
 
-/// Time upward, max_error_px to the right, both as far as the slider goes.
+/// Draws time upward over max_error_px to the right, as far as the slider goes.
 void draw_curve(const std::vector<ContractPoint>& points, std::optional<float> now) {
     float most = 0.0f;
     for (const ContractPoint& point : points)

@@ -11,7 +11,7 @@ namespace gnomon::game {
 namespace {
 
 constexpr double kBytesPerMiB = 1024.0 * 1024.0;
-// Where the sliders end: what the largest of today's devices hold, and more than any frame should take.
+// Ends of the sliders: the memory of today's largest devices, and more time than any frame should take.
 constexpr float kMost_MiB = 4096.0f, kMost_ms = 100.0f;
 constexpr float kWidth_px = 240.0f;
 
@@ -33,7 +33,7 @@ std::string from_to(std::uint64_t wanted, std::uint64_t given) {
     return wanted == given ? std::to_string(given) : std::to_string(wanted) + " > " + std::to_string(given);
 }
 
-/// What each light asked for and what it was left, and the reason that it gives.
+/// Draws a table of lights: what each requested, what the budget left it, and the reason.
 void draw_grants(const FrameReport& report) {
     constexpr const char* kColumns[] = {"light", "state", "reason", "px",         "views",
                                         "KiB",   "us",    "taps",   "drawn 1 in", "harm %"};

@@ -31,7 +31,7 @@ class Words {
 public:
     void add(const std::string& line, ImU32 colour = kInk) { lines_.push_back({line, colour}); }
 
-    /// Where the box ends below.
+    /// Draws the box, `more_px` higher than its lines. Returns the place below the last line.
     ImVec2 draw(glm::vec2 size_px, float more_px) const {
         float width = 0.0f;
         for (const Line& line : lines_) width = std::max(width, ImGui::CalcTextSize(line.text.c_str()).x);
@@ -56,7 +56,7 @@ private:
     std::vector<Line> lines_;
 };
 
-/// Whether it has less than it asks for: then the reason belongs beside the errors.
+/// Returns whether the light has less than it requested, so that the reason belongs beside its errors.
 bool has_less(const LightReport& light) {
     return light.state == LightState::degraded || light.state == LightState::skipped;
 }

@@ -10,14 +10,14 @@ namespace gnomon::game {
 /// The errors of a frozen frame, over its picture.
 class ErrorLayer {
 public:
-    /// `device` must outlive it.
+    /// Draws through `device`, which must outlive the layer.
     explicit ErrorLayer(gl::Device& device) : device_(device) {}
     ~ErrorLayer() { device_.destroy(image_); }
     ErrorLayer(const ErrorLayer&) = delete;
     ErrorLayer& operator=(const ErrorLayer&) = delete;
 
-    /// Into ImGui's background: tints, figures and what the colours mean, or how far the trace is. Nothing of a frame
-    /// that is not frozen, whose memory is given back.
+    /// Draws tints, figures and the meaning of the colours into ImGui's background, or the progress of the trace. Draws
+    /// nothing and frees its memory if the frame is not frozen.
     void draw(const FrozenFrame& frozen, const FrameReport& report, glm::vec2 size_px);
 
 private:

@@ -19,31 +19,31 @@
 
 namespace gnomon::game {
 
-/// Of whose max_error_px the panel speaks, and what was measured of it so far.
+/// Light with the max_error_px that the panel shows, and its measured cost so far.
 struct ContractState {
-    std::string light;                            // empty: of all
-    std::map<std::string, ContractCurve> curves;  // by such a light
+    std::string light;                            // empty: all lights
+    std::map<std::string, ContractCurve> curves;  // by the light's name, empty for all
 };
 
-/// What the panel shows and switches; whoever runs the frame acts on it.
+/// State and switches of the panel. The caller that runs the frame applies them.
 struct PanelState {
     bool shown = false;
     bool shadows = true;               // for FrameSettings
-    bool moving = true;                // to be set before draw()
-    bool toggle_motion = false;        // asked for; whoever acts on it clears it
+    bool moving = true;                // input of draw()
+    bool toggle_motion = false;        // request; the caller applies and clears it
     debug::Request debug = {};         // for FrameSettings
     bool freeze_fits = false;          // for FrameSettings
     shadow::ShadowBudget budget = {};  // for FrameSettings
-    bool toggle_frozen = false;        // asked for; whoever acts on it clears it
-    LightGraph graph = {};             // of the frames in which the panel was shown
+    bool toggle_frozen = false;        // request; the caller applies and clears it
+    LightGraph graph = {};             // history of the frames in which the panel was shown
     ContractState contract = {};
 };
 
-/// What is drawn over the picture: the game's meters and words, those of debug views, errors of a frozen frame, and the
-/// panel of lights (F1).
+/// Overlay of the picture: meters and words of the game, labels of debug views, errors of a frozen frame, and the panel
+/// of lights (F1).
 class Gui {
 public:
-    /// Error: rule "gui.device". `device` must outlive it.
+    /// Creates the overlay. `device` must outlive it. Error: rule "gui.device".
     static Result<std::unique_ptr<Gui>> create(gl::Device& device);
     ~Gui();
     Gui(const Gui&) = delete;
@@ -70,10 +70,10 @@ private:
     gl::CommandList list_;
 };
 
-/// The game's meters and, with `words`, its state in large letters unless it is being played.
+/// Draws the game's meters and, with `words`, its state in large letters unless it is being played.
 void draw_game_overlay(const GameState& state, glm::vec2 size_px, bool words);
 
-/// The words of a debug view, over the picture and under the panel.
+/// Draws the labels of a debug view, over the picture and under the panel.
 void draw_debug_labels(std::span<const debug::Label> labels, glm::vec2 size_px);
 
 /// Shows the same view of the next light, then none; where none is shown, the first light's depth maps.
@@ -82,22 +82,22 @@ void next_debug_light(const GameWorld& world, debug::Request& debug);
 /// Shows the next view of the same light, then none.
 void next_debug_view(const GameWorld& world, debug::Request& debug);
 
-/// Milliseconds of each light beside its predicted error, frame by frame.
+/// Draws the milliseconds of each light beside its predicted error, frame by frame.
 void draw_light_graph(const GameWorld& world, const LightGraph& graph);
 
-/// Presets, max_error_px of one light or of all, and what it was measured to cost, setting by setting.
+/// Draws presets, max_error_px of one light or of all, and its measured cost per setting.
 void draw_contract(GameWorld& world, ContractState& state);
-/// Adds a frame to the curve of the lights that are meant, if they have one max_error_px.
+/// Adds a frame to the curve of the chosen lights, if they share one max_error_px.
 void note_contract(const GameWorld& world, const FrameReport& report, ContractState& state);
 
-/// Sliders of the budget, and what it leaves each light, with the reason.
+/// Draws the sliders of the budget, and what it leaves each light, with the reason.
 void draw_budget(const FrameReport& report, shadow::ShadowBudget& budget);
 
-/// Which debug view of which light and map is shown.
+/// Draws the choice of a debug view, its light and its map.
 void draw_debug_choice(const GameWorld& world, const FrameReport& report, PanelState& state);
 
-/// The panel: switches, the debug view, the report, and for each light that has a LightShadow every row of
-/// setting_groups(). Debug views are shown beside the panel if there is room.
+/// Draws the panel: switches, the debug view, the report, and for each light with a LightShadow every row of
+/// setting_groups(). Shows debug views beside the panel if there is room.
 void draw_light_panel(GameWorld& world, const FrameReport& report, glm::uvec2 size_px, FrozenFrame& frozen,
                       PanelState& state);
 

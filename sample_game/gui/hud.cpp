@@ -12,7 +12,7 @@ namespace {
 constexpr ImU32 kBack = IM_COL32(10, 10, 14, 170), kFrame = IM_COL32(230, 225, 210, 255);
 constexpr ImU32 kLight = IM_COL32(255, 214, 110, 255), kDark = IM_COL32(96, 128, 190, 255);
 constexpr ImU32 kSeen = IM_COL32(225, 60, 40, 255), kWon = IM_COL32(120, 220, 120, 255);
-constexpr float kMargin = 0.02f, kBarWidth = 0.28f, kBarHeight = 0.03f;  // of the picture's height or width
+constexpr float kMargin = 0.02f, kBarWidth = 0.28f, kBarHeight = 0.03f;  // shares of the picture's height or width
 
 struct Bar {
     const char* label;

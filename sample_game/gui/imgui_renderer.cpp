@@ -38,7 +38,7 @@ in vec2 at;
 void main() { colour_out = tint * texture(image, at); }
 )";
 
-/// sRGB as ImGui's colours mean it, 0..255, to linear; the target encodes again. IEC 61966-2-1.
+/// Converts a channel of ImGui's sRGB colours, 0 to 255, to linear (IEC 61966-2-1). The target encodes again.
 float linear(ImU32 colour, unsigned shift) {
     const float encoded = static_cast<float>(colour >> shift & 255u) / 255.0f;
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
@@ -66,7 +66,7 @@ gl::TextureHandle texture_of(ImTextureID image) {
     return {static_cast<decltype(gl::TextureHandle::id)>(id_cast<std::uintptr_t>(image))};
 }
 
-/// ImGui's clip rectangle, y down, as a scissor, y up. Without width or height: nothing to draw.
+/// Converts ImGui's clip rectangle, y down, to a scissor, y up. Without width or height: nothing to draw.
 gl::Rect scissor(const ImVec4& clip, glm::uvec2 size_px) {
     const auto within = [](float value, std::uint32_t most) {
         return static_cast<std::int32_t>(std::clamp(value, 0.0f, static_cast<float>(most)));

@@ -10,7 +10,7 @@
 
 namespace gnomon::game {
 
-/// What ImGui's images are named by: textures of the device, of rgba8 or srgb8_a8.
+/// Returns ImGui's name for a texture of the device, rgba8 or srgb8_a8.
 ImTextureID image_of(gl::TextureHandle texture);
 
 /// Draws Dear ImGui's lists through the device, so that panels look alike in a window, without one and in screenshots.

@@ -7,10 +7,10 @@
 
 #include "systems/report.h"
 
-/// What each light's shadow took, and how far off it may be, over the last frames.
+/// Time and predicted error of each light's shadow over the last frames.
 namespace gnomon::game {
 
-/// One frame of one light; no error: it has no shadow. No GPU time: it was not measured in that frame.
+/// One frame of one light. No error: it has no shadow. No GPU time: it was not measured in that frame.
 struct LightSample {
     std::optional<float> gpu_ms = {}, error_px = {};
     float cpu_ms = 0.0f;
@@ -26,13 +26,13 @@ public:
 
     const std::string& name() const { return name_; }
     std::size_t size() const { return count_ < kFrames ? count_ : kFrames; }
-    /// 0 is the oldest that is kept.
+    /// Returns a kept sample; 0 is the oldest.
     const LightSample& operator[](std::size_t i) const {
         return samples_[count_ < kFrames ? i : (count_ + i) % kFrames];
     }
     const LightSample& latest() const { return (*this)[size() - 1]; }
 
-    /// Of the samples that are kept.
+    /// Returns the median GPU time of the kept samples; empty: none has one.
     std::optional<float> median_gpu_ms() const;
 
 private:
@@ -43,11 +43,11 @@ private:
 
 class LightGraph {
 public:
-    /// A line per light of the report; those of lights that are gone end.
+    /// Adds a sample to the line of each light of the report. Drops the lines of other lights.
     void add(const FrameReport& report);
     void clear() { lines_.clear(); }
     const std::vector<LightLine>& lines() const { return lines_; }
-    /// Largest of all values that are kept; 0: there is none.
+    /// Returns the largest kept time, as most_error_px() does the largest error. 0: there is none.
     float most_ms() const;
     float most_error_px() const;
 
@@ -55,7 +55,7 @@ private:
     std::vector<LightLine> lines_;
 };
 
-/// The middle one, of an even number the lower; empty of none.
+/// Returns the median: the middle value, or the lower one of the two in the middle. Empty: there is no value.
 std::optional<float> median(std::vector<float> values);
 
 }  // namespace gnomon::game

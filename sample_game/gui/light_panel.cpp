@@ -14,7 +14,7 @@
 namespace gnomon::game {
 namespace {
 
-/// What was chosen for `setting`, as a text for its `set`; empty if nothing was touched.
+/// Draws the editor of `setting`. Returns the new value as a text for its `set`; empty: unchanged.
 std::string edited(const LightSetting& setting, const LightSettings& settings) {
     std::string now = setting.get(settings);
     switch (setting.editor) {
@@ -85,7 +85,7 @@ void time_cell(const std::optional<double>& time_us) {
         ImGui::TextUnformatted("-");
 }
 
-/// What a light, or one of its views, was given and what that saved.
+/// Adds the cells of a light or view: its state, the reason, and what that saved.
 void why_cells(LightState state, Reason reason, const Why& why) {
     for (const char* words : {to_text(state), reason_code(reason)}) {
         ImGui::TableNextColumn();
@@ -98,7 +98,7 @@ void why_cells(LightState state, Reason reason, const Why& why) {
     time_cell(why.saved_us);
 }
 
-/// What was kept of the light's visibility, as a row of its own.
+/// Adds a row for the light's cached visibility.
 void kept_row(const LightReport& light) {
     Why why;
     why.saved_us = light.kept.saved_us;
@@ -108,7 +108,7 @@ void kept_row(const LightReport& light) {
     why_cells(light.kept.reason == Reason::none ? LightState::rendered : LightState::reused, light.kept.reason, why);
 }
 
-/// A row per light, and below it, opened up, one per view, and one for what its pixels see.
+/// Draws a row per light. Opened up, it shows a row per view and one for cached visibility.
 void draw_why(const FrameReport& report) {
     constexpr std::array kColumns{"view", "state", "reason", "receivers", "casters", "KiB saved", "us saved"};
     const auto flags = ImGuiTableFlags_Borders | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
@@ -135,7 +135,7 @@ void draw_why(const FrameReport& report) {
     ImGui::EndTable();
 }
 
-/// Its name, and why it is not the one that was to be expected.
+/// Returns the filter's name and, if another was expected, the reason.
 std::string filter_words(const FilterReport& filter) {
     if (filter.filter == ShadowFilter::automatic) return "-";
     const std::string name(shadow::filter_row(filter.filter).name);
@@ -174,7 +174,7 @@ void draw_report(const FrameReport& report) {
     ImGui::EndTable();
 }
 
-/// Freezes the frame, and chooses whose errors are shown.
+/// Draws the switch that freezes the frame, and the choice of the light with the errors to show.
 void draw_frozen_choice(FrozenFrame& frozen, PanelState& state) {
     bool on = frozen.on();
     if (ImGui::Checkbox("freeze and trace the truth (F5)", &on)) state.toggle_frozen = true;
@@ -192,7 +192,8 @@ void draw_frozen_choice(FrozenFrame& frozen, PanelState& state) {
     ImGui::PopItemWidth();
 }
 
-/// The picture to the right of the current window; all of it if less than a third remains.
+/// Returns the picture's part to the right of the current window. Empty, which stands for all of it, if less than a
+/// third remains.
 gl::Rect beside_panel(glm::uvec2 size_px) {
     const auto right_px = static_cast<std::int32_t>(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x);
     const glm::ivec2 size(size_px);

@@ -8,10 +8,11 @@ namespace gnomon::game {
 /// A small field with lines in it, where the cursor of the current window stands.
 class Plot {
 public:
-    /// Values of 0 to `most` fill its height.
+    /// Creates a plot with values of 0 to `most` over its height.
     Plot(ImVec2 size_px, float most);
 
-    /// A line over the whole width of `count` values; none where `value_of(i)` is empty: lines then have gaps.
+    /// Draws a line of `count` values, which ends at the right; the width has room for `room`. An empty `value_of(i)`
+    /// leaves a gap.
     template <class ValueOf>
     void line(std::size_t count, std::size_t room, ImU32 colour, const ValueOf& value_of) {
         std::optional<ImVec2> last;
@@ -29,10 +30,10 @@ public:
             last = now;
         }
     }
-    /// A level line.
+    /// Draws a level line.
     void level(float value, ImU32 colour);
     void dot(float share_x, float value, ImU32 colour);
-    /// Words in its upper left corner.
+    /// Writes words in its upper left corner.
     void label(const char* text);
 
 private:

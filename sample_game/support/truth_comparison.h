@@ -16,16 +16,16 @@ namespace gnomon::game {
 /// A shadowed light of a frozen frame.
 struct JudgedLight {
     std::string name;
-    std::uint32_t index = 0;                // of the snapshot's lights
+    std::uint32_t index = 0;                // index into the snapshot's lights
     std::vector<float> measured = {};       // its visibility, as it is drawn now; empty: not yet read, or unreadable
-    std::optional<truth::Metrics> metrics;  // of that; empty: not yet
-    bool stale = true;                      // to be read anew
+    std::optional<truth::Metrics> metrics;  // accuracy of `measured`; empty: not yet judged
+    bool stale = true;                      // its visibility has to be read again
 };
 
-/// A frame that stands still while the truth about it is traced, and what its shadows are off from that.
+/// Frame that stands still while its ray-traced truth is computed, with the errors of its shadows.
 ///
-/// While it is frozen neither camera, lights nor casters may move; whoever runs the frame sees to that. How shadows are
-/// drawn may change: then errors are taken anew, a light a frame, against the same truth.
+/// While it is frozen the caller moves neither camera, lights nor casters. Settings of shadows may change: errors are
+/// then computed again, for one light per frame, against the same truth.
 class FrozenFrame {
 public:
     enum class State : std::uint8_t { off, tracing, shown };
@@ -33,24 +33,25 @@ public:
     /// Begins with the frame that was run last, on `threads` threads beside this one.
     void freeze(const Frame& frame, const assets::MeshLibrary& library, unsigned threads);
     void thaw();
-    /// To be called after each frame. Never waits for the trace; takes what is finished and judges one light at most.
-    /// Ends where the picture's size, or whose shadows fall on whom, has changed.
+    /// Judges one light at most, once the trace is finished; never blocks on it. Call after each frame. Ends the freeze
+    /// if the picture's size or the layers of a light's shadow have changed.
     void update(Frame& frame);
-    /// Waits until all that can be judged is.
+    /// Blocks until the trace is complete and every light is judged, or its visibility proves unreadable.
     void finish(Frame& frame);
 
     State state() const { return state_; }
     bool on() const { return state_ != State::off; }
-    double share() const { return trace_ ? trace_->share() : 0.0; }  // of the trace
+    double share() const { return trace_ ? trace_->share() : 0.0; }  // finished share of the trace
     bool judged() const;                                             // every light of the frame that stands now
 
     const std::vector<JudgedLight>& lights() const { return lights_; }
-    /// Which light's errors are shown; empty: of each pixel the worst.
+    /// Returns the light with the errors that are shown; empty: each pixel's worst.
     std::optional<std::size_t> chosen() const { return chosen_; }
     void choose(std::optional<std::size_t> light);
     void choose_next();  // the worst, then one light after the other
 
-    /// tint_errors() of what is chosen, of size_px(); empty until a light was judged. `version` grows when it changed.
+    /// Returns tint_errors() of the chosen light, size_px() large; empty until a light was judged. version() grows with
+    /// each change.
     const std::vector<std::uint8_t>& tints() const { return tints_; }
     std::uint64_t version() const { return version_; }
     glm::uvec2 size_px() const { return size_px_; }
@@ -63,14 +64,14 @@ private:
     std::unique_ptr<truth::BackgroundTrace> trace_;
     glm::uvec2 size_px_{0, 0};
     std::vector<JudgedLight> lights_;
-    std::vector<ShadowLayers> layers_;  // of the lights, when it was frozen
+    std::vector<ShadowLayers> layers_;  // layers of the lights when it was frozen
     std::optional<std::size_t> chosen_;
     std::size_t last_judged_ = 0;
     std::vector<std::uint8_t> tints_;
     std::uint64_t version_ = 0;
 };
 
-/// Key "truth" of the stats: docs/stats.md.
+/// Returns the value of key "truth" of the stats (docs/stats.md).
 nlohmann::ordered_json truth_stats(const FrozenFrame& frozen);
 
 }  // namespace gnomon::game

@@ -9,10 +9,10 @@ const int kAmbientBlock = 3;
 const int kExposureBlock = 4;
 const int kShownScaleBlock = 5;
 const int kKeptBlock = 6;
-const int kDepthViewBlock = 0;    // of passes that draw maps, which have no camera; so are the next two
+const int kDepthViewBlock = 0;    // passes that draw maps: they and the next two passes have no camera
 const int kPrefilterBlock = 0;
 const int kPyramidBlock = 0;
-const int kFlatViewBlock = 0;     // of debug views of maps
+const int kFlatViewBlock = 0;     // debug views of maps
 
 // Storage buffers.
 const int kExposureBuffer = 0;
@@ -38,15 +38,15 @@ const int kSurfacePlaceUnit = 6;
 
 // Texture units of a light.
 const int kShadowMapUnit = 4;
-const int kShownTriangleUnit = 5;    // of each texel of the map
-const int kSecondDepthUnit = 7;      // behind the map's, of other triangles
+const int kShownTriangleUnit = 5;    // triangle that each texel of the map shows
+const int kSecondDepthUnit = 7;      // depths behind those of the map, from other triangles
 const int kBoundsUnit = 8;           // nearest contour and departure of each texel of the map
 const int kCasterTriangleUnit = 9;
 const int kRayNodeUnit = 10;
 const int kRayTriangleUnit = 11;
 const int kRayTopUnit = 12;
 const int kRayInstanceUnit = 13;
-const int kVerdictUnit = 5;          // of pixels, found before the light is added
+const int kVerdictUnit = 5;          // verdict per pixel, found before the light is added
 const int kAnswerUnit = 7;
 const int kKeptVisibilityUnit = 4;
 

@@ -1,4 +1,4 @@
-// Triangle that covers the viewport.
+// Draws one triangle that covers the viewport. It takes three vertices and no buffer.
 void main() {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(corner, 0.0, 1.0);

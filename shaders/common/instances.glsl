@@ -3,8 +3,9 @@ struct InstanceRecord {
     vec4 basis_x;   // xyz: image of the model's x axis; w: high part of the translation's x
     vec4 basis_y;
     vec4 basis_z;
-    vec4 low;       // xyz: low part of the translation; w: a bit per layer with shadows that fall on it, and times 256
-                    // a bit per layer in which it casts
+    vec4 low;       // xyz: low part of the translation.
+                    // w: bits of the layers with shadows that fall on it, plus 256 times those of the layers in which
+                    // it casts. received_layers() and cast_layers() take them apart.
 };
 #include "common/instance_buffer.glsl"
 

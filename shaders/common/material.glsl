@@ -11,7 +11,7 @@ layout(std140, binding = kMaterialBlock) uniform MaterialBlock {
 layout(binding = kBaseColourUnit) uniform sampler2D base_colour_texture;
 
 #ifdef COLOURED
-layout(location = kColourVarying) in vec4 fragment_colour;   // of the vertices, between them
+layout(location = kColourVarying) in vec4 fragment_colour;   // vertex colours, interpolated
 #else
 const vec4 fragment_colour = vec4(1.0);
 #endif

@@ -1,5 +1,5 @@
-// Unit vectors in two numbers of [-1, 1] (Cigolle et al., "Survey of Efficient Representations for Independent Unit
-// Vectors", JCGT 2014).
+// Returns a unit vector as two numbers of [-1, 1] (Cigolle et al., "Survey of Efficient Representations for Independent
+// Unit Vectors", JCGT 2014). unit_from_octahedral() returns the vector.
 vec2 octahedral_from_unit(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     vec2 sign_not_zero = vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);

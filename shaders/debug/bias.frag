@@ -1,6 +1,6 @@
 // Distance by which the bias moves the receiver before it is compared, on the scale of colours.
 #include "debug/lookup.glsl"
-const float kStrength = 0.9;   // of what is shown; the rest is the picture
+const float kStrength = 0.9;   // opacity of the colour over the picture
 vec4 seen = vec4(0.0);
 
 void show_lookup(ShadowPoint point, vec3 normal, float share) {

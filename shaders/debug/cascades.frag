@@ -1,7 +1,7 @@
-// Tint of what each map of a light serves; where one fades into the next, by their shares. What no map serves stays as
-// it is.
+// Tint of the places that each map of a light serves. Where one map fades into the next, the tints mix by their shares.
+// Places that no map serves keep their colour.
 #include "debug/lookup.glsl"
-const float kTint = 0.4;   // of what is shown; the rest is the picture
+const float kTint = 0.4;   // opacity of the colour over the picture
 vec4 tint = vec4(0.0);
 
 void show_lookup(ShadowPoint point, vec3 normal, float share) {

@@ -1,7 +1,7 @@
 // Width by which the filter blurs the edge of a shadow, across the light at the receiver, on the scale of colours. A
-// filter of varying width tells what it found; where it found nothing to blur, nothing is shown.
+// filter of varying width shows the width that it found. Where it found nothing to blur, nothing is shown.
 #include "debug/lookup.glsl"
-const float kStrength = 0.9;   // of what is shown; the rest is the picture
+const float kStrength = 0.9;   // opacity of the colour over the picture
 vec4 seen = vec4(0.0);
 
 void show_lookup(ShadowPoint point, vec3 normal, float share) {

@@ -1,8 +1,8 @@
 // Texels that serve a pixel, as a chequerboard over the picture, in the map's colour. Where they are too small on
-// screen to be told apart, their mean.
+// screen to be distinguished, their mean is shown.
 #include "debug/lookup.glsl"
-const float kStrength = 0.5;                              // of what is shown; the rest is the picture
-const float kPlain_texel = 0.5, kClear_texel = 0.25;      // per pixel: nothing is told apart, everything is
+const float kStrength = 0.5;                              // opacity of the colour over the picture
+const float kPlain_texel = 0.5, kClear_texel = 0.25;      // texels per pixel: the mean alone, the full contrast
 const float kDark = 0.25;
 int layer = -1;
 vec2 place = vec2(0.0);   // texels

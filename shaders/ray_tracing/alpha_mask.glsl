@@ -1,6 +1,6 @@
-// Whether a masked material is there at a point of a triangle, at its texture's finest level, as the depth passes have
-// it. It is the float twin of engine/rays/alpha_mask.cpp. Textures of many materials lie in one buffer: their alpha, a
-// byte each. C++ twin: RayMask in systems/extract/ray_masks.h.
+// Test of a masked material at a point of a triangle: does its mask leave the surface there? It reads the texture's
+// finest level, as the depth passes do. Float twin of engine/rays/alpha_mask.cpp. One buffer contains the alpha of all
+// textures, a byte per texel. C++ twin: RayMask in systems/extract/ray_masks.h.
 #include "common/bindings.glsl"
 layout(std430, binding = kMaskBuffer) readonly buffer RayMaskBuffer { uint ray_masks[]; };
 
@@ -74,9 +74,9 @@ float mask_area_texel2(RayMask mask, uint uvs) {
     return abs(ab.x * ac.y - ab.y * ac.x);
 }
 
-// Returns whether what the mask leaves of a triangle is on average as wide as the map's texels. If it is not, it lies
-// between texels as often as under them, and a test of the triangles that these show would lose it. What the nearest
-// texel tells has the right share of it. `area_m2`: twice the triangle's area across the ray.
+// Returns whether the parts that the mask leaves of a triangle are on average at least as wide as the map's texels.
+// Narrower parts lie between texels' middles as often as under them. A test of the triangles that texels show would
+// miss them, but the nearest texel's depth covers the right share. `area_m2`: twice the triangle's area across the ray.
 bool is_resolved(uint at, uint uvs, float area_m2, float texel_m2) {
     RayMask mask = ray_mask(at);
     return mask.texels == kNoMaskTexture || mask_area_texel2(mask, uvs) * texel_m2 <= mask.chord_texel * mask.chord_texel * area_m2;

@@ -13,11 +13,11 @@ struct RayNode {
 };
 struct RayTriangle {
     vec3 a;
-    uint triangle;   // of the common index buffer
+    uint triangle;   // its number in the common index buffer
     vec3 b;
     uint mask;       // see ray_tracing/alpha_mask.glsl; kOpaque: there is none
     vec3 c;
-    uint uvs;        // its texture coordinates there
+    uint uvs;        // place of its texture coordinates among the masks
 };
 // Slot of the upper tree: an instance, or part of a large one's mesh.
 struct RayInstance {
@@ -26,11 +26,11 @@ struct RayInstance {
     vec3 to_model_y;
     uint end_node;        // end of the nodes to be walked, from the mesh's first on
     vec3 to_model_z;
-    uint first_slot;      // of its mesh's triangles
+    uint first_slot;      // first slot of its mesh's triangles
     float slack_per_m;    // by which boxes of its mesh are widened, per metre of what is rounded
     float reach_m;        // how far its corners lie from its own origin, along any axis, metres
-    uint instance;        // of `instances`
-    uint layers;          // of light that it darkens
+    uint instance;        // index into `instances`
+    uint layers;          // bits of the light layers that it darkens
     uint begin_node;      // first of those nodes
 };
 // Head of the upper tree: its anchor and size.

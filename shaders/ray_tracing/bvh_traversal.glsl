@@ -1,9 +1,9 @@
-// Whether anything that casts stands in a ray's way: the walk through both trees. Requires CameraBlock. RAY_MASKS names
-// the file that reads the casters' masks.
-// Floats lead, and decide wherever they are sure. The few triangles that they are not sure of are noted and decided in
+// Search for any caster in a shadow ray's way, through the tree of instances and those of their meshes. Requires
+// CameraBlock. RAY_MASKS names the file that reads the casters' masks.
+// Floats decide wherever their error bound allows it. The few triangles that they leave open are noted, and decided in
 // double at the end.
-// A loop inside another finds the next leaf, before what is in it is tested. Neighbouring pixels, which go in step,
-// then do the same at the same time. Software devices run every branch of the innermost loop for all.
+// The inner loop finds the next leaf before any triangle in it is tested. Neighbouring pixels run in step, and so do
+// the same work at the same time. Software devices run every branch of the innermost loop for all pixels.
 #include "common/camera_block.glsl"
 #include "common/instances_f64.glsl"
 #include "ray_tracing/bvh_buffers.glsl"
@@ -19,7 +19,7 @@ struct ShadowRay {
     float reach;     // from there on nothing is known to stand in its way: boxes beyond are not walked
     float error_m;   // how far its beginning may be off the receiver's surface, metres
     uvec2 receiver;  // instance and triangle of that surface; kNoReceiver: not known
-    uint layers;     // of the light
+    uint layers;     // bits of the light's layers
 };
 // Distance that a place may be off its triangle's plane, in reaches of its instance. The normal is right to 2^-35 along
 // each axis (lighting/gbuffer/surface_position_f64.glsl). A place may lie as far from its corner as twice the reach
@@ -111,7 +111,7 @@ bool ray_blocked(ShadowRay exact) {
     precise vec3 from_top = ray.from_ca + ((camera.anchor_high.xyz - head.anchor_high) + (camera.anchor_low.xyz - head.anchor_low));
     float rounded_m = largest_side(from_top) + largest_side(ray.from_ca) + head.reach_m;
     BoxRay boxes = box_ray(from_top, ray.along, kBoxUnits * kUnitRoundoff * rounded_m);
-    uint top = 0u, n = 0u, leaf = 0u;   // of the upper tree; node of the mesh in it, and its leaf
+    uint top = 0u, n = 0u, leaf = 0u;   // node of the upper tree; node of the mesh; leaf of the upper tree, 0: none yet
     bool blocked = false, through = false;
     while (!blocked && !through) {
         unsure_count = 0;

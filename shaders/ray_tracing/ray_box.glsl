@@ -1,8 +1,10 @@
-// Whether a ray meets boxes. It may count as met where it is not, never the other way round.
+// Conservative test of a ray against boxes: a box that is missed may count as met, never the other way round.
 
-// Rounding on the way, in units of 2^-24 of the largest coordinate:
-// where the ray begins (4); its direction over the way there (4); each slab's distance (3, on up to three times that
-// coordinate); the least direction below (2).
+// Bound on rounding, units of 2^-24 of the largest coordinate. It covers the sum of
+// - where the ray begins: 4;
+// - the ray's direction, over the distance to the box: 4;
+// - each slab's distance: 3, on up to three times that coordinate;
+// - kLeastAlong below: 2.
 const float kBoxUnits = 32.0;
 // Least component of the direction, as a share of the largest. A smaller one moves no point of the way by more than the
 // slack holds, and its inverse is finite.
@@ -11,8 +13,8 @@ const float kLeastAlong = 5.9604645e-8;   // 2^-24
 const float kNoEnd = 3.0e38;   // from here on a ray's last t stands for no end
 
 struct BoxRay {
-    vec3 from_low, from_high;   // where it begins, seen from boxes that are widened
-    vec3 inverse;               // of its direction
+    vec3 from_low, from_high;   // the ray's beginning, moved by the slack: widens every box
+    vec3 inverse;               // 1 / direction, per component
 };
 
 BoxRay box_ray(vec3 from, vec3 along, float slack) {

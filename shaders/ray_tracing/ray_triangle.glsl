@@ -4,10 +4,12 @@
 
 const int kMisses = 0, kMeets = 1, kUnsure = 2;
 
-// Rounding of a corner in the ray's frame, in units of 2^-24:
-// the frame's axes (4); their product with the instance's basis (3); its product with the corner and their sum (4).
-// Each counts times the square root of three, as rows of three are summed.
-// Added to these: its origin, less (2 for itself, 7); the last sum.
+// Bound on the rounding of a corner in the ray's frame, units of 2^-24. Each part counts times the square root of
+// three, as rows of three are summed. The instance's origin needs less (2 for itself, 7). The last sum comes on top.
+// Parts:
+// - the frame's axes: 4;
+// - their product with the instance's basis: 3;
+// - its product with the corner, and their sum: 4.
 const float kPlaceUnits = 24.0;
 // Rounding of a product of two coordinates and a difference of two such; of a sum of three of these times a third
 // coordinate.

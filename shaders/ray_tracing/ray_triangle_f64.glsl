@@ -1,8 +1,8 @@
-// Whether a ray meets a triangle, in double, with corners relative to where the ray begins: the twin of
+// Test of a ray against a triangle in double, with corners relative to where the ray begins. Twin of
 // engine/rays/exact_triangle.h.
 struct ExactHit {
     bool met;
-    vec3 weights;   // of the corners
+    vec3 weights;   // barycentric weights of the corners a, b, c
 };
 
 // Returns the side of an edge on which the ray passes. It is antisymmetric in p and q to the last bit: no ray slips

@@ -70,7 +70,7 @@ public:
     /// update().
     bool wants_sampled_depths(const SceneSnapshot& scene) const;
 
-    /// Sets who watches the stages, for tests and tools. Empty: nobody.
+    /// Sets the function that is called after each stage, for tests and tools. Empty: none.
     void watch_stages(StageWatch watch) { watch_ = std::move(watch); }
 
     const visibility::RayScene& rays() const { return rays_; }

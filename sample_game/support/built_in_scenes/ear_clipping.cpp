@@ -6,7 +6,7 @@
 namespace gnomon::game {
 namespace {
 
-/// Twice the signed area; > 0 when counter-clockwise.
+/// Returns twice the signed area; above 0: counter-clockwise.
 double area2(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }

@@ -15,7 +15,7 @@ std::uint32_t GlbBuilder::add_floats(std::span<const float> numbers, std::size_t
                      {"componentType", kFloat},
                      {"count", numbers.size() / width},
                      {"type", type}};
-    // glTF asks for the range of key times.
+    // glTF requires the range of key times.
     if (width == 1) {
         accessor["min"] = {numbers.front()};
         accessor["max"] = {numbers.back()};

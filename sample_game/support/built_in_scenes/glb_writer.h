@@ -17,14 +17,14 @@ namespace gnomon::game {
 struct MaterialSpec {
     std::string name;
     glm::vec4 base_colour{1.0f};                // linear
-    std::optional<std::uint32_t> texture = {};  // of add_texture()
+    std::optional<std::uint32_t> texture = {};  // result of add_texture(); empty: none
     float metallic = 0.0f, roughness = 0.8f;
     glm::vec3 emissive{0.0f};
     std::optional<float> alpha_cutoff = {};  // set: alpha mask
     bool double_sided = false;
 };
 
-/// Which joints of its skin a vertex follows: one, and partly another.
+/// Joints of its skin that a vertex follows: one, and partly another.
 struct JointShare {
     std::uint8_t joint = 0, other = 0;
     float of_other = 0.0f;
@@ -43,17 +43,17 @@ struct JointSpec {
     glm::dvec3 rest_m{0.0};
 };
 
-/// What moves a node: "translation" or "rotation" (x, y, z, w), a value per key, linear in between.
+/// Motion of a node: "translation" or "rotation" (x, y, z, w), a value per key, linear in between.
 struct ChannelSpec {
     std::uint32_t node = 0;
     std::string path;
-    std::uint32_t times = 0;  // of add_times()
+    std::uint32_t times = 0;  // result of add_times()
     std::vector<float> values = {};
 };
 
 struct NodeSpec {
     std::string name;
-    std::optional<std::uint32_t> parent = {};  // of add_node(); none: below the root
+    std::optional<std::uint32_t> parent = {};  // result of add_node(); empty: below the root
     glm::dvec3 translation_m{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     std::optional<std::uint32_t> mesh = {}, light = {}, camera = {};
@@ -81,10 +81,10 @@ public:
     std::uint32_t add_times(std::span<const float> times_s);  // rising
     void add_animation(const std::string& name, std::span<const ChannelSpec> channels);
     std::uint32_t add_node(const NodeSpec& spec);
-    /// Of a node that was added before the skin was.
+    /// Sets the skin of a node that was added before it.
     void set_skin(std::uint32_t node, std::uint32_t skin) { nodes_[node]["skin"] = skin; }
 
-    /// Every node without a parent becomes a child of one root.
+    /// Returns the file. Makes every node without a parent a child of one root.
     std::vector<std::byte> finish(const RootSpec& root);
 
     std::uint64_t triangle_count() const { return triangles_; }  // over all nodes with a mesh

@@ -4,9 +4,9 @@
 
 namespace gnomon::game {
 
-/// The rotation that turns -Z to `forward` (any length) with +Y as close to up as can be. `forward` is not vertical.
+/// Returns the rotation that turns -Z to `forward` (any length, not vertical), with +Y as close to up as can be.
 glm::dquat facing(const glm::dvec3& forward);
-/// About +Y, counter-clockwise seen from above.
+/// Returns a rotation about +Y, counter-clockwise seen from above.
 glm::dquat turned(double degrees);
 
 }  // namespace gnomon::game

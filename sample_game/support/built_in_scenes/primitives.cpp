@@ -21,7 +21,7 @@ std::uint32_t add_vertex(Shape& shape, const glm::dvec3& position, const glm::dv
     return static_cast<std::uint32_t>(shape.positions.size()) - 1u;
 }
 
-/// Corners counter-clockwise seen from the side that `normal` points to.
+/// Adds a quad. Its corners are counter-clockwise, seen from the side that `normal` points to.
 void add_quad(Shape& shape, const std::array<glm::dvec3, 4>& corners, const glm::dvec3& normal,
               const std::array<glm::dvec2, 4>& uvs) {
     const std::uint32_t first = static_cast<std::uint32_t>(shape.positions.size());
@@ -29,7 +29,7 @@ void add_quad(Shape& shape, const std::array<glm::dvec3, 4>& corners, const glm:
     for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) shape.indices.push_back(first + i);
 }
 
-/// Every ring closes on its own first point, so that the seam welds exactly.
+/// Returns point i of a unit circle. Point `count` is the first one to the bit, so that the seam welds exactly.
 glm::dvec2 circle_point(std::uint32_t i, std::uint32_t count) {
     const double angle = kTurn * (i % count) / count;
     return {std::cos(angle), -std::sin(angle)};
@@ -39,7 +39,7 @@ glm::dvec3 turned(const glm::dvec2& radius_height, const glm::dvec2& direction) 
     return {radius_height.x * direction.x, radius_height.y, radius_height.x * direction.y};
 }
 
-/// Outward normal of the outline piece a -> b, in (radius, height).
+/// Returns the outward normal of the outline piece a -> b, in (radius, height).
 glm::dvec2 outline_normal(const glm::dvec2& a, const glm::dvec2& b) {
     return glm::normalize(glm::dvec2(b.y - a.y, a.x - b.x));
 }

@@ -10,8 +10,8 @@ struct Spheres {
     std::uint64_t triangles = 0;  // over all nodes
 };
 
-/// A scene of 60 000 triangles as binary glTF, to measure by: a field of finely cut spheres, sunk into each other and
-/// into the ground, and thin rings standing among them, under a sun alone; camera "main". Same bytes every time.
+/// Makes a scene of 60 000 triangles as binary glTF, for measurements. Finely cut spheres sink into each other and into
+/// the ground; thin rings stand among them. Light: a sun alone. Camera: "main". Same bytes every time.
 Spheres make_spheres();
 
 }  // namespace gnomon::game

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kSize = 128;
 
-/// Integer hash to 0..1 (PCG output permutation); floating-point noise would differ between machines.
+/// Hashes two integers to 0..1 (PCG output permutation). Floating-point noise would differ between machines.
 double noise(std::uint32_t x, std::uint32_t y) {
     std::uint32_t state = (x * 1664525u + y * 22695477u + 1013904223u) * 747796405u + 2891336453u;
     state = (state >> (state >> 28 & 15u) ^ state) * 277803737u;

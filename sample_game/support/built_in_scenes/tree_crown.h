@@ -4,11 +4,11 @@
 namespace gnomon::game {
 
 struct TreeCrown {
-    double radius_m, card_m, height_m;  // of the crown; edge of a card; of the crown's middle above the ground
+    double radius_m, card_m, height_m;  // crown's radius; edge of a card; height of the crown's middle
     int cards;
 };
 
-/// Open: cards of leaves on a Fibonacci sphere, each turned its own way.
+/// Makes cards of leaves on a Fibonacci sphere, each turned its own way; open.
 Shape make_tree_crown(const TreeCrown& crown);
 
 }  // namespace gnomon::game

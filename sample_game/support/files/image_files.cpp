@@ -90,7 +90,7 @@ std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t 
                                std::span<const float> values) {
     if (values.size() != std::size_t{width} * height)
         return Error{.message = "cannot encode the picture", .file = file.string(), .rule = "output.write"};
-    // A negative scale says little-endian.
+    // A negative scale stands for little-endian.
     const std::string header = "Pf\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     std::vector<std::byte> bytes(header.size() + values.size_bytes());
     std::memcpy(bytes.data(), header.data(), header.size());

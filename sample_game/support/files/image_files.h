@@ -9,10 +9,11 @@
 
 namespace gnomon::game {
 
-/// Picture of width x height, 4 bytes per pixel, top row first. Empty if width or height is 0 or the sizes disagree.
+/// Encodes a picture of width x height, 4 bytes per pixel, top row first. Returns nothing if width or height is 0 or
+/// the sizes disagree.
 std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
 
-/// The same as a JPEG, alpha left out; quality 1 to 100.
+/// Encodes the same picture as a JPEG without alpha; quality 1 to 100.
 std::vector<std::uint8_t> encode_jpeg(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
                                       int quality);
 
@@ -20,13 +21,13 @@ std::vector<std::uint8_t> encode_jpeg(std::uint32_t width, std::uint32_t height,
 std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const std::uint8_t> rgba);
 
-/// Greyscale float32 PFM, little-endian. `values` and the file: bottom row first.
+/// Writes a greyscale float32 PFM, little-endian. `values` and the file: bottom row first.
 std::optional<Error> write_pfm(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,
                                std::span<const float> values);
 
 std::optional<Error> write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 
-/// Whether `file` could be written, without changing it: a file that was not there is not there afterwards.
+/// Checks that `file` can be written, without changing it. It leaves no file where there was none.
 std::optional<Error> check_writable(const std::filesystem::path& file);
 
 /// Makes `folder` (and those above it) and checks that a file can be made in it. Error: rule "output.folder".

@@ -14,16 +14,16 @@ namespace gnomon::game {
 struct PlayedChannel {
     ecs::Entity entity;
     assets::AnimationChannel channel;
-    double period_s = 0.0;  // of its animation
+    double period_s = 0.0;  // length of its animation
 };
 
-/// All animations at once, each from its own beginning when it ends, or only number `which`. Where several move the
-/// same property of a node, the first in the file does. `nodes`: one entity per node.
+/// Returns the channels of animation `which`, or of all at once, each from its own beginning when it ends. If several
+/// move the same property of a node, the first in the file does. `nodes`: one entity per node.
 std::vector<PlayedChannel> played_channels(const std::vector<assets::Animation>& animations,
                                            const std::vector<ecs::Entity>& nodes,
                                            std::optional<std::size_t> which = {});
 
-/// The animation called `name_or_index`: by name, else by index. Error: rule "animation.unknown".
+/// Finds an animation by name, else by index. Error: rule "animation.unknown".
 Result<std::size_t> find_animation(const std::vector<assets::Animation>& animations, const std::string& name_or_index);
 
 /// Patches Transform and MorphWeights of each where they differ; others are not touched. Dead entities are passed over.

@@ -23,7 +23,7 @@ struct Hit {
     bool front = false;  // the face is turned toward the ray's origin, or seen from both sides
 };
 
-/// Nearest hit of one ray (Moeller and Trumbore 1997) with `mesh`, in the mesh's own space.
+/// Updates the nearest hit of a ray with `mesh`, in the mesh's own space (Moeller and Trumbore 1997).
 void cast_at_mesh(const assets::Mesh& mesh, const assets::SceneData& scene, const glm::dvec3& origin,
                   const glm::dvec3& direction, Hit& nearest) {
     for (const assets::Submesh& part : mesh.submeshes) {
@@ -56,7 +56,7 @@ public:
             const std::optional<glm::dmat3> basis = drawable_basis(poses_[i].basis);
             if (node.mesh == assets::kNone || !node.visible || !basis) continue;
             const assets::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(node.mesh)];
-            if (mesh.deformer) continue;  // whoever lives in a room is not its walls
+            if (mesh.deformer) continue;  // a figure in a room is none of its walls
             const glm::dmat3 model_from_world = glm::inverse(*basis);
             const glm::dvec3 origin = model_from_world * (origin_ws - poses_[i].translation_ws_m);
             const glm::dvec3 direction = model_from_world * direction_ws;  // not normalised: t stays in metres

@@ -22,7 +22,7 @@ std::vector<WorldTransform> world_poses(const assets::SceneData& scene) {
 
 namespace {
 
-/// In the node's own space; in the world's where joints place the mesh.
+/// Returns a mesh's bounds in its node's own space; in world space where joints place the mesh.
 math::Aabb bounds_at_rest(const assets::SceneData& scene, const assets::Node& node,
                           const std::vector<WorldTransform>& poses) {
     const assets::Mesh& mesh = scene.meshes[static_cast<std::size_t>(node.mesh)];

@@ -8,11 +8,11 @@
 
 namespace gnomon::game {
 
-/// Where each node of `scene` is in the world, at rest. One entry per node.
+/// Returns where each node of `scene` is in the world, at rest. One entry per node.
 std::vector<WorldTransform> world_poses(const assets::SceneData& scene);
 
-/// Box about every placed mesh, bent as its joints and weights say; empty if there is none. Nodes whose box is not
-/// finite are left out.
+/// Returns the box about all placed meshes, bent by their joints and weights; empty if there is none. It leaves out
+/// nodes with a box that is not finite.
 math::Aabb scene_bounds(const assets::SceneData& scene, const std::vector<WorldTransform>& poses);
 
 }  // namespace gnomon::game

@@ -76,7 +76,7 @@ public:
         std::string name = node.name;
         if (node.mesh != assets::kNone) add_mesh(entity, node);
         if (node.camera != assets::kNone) name = add_camera(entity, node);
-        if (node.light != assets::kNone) name = add_light(entity, node);  // a report tells lights apart by their names
+        if (node.light != assets::kNone) name = add_light(entity, node);  // unique, for reports
         registry_.emplace<Name>(entity, {std::move(name)});
         if (!node.motion.kind.empty()) spawned_.moving.push_back({entity, transform, node.motion});
     }
@@ -106,7 +106,7 @@ public:
         spawned_.camera_added = true;
     }
 
-    /// After all nodes: joints may come after what follows them.
+    /// Adds skins after all nodes: a joint may come after the node that follows it.
     void add_skins() {
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             if (scene_.nodes[i].skin == assets::kNone) continue;

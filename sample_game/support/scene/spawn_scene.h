@@ -24,16 +24,15 @@ struct SpawnedScene {
     std::vector<MovingEntity> moving;
     std::vector<assets::Animation> animations;
     std::vector<PlayedChannel> played;  // by default all of them
-    math::Aabb bounds_ws;               // of all meshes at rest; may be empty
+    math::Aabb bounds_ws;               // bounds of all meshes at rest; may be empty
     bool sun_added = false, camera_added = false;
 };
 
-/// Makes one entity per node, with Transform (and parent), Name, and MeshRef, Skin, MorphWeights, ShadowCaster, Light,
-/// LightShadow, Camera as the node says; moves meshes, materials and textures to `library`, which is replaced.
-/// Lights are named by their node, else by their light, else light<index>: see LightNames.
-/// A scene without light gets "sun": 20000 lx from 60 degrees above the horizon, 40 degrees from +x toward -z:
-/// a three-quarter light, aligned with no wall.
-/// A scene without camera gets "framed": see frame_scene().
+/// Makes one entity per node. It has Transform (with its parent) and Name. The node decides on MeshRef, Skin,
+/// MorphWeights, ShadowCaster, Light, LightShadow and Camera. Meshes, materials and textures move to `library`, which
+/// is replaced. Lights are named by their node, else by their light, else light<index>: see LightNames. A scene without
+/// light gets "sun": 20000 lx from 60 degrees above the horizon, 40 degrees from +x toward -z. That is a three-quarter
+/// light, aligned with no wall. A scene without camera gets "framed": see frame_scene().
 SpawnedScene spawn_scene(assets::SceneData scene, ecs::Registry& registry, assets::MeshLibrary& library);
 
 /// Puts everything that the file moves where it is at that time; what does not move is not touched.

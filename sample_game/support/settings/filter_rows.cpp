@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSliderSpread_m = 0.5, kSliderDoubles_m = 100.0, kSliderCell_m = 0.25;
 constexpr int kMostSpread_texel = static_cast<int>(shadow::kMostSpread_texel);
-constexpr int kMostExponent = 84;  // of the table, in 32 bits
+constexpr int kMostExponent = 84;  // largest exponent of the table, with 32 bits per channel
 constexpr int kMostBleedingTenths = static_cast<int>(shadow::kMostMomentBleeding * 10.0f + 0.5f);
 
 using K = ShadowTuning::Kernel;

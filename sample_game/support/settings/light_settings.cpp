@@ -13,7 +13,7 @@ namespace {
 
 Error bad(std::string message, const char* rule) { return {.message = "--set: " + on_one_line(message), .rule = rule}; }
 
-/// With at least one blank after it.
+/// Pads a text to `width`, with at least one blank after it.
 std::string padded(std::string text, std::size_t width) {
     text.resize(std::max(width, text.size() + 1), ' ');
     return text;

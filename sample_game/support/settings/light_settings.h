@@ -12,21 +12,21 @@
 /// The settings of a light's shadow by name: one row per key, for --set, --list and anything else that edits them.
 namespace gnomon::game {
 
-/// What is set of one light, in the components that hold it.
+/// All settings of one light, from its components.
 struct LightSettings {
-    float source_radius_m = 0.0f, sun_radius_rad = 0.0f;  // of Light
+    float source_radius_m = 0.0f, sun_radius_rad = 0.0f;  // fields of Light
     LightShadow shadow = {};
     ShadowTuning tuning = {};
     bool operator==(const LightSettings&) const = default;
 };
 
-/// Reads what the entity's components say. Nothing where it has no LightShadow.
+/// Reads the entity's components. Returns nothing if it has no LightShadow.
 std::optional<LightSettings> settings_of(const ecs::Registry& registry, ecs::Entity light);
 
-/// Writes the components that differ. Adds a LightShadow where there is none, a ShadowTuning where one is needed.
+/// Writes the components that differ. Adds a LightShadow if there is none, and a ShadowTuning if one is needed.
 void put_settings(ecs::Registry& registry, ecs::Entity light, const LightSettings& settings);
 
-/// Calls change(LightSettings&) for a light that has a LightShadow, and writes what came of it.
+/// Calls change(LightSettings&) for a light with a LightShadow, and writes the result to its components.
 template <class Change>
 void change_settings(ecs::Registry& registry, ecs::Entity light, Change&& change) {
     std::optional<LightSettings> settings = settings_of(registry, light);
@@ -35,8 +35,8 @@ void change_settings(ecs::Registry& registry, ecs::Entity light, Change&& change
     put_settings(registry, light, *settings);
 }
 
-/// How a panel edits a setting: on or off, one of LightSetting::choice's words, a number of 0 to slider_most, or what
-/// is typed.
+/// Editor of a setting in a panel: on or off, one of LightSetting::choice's words, a number of 0 to slider_most, or
+/// typed text.
 enum class SettingEditor : std::uint8_t { toggle, choice, number, text };
 inline constexpr SettingEditor kToggle = SettingEditor::toggle, kChoice = SettingEditor::choice,
                                kNumber = SettingEditor::number, kText = SettingEditor::text;
@@ -45,13 +45,13 @@ struct LightSetting {
     const char* key;
     const char* values;   // what may be written, for people
     const char* meaning;  // one line
-    /// False, and nothing changed, if `text` is no value of this key.
+    /// Sets the value. Returns false, with nothing changed, if `text` is no value of this key.
     bool (*set)(LightSettings& settings, std::string_view text);
     std::string (*get)(const LightSettings& settings);  // a text that `set` reads back to the same value
     SettingEditor editor;
-    std::string_view (*choice)(std::size_t index) = nullptr;  // of a choice: its words; empty beyond the last
-    double slider_most = 0.0;                                 // of a number: where a slider ends; `set` takes more
-    bool whole = false;                                       // of a number: only whole ones
+    std::string_view (*choice)(std::size_t index) = nullptr;  // choice alone: its words; empty beyond the last
+    double slider_most = 0.0;                                 // number alone: end of the slider; `set` takes more
+    bool whole = false;                                       // number alone: it has no fraction
 };
 
 /// Settings that tune one thing; no key is in two groups.
@@ -60,16 +60,16 @@ struct SettingGroup {
     const char* meaning;  // one line: what they tune, and which component holds them
     std::span<const LightSetting> settings;
 };
-/// What an author needs comes first: the fields of LightShadow.
+/// Returns all groups. The fields of LightShadow, which every author needs, come first.
 std::span<const SettingGroup> setting_groups();
 
-/// Null: there is no such key.
+/// Finds a setting by its key. Null: there is none.
 const LightSetting* find_setting(std::string_view key);
 
 /// Applies "KEY=VALUE". Errors: rules "set.syntax", "set.key", "set.value"; `settings` are then unchanged.
 std::optional<Error> apply_setting(LightSettings& settings, std::string_view key_value);
 
-/// What --list prints.
+/// Returns the settings as --list prints them.
 std::string list_settings();
 
 }  // namespace gnomon::game

@@ -10,7 +10,7 @@ namespace gnomon::game {
 std::optional<double> read_number(std::string_view text);
 std::optional<std::uint64_t> read_count(std::string_view text);  // decimal digits only
 
-/// `text` fit for one line of a terminal: control characters become '?'.
+/// Makes `text` fit for one line of a terminal: control characters become '?'.
 std::string on_one_line(std::string_view text);
 
 }  // namespace gnomon::game

@@ -14,7 +14,7 @@ const std::array kPresets{Preset{"fast", "one tap of small maps, two of them for
 
 std::string_view key_of(std::string_view setting) { return setting.substr(0, setting.find('=')); }
 
-/// Back to its default.
+/// Sets a key back to its default.
 void reset(std::string_view key, LightSettings& settings) {
     const LightSetting& setting = *find_setting(key);
     setting.set(settings, setting.get(LightSettings{}));

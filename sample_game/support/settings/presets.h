@@ -5,7 +5,7 @@
 
 #include "sample_game/support/settings/light_settings.h"
 
-/// Shadow settings in three words, for whoever does not want to choose each.
+/// Shadow settings in three words, for users who do not choose each.
 namespace gnomon::game {
 
 struct Preset {
@@ -13,20 +13,19 @@ struct Preset {
     const char* meaning;                    // one line
     std::span<const char* const> settings;  // KEY=VALUE; empty: the defaults
 };
-/// From the fastest to the most accurate.
+/// Returns all presets, from the fastest to the most accurate.
 std::span<const Preset> presets();
 
-/// Null: there is none of that name.
+/// Finds a preset by its name. Null: there is none.
 const Preset* find_preset(std::string_view name);
 
-/// Sets what the preset says. Keys that another preset sets and this one does not go back to their defaults; all others
-/// stay.
+/// Applies the preset's settings. Keys that only other presets set go back to their defaults; all others stay.
 void apply_preset(const Preset& preset, LightSettings& settings);
 
-/// The preset that would change nothing; null: none, something was set otherwise.
+/// Returns the preset that would change nothing. Null: the settings match no preset.
 const Preset* preset_of(const LightSettings& settings);
 
-/// What --list prints.
+/// Returns the presets as --list prints them.
 std::string list_presets();
 
 }  // namespace gnomon::game

@@ -10,8 +10,8 @@
 #include "sample_game/support/settings/light_settings.h"
 #include "sample_game/support/settings/parse_number.h"
 
-/// How the values of the table of settings are read and written: set_… changes nothing and returns false on a text that
-/// is none, get_… returns a text that set_… reads back.
+/// Reading and writing of the values in the table of settings. set_… returns false and changes nothing if the text is
+/// no value. get_… returns a text that set_… reads back.
 namespace gnomon::game {
 
 // Distances of a scene, as --set takes them: a hundred million kilometres.
@@ -19,7 +19,7 @@ inline constexpr double kMaxDistance_m = 1.0e11;
 inline constexpr double kSliderDistance_m = 200.0;
 inline constexpr double kDegree_rad = 0.017453292519943295;
 
-/// Word for what the system chooses where nobody says it.
+/// Word for a value that the system chooses.
 inline constexpr std::string_view kAutomatic = "automatic";
 
 /// A field of LightSettings, by the members that lead to it.
@@ -50,7 +50,7 @@ std::string get_switch(const LightSettings& settings) {
     return F::of(settings) ? "on" : "off";
 }
 
-/// A whole number of kLeast to kMost, in steps.
+/// Sets a whole number of kLeast to kMost, in steps.
 template <class F, std::uint32_t kLeast, std::uint32_t kMost, std::uint32_t kStep = 1>
 bool set_count(LightSettings& settings, std::string_view text) {
     const auto value = read_count(text);
@@ -63,7 +63,7 @@ std::string get_count(const LightSettings& settings) {
     return std::to_string(F::of(settings));
 }
 
-/// A distance in metres; 0 stands for a word of its own in the setting's meaning.
+/// Sets a distance, 0 to kMaxDistance_m, metres. LightSetting::meaning explains 0.
 template <class F>
 bool set_distance(LightSettings& settings, std::string_view text) {
     const auto value = read_number(text);
@@ -71,7 +71,7 @@ bool set_distance(LightSettings& settings, std::string_view text) {
     F::of(settings) = static_cast<float>(*value);
     return true;
 }
-/// A number of 0 to kMost / kParts.
+/// Sets a number of 0 to kMost / kParts.
 template <class F, int kMost, int kParts = 1>
 bool set_up_to(LightSettings& settings, std::string_view text) {
     constexpr double kGreatest = static_cast<double>(kMost) / kParts;

@@ -28,7 +28,7 @@ using B = ShadowTuning::Bias;
 template <auto field>
 using Bias = Field<&LightSettings::tuning, &ShadowTuning::bias, field>;
 
-/// A mode, or metres: a constant bias of so much.
+/// Sets the mode of the bias by its name, or a constant bias, metres.
 bool set_bias(LightSettings& settings, std::string_view text) {
     if (set_word<Bias<&B::mode>>(settings, text)) return true;
     if (!set_up_to<Bias<&B::offset_m>, kMaxBias>(settings, text)) return false;
@@ -116,7 +116,7 @@ using C = ShadowTuning::Cascades;
 template <auto field>
 using Cascades = Field<&LightSettings::tuning, &ShadowTuning::cascades, field>;
 
-/// Rising distances with commas between; a lone 0 for none.
+/// Sets the splits: rising distances with commas between them, metres; a lone 0 for none.
 bool set_splits_m(LightSettings& settings, std::string_view text) {
     decltype(C::split_m) distances_m{};
     if (text == "0") {

@@ -31,7 +31,7 @@ vec3 surface_position(ivec2 pixel, float depth) { return position_seen_at(pixel,
 
 // Returns how far a position rebuilt from depth may be off, metres. Rebuilding rounds. The rasteriser may have moved
 // corners by half a sub-pixel step (2^-9 pixel) each way: by half its diagonal.
-const float kHalfDiagonal = 0.70711;   // of a square, in sides
+const float kHalfDiagonal = 0.70711;   // half-diagonal of a square with side 1
 float surface_error_m(vec3 position_ca) {
     bool orthographic = camera.back.w > 0.5;
     float distance_m = length(position_ca);

@@ -21,8 +21,9 @@ uvec2 receiver_of(SurfacePlace place) { return uvec2(place.instance, place.trian
 
 vec3 vertex_position(uint vertex) { return uintBitsToFloat(texelFetch(scene_vertices, 2 * int(vertex)).xyz); }
 
-// Returns whether the plane's distance is used: not where it is seen edge-on or there is none.
+// Returns whether the distance to the triangle's plane is plausible beside the rasteriser's. It is not where the plane
+// is seen edge-on, or where the triangle has no plane.
 bool is_believed(float distance_m, float interpolated_m) {
-    const float kMostOff = 0.5;   // of the distance
+    const float kMostOff = 0.5;   // largest difference, as a share of the interpolated distance
     return abs(distance_m - interpolated_m) <= kMostOff * interpolated_m;
 }

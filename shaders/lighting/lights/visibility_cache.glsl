@@ -5,7 +5,7 @@
 layout(binding = kKeptVisibilityUnit) uniform sampler2D kept_visibility;
 // C++ twin: KeptRecord in systems/lighting/lighting_system.h.
 layout(std140, binding = kKeptBlock) uniform KeptBlock {
-    ivec4 area;   // of the picture: first pixel, and size
+    ivec4 area;   // xy: first pixel of the picture's rectangle with kept values; zw: its size, pixels
 } kept;
 
 // Returns the kept share; 0 beyond the area, which the light does not reach.

@@ -1,8 +1,10 @@
 // Factor of radiance before the tone curve.
 #include "common/bindings.glsl"
 layout(std140, binding = kExposureBlock) uniform ExposureBlock {
-    vec4 exposure;   // x: scale, below 0: automatic; y: top mip of luminance_sum; z: radiance that 1 in the picture
-                     // stands for; w: scale where nothing lit is seen
+    vec4 exposure;   // x: scale; below 0: automatic.
+                     // y: top mip of luminance_sum.
+                     // z: radiance that 1 in the picture stands for.
+                     // w: scale where nothing lit is seen.
 };
 
 // Returns the factor by which the logarithmic mean of what is seen becomes middle grey.

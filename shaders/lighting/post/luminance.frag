@@ -13,7 +13,7 @@ void main() {
     float exists = texelFetch(surface_depth, pixel, 0).r > 0.0 ? 1.0 : 0.0;
     vec4 seen = texelFetch(picture, pixel, 0);
     float luminance = dot(seen.rgb, vec3(0.2126, 0.7152, 0.0722));   // Rec. 709
-    const float kLeast = 1e-6;                                       // black tells nothing
+    const float kLeast = 1e-6;                                       // black has no logarithm
     const float kMostUnlit = 0.5;
     bool usable = exists > 0.5 && luminance > kLeast && seen.a - 1.0 < kMostUnlit;
     float logarithm = log2(clamp(luminance, kLeast, kMostInPicture) * exposure.z);

@@ -13,7 +13,7 @@ vec3 view_direction(ivec2 pixel) {
 vec3 sky_radiance(vec3 direction) {
     const float kInversePi = 0.318309886;
     const float kHorizon_m1 = 12.0;         // how fast the horizon's haze fades with elevation: half within 3 degrees
-    const float kZenithShare = 0.55;        // of the mean: the rest of the light comes from nearer the horizon
+    const float kZenithShare = 0.55;        // zenith's share of the mean: more light comes from nearer the horizon
     float haze = exp(-kHorizon_m1 * max(direction.y, 0.0));
     vec3 above = ambient.sky.rgb * mix(kZenithShare, 1.0, haze);
     return kInversePi * mix(ambient.ground.rgb, above, smoothstep(-0.01, 0.01, direction.y));

@@ -1,9 +1,9 @@
-// Fraction of the light that reaches a surface, as it was found of each pixel: by its light's map, or by a ray.
+// Fraction of the light that reaches a surface, as already found for each pixel: by its light's map, or by a ray.
 #include "common/bindings.glsl"
 #include "shadow/lookup/shadow_layers.glsl"
 #include "lighting/lights/light_sample.glsl"
 layout(binding = kVerdictUnit) uniform usampler2D verdicts;   // lighting/trace/classify_pixels.frag
-layout(binding = kAnswerUnit) uniform sampler2D answers;     // of the rays, in the order of their list
+layout(binding = kAnswerUnit) uniform sampler2D answers;     // results of the rays, in the order of their list
 #include "lighting/trace/ray_list_layout.glsl"
 
 float found_visibility(ivec2 pixel) {

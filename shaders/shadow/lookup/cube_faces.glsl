@@ -1,4 +1,6 @@
 // Faces of OpenGL's cube: which one a direction falls on, and how it lies.
+
+// Returns the largest of the components' absolute values.
 float largest(vec3 v) { return max(abs(v.x), max(abs(v.y), abs(v.z))); }
 
 // Returns the number of the face that a direction falls on, in OpenGL's order.

@@ -2,43 +2,46 @@
 #include "common/bindings.glsl"
 const int kMaxViews = 8;
 struct ViewRecord {
-    mat4 map_from_anchor;   // to texture coordinates and reversed depth, before division by w
+    mat4 map_from_anchor;   // view-anchored position to texture coordinates and reversed depth, before division by w
     vec4 axis_u;            // xyz: world direction of the map's u; w: edge of a texel, metres (orthographic) or tangent
     vec4 axis_v;
     vec4 axis_back;         // xyz: toward the light; w: depth range in metres (orthographic) or beta
                             // (bias/automatic.glsl)
-    vec4 numeric;           // x: rounding of depth, in depth; y: how far a caster may have moved since the map was
-                            // drawn, metres; z: alpha (bias/automatic.glsl), or view distance from which a cascade
-                            // fades; w: layer of the map, -1: no map, since nothing can darken what the view serves
-    vec4 anchor_from_camera;   // xyz: camera's anchor minus the view's, metres: added to a camera-anchored position it
-                               // gives a view-anchored one; w: view distance at which a cascade has faded into the next
+    vec4 numeric;           // x: rounding of depth, in depth.
+                            // y: how far a caster may have moved since the map was drawn, metres.
+                            // z: alpha (bias/automatic.glsl); of a cascade the view distance from which it fades.
+                            // w: layer of the map. -1: no map, since nothing can darken what the view serves.
+    vec4 anchor_from_camera;   // xyz: camera's anchor minus the view's, metres. Added to a camera-anchored position it
+                               // gives a view-anchored one.
+                               // w: view distance at which a cascade has faded into the next.
 };
 layout(std140, binding = kLightBlock) uniform LightBlock {
-    vec4 position;             // xyz: position from the camera's anchor (spot, point), or direction of view that a
-                               // sun's maps are fitted to; w: range, metres, 0: unlimited; of a sun how far along that
-                               // direction the camera stands
+    vec4 position;             // Spot, point: xyz: position from the camera's anchor; w: range, metres, 0: unlimited.
+                               // Sun: xyz: direction of view that its maps are fitted to; w: how far along that
+                               // direction the camera stands.
     vec4 to_light;             // xyz: unit vector toward the light (directional), or against its axis (spot); w: its
                                // shadow layers, 0 to 255
     vec4 radiance;             // rgb: lux (directional) or candela; w: size of the source
                                // (shadow/lookup/light_size.glsl)
     vec4 cone;                 // x: cosine of the outer angle; y: 1 / (cos inner - cos outer); z: share of a spot's
                                // cube faces; of a point light the quaternion cube_turn()
-    ivec4 options;             // x: number of views; y: BiasMode, 0: automatic; z: 1 if cascades are chosen by view
-                               // distance; w: a bit per layer that has a view
+    ivec4 options;             // x: number of views; y: BiasMode, 0: automatic.
+                               // z: 1 if cascades are chosen by view distance; w: a bit per layer that has a view.
     vec4 bias;                 // manual bias: x: metres, z: texels; y: share of a cascade that fades
     ivec4 filtering;           // x: texels along a grid's edge; y: number of taps; z: 1: bails early; w: 1: seeds come
                                // from the world
     vec4 spread;               // see shadow/lookup/tap_radius.glsl
     ivec4 seed_cell;           // see shadow/filters/disk/noise_seed.glsl
     vec4 seed_place;
-    vec4 moments;              // prefiltered map (its filter's file): x, y: exponents; z: least variance; w: 1 if
-                               // stored in 16 bits. Source with a size (shadow/filters/exact/classify_soft.glsl): x: 1
-                               // if its maps hold all casters as far away as they are; y: distance of the nearest
-                               // caster that they do not hold whole, metres
+    vec4 moments;              // Prefiltered map (its filter's file): x, y: exponents; z: least variance; w: 1 if
+                               // stored in 16 bits.
+                               // Source with a size (shadow/filters/exact/classify_soft.glsl): x: 1 if its maps contain
+                               // all casters at their true distance. y: distance of the nearest caster that they do
+                               // not contain whole, metres.
     vec4 moment_sampling;      // x: share of light that counts as dark; y: most texels of a pixel's footprint; z: most
                                // taps along it
-    vec4 low;                  // xyz: low part of `to_light` (directional); else what is added to `position` for the
-                               // place from which shadows are looked for. That is the lamp in double, or just clear
-                               // of a caster that it touches
+    vec4 low;                  // Sun: xyz: low part of `to_light`. Lamp: xyz: offset from `position` to the place from
+                               // which shadows are computed. That is the lamp in double, or just clear of a caster
+                               // that it touches.
     ViewRecord views[kMaxViews];
 } light;

@@ -2,8 +2,10 @@
 // of its angular radius. 0: no filter reads it. The source is a disk that faces every receiver.
 // What hides some of it from a receiver lies in the cone between the two. In the map that cone is a circle around the
 // receiver. Its radius grows with the difference of their reversed depths. Along parallel rays it grows by the height
-// between them; from a lamp by radius * (1 / z_blocker - 1 / z_receiver), where depth is alpha + beta / z. The two
-// functions return that radius, texels per unit of depth.
+// between them; from a lamp by radius * (1 / z_blocker - 1 / z_receiver), where depth is alpha + beta / z.
+
+// Returns the radius of that circle in a sun's map, texels per unit of depth. lamp_source_texel() returns it in a
+// lamp's.
 vec2 sun_source_texel(ViewRecord view) { return light.radiance.w * view.axis_back.w / vec2(view.axis_u.w, view.axis_v.w); }
 
 vec2 lamp_source_texel(ViewRecord view) { return light.radiance.w / (view.axis_back.w * vec2(view.axis_u.w, view.axis_v.w)); }

@@ -1,5 +1,5 @@
-// Returns the way from a point to the light: of a lamp to the place from which its shadows are looked for, metres; of a
-// sun a unit vector.
+// Returns the way from a point to the light. Lamp: the way to the place from which its shadows are computed, metres.
+// Sun: a unit vector.
 vec3 toward_light(vec3 position_ca) {
     if (kIsSun) return light.to_light.xyz;
     precise vec3 lamp_ca = light.position.xyz + light.low.xyz;

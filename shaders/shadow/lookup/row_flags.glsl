@@ -7,5 +7,5 @@ const bool kFootprint = SHADOW_FOOTPRINT == 1;     // it reads as many of its te
 const bool kReadsTaps = !kReadsDepths && !kReadsMoments;
 const bool kFades = SHADOW_FADES == 1;            // a first lookup fades into a second one
 const bool kManualBias = SHADOW_MANUAL_BIAS == 1; // any BiasMode other than the automatic one
-const bool kAsksRays = SHADOW_RAYS == 1;          // rays are tested against the casters' triangles, from surfaces that
-                                                  // tell their exact place
+const bool kAsksRays = SHADOW_RAYS == 1;          // rays are tested against the casters' triangles, from surfaces with
+                                                  // their exact place

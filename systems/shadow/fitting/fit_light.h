@@ -16,7 +16,7 @@ struct FitInputs {
     std::span<const ShadowRequest> requests;  // one per light
     const ReceiverCasterSets& sets;
     std::span<const glm::dvec3> lamps_ws_m;  // one per light (lamp_offsets.h); empty: the lights' own positions
-    const SampledDepths& sampled_depths;     // of an earlier picture; optional
+    const SampledDepths& sampled_depths;     // depths of an earlier picture; optional
     const History& held;                     // fit history that the frame before left; empty: none
     std::span<const std::uint64_t> moving;   // as CasterMotion::moving()
     bool shared_out = false;                 // a budget is active: another filter applies from the next frame on

@@ -105,7 +105,7 @@ struct CachedLookup {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights
     std::uint64_t bytes = 0;
     bool reused = false;                  // the picture read it, and did not fill it
-    std::optional<double> saved_us = {};  // of lighting on the GPU; empty: never measured
+    std::optional<double> saved_us = {};  // saved time of lighting on the GPU; empty: never measured
 };
 
 /// What became of lights in the pictures of a frame. Lighting appends to it, picture by picture; the report is made
@@ -114,7 +114,7 @@ struct LightingOutcome {
     std::vector<LookupFailure> failures;
     std::vector<CachedLookup> cached;
     gl::Failure failure = gl::Failure::none;               // why a picture could not be recorded
-    std::uint64_t ray_list_bytes = 0, position_bytes = 0;  // of pixels that use rays
+    std::uint64_t ray_list_bytes = 0, position_bytes = 0;  // buffers for pixels that use rays
     void clear() {
         failures.clear();
         cached.clear();

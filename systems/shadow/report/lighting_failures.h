@@ -4,8 +4,8 @@
 
 namespace gnomon::shadow {
 
-/// Adds to the report what became of lights in the frame's pictures. A light that a picture shows otherwise than by its
-/// own row is described as it is there; of several pictures, one with a failure is described.
+/// Adds to the report what became of lights in the frame's pictures. If a picture shows a light otherwise than by its
+/// own row, the report describes that picture. Among several pictures it describes one with a failure.
 void add_outcome(const LightingOutcome& outcome, FrameReport& report);
 
 }  // namespace gnomon::shadow

@@ -23,7 +23,7 @@ struct FitInput {
     std::span<const Beam> beams;                     // receiver hulls; local light: one per light_openings() item
     std::span<const glm::dvec3> frame_points_ws;     // array that Beam::receiver_points refers to
     float reach_texel = 0.5f;                        // E for borders: FilterSettings::border_texel
-    const SampledDepths& sampled_depths;             // of an earlier picture; optional
+    const SampledDepths& sampled_depths;             // depths of an earlier picture; optional
     FitScratch& scratch;                             // reused storage: a fit allocates nothing in a steady state
     const HeldLight& held;                           // history after this light's last fit
     HeldLight& next;                                 // output; starts as a copy of `held` (fit_history.h)

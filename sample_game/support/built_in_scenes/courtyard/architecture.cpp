@@ -30,7 +30,7 @@ void add_walls(const Kit& kit) {
     for (int i = 0; i < kMerlons; ++i) kit.place("merlon_" + std::to_string(i), merlon, {-10.25, 2.2, -9.0 + 2.0 * i});
 }
 
-/// One wall with round arches; columns stand under its piers.
+/// Adds a wall with round arches, and columns under its piers.
 void add_arcade(const Kit& kit) {
     constexpr int kArches = 5, kArchSteps = 16;
     constexpr double kPitch = 3.6, kOpening = 2.8, kSpring = 2.3, kTop = 4.6, kDepth = 0.5, kZ = -7.2;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSunk_m = 0.1;
 
-/// A cloaked walker, feet at the origin, looking along -Z.
+/// Adds a cloaked walker, feet at the origin, looking along -Z.
 void add_player(const Kit& kit) {
     const std::array<glm::dvec2, 9> cloak{glm::dvec2(0.0, 0.02), {0.24, 0.02}, {0.29, 0.1},  {0.25, 0.7}, {0.2, 1.05},
                                           {0.23, 1.32},          {0.16, 1.45}, {0.07, 1.52}, {0.0, 1.54}};
@@ -16,11 +16,11 @@ void add_player(const Kit& kit) {
     Shape body = make_lathe(cloak, 20, LatheNormals::smooth);
     append(body, make_sphere(0.13, 20, 10), glm::translate(glm::dmat4(1.0), {0.0, 1.6, 0.0}));
     append(body, make_lathe(hat, 20, LatheNormals::creased));
-    append(body, make_bar({-0.05, 1.3, -0.12}, {-0.05, 0.55, -0.34}, 0.02, 6));  // a staff tells front from back
+    append(body, make_bar({-0.05, 1.3, -0.12}, {-0.05, 0.55, -0.34}, 0.02, 6));  // a staff marks the front
     kit.place("player", body, kit.materials.blue, {-8.2, 0.0, 9.6}, turned(-90.0));
 }
 
-/// Boards on two posts that face the guard lamp: what hides the player.
+/// Adds a screen that hides the player: boards on two posts, facing the guard lamp.
 void add_screen(const Kit& kit, const std::string& name, const glm::dvec3& at, double degrees) {
     constexpr double kHalfWidth = 1.0, kTop = 2.4, kHalfThick = 0.05;
     constexpr int kBoards = 8;

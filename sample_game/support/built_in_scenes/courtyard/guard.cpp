@@ -28,12 +28,12 @@ const std::array<JointRow, kJoints> kRows{{{"guard_hips", hips, {0.0, 0.92, 0.0}
                                            {"guard_shin_l", leg_l, {-0.11, kKnee_m, 0.0}},
                                            {"guard_shin_r", leg_r, {0.11, kKnee_m, 0.0}}}};
 
-/// A shape whose vertices know their joints.
+/// Shape with a joint share per vertex.
 struct Limb {
     Shape shape;
     std::vector<JointShare> joints;
 
-    /// `share` gives each vertex, in the figure's space, its joints.
+    /// Adds a part. share(position), in the figure's space, returns the joints of a vertex.
     template <class Share>
     void add(const Shape& part, const glm::dvec3& at_m, Share&& share) {
         const std::size_t first = shape.positions.size();
@@ -45,7 +45,7 @@ struct Limb {
     }
 };
 
-/// From one joint to the one above, over 2 * kBlend_m around a height.
+/// Blends from one joint to the one above, over 2 * kBlend_m around a height.
 constexpr float kBlend_m = 0.12f;
 JointShare across(float y, double at_m, Joint below, Joint above) {
     const float share = (y - static_cast<float>(at_m) + kBlend_m) / (2.0f * kBlend_m);
@@ -98,17 +98,17 @@ Limb pole() {
     return limb;
 }
 
-// His round: from beside the gate, where neither "main" nor "low" sees him or his shadows, into the middle, about-turn,
-// back, about-turn; eight double steps each way. What is measured of the scene at time 0 is measured without him.
+// His round: from beside the gate into the middle, about-turn, back, about-turn; eight double steps each way. At the
+// gate neither "main" nor "low" sees him or his shadows: measurements of the scene at time 0 are without him.
 const glm::dvec3 kFrom_m(8.6, 0.0, 9.0), kTo_m(2.6, 0.0, 3.0);
 constexpr double kHeading_rad = 0.25 * glm::pi<double>();
 constexpr double kWalk_s = 10.24, kTurn_s = 1.76, kStep_s = 0.64;
-constexpr double kFade_s = 0.4;  // of a walk's beginning and end, so that he stands straight
+constexpr double kFade_s = 0.4;  // fades the stride at both ends of a walk, so that he stands straight
 constexpr double kKeyEvery_s = 0.16;
 
 constexpr double kHalf_s = kWalk_s + kTurn_s;
 
-/// How far into his walk he is, or 0 while he turns.
+/// Returns how far into his walk he is; 0 while he turns.
 double walked_s(double time_s) {
     const double half_s = std::fmod(time_s, kHalf_s);
     return half_s < kWalk_s ? half_s : 0.0;
@@ -121,7 +121,7 @@ double phase(double time_s) { return glm::pi<double>() * walked_s(time_s) / kSte
 
 const glm::dvec3 kAcross(1.0, 0.0, 0.0), kUp(0.0, 1.0, 0.0);
 
-/// How each joint but the hips is turned at a time; a positive turn across takes a limb forward.
+/// Returns the turn of a joint, other than the hips, at a time. A positive turn about kAcross takes a limb forward.
 glm::dquat turn_of(Joint joint, double time_s) {
     const double swing = std::sin(phase(time_s)), lift = std::cos(phase(time_s)), size = stride(time_s);
     constexpr double kLeg_rad = 0.3, kKnee_rad = 0.8, kArm_rad = 0.35, kSpearArm_rad = 0.06, kChest_rad = 0.12;

@@ -32,7 +32,7 @@ void add_sun(const Kit& kit) {
                       .light = add_light(kit, "directional", {1.0, 0.83, 0.68}, kSun_lx)});
 }
 
-/// A cage of bars around the light: rings at both ends, six bars, a floor and a roof plate.
+/// Makes a cage of bars around the light: rings at both ends, six bars, a floor and a roof plate.
 Shape cage() {
     constexpr double kRadius = 0.16, kHalf = 0.2, kBar = 0.009;
     constexpr int kBars = 6;

@@ -7,7 +7,7 @@
 #include "sample_game/support/built_in_scenes/glb_writer.h"
 #include "sample_game/support/built_in_scenes/look_rotation.h"
 
-/// What the parts of the courtyard share.
+/// Builders and materials that the parts of the courtyard share.
 namespace gnomon::game {
 
 struct Materials {
@@ -18,7 +18,7 @@ struct Kit {
     GlbBuilder& glb;
     Materials materials;
     CourtyardOptions options;
-    nlohmann::ordered_json mesh_extras = {};  // of every node with a mesh; null: none
+    nlohmann::ordered_json mesh_extras = {};  // extras of every node with a mesh; null: none
 
     std::uint32_t place(const std::string& name, std::uint32_t mesh, const glm::dvec3& at,
                         const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0},
@@ -35,7 +35,7 @@ struct Kit {
                         std::optional<std::uint32_t> parent = {}) const {
         return place(name, glb.add_mesh(name, shape, material), at, rotation, parent);
     }
-    /// An empty node that moves; its children follow.
+    /// Adds an empty node that moves; its children follow.
     std::uint32_t mover(const std::string& name, const glm::dvec3& at, nlohmann::ordered_json motion,
                         const glm::dquat& rotation = {1.0, 0.0, 0.0, 0.0}) const {
         return glb.add_node(
@@ -47,7 +47,7 @@ Materials add_materials(GlbBuilder& glb);
 void add_architecture(const Kit& kit);  // ground, walls, arcade, stairs, fence
 void add_furniture(const Kit& kit);     // tree, cloth, things that stand or move
 void add_lamps(const Kit& kit);         // sun, lantern, guard lamp
-void add_guard(const Kit& kit);         // who walks up and down
+void add_guard(const Kit& kit);         // guard, walking up and down
 void add_game(const Kit& kit);          // what CourtyardOptions::game adds
 void add_cameras(const Kit& kit);
 

@@ -16,7 +16,7 @@ namespace {
 // Everything that stands reaches into the ground, which is not level beneath it.
 constexpr double kSunk_m = 1.5;
 
-/// Evenly spread over 0 to 1, whatever the number (Roberts' R2 sequence).
+/// Returns place i of a sequence that spreads evenly over 0 to 1 for any number of places (Roberts' R2 sequence).
 glm::dvec2 spread(int i) {
     constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
     const auto part = [&](double step) { return (i + 1) * step - std::floor((i + 1) * step); };
@@ -30,7 +30,7 @@ void stand(const ValleyKit& kit, const std::string& name, std::uint32_t mesh, do
                       .mesh = mesh});
 }
 
-/// 9 by 7 m, ridge along z, a chimney, eaves.
+/// Adds a house's mesh: 9 by 7 m, with its ridge along z, a chimney and eaves.
 std::uint32_t house_mesh(const ValleyKit& kit) {
     constexpr double kHalf = 3.5, kEaves = 4.2, kRidge = 7.0, kLength = 9.0, kSlab = 0.2, kOverhang = 0.6;
     const std::array<glm::dvec2, 5> profile{

@@ -4,7 +4,7 @@
 
 #include "sample_game/support/built_in_scenes/glb_writer.h"
 
-/// What the parts of the valley share.
+/// Builders and materials that the parts of the valley share.
 namespace gnomon::game {
 
 struct ValleyMaterials {
@@ -16,12 +16,12 @@ struct ValleyKit {
     ValleyMaterials materials;
 };
 
-/// Height of the ground, metres: level in the village (0), hills beyond it, a ridge at the far end.
+/// Returns the height of the ground, metres: 0 in the village, hills beyond it, a ridge at the far end.
 double ground_height_m(double x_m, double z_m);
 
 void add_valley_ground(const ValleyKit& kit);
 void add_houses(const ValleyKit& kit);  // the village's and the hamlets'
 void add_woods(const ValleyKit& kit);   // single trees in the village, woods on the hills
-void add_lane(const ValleyKit& kit);    // fences and posts beside the lane, somebody on it
+void add_lane(const ValleyKit& kit);    // fences and posts beside the lane, a person on it
 
 }  // namespace gnomon::game

@@ -19,7 +19,7 @@ glm::vec3 normal_at(double x_m, double z_m) {
     return glm::vec3(glm::normalize(glm::dvec3(-rise_x, 1.0, -rise_z)));
 }
 
-/// About the tile's middle.
+/// Makes a tile of the ground, with coordinates about its middle.
 Shape tile_at(const glm::dvec2& middle_m) {
     Shape tile;
     for (int row = 0; row <= kSquares; ++row)

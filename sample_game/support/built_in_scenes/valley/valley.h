@@ -10,9 +10,9 @@ struct Valley {
     std::uint64_t triangles = 0;  // over all nodes
 };
 
-/// A scene of kilometres as binary glTF: a village of some thirty houses along a lane, hamlets, woods and hills up to
-/// 2.1 km away, under a sun alone. Things of centimetres (fence, leaves) stand beside the cameras: "lane" at eye height
-/// among the houses, "meadow" at eye height before the village, "hill" above it. Same bytes every time.
+/// Makes a scene of kilometres as binary glTF. Some thirty houses stand along a lane; hamlets, woods and hills reach up
+/// to 2.1 km. Light: a sun alone. Cameras: "lane" among the houses and "meadow" before the village, both at eye height,
+/// and "hill" above it. Things of centimetres (fence, leaves) stand beside them. Same bytes every time.
 Valley make_valley();
 
 }  // namespace gnomon::game

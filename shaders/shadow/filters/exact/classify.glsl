@@ -1,12 +1,12 @@
-// Whether a receiver is certainly lit or certainly dark, by what the sheets of a texel tell of all of it
-// (docs/exact.md). Requires the light's kind, with SHADOW_DEPTHS.
+// Classification of a receiver as certainly lit, certainly dark or uncertain, by conservative bounds on all that its
+// texel covers (docs/exact.md). Requires the light's kind, with SHADOW_DEPTHS.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/map_position.glsl"
 layout(binding = kSecondDepthUnit) uniform sampler2DArray sheet_second;   // next depths behind those of shadow_map, of other triangles
 
 const float kNoReach = 3.0e38;        // kNoEnd: all the way
-const float kReachUnits = 16.0;       // kStoredUnits, and what a reach is computed by
-const float kMostFloorShare = 0.5;    // share above which a wide texel tells nothing
+const float kReachUnits = 16.0;       // kStoredUnits, and the rounding of a reach's own computation
+const float kMostFloorShare = 0.5;    // largest share for which a texel bounds a reach; wider texels do not
 const int kCertainlyLit = 0, kCertainlyDark = 1, kUncertain = 2;
 
 // Returns by how much facets that are not drawn may depart from a depth, as a share of that depth less the far end's:

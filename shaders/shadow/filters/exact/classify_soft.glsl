@@ -1,5 +1,5 @@
-// Whether a receiver is certainly lit by all of a source with a size, or certainly dark to all of it. See
-// docs/exact.md, "A source with a size". Requires shadow/filters/exact/classify.glsl.
+// Classification of a receiver under a source with a size: certainly lit by all of it, certainly dark to all of it, or
+// uncertain. See docs/exact.md, "A source with a size". Requires shadow/filters/exact/classify.glsl.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 #include "shadow/filters/exact/light_cone.glsl"
@@ -10,7 +10,7 @@ const int kOfLit = 0, kOfDark = 1;   // see ends_of_texel()
 // share that rounding takes of a quotient.
 const float kConeSlack_texel = 0.05, kConeRounding = 1e-5;
 const int kMostLevels = 8;           // 4^8 texels
-const int kMostSquares = 256;        // of one walk; beyond them rays cost no more
+const int kMostSquares = 256;        // limit of one walk: beyond it rays cost no more
 
 // Returns whether the cone stays in what the map holds, or leaves it nearer to the light than any caster that the map
 // lacks.

@@ -12,9 +12,9 @@ const float kRoundings = 1.0;         // share of all that follows from rounding
 const float kTexelHalf = 0.516;       // half of a texel, and how far off a receiver's place may be, texels
 const float kDepartureFactor = 1.13;
 #endif
-const float kProjectedUnits = 4.0;    // of 2^-24: a row of the projection
-const float kMostMoved_texel = 0.05;  // by rounding, across the map
-const float kStoredUnits = 8.0;       // of 2^-24: a depth as it is interpolated, stored and compared
+const float kProjectedUnits = 4.0;    // rounding of a row of the projection, 2^-24
+const float kMostMoved_texel = 0.05;  // most that rounding moves a place across the map
+const float kStoredUnits = 8.0;       // rounding of a depth as it is interpolated, stored and compared, 2^-24
 const float kFloorTangent = 4.0;      // tangent between normal and light, up to which no facet is drawn (SheetFloor)
 const float kUnknownDeparture = 1e6;
 

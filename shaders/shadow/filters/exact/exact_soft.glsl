@@ -4,8 +4,8 @@
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
 
-// Returns the share of rays that reach the light, among rays that leave the surface along `normal`. The middle's reach
-// tells nothing of the others'.
+// Returns the share of rays that reach the light, among rays that leave the surface along `normal`. It ignores `reach`,
+// which bounds the ray to the light's middle alone.
 float shadow_ray(float reach, dvec3 position_ca, vec3 normal, float error_m, uvec2 receiver) {
     dvec3 middle = way_to_light(position_ca);
     vec3 toward = normalize(vec3(middle));

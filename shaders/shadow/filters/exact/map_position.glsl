@@ -1,6 +1,6 @@
-// Where a receiver lies in a light's map of sheets, and how far off that may be. Requires the light's kind, with
-// SHADOW_DEPTHS; its serving_views() tells which views to read. It reads no more of their records than needed: software
-// devices fetch every number of a uniform block anew for each few pixels.
+// Place of a receiver in a light's map of sheets, with bounds on its error. Requires the light's kind, with
+// SHADOW_DEPTHS; its serving_views() names the views to read. It reads no more of their records than needed, because
+// software devices fetch every number of a uniform block again for each few pixels.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
 layout(binding = kBoundsUnit) uniform sampler2DArray sheet_bounds;   // nearest contour, departure
@@ -10,7 +10,7 @@ layout(binding = kBoundsUnit) uniform sampler2DArray sheet_bounds;   // nearest 
 const float kMostAside_texel = 0.508;
 
 struct SheetPlace {
-    bool is_held;    // by the view's map
+    bool is_held;    // the view's map contains it
     bool is_known;
     bool is_open;    // nothing casts into that map
     int view;
@@ -23,7 +23,8 @@ struct SheetPlace {
 
 float sheet_size() { return float(textureSize(sheet_bounds, 0).x); }
 
-// Returns the place, known as far as the middle of its texel tells.
+// Returns the place in a view's map. It is known if it surely lies in its texel, and its depth in [0, 1]. The caller
+// sets is_held and is_open.
 SheetPlace place_of(vec2 place, float error_texel, int view, int layer, float depth, float error) {
     vec2 texel = clamp(floor(place), 0.0, sheet_size() - 1.0);
     vec2 aside = abs(place - texel - 0.5);

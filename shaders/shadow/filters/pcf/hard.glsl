@@ -1,2 +1,2 @@
-// Hard shadows: one tap, nearest texel.
+// Returns a hard shadow: one tap, at the nearest texel.
 float shadow_filter(ShadowPoint point) { return shadow_tap(point, vec2(0.0)); }

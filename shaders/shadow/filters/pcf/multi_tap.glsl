@@ -1,10 +1,10 @@
-// Weighted mean of a filter's taps. A filter that includes this file defines before:
-// vec4 filter_setup(ShadowPoint point): what its taps share, passed to the other functions.
-// int filter_taps(): the number of taps.
-// vec3 filter_tap(ShadowPoint point, vec4 setup, int i): xy: offset, texels; z: weight, above 0.
-// vec4 filter_box(ShadowPoint point, vec4 setup): xy: least, zw: greatest offsets.
-// Early bailing takes the corners of that box first, and its middle. A straight edge that parts the taps parts the
-// corners, too. Something thin that lies across the middle is seen.
+// Returns the weighted mean of a filter's taps. Early bailing (light.filtering.z) first compares the corners of the
+// taps' box, and its middle. A straight edge that parts the taps parts the corners, too. A thin caster across the
+// middle is seen. A filter that includes this file defines before:
+// - vec4 filter_setup(ShadowPoint point): values that all taps share, passed to the other functions;
+// - int filter_taps(): number of taps;
+// - vec3 filter_tap(ShadowPoint point, vec4 setup, int i): xy: offset, texels; z: weight, above 0;
+// - vec4 filter_box(ShadowPoint point, vec4 setup): xy: least, zw: greatest offsets, texels.
 float shadow_filter(ShadowPoint point) {
     vec4 setup = filter_setup(point);
     if (light.filtering.z != 0) {

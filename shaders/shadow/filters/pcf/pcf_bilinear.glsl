@@ -1,5 +1,7 @@
 // Mean of a square of hardware 2x2 taps a texel apart, in the fewest fetches. n x n such taps weigh n + 1 texels a
 // side, (1 - s) 1 1 ... 1 s. The sampler's own blend gives any two neighbours any weights (Sigg and Hadwiger 2005).
+
+// Returns s along both axes: how far the point lies past the middle of a texel, texels.
 vec4 filter_setup(ShadowPoint point) { return vec4(fract(shadow_texel(point) - 0.5), 0.0, 0.0); }
 
 int fetches_a_side() { return (light.filtering.x + 1) / 2; }

@@ -1,4 +1,5 @@
-// Square of nearest taps on the texel grid, equal weights (percentage-closer filtering, Reeves et al. 1987).
+// Square of nearest taps on the texel grid, with equal weights (percentage-closer filtering, Reeves et al. 1987).
+
 vec4 filter_setup(ShadowPoint point) { return vec4(0.0); }
 
 int filter_taps() { return light.filtering.x * light.filtering.x; }

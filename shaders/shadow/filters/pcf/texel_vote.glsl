@@ -1,5 +1,5 @@
-// Votes of texels: each tells whether the receiver's plane is lit at its middle. What four around the receiver agree
-// on, and how sixteen vote, near ones outvoting far ones. Requires SHADOW_DEPTHS.
+// Votes of texels: each compares the receiver's plane with its depth, at its own middle. The four around the receiver
+// decide if they agree. Otherwise sixteen vote, and near ones outvote far ones. Requires SHADOW_DEPTHS.
 
 // Width of the votes: a bar as wide as a texel just holds half of them, 2 Phi(1 / (2 sigma)) - 1 = 1/2, and is kept.
 const float kVotes_texel = 0.7413;
@@ -8,9 +8,9 @@ const float kBendShare = 0.25;
 // Most slopes that a bend adds: no more than a nearest tap would have allowed for the slope.
 const float kMostSlope_texel = 0.5;
 
-// Returns 0 where what is stored stands above the receiver's plane, and above the receiver, too, carried on to it by
-// its own slope; else 1. The first condition alone is wrong in creases: there the neighbouring plane runs out below the
-// receiver.
+// Returns 0 if the stored depth lies above the receiver's plane, and above the receiver itself when carried there by
+// its own slope. Else returns 1. The first condition alone is wrong in creases: there the neighbouring plane runs out
+// below the receiver.
 float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
     vec2 aside = middle - place;
     if (point.reference + dot(point.slope, aside) >= stored) return 1.0;
@@ -21,9 +21,9 @@ float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
     return point.reference + allowed >= stored + dot(rise, abs(aside)) ? 1.0 : 0.0;
 }
 
-// Returns by how much more votes tell lit than dark, -1 to 1. At the edge it is 0, and it rises by 1 over kVotes_texel
-// * sqrt(pi / 2) texels. `rows`: 4, or 0 for none. It is a loop, because software devices run both sides of an if in
-// full, but no round of a loop that is not needed.
+// Returns the votes for lit less those for dark, as a share of all, -1 to 1. It is 0 at the edge, and rises by 1 over
+// kVotes_texel * sqrt(pi / 2) texels. `rows`: 4, or 0 for no votes. It is a loop, because software devices run both
+// sides of an if in full, but no round of a loop that is not needed.
 float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
     float lit = 0.0, all_votes = 0.0;
     for (int y = -2; y < rows - 2; ++y)

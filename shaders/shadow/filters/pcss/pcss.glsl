@@ -1,16 +1,16 @@
 // Shadows as soft as the source is large (percentage-closer soft shadows, Fernando 2005). A search finds how far before
-// the receiver its casters are, and thus how wide its penumbra is. Then a disk of taps, as wide, tells how much of the
-// source they hide.
+// the receiver its casters are, and thus how wide its penumbra is. A disk of taps of that width then measures how much
+// of the source they hide.
 // A texel counts only if what it shows stands above the receiver's plane, and within the cone from the receiver to the
 // source (light_size.glsl). High casters that lie too far aside darken nothing, nor does the wall that the receiver
 // meets.
-// Lengths along the map are held in the depth at which the cone is as wide. Where the penumbra is narrower than a
-// texel, votes tell where its middle is. If the source has no size, they decide.
+// A length along the map is stored as the depth at which the cone is as wide. Where the penumbra is narrower than a
+// texel, votes locate its middle. If the source has no size, they decide.
 #include "shadow/filters/disk/noise_seed.glsl"
 #include "shadow/filters/disk/stratified_disk.glsl"
 #include "shadow/filters/pcf/texel_vote.glsl"
 
-// Least radius of a penumbra. Narrower ones are left to votes, which tell how far away the edge is up to about a texel.
+// Least radius of a penumbra. Narrower ones are left to votes, which measure the edge's distance up to about a texel.
 const float kLeastPenumbra_texel = 0.75;
 // Least distance of the edge where four texels agree.
 const float kAgreed_texel = 0.5;
@@ -54,7 +54,7 @@ float stands_before(ShadowPoint point, vec2 place, vec2 offset_texel) {
 struct Casters {
     vec2 before;    // mean distance before the receiver, in depth; casters with the receiver in their cones count most
     vec2 weights;   // 0: there is none
-    float aside;    // of the nearest, in radii of its own cone
+    float aside;    // least distance of a caster aside, in radii of its own cone; kFarAside: none is nearer
 };
 
 // Finds the casters. `reach`: the widest cone, in depth. `octaves`: from penumbrae that votes decide up to it.

@@ -1,5 +1,5 @@
-// Variance shadow map of two warps, e^(c s) and -e^(-c s): the lesser of both bounds. The second tells best what the
-// first tells worst: casters just before the receiver with something far behind both (Lauritzen and McCool 2008).
+// Variance shadow map of two warps, e^(c s) and -e^(-c s): the lesser of both bounds. The second is tightest where the
+// first is loosest: at casters just before the receiver with something far behind both (Lauritzen and McCool 2008).
 #include "shadow/passes/prefilter/chebyshev.glsl"
 #include "shadow/passes/prefilter/exponential_warp.glsl"
 

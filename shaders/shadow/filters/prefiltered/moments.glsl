@@ -51,7 +51,7 @@ vec2 roots(vec3 c) {
 
 // Value of the first moment from which nothing was drawn: all is stored at the far end, up to rounding. In 32 bits
 // rounding is half a unit of each of 31 weights of the blur and of their sums, twice. In 16 bits it is half a step of
-// the first and third number, twice. What lies so near to the far end cannot be told apart.
+// the first and third number, twice. A caster so near to the far end cannot be distinguished from none.
 const float kEmpty = 1.0 - 128.0 * kUnitRoundoff, kEmpty16 = 1.0 - 1.0 / 16384.0;
 bool shows_nothing(vec4 b, vec4 settings) { return b.x >= (settings.w > 0.0 ? kEmpty16 : kEmpty); }
 

@@ -1,6 +1,6 @@
 // Shadows as soft as the source is large, out of moments.glsl's map. Its mipmaps serve the search, and the penumbra is
-// read from them (after Yang et al. 2010 and Peters et al. 2016). Each level tells how much of a region lies before the
-// receiver, and how far before it. Casters with a cone about as wide as the region are the ones that hide the source.
+// read from them (after Yang et al. 2010 and Peters et al. 2016). A level yields the share of a region that lies before
+// the receiver, and how far before it. Casters with a cone about as wide as the region hide the source.
 // Without a size it is moments.glsl. With a size it requires SHADOW_FOOTPRINT.
 #include "shadow/filters/prefiltered/moments.glsl"
 

@@ -1,5 +1,5 @@
-// Whether a triangle that a texel shows, or a neighbour of it in its mesh, stands between a receiver and its light. The
-// casters' own corners decide: no texel's size enters. RAY_MASKS names the file that reads their masks.
+// Search for a triangle between a receiver and its light, among the triangles that texels show and their neighbours in
+// the mesh. The casters' own corners decide: no texel's size enters. RAY_MASKS names the file that reads their masks.
 #include "common/float_rounding.glsl"
 #include "common/instances.glsl"
 #include "common/view_vector.glsl"
@@ -16,7 +16,7 @@ const int kMostSteps = 16, kMostStepsBeyond = 8;
 // Most folds of a walk. Where a sheet ends its mesh goes on: a ledge has an underside, and below that stands the next
 // ledge, narrower perhaps than a texel. Two ledges, one below the other, are four folds.
 const int kMostFolds = 4;
-const float kLeastSide_m = 1e-30;   // of a triangle with all corners in one place
+const float kLeastSide_m = 1e-30;   // bounds divisors: a triangle may have all corners in one place
 // Rounding of a difference, a cross product and a dot product, with their sums.
 const float kPlaneRounding = 12.0 * kUnitRoundoff;
 
@@ -52,14 +52,15 @@ uvec2 shown_at(FourTriangles shown, int bits) {
 // edge nearest to the ray, a few folds far, since what comes next may turn toward it again. At a boundary the mesh is
 // over, and the ray passes it.
 // Where the ray meets a triangle, it is blocked if the receiver lies behind that plane and no mask cuts it out there.
-// It lies behind by more than rounding, or by what the camera sees of it. Whatever way a walk takes, what it finds
-// stands between receiver and light.
+// It lies behind by more than rounding, or by what the camera sees of it. A walk may take any way: a triangle that it
+// finds always stands between receiver and light.
 // `texel`: sides of the map's texel, metres, or tangents from a lamp. kUnknown: some walk came to no end before any
 // fold, and none was blocked.
 // One loop takes all steps of all walks. Neighbouring pixels go in step: no walk stands still until another's ends.
 int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiver_normal, float error_m, vec2 texel) {
     vec3 ray = toward_light(position_ca), view = to_camera(position_ca);
-    bool shows = dot(receiver_normal, view) > 0.0;   // to the camera: a receiver elsewhere cannot tell sides by it
+    // True: the receiver faces the camera. Only then the side of a triangle that the camera sees is the receiver's.
+    bool shows = dot(receiver_normal, view) > 0.0;
     bool blocked = false, unknown = false;
     uvec2 at = shown_at(shown, left);   // instance, triangle
     uint came_from = kNowhere;

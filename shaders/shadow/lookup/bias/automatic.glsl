@@ -10,8 +10,8 @@ const float kSteepTangent = 4.0;
 // (6u).
 const float kRelativeRounding = 7.0 * kUnitRoundoff;
 
-// Largest share by which a texel's growth counts. Beyond it a texel is half as wide as the receiver is far, and nothing
-// is told apart.
+// Largest share by which a texel's growth counts. Beyond it a texel is half as wide as the receiver is far, and the map
+// resolves nothing.
 const float kMostGrowth = 0.5;
 
 struct Bias {

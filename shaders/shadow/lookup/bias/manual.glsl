@@ -1,5 +1,5 @@
 // Offsets that a user chooses instead of the automatic one, to compare with it. One function per mode of BiasMode
-// (components/light_shadow.h), and a line in manual_bias(). docs/bias.md tells what each means and its source.
+// (components/light_shadow.h), and a line in manual_bias(). docs/bias.md explains each, with its source.
 const int kConstantBias = 1;
 const int kSlopeBias = 2;
 const int kNormalOffsetBias = 3;
@@ -9,7 +9,7 @@ const int kTutorialCosineBias = 6;
 const int kTutorialTangentBias = 7;
 
 struct BiasPlace {
-    float cosine;        // of the angle between the receiver's normal and the way to the light
+    float cosine;        // cosine of the angle between the receiver's normal and the way to the light
     float texel_m;       // longer side of a texel, across the light at the receiver, metres
     float depth_per_m;   // reversed depth per metre toward the light
     float distance_m;    // from a point light, metres; 0: a flat map
@@ -17,7 +17,7 @@ struct BiasPlace {
 };
 
 BiasPlace orthographic_place(ViewRecord view, float cosine, float range_m) {
-    float w = range_m / view.axis_back.w;   // of a warped map; else 1
+    float w = range_m / view.axis_back.w;   // homogeneous w in a warped map; else 1
     return BiasPlace(cosine, max(view.axis_u.w, view.axis_v.w) * w, 1.0 / range_m, 0.0, 0.0);
 }
 
@@ -33,8 +33,8 @@ float incidence_tangent(BiasPlace at) { return incidence_sine(at) / max(at.cosin
 
 float constant_depth(BiasPlace at) { return light.bias.x * at.depth_per_m; }
 
-// Returns what the tutorials call a bias of `amount`: a share of a flat map's whole depth range as it is stored; in a
-// cube, where they store distances, metres toward the light.
+// Returns a bias of `amount` as the tutorials mean it. In a flat map it is a share of the whole depth range. In a cube
+// it is metres toward the light, since the tutorials store distances there.
 Bias tutorial_bias(BiasPlace at, float amount) {
     if (at.distance_m == 0.0) return Bias(0.0, amount);
     return Bias(0.0, at.beta_over_z * amount / max(at.distance_m - amount, kUnitRoundoff * at.distance_m));

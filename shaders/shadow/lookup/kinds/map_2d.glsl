@@ -58,7 +58,7 @@ int shadow_layer(ShadowPoint point) { return point.covered ? int(point.layer) : 
 // Returns where the point lies in the map, texels from its corner.
 vec2 shadow_texel(ShadowPoint point) { return point.map.xy / point.texel_uv; }
 
-// Returns the tangent of a texel's side of a cube. 0: a flat map, which does not tell what lies toward the light.
+// Returns the tangent of a texel's side, which disks around a point in a cube need. 0: this is a flat map.
 float shadow_texel_tan() { return 0.0; }
 
 // Returns the point's place in a map. Beyond the far plane depth is negative: not covered. Before the near plane it is

@@ -1,6 +1,7 @@
 // Visibility of a light by its map.
-// shadow_bias_texel() is the reach that the bias serves, texels. Filters that read depths compare on the receiver's own
-// plane: only what snapping and rounding need is left of the offset.
+
+// Returns the reach that the bias serves, texels. 0: the filter reads depths and compares on the receiver's own plane,
+// so that the offset covers snapping and rounding alone.
 float shadow_bias_texel() { return kReadsDepths ? 0.0 : SHADOW_REACH_TEXEL; }
 
 // Moves the point as its taps are compared.

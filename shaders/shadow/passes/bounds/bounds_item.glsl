@@ -17,7 +17,7 @@ SheetItem sheet_item(int place) {
 
 struct Corner {
     vec4 place;   // in clip space, as depth.vert has it
-    vec4 error;   // of each coordinate
+    vec4 error;   // bound on each coordinate's rounding
 };
 
 Corner corner_of(InstanceRecord instance, uint vertex) {

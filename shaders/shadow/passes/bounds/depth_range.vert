@@ -1,17 +1,19 @@
-// Quad over every texel that a triangle may overlap. Triangles that reach behind the light get the whole map; their
-// fragments decide (Olano and Greer 1997: edges as planes through the eye need no clipping).
+// Quad over every texel that a triangle may overlap. A triangle that reaches behind the light gets the whole map, and
+// its fragments decide. Edges as planes through the eye need no clipping (Olano and Greer 1997).
 #include "shadow/passes/bounds/bounds_item.glsl"
 flat out vec4 edge_ab, edge_bc, edge_ca;   // xyz: at least -w where (x, y, 1) lies on the inner side; of device
                                            // coordinates
 flat out vec4 depth_plane;                 // xyz: depth at (x, y, 1); w: how far off that may be
 flat out vec4 inverse_w;                   // the same of 1 / w
 flat out vec4 box_texel;
-flat out vec4 errors;                      // of x and y, z, w; w: departure per half texel along both axes
+flat out vec4 errors;                      // x: of x and y; y: of z; z: of w. w: departure per half texel, both axes
 flat out float nearest;                    // depth of the nearest corner
 
 const vec3 kAlong = vec3(1.0);
 
-vec3 crossed(vec3 a, vec3 b) { return a.yzx * b.zxy + a.zxy * b.yzx; }   // of absolute values: a bound of a cross product
+// Returns a bound on the components of a cross product, out of the vectors' absolute values.
+vec3 crossed(vec3 a, vec3 b) { return a.yzx * b.zxy + a.zxy * b.yzx; }
+
 // Returns how far a cross product may be off, each vector by its error. det_error() does so of a determinant.
 vec3 cross_error(vec3 a, vec3 ea, vec3 b, vec3 eb) {
     vec3 most = crossed(a + ea, b + eb);

@@ -1,11 +1,11 @@
-// One level of the pyramid that sources with a size read: the nearest depths of squares of kEndsAcross² texels (CUBE:
-// of a cube's face). OF_LEVEL: of as many squares of the level below.
+// One level of the occluder pyramid that sources with a size read: the nearest depths in squares of kEndsAcross²
+// texels. CUBE: the texels are those of a cube's face. OF_LEVEL: squares of the level below stand for the texels.
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 // C++ twin: EndsRecord in systems/shadow/exact/occluder_pyramid_pass.h.
 layout(std140, binding = kPyramidBlock) uniform EndsBlock {
-    vec4 axis_u, axis_v, axis_back;   // of a cube's face
+    vec4 axis_u, axis_v, axis_back;   // axes of a cube's face, as in face_axes()
     ivec4 from;                       // x: where the level below begins; y: its side; z: layer of the map
     ivec4 to;                         // x, y: the same of this level
     vec4 numbers;                     // x: tangent of a texel's side, 0: parallel light; y: alpha (see

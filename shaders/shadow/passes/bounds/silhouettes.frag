@@ -1,4 +1,4 @@
-// How near an edge comes in each texel that it crosses (Liang and Barsky 1984).
+// Nearest depth of an edge in each texel that it crosses (Liang and Barsky 1984).
 flat in vec4 ends_texel;
 flat in vec2 end_depths;
 flat in float half_texel;
