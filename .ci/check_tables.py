@@ -55,30 +55,44 @@ SAMPLES = (
 )
 
 
+def check(root):
+    """Lines to print, and the exit status."""
+    missing = [f"{name}: no such table" for name in sorted(TABLES) if not (root / name).is_file()]
+    found = comparisons(root)
+    lines = [*missing, *found, f"{len(found)} comparisons, {LIMIT} are the limit"]
+    return lines, 1 if missing or len(found) > LIMIT else 0
+
+
+def judged(contents):
+    """comparisons() and the status of a tree with these files, {path: text}."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in contents.items():
+            (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
+            (Path(folder) / name).write_text(text, encoding="utf-8")
+        return comparisons(Path(folder)), check(Path(folder))[1]
+
+
 def self_test():
     failures = []
+    tables = {**dict.fromkeys(TABLES, "if (kind == LightKind::spot) f();\n"), STORAGE_TABLE: "constexpr FilterStorage kTriangles{};\n"}
     for part in PARTS:
         for text, want in SAMPLES:
-            with tempfile.TemporaryDirectory() as folder:
-                table = "constexpr FilterStorage kTriangles{};\nif (kind == LightKind::spot) f();\n"
-                for name, content in ((STORAGE_TABLE, table), (f"{part}/own.cpp", text)):
-                    (Path(folder) / name).parent.mkdir(parents=True, exist_ok=True)
-                    (Path(folder) / name).write_text(content, encoding="utf-8")
-                found = comparisons(Path(folder))
+            found, _ = judged({**tables, f"{part}/own.cpp": text})
             if len(found) != want:
                 failures.append(f"expected {want} in {part} of {text!r}, found {found}")
-    print(*failures, f"{len(PARTS) * len(SAMPLES)} trees checked, {len(failures)} judged wrongly", sep="\n")
+    one = "return filter != ShadowFilter::hard;\n"
+    whole = ((tables, 0), ({}, 1), ({**tables, "bench/own.cpp": one * LIMIT}, 0), ({**tables, "bench/own.cpp": one * (LIMIT + 1)}, 1))
+    failures += [f"expected status {want} of {list(contents)}" for contents, want in whole if judged(contents)[1] != want]
+    print(*failures, f"{len(PARTS) * len(SAMPLES) + len(whole)} trees checked, {len(failures)} judged wrongly", sep="\n")
     return 1 if failures else 0
 
 
 def main(arguments):
     if arguments == ["--self-test"]:
         return self_test()
-    root = Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent
-    missing = [f"{name}: no such table" for name in sorted(TABLES) if not (root / name).is_file()]
-    found = comparisons(root)
-    print(*missing, *found, f"{len(found)} comparisons, {LIMIT} are the limit", sep="\n")
-    return 1 if missing or len(found) > LIMIT else 0
+    lines, status = check(Path(arguments[0]) if arguments else Path(__file__).resolve().parent.parent)
+    print(*lines, sep="\n")
+    return status
 
 
 if __name__ == "__main__":
