@@ -85,7 +85,8 @@ TEST_F(StillFrames, TakeLightsOfAnyNumber) {
     gl::CommandList list;
     FrameReport report;
     gpu.value().update(scene, list);
-    system.update(scene, gpu.value(), true, list, report);
+    system.update(scene, gpu.value(), {}, list, report);
+    system.report(scene, {}, report);
     system.commit(scene, true);
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
         EXPECT_GT(report.lights[i].views, 0u);
@@ -109,7 +110,8 @@ TEST_F(StillFrames, LookAtNoInstance) {
         gpu.value().update(scene, list);
         scene.changed_instances.clear();
         list.clear();
-        system.update(scene, gpu.value(), true, list, report);
+        system.update(scene, gpu.value(), {}, list, report);
+    system.report(scene, {}, report);
         system.commit(scene, true);
     };
     for (int i = 0; i < 120 && !report.still; ++i) update();

@@ -203,7 +203,7 @@ bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
         next = held;
         fitted = fit_once(held, next);
         // After kMostSizes one more is fitted if they were too small: a border is another share of each size.
-        if (!fitted || again > kMostSizes || (again == kMostSizes && meets_target())) break;
+        if (!fitted || again > kMostSizes || (again == kMostSizes && has_met_target())) break;
         if (!settle_size(light_, views(), held, sizes, spare_frames, request())) break;
         select_sets_again();
     }
@@ -212,7 +212,7 @@ bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
     return fitted;
 }
 
-bool LightFit::meets_target() const { return keeps_contract(predicted_px(views()), wished_error_px(light_.shadow)); }
+bool LightFit::has_met_target() const { return keeps_contract(predicted_px(views()), wished_error_px(light_.shadow)); }
 
 /// Returns whether the search for another number of cascades is due.
 bool LightFit::is_count_due(const HeldLight& held, HeldLight& next) const {
@@ -278,7 +278,7 @@ void LightFit::select_sets_again() {
 Reason LightFit::select_casters() {
     ShadowRequest& request = out_.lights[index_].request;
     const bool samples =
-        light_.kind == LightKind::directional && light_.tuning.cascades.splits == CascadeSplits::sampled;
+        light_facts(light_.kind).parallel && light_.tuning.cascades.splits == CascadeSplits::sampled;
     if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
     bool any = false;
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {

@@ -64,7 +64,7 @@ private:
     bool fit_and_count(const HeldLight& held, bool recount, HeldLight& next);
     bool fit_once(const HeldLight& held, HeldLight& next);
     bool fit_size(const HeldLight& held, HeldLight& next);
-    bool meets_target() const;
+    bool has_met_target() const;
     bool is_count_due(const HeldLight& held, HeldLight& next) const;
     bool choose_count(const HeldLight& held, HeldLight& next);
     bool fit_count(std::uint32_t count, const ShadowRequest& usual, const HeldLight& held, HeldLight& next);

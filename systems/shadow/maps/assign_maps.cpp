@@ -59,7 +59,7 @@ void MapStore::assign(const SceneSnapshot& scene, const FittedViews& fitted, std
         if (!history.texture) continue;  // rays replace the map
         MapAssignment& map = maps[v];
         map.texture = history.texture;
-        map.target = history.targets[view.layer];
+        map.target = history.layers.targets[view.layer];
         map.triangles = history.triangles;
         if (history.storage.conservative_bounds)
             map.sheets = {history.sheets.second, history.sheets.second_targets[view.layer], history.sheets.bounds,

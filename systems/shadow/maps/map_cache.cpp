@@ -60,7 +60,7 @@ void MapStore::waiting_bytes(const SceneSnapshot& scene, std::vector<std::option
     bytes_of.assign(scene.lights.size(), std::nullopt);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightHistory* map = find(scene.lights[i].entity);
-        if (map && map->failure != Reason::none && frame_ < map->retry_frame) bytes_of[i] = bytes(*map);
+        if (map && map->allocation.failure != Reason::none && frame_ < map->allocation.retry_frame) bytes_of[i] = bytes(*map);
     }
 }
 
@@ -80,7 +80,7 @@ void MapStore::note_places(std::size_t first) {
 }
 
 void MapStore::release(LightHistory& history) {
-    for (const gl::TargetHandle target : history.targets) device_.destroy(target);
+    for (const gl::TargetHandle target : history.layers.targets) device_.destroy(target);
     device_.destroy(history.whole);
     device_.destroy(history.texture);
     device_.destroy(history.triangles);
@@ -93,10 +93,10 @@ void MapStore::release(LightHistory& history) {
     device_.destroy(history.moments.scratch);
     history.moments = {};
     history.whole = {};
-    history.targets.clear();
-    history.content.clear();
-    history.placements.clear();
-    history.shown.clear();
+    history.layers.targets.clear();
+    history.layers.content.clear();
+    history.layers.placements.clear();
+    history.layers.shown.clear();
     history.waits = false;
     history.texture = history.triangles = {};
 }
@@ -105,7 +105,7 @@ bool MapStore::make_targets(LightHistory& map) const {
     for (std::uint32_t layer = 0; layer < gl::layer_count(map.desc); ++layer) {
         const auto target = device_.create_target(target_of(map, static_cast<std::int32_t>(layer)));
         if (!target) return false;
-        map.targets.push_back(target.handle);
+        map.layers.targets.push_back(target.handle);
     }
     return true;
 }
@@ -192,9 +192,9 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     history.triangles = made.triangles;
     history.sheets = std::move(made.sheets);
     history.moments = std::move(made.moments);
-    history.targets = std::move(made.targets);
-    history.content.assign(history.targets.size(), 0);
-    history.placements.assign(history.targets.size(), 0);
+    history.layers.targets = std::move(made.layers.targets);
+    history.layers.content.assign(history.layers.targets.size(), 0);
+    history.layers.placements.assign(history.layers.targets.size(), 0);
     return Reason::none;
 }
 
@@ -207,17 +207,17 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
           history.storage == storage && is_same_store(history.moments, moments_of(held, request.map)))) {
         // The light needs a map of another kind. The old map has no use, nor has the record of a failure.
         release(history);
-        history.wanted_px = 0;
-        history.failure = Reason::none;
+        history.allocation.wanted_px = 0;
+        history.allocation.failure = Reason::none;
     }
-    const bool fits = history.texture && history.wanted_px == desc.width;
-    if (fits && (history.failure == Reason::none || frame_ < history.retry_frame)) return true;
-    if (history.failure != Reason::none && frame_ < history.retry_frame && history.wanted_px == desc.width)
+    const bool fits = history.texture && history.allocation.wanted_px == desc.width;
+    if (fits && (history.allocation.failure == Reason::none || frame_ < history.allocation.retry_frame)) return true;
+    if (history.allocation.failure != Reason::none && frame_ < history.allocation.retry_frame && history.allocation.wanted_px == desc.width)
         return static_cast<bool>(history.texture);
     const std::uint32_t edge_px = desc.width;
     desc.label = "shadow map " + light.name;
-    history.wanted_px = edge_px;
-    history.failure = Reason::none;
+    history.allocation.wanted_px = edge_px;
+    history.allocation.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
         if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // no larger
@@ -231,21 +231,21 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
         }
         refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
         if (reason == Reason::none) {
-            if (halving > 0) history.failure = Reason::map_shrunk;
+            if (halving > 0) history.allocation.failure = Reason::map_shrunk;
             break;
         }
-        history.failure = reason;
+        history.allocation.failure = reason;
         if (reason == Reason::target_incomplete) break;  // a smaller one would fail alike
     }
-    if (history.failure != Reason::none) history.retry_frame = frame_ + kRetryFrames;
-    if (history.failure != Reason::none && history.texture) history.failure = Reason::map_shrunk;
+    if (history.allocation.failure != Reason::none) history.allocation.retry_frame = frame_ + kRetryFrames;
+    if (history.allocation.failure != Reason::none && history.texture) history.allocation.failure = Reason::map_shrunk;
     return static_cast<bool>(history.texture);
 }
 
 bool MapStore::stay() {
     for (const LightHistory& history : lights_) {
         const bool wanted = history.last_wanted_frame + 1 == frame_;
-        if (wanted && history.failure != Reason::none && frame_ >= history.retry_frame) return false;
+        if (wanted && history.allocation.failure != Reason::none && frame_ >= history.allocation.retry_frame) return false;
         if (!wanted && history.texture && frame_ - history.last_wanted_frame > kHoldFrames) return false;
         if (is_still_idle(history) || (wanted && history.waits)) return false;
     }
@@ -328,7 +328,7 @@ void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
             const bool first = !limited || map_bytes(scene.lights[i], request) < bytes(history);
             if (first != (round == 0)) continue;
             if (ensure_map(scene.lights[i], request, history)) continue;
-            accounts.statuses[i].lose_maps(history.failure, request.rays.used);
+            accounts.statuses[i].lose_maps(history.allocation.failure, request.rays.used);
         }
     if (!std::exchange(refused_, false)) return;
     available_ = bytes();

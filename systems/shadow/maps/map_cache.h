@@ -39,27 +39,36 @@ struct SheetMap {
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
 };
 
-/// State of one light that outlives a frame: its map, the targets of its layers, and what each layer shows. Also
-/// records when an allocation may be tried again.
+/// What the layers of a light's map hold, and where they are drawn. One entry per layer in each.
+struct MapLayers {
+    std::vector<gl::TargetHandle> targets;
+    std::vector<std::uint64_t> content;     // hash of what was drawn, 0: nothing
+    std::vector<std::uint64_t> placements;  // its ContentSignature::placement
+    std::vector<ShownCasters> shown;        // for lights with maps that may be kept; else empty
+};
+
+/// How the allocation of a light's map went.
+struct MapAllocation {
+    std::uint32_t wanted_px = 0;    // size requested when the map was made
+    Reason failure = Reason::none;  // why there is no map, or a smaller one
+    std::uint64_t retry_frame = 0;  // frame from which a failed allocation may be tried again
+};
+
+/// State of one light that outlives a frame: its map, and what each layer shows.
 struct LightHistory {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    FilterStorage storage{};                // what the map was made for
-    gl::TextureHandle triangles{};          // triangle per texel, for a filter that reads or peels them; else {0}
-    SheetMap sheets;                        // conservative map, for a filter of FilterStorage::conservative_bounds
-    MomentMap moments;                      // prefiltered map, for a filter with FilterRow::moments
-    StillMap still;                         // copy of its static casters, while only some casters move
-    std::vector<gl::TargetHandle> targets;  // one per layer
-    gl::TargetHandle whole{};               // all layers at once; made when first drawn that way
-    std::uint64_t wanted_content = 0;       // hash of all layers in the last frame, for lights that may skip their map
-    std::vector<std::uint64_t> content;     // per layer: hash of what was drawn, 0: nothing
-    std::vector<std::uint64_t> placements;  // per layer: its ContentSignature::placement
-    std::vector<ShownCasters> shown;        // per layer, for lights with maps that may be kept; else empty
-    bool waits = false;                     // an update of a layer is deferred (Grant::refresh_frames)
-    std::uint32_t wanted_px = 0;            // size requested when the map was made
-    Reason failure = Reason::none;          // why there is no map, or a smaller one
-    std::uint64_t retry_frame = 0;
+    FilterStorage storage{};           // what the map was made for
+    gl::TextureHandle triangles{};     // triangle per texel, for a filter that reads or peels them; else {0}
+    SheetMap sheets;                   // conservative map, for a filter of FilterStorage::conservative_bounds
+    MomentMap moments;                 // prefiltered map, for a filter with FilterRow::moments
+    StillMap still;                    // copy of its static casters, while only some casters move
+    MapLayers layers;
+    gl::TargetHandle whole{};          // all layers at once; made when first drawn that way
+    std::uint64_t wanted_content = 0;  // hash of all layers in the last frame, for lights that may skip their map
+    bool waits = false;                // an update of a layer is deferred (Grant::refresh_frames)
+    MapAllocation allocation;
     std::uint64_t last_wanted_frame = 0;
     std::uint64_t kept_frame = 0;  // last frame in which its light requested shadows
 };

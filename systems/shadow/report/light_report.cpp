@@ -82,9 +82,9 @@ void explain_state(const LightStatus& status, const BudgetDecision& decision, co
     } else if (lookup.lost) {
         out.state = LightState::skipped;
         out.reason = status.degraded();
-    } else if (history && history->failure != Reason::none) {
+    } else if (history && history->allocation.failure != Reason::none) {
         out.state = LightState::degraded;
-        out.reason = history->failure;
+        out.reason = history->allocation.failure;
     } else if (decision.over_budget) {
         out.state = LightState::degraded;
         out.reason = Reason::budget_shrunk;
@@ -162,7 +162,7 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     lookup.left_to_rays = is_left_to_rays(in.drawn, i);
     explain_state(status, decision, history, lookup, out);
     out.keeps_max_error =
-        (exact && !status.is_skipped()) || (shown.keeps_max_error && !exact && history->failure == Reason::none);
+        (exact && !status.is_skipped()) || (shown.keeps_max_error && !exact && history->allocation.failure == Reason::none);
     const LightSetsView sets = in.drawn.fitted.sets_of(in.sets, i);
     out.why.receivers = sets.ranges.receivers.count;
     out.why.casters = sets.ranges.casters.count;

@@ -11,11 +11,11 @@ void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t
                 LightHistory& history) {
     const ShadowView& view = drawn.view(v);
     if (!may_be_held(scene.lights[view.light]) && !takes_turns) {
-        history.shown.clear();
+        history.layers.shown.clear();
         return;
     }
-    history.shown.resize(history.targets.size());
-    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still, history.shown[view.layer]);
+    history.layers.shown.resize(history.layers.targets.size());
+    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still, history.layers.shown[view.layer]);
 }
 
 }  // namespace
@@ -28,12 +28,12 @@ void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const Fram
         const ContentSignature& wanted = drawn.maps[v].content;
         LightHistory& history = maps.entry(scene.lights[drawn.view(v).light].entity);
         if (!plan.reuse) {
-            history.content[layer] = end.executed ? plan.content : 0;
-            history.placements[layer] = wanted.placement;
+            history.layers.content[layer] = end.executed ? plan.content : 0;
+            history.layers.placements[layer] = wanted.placement;
             note_shown(scene, drawn, v, end.takes_turns, history);
         }
-        if (layer < history.shown.size())
-            history.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
+        if (layer < history.layers.shown.size())
+            history.layers.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
         if (plan.still_use == StillUse::fill) history.still.layers[layer].content = end.executed ? wanted.still : 0;
         if (plan.convert && drawn.has_prefiltered(v))
             history.moments.content[layer] = end.executed ? plan.moment_content : 0;

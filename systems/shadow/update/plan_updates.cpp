@@ -24,11 +24,11 @@ void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, cons
         const LightHistory& history = *maps.find(light.entity);
         UpdatePlan& plan = plans[v];
         plan.content = map.content.all;
-        plan.reuse = view.lit || (light.tuning.reuse.economy && history.content[view.layer] == plan.content);
+        plan.reuse = view.lit || (light.tuning.reuse.economy && history.layers.content[view.layer] == plan.content);
         if (plan.reuse) continue;
-        plan.shown_content = history.content[view.layer];
+        plan.shown_content = history.layers.content[view.layer];
         plan.if_held = staleness_if_held(scene, inputs, v, history, plan.shown_content);
-        if (view.layer < history.shown.size()) plan.waited_frames = history.shown[view.layer].waited_frames;
+        if (view.layer < history.layers.shown.size()) plan.waited_frames = history.layers.shown[view.layer].waited_frames;
     }
 }
 

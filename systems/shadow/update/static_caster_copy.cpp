@@ -23,7 +23,7 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         const LightItem& light = scene.lights[view.light];
         if (!light.tuning.reuse.economy) continue;
         LightHistory& map = maps.entry(light.entity);
-        map.still.layers.resize(map.targets.size());
+        map.still.layers.resize(map.layers.targets.size());
         StillMap::Layer& layer = map.still.layers[view.layer];
         const bool held = layer.content == assigned.content.still;
         // Copies only what was shown twice. A fit that follows the camera, or an object that moves one step, may never
