@@ -8,7 +8,8 @@ void note_submission(const FrameParts& parts, std::uint64_t submission, bool lea
     shadow::ShadowSystem& shadows = parts.shadows;
     shadows.draw_times().submitted(submission, parts.scene, report);
     const shadow::ShadowFrame& frame = shadows.frame();
-    if (learn_costs) shadows.cost_clock().submitted(submission, parts.scene, frame.decisions, frame.inputs, report);
+    if (learn_costs)
+        shadows.cost_calibration().submitted(submission, parts.scene, frame.decisions, frame.inputs, report);
 }
 
 }  // namespace
@@ -25,7 +26,7 @@ std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::Subm
     if (timings.empty()) return timings;
     parts.shadows.draw_times().learn(timings);
     if (parts.lighting) parts.lighting->learn(timings);
-    if (learn_costs) parts.shadows.cost_clock().learn(timings);
+    if (learn_costs) parts.shadows.cost_calibration().learn(timings);
     return timings;
 }
 

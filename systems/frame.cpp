@@ -12,17 +12,17 @@
 namespace gnomon {
 
 Result<std::unique_ptr<Frame>> Frame::create(gl::Device& device, const assets::MeshLibrary& library,
-                                             const shadow::History& held_fits) {
+                                             const shadow::History& fit_history) {
     auto scene = GpuScene::create(device, library);
     if (!scene) return scene.error();
-    return std::unique_ptr<Frame>(new Frame(device, library, held_fits, std::move(scene).value()));
+    return std::unique_ptr<Frame>(new Frame(device, library, fit_history, std::move(scene).value()));
 }
 
-Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& held_fits, GpuScene scene)
+Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history, GpuScene scene)
     : device_(device),
       library_(library),
       gpu_scene_(std::move(scene)),
-      shadows_(std::make_unique<shadow::ShadowSystem>(device, held_fits)),
+      shadows_(std::make_unique<shadow::ShadowSystem>(device, fit_history)),
       lighting_(std::make_unique<lighting::LightingSystem>(device)),
       debug_(std::make_unique<debug::DebugPainter>(device)) {
     feedback_.spare = &lighting_->spare();
@@ -30,7 +30,7 @@ Frame::Frame(gl::Device& device, const assets::MeshLibrary& library, const shado
 
 Frame::~Frame() = default;
 
-const shadow::History& Frame::held_fits() const { return shadows_->held_fits(); }
+const shadow::History& Frame::fit_history() const { return shadows_->fit_history(); }
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const auto start = std::chrono::steady_clock::now();
@@ -52,7 +52,7 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     const bool sample_depths = !held && shadows_->wants_sampled_depths(snapshot_);
     if (!sample_depths && !held) feedback_.sampled_depths = {};  // outdated when needed next
     const bool measure_exposure =
-        settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->dim_lights().wants_exposure();
+        settings.leave_out_dim_lights && !settings.exposure_ev && shadows_->contribution_culling().wants_exposure();
     if (!measure_exposure) lighting_->forget_exposure();
     outcome_.clear();
     has_picture_ =

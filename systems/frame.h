@@ -60,10 +60,10 @@ struct FrameSettings {
 /// order, write your own after frame.cpp's run(), which is all there is.
 class Frame {
 public:
-    /// Creates a frame. `device` and `library` must outlive it. `held_fits`: of the frame to continue after a lost
+    /// Creates a frame. `device` and `library` must outlive it. `fit_history`: of the frame to continue after a lost
     /// context; pictures then continue bit for bit. Errors: "gpu.scene".
     static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library,
-                                                 const shadow::History& held_fits = {});
+                                                 const shadow::History& fit_history = {});
     ~Frame();
 
     /// Runs one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the world's
@@ -74,7 +74,7 @@ public:
     const FrameReport& report() const { return report_; }
     const gl::CommandList& commands() const { return commands_; }  // last frame
     /// Returns the fit history of all lights. It needs no device and outlives one.
-    const shadow::History& held_fits() const;
+    const shadow::History& fit_history() const;
     /// Returns what lighting measured for the shadows of the next frame.
     const shadow::LightingFeedback& feedback() const { return feedback_; }
 
@@ -94,7 +94,7 @@ public:
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
 
 private:
-    Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& held_fits, GpuScene scene);
+    Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history, GpuScene scene);
     std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
     void collect_timings(const std::vector<gl::Timing>& timings);

@@ -101,7 +101,7 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
     }
     accuracy.trace_s = seconds_since(start);
     accuracy.camera_ws_m = camera.position_ws_m;
-    const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().held_fits());
+    const EdgeBounds bounds(snapshot, stage.device().info(), stage.frame().fit_history());
     const std::vector<std::uint8_t> creases = oracle::creases(hits);
     for (std::size_t k = 0; k < indices.size(); ++k) {
         LightAccuracy& light = accuracy.lights[k];

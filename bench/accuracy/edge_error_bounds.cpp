@@ -76,7 +76,7 @@ oracle::TexelThere texel_there(const ShadowView& view, const shadow::ShadowReque
     const shadow::TexelSides sides = shadow::texel_sides(view, p_ws);
     oracle::TexelThere texel{
         .u_m = sides.u_m, .v_m = sides.v_m, .filter_texel = filter_texel, .reach_texel = filter_texel};
-    texel.depth_m = shadow::told_apart_m(view, demand.map.depth_format, p_ws);
+    texel.depth_m = shadow::min_resolvable_gap_m(view, demand.map.depth_format, p_ws);
     const double cosine = glm::dot(to_light(view, p_ws), normal);
     if (std::sqrt(std::max(0.0, 1.0 - cosine * cosine)) > steep_tangent() * cosine) {
         texel.reach_texel += moved_texel(view, demand, sides, p_ws, normal, filter_texel);
@@ -92,9 +92,10 @@ EdgeBounds::EdgeBounds(const SceneSnapshot& scene, const gl::DeviceInfo& device,
     stages.decide(scene, device, held);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
-        const shadow::HeldLight* last = find(held, light.entity, i);
+        const shadow::LightFitHistory* last = find(held, light.entity, i);
         shadow::ShadowRequest& request = stages.frame.requests[i];
-        if (last && !(last->budget.grant == shadow::Grant{})) request = shadow::granted(light, request, last->budget.grant);
+        if (last && !(last->budget.grant == shadow::QualityLimits{}))
+            request = shadow::granted(light, request, last->budget.grant);
     }
     stages.select(scene);
     stages.fit(scene, held);
@@ -153,7 +154,7 @@ oracle::TexelThere EdgeBounds::at(std::uint32_t light, const glm::dvec3& point_r
 
 oracle::TexelThere EdgeBounds::promised(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,
                                         double wished) const {
-    return within(light, point_rel_m, normal, shadow::wished_error_px(scene_.lights[light].shadow), wished);
+    return within(light, point_rel_m, normal, shadow::target_error_px(scene_.lights[light].shadow), wished);
 }
 
 oracle::TexelThere EdgeBounds::within(std::uint32_t light, const glm::dvec3& point_rel_m, const glm::dvec3& normal,

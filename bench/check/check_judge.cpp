@@ -36,7 +36,7 @@ std::vector<float> held_against(const std::vector<float>& truth, const std::vect
 std::size_t unexplained(Stage& stage, const TracedTruths& truths, const TracedLight& light,
                         const oracle::LightTruth& truth, const std::vector<float>& measured, double tolerance) {
     const SceneSnapshot& scene = stage.frame().snapshot();
-    const EdgeBounds bounds(scene, stage.device().info(), stage.frame().held_fits());
+    const EdgeBounds bounds(scene, stage.device().info(), stage.frame().fit_history());
     const oracle::FarErrors far =
         errors_beyond_texels({*truths.tracer, truths.hits, truths.creases, scene, light.index, truth}, bounds,
                              held_against(truth.visibility, measured, tolerance));

@@ -89,8 +89,8 @@ void judge(Stage& stage, const TracedTruths& truths, CheckRow& row) {
     row.tolerance = row_tolerance(*row.setup.filter, rays);
     const auto on_measured = [&](const TracedLight& light, const std::vector<float>& measured) {
         row.errors = judge_check_row(stage, truths, light, measured, *row.setup.filter, row.tolerance);
-        row.map_px =
-            EdgeBounds(stage.frame().snapshot(), stage.device().info(), stage.frame().held_fits()).map_px(light.index);
+        row.map_px = EdgeBounds(stage.frame().snapshot(), stage.device().info(), stage.frame().fit_history())
+                         .map_px(light.index);
     };
     const JudgedRow judged = judge_row(stage, truths, row.setup, {.edges = false, .on_measured = on_measured});
     if (judged.error) return fail(row, *judged.error);

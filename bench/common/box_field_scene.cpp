@@ -44,8 +44,8 @@ SceneSnapshot plain(std::int64_t boxes, LightKind kind, double sight_m) {
     return scene;
 }
 
-shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages, const shadow::HeldLight& held,
-                           shadow::HeldLight& next) {
+shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages, const shadow::LightFitHistory& held,
+                           shadow::LightFitHistory& next) {
     const shadow::ReceiverCasterSets& sets = stages.frame.sets;
     const shadow::LightSetsView light{sets, sets.lights[0]};
     const shadow::ShadowRequest& request = stages.frame.requests[0];
@@ -55,7 +55,7 @@ shadow::FitInput fit_input(const SceneSnapshot& scene, shadow::FitStages& stages
             .receivers = light.receivers(),
             .casters = light.casters(),
             .receiver_points_ws = light.receiver_points_ws(),
-            .beams = light.beams(),
+            .hulls = light.hulls(),
             .frame_points_ws = sets.receiver_points_ws,
             .reach_texel = request.map.filtering.widest_texel,
             .sampled_depths = stages.sampled_depths,

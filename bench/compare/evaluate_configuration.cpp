@@ -38,7 +38,7 @@ double median_px(const oracle::EdgeDisplacement& edge) {
 void judge_edges(Stage& stage, const TracedTruths& truths, const TracedLight& light,
                  const oracle::EdgeDisplacement& edge, RowFigures& figures) {
     const SceneSnapshot& scene = stage.frame().snapshot();
-    const EdgeBounds bounds(scene, stage.device().info(), stage.frame().held_fits());
+    const EdgeBounds bounds(scene, stage.device().info(), stage.frame().fit_history());
     const auto exceptions = oracle::edge_exceptions(
         *truths.tracer, truths.hits, scene.consumers.front(), scene.lights[light.index], light.point, edge,
         [&](const glm::dvec3& point, const glm::dvec3& normal) { return bounds.at(light.index, point, normal); });
@@ -54,7 +54,7 @@ void judge_edges(Stage& stage, const TracedTruths& truths, const TracedLight& li
 void judge_far(Stage& stage, const TracedTruths& truths, const TracedLight& light, const std::vector<float>& measured,
                RowFigures& figures) {
     const SceneSnapshot& scene = stage.frame().snapshot();
-    const EdgeBounds bounds(scene, stage.device().info(), stage.frame().held_fits());
+    const EdgeBounds bounds(scene, stage.device().info(), stage.frame().fit_history());
     const oracle::FarErrors far = errors_beyond_texels(
         {*truths.tracer, truths.hits, truths.creases, scene, light.index, light.point}, bounds, measured);
     const double scored = std::max(figures.scored_px.value_or(0.0), 1.0);

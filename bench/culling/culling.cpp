@@ -68,7 +68,7 @@ void fit(benchmark::State& state) {
     shadow::FitStages stages;
     stages.decide(scene);
     stages.select(scene);
-    shadow::HeldLight held, next;
+    shadow::LightFitHistory held, next;
     const shadow::FitInput input = fit_input(scene, stages, held, next);
     std::vector<shadow::ShadowView> views;
     for (auto _ : state) {

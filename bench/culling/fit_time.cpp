@@ -67,7 +67,7 @@ Spread measure(const Kind& kind, std::size_t receivers, std::size_t casters) {
     shadow::FitStages stages;
     stages.decide(scene);
     stages.select(scene);
-    shadow::HeldLight held, next;
+    shadow::LightFitHistory held, next;
     const shadow::FitInput input = fit_input(scene, stages, held, next);
     std::vector<shadow::ShadowView> views;
     const ConsumerItem& camera = scene.consumers[0];

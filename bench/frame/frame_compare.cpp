@@ -14,7 +14,7 @@ constexpr std::size_t kLineLength = 512;
 constexpr double kBytesPerMb = 1.0e6;
 
 /// An exact sun gets finer maps once its casters have stayed for so long while the camera moves.
-constexpr std::uint32_t kWalkSettlingFrames = shadow::kQuietFrames + kSettlingFrames;
+constexpr std::uint32_t kWalkSettlingFrames = shadow::kStaticSunFrames + kSettlingFrames;
 
 /// Motion and drawing while frames are timed.
 enum class Going : std::uint8_t { still, drawn_anew, walk, walk_drawn_anew, everything, count };
@@ -68,7 +68,7 @@ bool is_asked(bool others, Going going) {
                        [&](const Pair& p) { return (others ? p.other : p.own) == going; });
 }
 
-nlohmann::ordered_json to_json(const FramesAgainst::Way& way) {
+nlohmann::ordered_json to_json(const FramesAgainst::DepthVariant& way) {
     return {{"us", bench::to_json(way.frames.us)},
             {"cpu_us", bench::to_json(way.frames.cpu_us)},
             {"views_drawn", way.views_drawn},

@@ -11,7 +11,7 @@ namespace gnomon::bench {
 struct FramesAgainst {
     std::string scene, device;
     std::vector<std::string> settings, other_settings;  // "KEY=VALUE"; the others come on top of the first
-    struct Way {
+    struct DepthVariant {
         TimedFrames frames;  // frames of the first way; ratio: to the other's
         std::uint32_t views_drawn = 0;
         std::uint64_t bytes = 0;  // both of all lights in the last frame
@@ -19,7 +19,7 @@ struct FramesAgainst {
     struct Held {
         const char* words;
         const char* key;
-        Way own, other;
+        DepthVariant own, other;
     };
     std::vector<Held> held;
 };

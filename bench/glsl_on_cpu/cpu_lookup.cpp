@@ -103,7 +103,7 @@ constexpr CompiledRow kRows[] = {GNOMON_FILTERS(ROWS_OF_FILTER)};
 std::unique_ptr<ExactLight> make_exact_light(const shadow::ShadowFrame& frame, const SceneSnapshot& scene,
                                              std::uint32_t light, const MapCopy& map,
                                              const CasterTriangleList& casters) {
-    const shadow::ProgramRow& row = frame.inputs.front().lights[light].row;
+    const shadow::ShaderKey& row = frame.inputs.front().lights[light].row;
     if (row.filter_file.empty()) return std::make_unique<LitLight>();
     for (const CompiledRow& compiled : kRows)
         if (compiled.kind_file == row.kind_file && compiled.filter_file == row.filter_file)

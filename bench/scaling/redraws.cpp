@@ -129,7 +129,7 @@ private:
         shadows_->update(snapshot_, *gpu_, {}, list_, report_);
         (void)device_.submit(list_);
         device_.forget();
-        held_ = shadows_->held_fits();
+        held_ = shadows_->fit_history();
         shadows_->commit(snapshot_, true);
     }
 
@@ -147,10 +147,10 @@ private:
             still = frame.maps[v].content.still;
         }
         for (std::size_t i = 0; i < snapshot_.lights.size(); ++i) {
-            const shadow::HeldLight* before = find(held_, snapshot_.lights[i].entity, i);
-            const shadow::HeldLight* after = find(shadows_->held_fits(), snapshot_.lights[i].entity, i);
+            const shadow::LightFitHistory* before = find(held_, snapshot_.lights[i].entity, i);
+            const shadow::LightFitHistory* after = find(shadows_->fit_history(), snapshot_.lights[i].entity, i);
             if (!before || !after) continue;
-            for (std::size_t v = 0; v < shadow::kHeldViews; ++v)
+            for (std::size_t v = 0; v < shadow::kHistoryViews; ++v)
                 counts_[snapshot_.lights[i].name].refitted += before->views[v] != after->views[v];
         }
     }

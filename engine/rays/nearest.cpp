@@ -10,7 +10,7 @@ namespace gnomon::rays {
 namespace {
 
 /// Returns the direction of the packet's first ray. Rays that start close together have similar directions.
-glm::vec3 way_of(const SegmentPacket& segments) {
+glm::vec3 variant_of(const SegmentPacket& segments) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(segments.lanes));
     return {segments.along[0][lane], segments.along[1][lane], segments.along[2][lane]};
 }
@@ -34,7 +34,7 @@ void ask_leaf(const MeshBvh& tree, const BvhNode& leaf, SegmentPacket& segments,
 void ask_nearest(const MeshBvh& tree, SegmentPacket& segments, NearestTest& exact) {
     const std::span<const BvhNode> nodes = tree.nodes();
     if (nodes.empty() || segments.lanes == 0) return;
-    const glm::vec3 way = way_of(segments);
+    const glm::vec3 way = variant_of(segments);
     std::array<std::uint32_t, kMostDepth + 1> waiting;  // farther child of each level above
     std::size_t count = 0;
     waiting[count++] = 0;

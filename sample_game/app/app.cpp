@@ -83,7 +83,7 @@ bool wants_timing(const CommandLine& line, const shadow::ShadowBudget& budget, c
     return line.stats || (budget.gpu_ms > 0.0f && !device.info().is_software);
 }
 
-Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits) {
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& fit_history) {
     // Without a debug context the driver reports nothing. A search for a driver bug begins with a real sink here.
     Result<std::unique_ptr<gl::Device>> device = gl::make_gl45_device([](gl::MessageSeverity, std::string_view) {});
     if (!device) return device.error();
@@ -94,7 +94,7 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, 
             .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
             .rule = "command_line"};
     set_timing(*renderer.device, wants_timing(line, line.shadow_budget, *renderer.device));
-    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, held_fits);
+    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, fit_history);
     if (!frame) return frame.error();
     renderer.frame = std::move(frame).value();
     return renderer;

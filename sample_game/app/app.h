@@ -25,7 +25,8 @@ struct Renderer {
     std::unique_ptr<gl::Device> device;
     std::unique_ptr<Frame> frame;
 };
-Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {});
+Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world,
+                               const shadow::History& fit_history = {});
 
 /// Runs a frame for the camera of --fit-camera and freezes its fits, so that later frames show them from the other
 /// camera. Does nothing without --fit-camera.

@@ -16,10 +16,10 @@ struct Stage {
     std::unique_ptr<Gui> gui;
 };
 
-Result<Stage> make_stage(const CommandLine& line, const GameWorld& world, const shadow::History& held_fits = {}) {
+Result<Stage> make_stage(const CommandLine& line, const GameWorld& world, const shadow::History& fit_history = {}) {
     auto context = platform::make_headless_context(false);
     if (!context) return context.error();
-    auto renderer = make_renderer(line, world, held_fits);
+    auto renderer = make_renderer(line, world, fit_history);
     if (!renderer) return renderer.error();
     Stage stage{std::move(context).value(), std::move(renderer).value(), nullptr};
     if (world.game || line.debug.view || line.truth) {
@@ -58,9 +58,9 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
         stage->renderer.frame->run(world.registry, settings);
         if (stage->renderer.frame->report().failure == gl::Failure::context_lost) {
             log.warn("the graphics context was lost, and is made anew");
-            const shadow::History held_fits = stage->renderer.frame->held_fits();
+            const shadow::History fit_history = stage->renderer.frame->fit_history();
             stage.reset();
-            auto again = make_stage(line, world, held_fits);
+            auto again = make_stage(line, world, fit_history);
             if (!again) return again.error();
             stage = std::move(again).value();
             freeze_at_fit_camera(world, *stage->renderer.frame, settings);

@@ -36,7 +36,7 @@ std::string error_words(const LightSample& now) {
     return text;
 }
 
-float said_px(const LightShadow& shadow) { return static_cast<float>(shadow::wished_error_px(shadow)); }
+float said_px(const LightShadow& shadow) { return static_cast<float>(shadow::target_error_px(shadow)); }
 
 std::optional<float> contract_of(const GameWorld& world, const std::string& name) {
     for (const NamedEntity& light : world.scene.lights)

@@ -54,10 +54,10 @@ bool place(InstanceItem& item, const WorldTransform& world, const assets::Mesh& 
     return !math::is_empty(item.bounds_ws) && math::is_finite(item.bounds_ws);
 }
 
-enum class Marks : std::uint8_t { same, changed, recorded };
+enum class IndexSet : std::uint8_t { same, changed, recorded };
 
 /// Updates what an instance shows and casts, without its place. `recorded`: its record on the device changed, too.
-Marks put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceItem& item) {
+IndexSet put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceItem& item) {
     const InstanceItem was = item;
     const ShadowCaster* caster = registry.get<ShadowCaster>(item.entity);
     item.visible = ref.visible;
@@ -67,8 +67,8 @@ Marks put_marks(const ecs::Registry& registry, const MeshRef& ref, InstanceItem&
     item.cast_layers = caster ? caster->layers : kAllShadowLayers;
     if (was.receives != item.receives || was.receive_layers != item.receive_layers || was.casts != item.casts ||
         was.cast_layers != item.cast_layers)
-        return Marks::recorded;
-    return was.visible != item.visible ? Marks::changed : Marks::same;
+        return IndexSet::recorded;
+    return was.visible != item.visible ? IndexSet::changed : IndexSet::same;
 }
 
 template <class Item>
@@ -285,9 +285,9 @@ bool Extractor::touch_shown(const ecs::Registry& registry, SceneSnapshot& snapsh
         const std::uint32_t i = listed_at(e);
         if (i == kNone) continue;
         InstanceItem& item = snapshot.instances[i];
-        const Marks marks = put_marks(registry, *registry.get<MeshRef>(e), item);
-        any = any || marks != Marks::same;
-        if (marks == Marks::recorded && item.version != snapshot.version) snapshot.changed_instances.push_back(i);
+        const IndexSet marks = put_marks(registry, *registry.get<MeshRef>(e), item);
+        any = any || marks != IndexSet::same;
+        if (marks == IndexSet::recorded && item.version != snapshot.version) snapshot.changed_instances.push_back(i);
     }
     if (any) snapshot.list_version = snapshot.version;
     return any;

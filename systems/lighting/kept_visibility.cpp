@@ -54,10 +54,10 @@ KeptVisibility::Plan KeptVisibility::plan(ecs::Entity light, std::uint64_t signa
         kept.content = Content::none;
         return {};
     }
-    kept.still_frames = std::min(kept.still_frames + 1, kStillFrames);
+    kept.still_frames = std::min(kept.still_frames + 1, kStaticFrames);
     Use use = Use::read;
     if (kept.content != Content::stands) {
-        const bool fills = kept.content == Content::none && kept.still_frames == kStillFrames && is_told_;
+        const bool fills = kept.content == Content::none && kept.still_frames == kStaticFrames && is_told_;
         if (!fills || !provide(kept, area, picture_px)) return {};
         kept.content = Content::recorded;
         use = Use::fill;

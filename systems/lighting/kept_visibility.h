@@ -55,8 +55,8 @@ public:
     /// Returns true if the texture of a plan still exists.
     bool holds(gl::TextureHandle texture) const;
 
-    static constexpr std::uint64_t kHoldFrames = 60;  // frames of a camera: a second at 60 Hz, as for maps (MapStore)
-    static constexpr std::uint32_t kStillFrames = 2;  // unchanged frames before caching pays
+    static constexpr std::uint64_t kHoldFrames = 60;   // frames of a camera: a second at 60 Hz, as for maps (MapCache)
+    static constexpr std::uint32_t kStaticFrames = 2;  // unchanged frames before caching pays
 
 private:
     enum class Content : std::uint8_t { none, recorded, stands };

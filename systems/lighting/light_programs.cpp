@@ -7,45 +7,45 @@
 namespace gnomon::lighting {
 namespace {
 
-const char* output_name(RowOutput output) {
+const char* output_name(ShaderPass output) {
     switch (output) {
-        case RowOutput::picture:
+        case ShaderPass::picture:
             return "light";
-        case RowOutput::visibility:
+        case ShaderPass::visibility:
             return "visibility";
-        case RowOutput::blended:
+        case ShaderPass::blended:
             return "blended light";
-        case RowOutput::lookups:
+        case ShaderPass::lookups:
             return "lookups";
-        case RowOutput::verdicts:
+        case ShaderPass::verdicts:
             return "verdicts";
-        case RowOutput::rays:
+        case ShaderPass::rays:
             return "rays";
-        case RowOutput::kept:
+        case ShaderPass::kept:
             return "kept light";
-        case RowOutput::kept_visibility:
+        case ShaderPass::kept_visibility:
             return "kept visibility";
-        case RowOutput::decided:
+        case ShaderPass::decided:
             return "decided light";
     }
     return "light";
 }
 
 /// Returns true if the output adds light to the picture. Passes over blended surfaces draw only lit ones.
-bool adds_to_picture(RowOutput output) {
-    return output == RowOutput::picture || output == RowOutput::kept || output == RowOutput::decided;
+bool adds_to_picture(ShaderPass output) {
+    return output == ShaderPass::picture || output == ShaderPass::kept || output == ShaderPass::decided;
 }
 
 /// Returns the file under shaders/ that gives the share of a light that a surface sees.
-std::string_view visible_share_file(RowOutput output, bool found_before) {
-    if (output == RowOutput::kept || output == RowOutput::kept_visibility)
+std::string_view visible_share_file(ShaderPass output, bool found_before) {
+    if (output == ShaderPass::kept || output == ShaderPass::kept_visibility)
         return "lighting/lights/visibility_cache.glsl";
     return found_before ? "lighting/trace/ray_results.glsl" : "lighting/lights/surface_visibility.glsl";
 }
 
 /// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
-std::string_view fragment_file(RowOutput output) {
-    const bool is_share = output == RowOutput::visibility || output == RowOutput::kept_visibility;
+std::string_view fragment_file(ShaderPass output) {
+    const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility;
     return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";
 }
 
@@ -67,13 +67,13 @@ void LightPrograms::set_coloured(bool coloured) {
         *entry = {};
     }
     std::erase_if(rows_, [&](const RowEntry& row) {
-        if (row.output == RowOutput::blended) device_.destroy(row.entry.program);
-        return row.output == RowOutput::blended;
+        if (row.output == ShaderPass::blended) device_.destroy(row.entry.program);
+        return row.output == ShaderPass::blended;
     });
 }
 
 void LightPrograms::make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
-                         std::span<const std::string> defines, const shadow::ProgramRow* row) {
+                         std::span<const std::string> defines, const shadow::ShaderKey* row) {
     const std::string row_text = row ? shadow::row_glsl(*row) : std::string();
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
     files.push_back({"row.glsl", row_text});
@@ -88,10 +88,10 @@ void LightPrograms::make(Entry& entry, const std::string& label, std::string_vie
     if (!entry.program) entry.retry.failed(frame_);
 }
 
-LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ProgramRow& wanted, RowOutput output,
+LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ShaderKey& wanted, ShaderPass output,
                                                     std::string_view fragment) {
-    shadow::ProgramRow row = wanted;
-    const bool reads_answers = row.sheets && (output == RowOutput::picture || output == RowOutput::visibility);
+    shadow::ShaderKey row = wanted;
+    const bool reads_answers = row.sheets && (output == ShaderPass::picture || output == ShaderPass::visibility);
     if (row.filter_file.empty() || reads_answers) row = {row.kind_define, {}, {}};  // one program per kind
     row.sheets = wanted.sheets;
     const bool some_unlit = some_unlit_ && adds_to_picture(output);
@@ -101,36 +101,36 @@ LightPrograms::RowEntry& LightPrograms::find_or_add(const shadow::ProgramRow& wa
     return found != rows_.end() ? *found : rows_.emplace_back(RowEntry{row, output, fragment, some_unlit, {}});
 }
 
-bool LightPrograms::must_wait(const shadow::ProgramRow& row, RowOutput output) {
+bool LightPrograms::must_wait(const shadow::ShaderKey& row, ShaderPass output) {
     if (!is_due(find_or_add(row, output, {}).entry)) return false;
     if (rows_left_ == 0) return true;
     --rows_left_;
     return false;
 }
 
-gl::ProgramHandle LightPrograms::find_or_make(const shadow::ProgramRow& wanted, RowOutput output,
+gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, ShaderPass output,
                                               std::string_view fragment) {
     RowEntry& found = find_or_add(wanted, output, fragment);
-    const shadow::ProgramRow& row = found.row;
+    const shadow::ShaderKey& row = found.row;
     Entry& entry = found.entry;
     if (!is_due(entry)) return entry.program;
 
     std::vector<std::string> defines = shadow::program_defines(row);
     const bool found_before = row.filter_file.empty() && row.sheets;
     defines.push_back("VISIBLE_SHARE \"" + std::string(visible_share_file(output, found_before)) + "\"");
-    if (output == RowOutput::blended && coloured_) defines.emplace_back("COLOURED 1");
-    if (output == RowOutput::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
-    if (output == RowOutput::lookups) defines.emplace_back("SHADOW_SHOWN 1");
+    if (output == ShaderPass::blended && coloured_) defines.emplace_back("COLOURED 1");
+    if (output == ShaderPass::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
+    if (output == ShaderPass::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +
                               " " + std::string(row.kind_define) + " " + std::string(row.filter_file) +
                               (row.manual_bias ? " manual bias" : "") + (found_before ? "as found" : "") +
                               (found.some_unlit ? " some unlit" : "");
-    if (output == RowOutput::blended)
+    if (output == ShaderPass::blended)
         make(entry, label, "lighting/gbuffer/gbuffer.vert", "lighting/lights/blended_light.frag", defines, &row);
-    else if (output == RowOutput::verdicts)
+    else if (output == ShaderPass::verdicts)
         make(entry, label, "common/fullscreen.vert", "lighting/trace/classify_pixels.frag", defines, &row);
-    else if (output == RowOutput::rays)
+    else if (output == ShaderPass::rays)
         make(entry, label, "lighting/trace/trace_pixels.vert", "lighting/trace/trace_pixels.frag", defines, &row);
     else
         make(entry, label, "common/fullscreen.vert", fragment.empty() ? fragment_file(output) : fragment, defines,

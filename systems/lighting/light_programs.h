@@ -17,7 +17,7 @@ namespace gnomon::lighting {
 /// - rays: what rays decide of the other pixels (RayList)
 /// - kept, kept_visibility: picture and visibility from cached visibility (KeptVisibility)
 /// - decided: the picture, without pixels that take the row's filter long
-enum class RowOutput : std::uint8_t {
+enum class ShaderPass : std::uint8_t {
     picture,
     visibility,
     blended,
@@ -30,7 +30,7 @@ enum class RowOutput : std::uint8_t {
 };
 
 /// Returns the row for a light without lookup: one per kind.
-inline shadow::ProgramRow kept_row(const shadow::ProgramRow& row) { return {row.kind_define, {}, {}}; }
+inline shadow::ShaderKey kept_row(const shadow::ShaderKey& row) { return {row.kind_define, {}, {}}; }
 
 /// Programs of the lighting system, made on first use; one per (row, output, debug view). Owns them. A program that
 /// failed is retried after Retry::kFrames; an essential one at every use, as no frame works without it. Finding an
@@ -50,12 +50,12 @@ public:
     }
 
     /// Returns the row's program; {0} if it cannot be made.
-    gl::ProgramHandle row(const shadow::ProgramRow& row, RowOutput output) { return find_or_make(row, output, {}); }
+    gl::ProgramHandle row(const shadow::ShaderKey& row, ShaderPass output) { return find_or_make(row, output, {}); }
     /// Returns true if row() would have to make the program and this frame's number is used up. Otherwise counts it.
-    bool must_wait(const shadow::ProgramRow& row, RowOutput output);
+    bool must_wait(const shadow::ShaderKey& row, ShaderPass output);
     /// Returns the program for the row's lookups in a debug view's shader, `fragment`; {0} if it cannot be made.
-    gl::ProgramHandle lookups(const shadow::ProgramRow& row, std::string_view fragment) {
-        return find_or_make(row, RowOutput::lookups, fragment);
+    gl::ProgramHandle lookups(const shadow::ShaderKey& row, std::string_view fragment) {
+        return find_or_make(row, ShaderPass::lookups, fragment);
     }
     /// Sets whether surfaces may be unlit. Programs that add light to the picture then test each pixel.
     void set_some_unlit(bool some) { some_unlit_ = some; }
@@ -77,20 +77,20 @@ private:
         Retry retry;
     };
     struct RowEntry {
-        shadow::ProgramRow row;
-        RowOutput output;
+        shadow::ShaderKey row;
+        ShaderPass output;
         std::string_view fragment;  // for lookups
         bool some_unlit;
         Entry entry;
     };
-    RowEntry& find_or_add(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
-    gl::ProgramHandle find_or_make(const shadow::ProgramRow& row, RowOutput output, std::string_view fragment);
+    RowEntry& find_or_add(const shadow::ShaderKey& row, ShaderPass output, std::string_view fragment);
+    gl::ProgramHandle find_or_make(const shadow::ShaderKey& row, ShaderPass output, std::string_view fragment);
     /// Makes a program that draws meshes into the picture, with vertex colours if set.
     void make_of_meshes(Entry& entry, const char* label, const char* fragment,
                         std::initializer_list<const char*> defines);
     bool is_due(const Entry& entry) const { return !entry.program && entry.retry.due(frame_); }
     void make(Entry& entry, const std::string& label, std::string_view vertex, std::string_view fragment,
-              std::span<const std::string> defines, const shadow::ProgramRow* row);
+              std::span<const std::string> defines, const shadow::ShaderKey* row);
     gl::ProgramHandle needed(Entry& entry, const char* label, const char* vertex, const char* fragment,
                              std::span<const std::string> defines = {});
 

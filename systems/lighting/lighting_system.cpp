@@ -258,7 +258,7 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
         list.add(meshes);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
             if (unlit || inputs.lights[i].screen.width <= 0) continue;
-            const LightProgram used = light_program(inputs.lights[i], RowOutput::blended);
+            const LightProgram used = light_program(inputs.lights[i], ShaderPass::blended);
             if (used.lacks != Reason::none)
                 outcome.failures.push_back(
                     {inputs.lights[i].light, used.lacks, used.unshadowed, true, inputs.lights[i].plain.accuracy});
@@ -334,12 +334,12 @@ bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSna
 bool LightingSystem::record_visibility(const shadow::LightingInputs& inputs, std::uint32_t light, const GpuScene& gpu,
                                        gl::CommandList& list) {
     if (light >= inputs.lights.size() || !targets_.ensure_visibility()) return false;
-    LightProgram used = light_program(inputs.lights[light], RowOutput::visibility);
+    LightProgram used = light_program(inputs.lights[light], ShaderPass::visibility);
     if (!used.program || used.unshadowed) return false;
     const LightPass* pass = light < passes_.size() ? &passes_[light] : nullptr;
     const bool reads = pass && pass->reads && kept_.holds(pass->kept.texture);
     if (reads) used = {};
-    if (reads) used.program = programs_.row(kept_row(inputs.lights[light].row), RowOutput::kept_visibility);
+    if (reads) used.program = programs_.row(kept_row(inputs.lights[light].row), ShaderPass::kept_visibility);
     if (!used.program) return false;
     constexpr float kNoSurface = -1.0f;
     list.add(gl::BeginGroup{"visibility"});

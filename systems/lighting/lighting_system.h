@@ -141,7 +141,7 @@ private:
     void record_fill(const LightPass& pass, std::uint32_t index, const GpuScene& gpu, gl::CommandList& list);
     void note_kept(const LightPass& pass, std::uint32_t index, const LightItem& light,
                    shadow::LightingOutcome& outcome);
-    LightProgram light_program(const shadow::LightingLight& light, RowOutput output);
+    LightProgram light_program(const shadow::LightingLight& light, ShaderPass output);
     gl::Failure prepare(const shadow::LightingInputs& inputs, const SceneSnapshot& scene);
     void collect_draws(const ConsumerItem& consumer, const SceneSnapshot& scene, const GpuScene& gpu);
     void add_mesh_run(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t first, std::uint32_t count,

@@ -33,7 +33,7 @@ void LightingSystem::plan_passes(const shadow::LightingInputs& inputs, const Sce
     passes_.resize(inputs.lights.size());
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
         const shadow::LightingLight& light = inputs.lights[i];
-        if (light.screen.width > 0) passes_[i].own = light_program(light, RowOutput::picture);
+        if (light.screen.width > 0) passes_[i].own = light_program(light, ShaderPass::picture);
     }
     // Programs that only save time come last.
     for (std::size_t i = 0; i < inputs.lights.size(); ++i) {
@@ -55,13 +55,13 @@ void LightingSystem::plan_kept(const shadow::LightingLight& light, ecs::Entity e
     if (plan.use == KeptVisibility::Use::look_up) return;
     const bool fills = plan.use == KeptVisibility::Use::fill;
     // One after the other, because a frame may make only one.
-    const auto made = [&](const shadow::ProgramRow& row, RowOutput output) {
+    const auto made = [&](const shadow::ShaderKey& row, ShaderPass output) {
         return programs_.must_wait(row, output) ? gl::ProgramHandle{} : programs_.row(row, output);
     };
-    const gl::ProgramHandle reads = made(kept_row(light.row), RowOutput::kept);
+    const gl::ProgramHandle reads = made(kept_row(light.row), ShaderPass::kept);
     LightProgram visibility;
-    if (fills && reads && made(light.row, RowOutput::visibility))
-        visibility = light_program(light, RowOutput::visibility);
+    if (fills && reads && made(light.row, ShaderPass::visibility))
+        visibility = light_program(light, ShaderPass::visibility);
     const bool can_fill = visibility.program && visibility.lacks == Reason::none && !visibility.unshadowed;
     if (!reads || (fills && !can_fill)) return kept_.cancel(entity);
     pass.kept = plan;

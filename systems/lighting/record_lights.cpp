@@ -34,36 +34,36 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
 }
 
 /// Chooses the program: the light's own row, otherwise one tap of its map, otherwise the light without shadow.
-LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, RowOutput output) {
-    const shadow::PlainLookup& plain = light.plain;
+LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, ShaderPass output) {
+    const shadow::FallbackLookup& plain = light.plain;
     const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
     // An explicitly requested visibility is never deferred.
-    const bool may_wait = has_plain && output != RowOutput::visibility;
+    const bool may_wait = has_plain && output != ShaderPass::visibility;
     Reason lacks = Reason::buffer_failed;
-    const bool lists = light.row.sheets && output != RowOutput::blended;
+    const bool lists = light.row.sheets && output != ShaderPass::blended;
     const bool has_surfaces = !light.row.rays || (has_places_ && (!lists || ray_list_));
     if (has_surfaces) {
         bool waits = false;
         // Each program counts, because a frame may have time for only one.
-        const auto made = [&](RowOutput part) {
+        const auto made = [&](ShaderPass part) {
             const bool late = waits || (may_wait && programs_.must_wait(light.row, part));
             waits = late;
             return late ? gl::ProgramHandle{} : programs_.row(light.row, part);
         };
         LightProgram used{made(output), light.map,    light.triangles, light.sampler,
                           light.rays,   light.second, light.bounds,    light.ends};
-        if (lists) used.verdicts_program = made(RowOutput::verdicts);
-        if (lists) used.rays_program = made(RowOutput::rays);
+        if (lists) used.verdicts_program = made(ShaderPass::verdicts);
+        if (lists) used.rays_program = made(ShaderPass::rays);
         // A program that only saves time is made when there is time.
-        const bool leaves = !waits && light.row.triangles && output == RowOutput::picture && targets_.undecided_target;
-        if (leaves && !programs_.must_wait(light.row, RowOutput::decided))
-            used.decided_program = programs_.row(light.row, RowOutput::decided);
+        const bool leaves = !waits && light.row.triangles && output == ShaderPass::picture && targets_.undecided_target;
+        if (leaves && !programs_.must_wait(light.row, ShaderPass::decided))
+            used.decided_program = programs_.row(light.row, ShaderPass::decided);
         if (used.program && (!lists || (used.verdicts_program && used.rays_program))) return used;
         lacks = waits ? Reason::filter_program_waits : Reason::filter_program_failed;
     }
     const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
     if (one_tap) return {.program = one_tap, .map = plain.map, .sampler = plain.sampler, .lacks = lacks};
-    shadow::ProgramRow unshadowed = light.row;
+    shadow::ShaderKey unshadowed = light.row;
     unshadowed.filter_file = {};
     unshadowed.sheets = false;
     if (has_surfaces) lacks = Reason::lighting_program_failed;

@@ -17,7 +17,7 @@
 
 namespace gnomon::shadow {
 
-ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
+ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history)
     : device_(device),
       maps_(device),
       recorder_(device),
@@ -25,7 +25,7 @@ ShadowSystem::ShadowSystem(gl::Device& device, const History& held_fits)
       ends_(device),
       moments_(device),
       rays_(device),
-      history_(held_fits) {}
+      history_(fit_history) {}
 
 ShadowSystem::~ShadowSystem() {
     device_.destroy(samplers_.nearest);
@@ -105,7 +105,7 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
         const RayUse& rays = frame_.decisions[i].request.rays;
         LightStatus& status = frame_.statuses[i];
         if (!rays.used || status.is_skipped()) continue;
-        // A light with a map uses PlainLookup.
+        // A light with a map uses FallbackLookup.
         if (rays.only)
             status.skip(Reason::buffer_failed);
         else
@@ -126,12 +126,12 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     most_rays_ = settings.budget.rays;
     BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
-    const bool shared_out = !budget_.is_moved_by(limits, cost_clock_.factors());
-    stands_ = std::exchange(may_stand_, false) && unchanged && shared_out && maps_.stay();
+    const bool budget_active = !budget_.is_moved_by(limits, cost_calibration_.factors());
+    stands_ = std::exchange(may_stand_, false) && unchanged && budget_active && maps_.stay();
     if (stands_) {
         keep_all(frame_.maps, frame_.updates);
     } else {
-        budget_.begin(limits, cost_clock_.factors());
+        budget_.begin(limits, cost_calibration_.factors());
         run_stages(scene, gpu, settings, {list, report, frame_.cpu_us});
     }
     report.still = stands_;
@@ -145,8 +145,9 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
 
 void ShadowSystem::report(const SceneSnapshot& scene, const LightingOutcome& outcome, FrameReport& report) const {
     const bool has_rays = static_cast<bool>(rays_.buffers().nodes);
-    explain_lights(scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, dim_lights_, has_rays, frame_.cpu_us},
-                   report);
+    explain_lights(
+        scene, {drawn_views(frame_), frame_.sets, maps_, draw_times_, contribution_culling_, has_rays, frame_.cpu_us},
+        report);
     budget_.report(report);
     add_outcome(outcome, report);
 }
@@ -162,7 +163,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     decide_requests(scene, {device_.info(), history_, settings.shadows, {most_rays_, rays_lack_}}, fallbacks_,
                     f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
-    if (budget_.is_active()) limit_by_grants(scene, history_, f.requests, f.limited);
+    if (budget_.is_active()) apply_last_limits(scene, history_, f.requests, f.limited);
     const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;
     const bool any =
         std::any_of(requests.begin(), requests.end(), [](const ShadowRequest& r) { return r.skip == Reason::none; });
@@ -170,15 +171,16 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
         for (LightStatus& status : f.statuses) status.skip(Reason::sampler_failed);
     finish("request");
 
-    lamp_places_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
+    lamp_offsets_.update(scene, gpu, requests, f.lamps_ws_m, f.cpu_us);
     select_sets(scene, {requests, f.lamps_ws_m}, storage_.sets, f.sets, accounts);
-    dim_lights_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
+    contribution_culling_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
     finish("culling");
 
-    const bool shared_out = budget_.is_active() || most_rays_ > 0 || rays_lack_;
-    fit_views(scene, {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, shared_out},
+    const bool budget_active = budget_.is_active() || most_rays_ > 0 || rays_lack_;
+    fit_views(scene,
+              {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, budget_active},
               storage_, f.fitted, f.next_history, accounts);
-    count_quiet_frames(scene, f.fitted, history_, shared_out, f.next_history);
+    count_static_frames(scene, f.fitted, history_, budget_active, f.next_history);
     finish("fitting");
 
     if (budget_.is_active()) maps_.waiting_bytes(scene, waiting_bytes_);
@@ -224,7 +226,7 @@ bool ShadowSystem::wants_sampled_depths(const SceneSnapshot& scene) const {
 
 /// Returns true if another run of the stages on an unchanged scene would have the same results. Then the history is
 /// unchanged, no light has economy disabled, no failed operation is due for a retry, and no view is skipped for rays.
-/// maps_ reports its own retries (MapStore::stay).
+/// maps_ reports its own retries (MapCache::stay).
 bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
     const auto is_tried_again = [](Reason reason) {
         return reason == Reason::depth_program_failed || reason == Reason::buffer_failed ||
@@ -237,7 +239,7 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
         if (frame_.requests[i].skip == Reason::none && !scene.lights[i].tuning.reuse.economy) return false;
     }
     return std::none_of(frame_.updates.begin(), frame_.updates.end(),
-                        [](const UpdatePlan& plan) { return plan.left_to_rays; });
+                        [](const UpdatePlan& plan) { return plan.skipped_for_rays; });
 }
 
 void ShadowSystem::commit(const SceneSnapshot& scene, bool executed) {

@@ -40,8 +40,9 @@ using StageWatch = std::function<void(std::string_view stage, const ShadowFrame&
 /// device objects.
 class ShadowSystem {
 public:
-    /// Creates the system. `held_fits`: history of an earlier system with a lost context, from which the fits continue.
-    explicit ShadowSystem(gl::Device& device, const History& held_fits = {});
+    /// Creates the system. `fit_history`: history of an earlier system with a lost context, from which the fits
+    /// continue.
+    explicit ShadowSystem(gl::Device& device, const History& fit_history = {});
     ~ShadowSystem();
     ShadowSystem(const ShadowSystem&) = delete;
     ShadowSystem& operator=(const ShadowSystem&) = delete;
@@ -64,7 +65,7 @@ public:
     /// Returns the measured draw times, which the caller fills and reports read.
     DrawTimes& draw_times() { return draw_times_; }
     /// Returns the calibration of the budget's cost model. Without measurements it stays unchanged.
-    CostClock& cost_clock() { return cost_clock_; }
+    CostCalibration& cost_calibration() { return cost_calibration_; }
 
     /// Returns true if any light needs the picture's depths for its splits (CascadeSplits::sampled). Call after
     /// update().
@@ -74,9 +75,9 @@ public:
     void watch_stages(StageWatch watch) { watch_ = std::move(watch); }
 
     const visibility::RayScene& rays() const { return rays_; }
-    const MapStore& maps() const { return maps_; }
-    const DimLights& dim_lights() const { return dim_lights_; }
-    const History& held_fits() const { return history_; }
+    const MapCache& maps() const { return maps_; }
+    const ContributionCulling& contribution_culling() const { return contribution_culling_; }
+    const History& fit_history() const { return history_; }
 
 private:
     void run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings, const PassOutputs& out);
@@ -88,28 +89,28 @@ private:
     void provide_rays(const SceneSnapshot& scene, const GpuScene& gpu, bool updated, gl::CommandList& list);
 
     gl::Device& device_;
-    MapStore maps_;
-    DepthRecorder recorder_;
-    SheetRecorder sheets_;
-    EndsRecorder ends_;
-    MomentRecorder moments_;
+    MapCache maps_;
+    DepthPass recorder_;
+    BoundsPass sheets_;
+    OccluderPyramidPass ends_;
+    PrefilterPass moments_;
     visibility::RayScene rays_;
     MapSamplers samplers_;
     DrawTimes draw_times_;
-    DimLights dim_lights_;
+    ContributionCulling contribution_culling_;
     BudgetStage budget_;
     std::vector<std::optional<std::uint64_t>> waiting_bytes_;  // one per light
     std::uint64_t most_rays_ = 0;
     RayFallbacks fallbacks_;
     bool rays_lack_ = false;
-    CostClock cost_clock_;
-    LampPlaces lamp_places_;
+    CostCalibration cost_calibration_;
+    LampOffsets lamp_offsets_;
     FitStorage storage_;
     std::vector<DueView> due_;
     ShadowFrame frame_;
     History history_;
-    CasterMotion motion_;
-    StillFrame still_;
+    DynamicCasters motion_;
+    FrameReuse still_;
     StageWatch watch_;
     bool stands_ = false;     // the last update() reused the frame before it
     bool may_stand_ = false;  // the next update() may reuse the last frame

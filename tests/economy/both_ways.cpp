@@ -14,13 +14,13 @@ BothWays::BothWays(gl::Device& device, const assets::MeshLibrary& library)
 void BothWays::run(ecs::Registry& world, glm::uvec2 viewport_px, const std::function<void(const Picture&)>& look) {
     const TransformReport& transforms = transforms_.update(world);
     extractor_.update(world, library_, transforms, viewport_px, snapshot_);
-    for (const Way way : {kThrifty, kLavish}) sides_[way]->scene = snapshot_;
+    for (const DepthVariant way : {kThrifty, kLavish}) sides_[way]->scene = snapshot_;
     for (LightItem& light : sides_[kLavish]->scene.lights) light.tuning.reuse.economy = false;
     if (mislead) mislead(sides_[kThrifty]->scene);
-    for (const Way way : {kThrifty, kLavish}) run_side(way, look);
+    for (const DepthVariant way : {kThrifty, kLavish}) run_side(way, look);
 }
 
-void BothWays::run_side(Way way, const std::function<void(const Picture&)>& look) {
+void BothWays::run_side(DepthVariant way, const std::function<void(const Picture&)>& look) {
     Side& side = *sides_[way];
     side.commands.clear();
     side.report.clear();

@@ -15,13 +15,13 @@ namespace gnomon {
 /// history of its own, and with lighting of its own. Everything else is common to both.
 class BothWays {
 public:
-    enum Way : std::size_t { kThrifty, kLavish, kWays };
+    enum DepthVariant : std::size_t { kThrifty, kLavish, kWays };
 
     BothWays(gl::Device& device, const assets::MeshLibrary& library);
 
     /// What to look at after each submission. For every consumer in turn, first of one way, then of the other.
     struct Picture {
-        Way way;
+        DepthVariant way;
         const shadow::LightingInputs& inputs;
         const gl::CommandList& commands;  // as submitted: the first of a way holds its depth passes
     };
@@ -31,9 +31,9 @@ public:
     std::function<void(SceneSnapshot&)> mislead;
 
     const SceneSnapshot& scene() const { return snapshot_; }
-    const FrameReport& report(Way way) const { return sides_[way]->report; }
-    const shadow::ShadowFrame& frame(Way way) const { return sides_[way]->shadows.frame(); }
-    lighting::LightingSystem& lighting(Way way) { return sides_[way]->lighting; }
+    const FrameReport& report(DepthVariant way) const { return sides_[way]->report; }
+    const shadow::ShadowFrame& frame(DepthVariant way) const { return sides_[way]->shadows.frame(); }
+    lighting::LightingSystem& lighting(DepthVariant way) { return sides_[way]->lighting; }
     const GpuScene& gpu() const { return *gpu_; }
 
 private:
@@ -45,7 +45,7 @@ private:
         FrameReport report;
         gl::CommandList commands;
     };
-    void run_side(Way way, const std::function<void(const Picture&)>& look);
+    void run_side(DepthVariant way, const std::function<void(const Picture&)>& look);
 
     gl::Device& device_;
     const assets::MeshLibrary& library_;

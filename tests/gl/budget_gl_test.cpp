@@ -49,7 +49,7 @@ protected:
         const ConsumerItem& camera = scene.consumers.at(0);
         const oracle::ReferenceTracer tracer(scene, library, camera.position_ws_m);
         const oracle::PrimaryHits hits = tracer.trace_primary(camera);
-        const bench::EdgeBounds bounds(scene, device().info(), frame().held_fits());
+        const bench::EdgeBounds bounds(scene, device().info(), frame().fit_history());
         for (std::uint32_t i = 0; i < frame().report().lights.size(); ++i) {
             const LightReport& light = report(i);
             if (light.views == 0) continue;

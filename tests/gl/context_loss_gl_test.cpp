@@ -24,7 +24,7 @@ struct Gpu {
     std::unique_ptr<gl::Device> device;
     std::unique_ptr<Frame> frame;
 
-    static std::optional<Gpu> make(const assets::MeshLibrary& library, const shadow::History& held_fits = {}) {
+    static std::optional<Gpu> make(const assets::MeshLibrary& library, const shadow::History& fit_history = {}) {
         Gpu gpu;
         auto context = platform::make_headless_context(false);
         if (!context) return std::nullopt;
@@ -32,7 +32,7 @@ struct Gpu {
         auto device = gl::make_gl45_device({});
         if (!device) return std::nullopt;
         gpu.device = std::move(device).value();
-        auto frame = Frame::create(*gpu.device, library, held_fits);
+        auto frame = Frame::create(*gpu.device, library, fit_history);
         if (!frame) return std::nullopt;
         gpu.frame = std::move(frame).value();
         return gpu;
@@ -51,9 +51,9 @@ std::vector<Picture> film(const FaultScene& scene, int lost_before) {
     std::vector<Picture> pictures;
     for (int i = 0; i < kFrames; ++i) {
         if (i == lost_before) {
-            const shadow::History held_fits = gpu ? gpu->frame->held_fits() : shadow::History{};
+            const shadow::History fit_history = gpu ? gpu->frame->fit_history() : shadow::History{};
             if (gpu) gpu->lose();
-            gpu = Gpu::make(*scene.library, held_fits);
+            gpu = Gpu::make(*scene.library, fit_history);
         }
         if (!gpu) {
             ADD_FAILURE() << "no context";

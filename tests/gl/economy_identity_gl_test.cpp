@@ -39,7 +39,7 @@ std::vector<ShadowFilter> filters_of_run() {
 
 class EconomyIdentityGl : public GlTest {
 protected:
-    using Way = BothWays::Way;
+    using DepthVariant = BothWays::DepthVariant;
     using Floats = std::vector<float>;
 
     void TearDown() override {
@@ -76,17 +76,17 @@ protected:
         return differing;
     }
     void count() {
-        for (const LightReport& light : both->report(Way::kThrifty).lights) {
+        for (const LightReport& light : both->report(DepthVariant::kThrifty).lights) {
             thrifty_views += light.views_drawn;
             kept += light.kept.reason == Reason::visibility_kept ? 1 : 0;
         }
-        for (const LightReport& light : both->report(Way::kLavish).lights) {
+        for (const LightReport& light : both->report(DepthVariant::kLavish).lights) {
             lavish_views += light.views_drawn;
             EXPECT_EQ(light.kept.bytes, 0u) << "economy=off keeps";
         }
     }
     std::size_t difference() {
-        const std::vector<Floats>&a = visibilities[Way::kThrifty], &b = visibilities[Way::kLavish];
+        const std::vector<Floats>&a = visibilities[DepthVariant::kThrifty], &b = visibilities[DepthVariant::kLavish];
         EXPECT_EQ(a.size(), b.size());
         std::size_t differing = 0;
         for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
@@ -94,7 +94,7 @@ protected:
                 differing += std::bit_cast<std::uint32_t>(a[i][p]) != std::bit_cast<std::uint32_t>(b[i][p]) ? 1 : 0;
                 shadowed += a[i][p] >= 0.0f && a[i][p] < 1.0f ? 1 : 0;
             }
-        if (differing == 0 && pictures[Way::kThrifty] != pictures[Way::kLavish]) ++differing;
+        if (differing == 0 && pictures[DepthVariant::kThrifty] != pictures[DepthVariant::kLavish]) ++differing;
         return differing;
     }
     /// Lights without a map because nothing that is seen could be dark: no ray may say otherwise.
@@ -104,12 +104,12 @@ protected:
             const oracle::ReferenceTracer tracer(scene, library, scene.consumers[c].position_ws_m);
             oracle::PrimaryHits hits;
             for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-                const Reason reason = both->report(Way::kThrifty).lights[i].reason;
+                const Reason reason = both->report(DepthVariant::kThrifty).lights[i].reason;
                 if (reason != Reason::no_caster && reason != Reason::no_visible_receiver) continue;
                 if (!follows_rays(scene.lights[i])) continue;
                 if (hits.count() == 0) hits = tracer.trace_primary(scene.consumers[c]);
                 const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights[i], true);
-                const Floats& seen = visibilities[Way::kThrifty][c * scene.lights.size() + i];
+                const Floats& seen = visibilities[DepthVariant::kThrifty][c * scene.lights.size() + i];
                 for (std::size_t p = 0; p < seen.size(); ++p) {
                     if (!truth.scored[p] || truth.ambiguous[p]) continue;
                     ++judged;

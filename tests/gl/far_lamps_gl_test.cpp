@@ -41,7 +41,7 @@ protected:
                           .outer_cone_rad = 0.5f},
                          kToLamp * distance_m, -kToLamp, shadow);
     }
-    bool is_aimed() { return frame().held_fits().lights.at(0).aim.used; }
+    bool is_aimed() { return frame().fit_history().lights.at(0).aim.used; }
 };
 
 class FarLamps : public FarLampWorld, public ::testing::WithParamInterface<LightKind> {};

@@ -45,7 +45,7 @@ std::vector<FittedCase> shown_cases() {
     return cases;
 }
 
-/// Marks pixels within kEdgeBandPx of a place where the truth changes.
+/// IndexSet pixels within kEdgeBandPx of a place where the truth changes.
 void mark_edges(const glm::uvec2& size_px, const oracle::LightTruth& truth, std::vector<std::uint8_t>& marks) {
     const auto width = static_cast<int>(size_px.x), height = static_cast<int>(size_px.y);
     const auto reach = static_cast<int>(oracle::kEdgeBandPx);
@@ -102,7 +102,7 @@ protected:
     }
     /// What is lost has its reason, and no other.
     void expect_named(std::uint32_t l, const Truth& truth, const oracle::LightTruth& traced, const oracle::Metrics& m) {
-        const bench::EdgeBounds bounds(scene(), device().info(), frame().held_fits());
+        const bench::EdgeBounds bounds(scene(), device().info(), frame().fit_history());
         const oracle::EdgeExceptions beyond = oracle::edge_exceptions(
             truth.tracer, truth.hits, scene().consumers.front(), scene().lights[l], traced, m.edge,
             [&](const glm::dvec3& point, const glm::dvec3& normal) { return bounds.at(l, point, normal); });

@@ -18,7 +18,7 @@ bool is_of_run(ShadowFilter filter) {
     return is_long_run() || std::find(kShort.begin(), kShort.end(), filter) != kShort.end();
 }
 
-constexpr int kStillFrames = 4;  // after the first: looked up, filled, read, read
+constexpr int kStaticFrames = 4;  // after the first: looked up, filled, read, read
 
 class KeptVisibilityGl : public FrameTest {
 protected:
@@ -77,7 +77,7 @@ TEST_F(KeptVisibilityGl, ShowsTheSameBitsInEveryRow) {
         const Seen looked_up = seen();
         EXPECT_EQ(reading(), 0u);
         keep(true);
-        for (int i = 0; i <= kStillFrames; ++i) {
+        for (int i = 0; i <= kStaticFrames; ++i) {
             draw();
             EXPECT_TRUE(seen() == looked_up) << row.name << ", frame " << i;
         }
@@ -94,7 +94,7 @@ TEST_F(KeptVisibilityGl, ShowsTheSameBitsInEveryRow) {
 /// One that casts nothing, and so is in no map.
 TEST_F(KeptVisibilityGl, FollowsASurfaceThatNoMapShows) {
     make_world(ShadowFilter::triangles);
-    for (int i = 0; i <= kStillFrames; ++i) draw();
+    for (int i = 0; i <= kStaticFrames; ++i) draw();
     ASSERT_EQ(reading(), 3u);
     const Seen before = seen();
     world.patch<Transform>(bystander, [](Transform& t) { t.translation_m.y += 0.4; });
@@ -130,7 +130,7 @@ TEST_F(MisledKeptVisibilityGl, ASurfaceThatASignatureMissesWouldBeSeen) {
     // From behind: the faces that the camera sees get no light, the ground does.
     add_light({.kind = LightKind::directional, .intensity = 500.0f}, {2.0, 6.0, -3.0}, {-2.0, -6.0, 3.0});
     add_camera({.fov_y_rad = 0.8}, {0.5, 4.0, 6.0}, {-0.5, -4.0, -6.0});
-    for (int i = 0; i <= kStillFrames; ++i) step();
+    for (int i = 0; i <= kStaticFrames; ++i) step();
     ASSERT_EQ(report.lights.at(0).kept.reason, Reason::visibility_kept);
     // Away from the camera: in another order the surfaces would tell.
     world.patch<Transform>(bystander, [](Transform& t) { t.translation_m.x -= 0.4; });

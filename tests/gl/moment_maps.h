@@ -55,7 +55,7 @@ protected:
         EXPECT_TRUE(gpu);
         const shadow::DrawnViews drawn = shadow::drawn_views(frame);
         const shadow::PassInputs in{scene, gpu.value(), drawn};
-        shadow::MomentRecorder recorder(device());
+        shadow::PrefilterPass recorder(device());
         recorder.prepare(in, {frame.statuses, {}});
         gl::CommandList list;
         FrameReport report;

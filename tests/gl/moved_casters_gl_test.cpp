@@ -92,7 +92,7 @@ TEST_P(MovedCasters, DrawnOverACopyOfStillOnesGiveTheBitsOfAllDrawnInEveryKindOf
     for (const ShadowFilter filter : {ShadowFilter::hardware_2x2, ShadowFilter::triangles, ShadowFilter::vsm}) {
         world.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = filter; });
         step(0, Change::one_moves);
-        for (std::uint64_t i = 0; i < shadow::CasterMotion::kStillFrames; ++i) draw();  // all stand still
+        for (std::uint64_t i = 0; i < shadow::DynamicCasters::kStaticFrames; ++i) draw();  // all stand still
         walk(Change::one_moves);
         const Walk kept = walk(Change::one_moves);
         EXPECT_LT(kept.cleared, kept.drawn) << "some were drawn over a copy, or this shows nothing";

@@ -109,7 +109,7 @@ struct Child {
 
     if (!lift_limit()) quit(2, "no end to the limit");
     child.ask_for(kSmall_px * 2);
-    for (std::uint64_t i = 0; i <= shadow::MapStore::kRetryFrames; ++i)
+    for (std::uint64_t i = 0; i <= shadow::MapCache::kRetryFrames; ++i)
         if (!child.deliver()) quit(8, "a frame after the limit was not delivered");
     if (child.count(LightState::degraded) + child.count(LightState::skipped) != 0) quit(9, "shadows did not come back");
     quit(0, "every frame was delivered");

@@ -35,8 +35,8 @@ inline std::vector<shadow::FilterRow> map_filters() {
 
 /// Every row of (light kind × filter), with and without fading or a manual bias, each kind unshadowed, suns and
 /// points in perspective, suns warped; and of those that ask by rays, with and without masked casters and maps.
-inline std::vector<shadow::ProgramRow> all_rows() {
-    std::vector<shadow::ProgramRow> rows;
+inline std::vector<shadow::ShaderKey> all_rows() {
+    std::vector<shadow::ShaderKey> rows;
     for (const shadow::LightKindRow& kind : shadow::light_kind_table()) {
         rows.push_back({kind.define, {}, {}});
         for (const shadow::FilterRow& filter : map_filters())
@@ -53,7 +53,7 @@ inline std::vector<shadow::ProgramRow> all_rows() {
     for (const shadow::FilterRow& filter : map_filters())
         for (const bool fades : {false, true})
             rows.push_back({sun.define, shadow::kWarpedSunFile, filter.file, filter.reach_texel, fades, reads_depths(filter)});
-    for (shadow::ProgramRow& row : rows)
+    for (shadow::ShaderKey& row : rows)
         for (const shadow::FilterRow& filter : shadow::filter_table()) {
             if (filter.file != row.filter_file) continue;
             row.triangles = reads_triangles(filter);
@@ -85,11 +85,11 @@ inline std::vector<shadow::ProgramRow> all_rows() {
 
 /// Of all rows those whose lookups differ: the first filter of every way to read a map, for all kinds and options. All of
 /// them for "bias", which asks most of a lookup; for other views one per kind.
-inline std::vector<shadow::ProgramRow> lookup_rows(std::string_view view) {
-    std::vector<shadow::ProgramRow> kept, known;
-    for (const shadow::ProgramRow& row : all_rows()) {
+inline std::vector<shadow::ShaderKey> lookup_rows(std::string_view view) {
+    std::vector<shadow::ShaderKey> kept, known;
+    for (const shadow::ShaderKey& row : all_rows()) {
         if (row.filter_file.empty() || row.rays) continue;
-        shadow::ProgramRow rest = row;
+        shadow::ShaderKey rest = row;
         rest.filter_file = {};
         rest.reach_texel = 0.0f;
         if (view != "bias") rest = {.kind_define = {}, .kind_file = row.kind_file, .filter_file = {}};
@@ -125,8 +125,8 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         add(lighting.tonemap());
         // Rows with sheets share programs.
         std::set<std::uint32_t> shared;
-        for (const shadow::ProgramRow& row : all_rows()) {
-            using enum lighting::RowOutput;
+        for (const shadow::ShaderKey& row : all_rows()) {
+            using enum lighting::ShaderPass;
             for (const auto output : {picture, visibility, blended, verdicts, rays}) {
                 if (!row.sheets && (output == verdicts || output == rays)) continue;
                 const gl::ProgramHandle program = lighting.row(row, output);
@@ -135,11 +135,11 @@ inline std::vector<gl::ProgramDesc> all_programs() {
         }
         for (const debug::ViewRow& view : debug::view_table())
             if (view.medium == debug::ViewMedium::lookups)
-                for (const shadow::ProgramRow& row : lookup_rows(view.name)) add(lighting.lookups(row, view.fragment));
+                for (const shadow::ShaderKey& row : lookup_rows(view.name)) add(lighting.lookups(row, view.fragment));
     }
     {
-        using Source = shadow::MomentRecorder::Source;
-        shadow::MomentRecorder moments(device);
+        using Source = shadow::PrefilterPass::Source;
+        shadow::PrefilterPass moments(device);
         const auto add = [&](std::string_view file, Source source) {
             const gl::ProgramDesc* desc = device.program(moments.program(file, source));
             programs.push_back(desc ? *desc : gl::ProgramDesc{.label = "not expanded"});

@@ -101,19 +101,19 @@ TEST_F(ProjectionTest, BeyondAPerspectiveSunsViewItIsLit) {
 }
 
 // One light of each way to project, all at the same place, all looking down.
-enum class Way { flat_sun, perspective_sun, spot, point };
+enum class DepthVariant { flat_sun, perspective_sun, spot, point };
 
-class GivenRange : public ProjectionTest, public ::testing::WithParamInterface<Way> {
+class GivenRange : public ProjectionTest, public ::testing::WithParamInterface<DepthVariant> {
 protected:
     /// What is seen reaches up to 6 m in these scenes.
     void add(float near_m, float far_m) {
         ShadowTuning::Projection projection{.eye_angle_rad = 1.6f, .near_m = near_m, .far_m = far_m};
         const LightShadow shadow{.resolution_px = 1024};
         const glm::dvec3 place_m(0.0, kEye_m, 0.0);
-        if (GetParam() == Way::perspective_sun) projection.kind = LightProjection::perspective;
-        if (GetParam() == Way::flat_sun || GetParam() == Way::perspective_sun)
+        if (GetParam() == DepthVariant::perspective_sun) projection.kind = LightProjection::perspective;
+        if (GetParam() == DepthVariant::flat_sun || GetParam() == DepthVariant::perspective_sun)
             add_sun(projection, 6.0);
-        else if (GetParam() == Way::spot)
+        else if (GetParam() == DepthVariant::spot)
             add_light({.kind = LightKind::spot, .intensity = 3000.0f, .outer_cone_rad = 0.8f}, place_m, kDown, shadow,
                       {.projection = projection});
         else
@@ -128,7 +128,7 @@ protected:
         place(add_mesh(game::make_box({1.6, 5.9, -0.4}, {2.4, 6.0, 0.4})));
         look_down(5.0);
     }
-    bool flat() const { return GetParam() == Way::flat_sun; }
+    bool flat() const { return GetParam() == DepthVariant::flat_sun; }
 };
 
 TEST_P(GivenRange, AbsurdOnesLeaveThePictureAsItIsAndAreReported) {
@@ -190,12 +190,12 @@ TEST_P(GivenRange, BeforeNearItIsLitYetItStillCasts) {
     EXPECT_EQ(lit_share(field, {-1.5, -4.5}, {0.5, 4.5}), 1.0) << "no acne between";
 }
 
-std::string way_name(const ::testing::TestParamInfo<Way>& info) {
+std::string way_name(const ::testing::TestParamInfo<DepthVariant>& info) {
     constexpr const char* kNames[] = {"flat_sun", "perspective_sun", "spot", "point"};
     return kNames[static_cast<std::size_t>(info.param)];
 }
 INSTANTIATE_TEST_SUITE_P(EachWay, GivenRange,
-                         ::testing::Values(Way::flat_sun, Way::perspective_sun, Way::spot, Way::point), way_name);
+                         ::testing::Values(DepthVariant::flat_sun, DepthVariant::perspective_sun, DepthVariant::spot, DepthVariant::point), way_name);
 
 }  // namespace
 }  // namespace gnomon

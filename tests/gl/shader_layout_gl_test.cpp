@@ -94,7 +94,7 @@ std::vector<Block> expected_blocks() {
     using rays::BvhTriangle;
     using shadow::CameraRecord;
     using shadow::DepthViewRecord;
-    using shadow::EndsRecord;
+    using shadow::PyramidRecord;
     using shadow::MomentRecord;
     using visibility::RayInstance;
     using visibility::RayTop;
@@ -133,13 +133,13 @@ std::vector<Block> expected_blocks() {
         {GL_UNIFORM_BLOCK,
          "EndsBlock",
          0,
-         sizeof(EndsRecord),
-         {{"EndsBlock.axis_u", offsetof(EndsRecord, axis_u)},
-          {"EndsBlock.axis_v", offsetof(EndsRecord, axis_v)},
-          {"EndsBlock.axis_back", offsetof(EndsRecord, axis_back)},
-          {"EndsBlock.from", offsetof(EndsRecord, from)},
-          {"EndsBlock.to", offsetof(EndsRecord, to)},
-          {"EndsBlock.numbers", offsetof(EndsRecord, numbers)}}},
+         sizeof(PyramidRecord),
+         {{"EndsBlock.axis_u", offsetof(PyramidRecord, axis_u)},
+          {"EndsBlock.axis_v", offsetof(PyramidRecord, axis_v)},
+          {"EndsBlock.axis_back", offsetof(PyramidRecord, axis_back)},
+          {"EndsBlock.from", offsetof(PyramidRecord, from)},
+          {"EndsBlock.to", offsetof(PyramidRecord, to)},
+          {"EndsBlock.numbers", offsetof(PyramidRecord, numbers)}}},
         {GL_UNIFORM_BLOCK,
          "MaterialBlock",
          2,
@@ -169,7 +169,7 @@ std::vector<Block> expected_blocks() {
          sizeof(std::uint32_t),
          {{"ray_count", 0},
           {"listed_pixels[0]", sizeof(std::uint32_t)}}},
-        {GL_SHADER_STORAGE_BLOCK, "SheetEndBuffer", 2, shadow::ends_bytes(1, 1), {{"sheet_ends[0]", 0}}},
+        {GL_SHADER_STORAGE_BLOCK, "SheetEndBuffer", 2, shadow::pyramid_bytes(1, 1), {{"sheet_ends[0]", 0}}},
         {GL_SHADER_STORAGE_BLOCK, "RayMaskBuffer", 7, sizeof(std::uint32_t), {{"ray_masks[0]", 0}}},
         {GL_SHADER_STORAGE_BLOCK,
          "LineBuffer",

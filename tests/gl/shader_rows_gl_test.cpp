@@ -60,10 +60,10 @@ TEST_F(ShaderRows, ASourceWithAMistakeIsRefused) {
 
 TEST_F(ShaderRows, ARowWhoseFilterIsMissingIsRefusedAndTheOthersStay) {
     lighting::LightPrograms programs(device());
-    shadow::ProgramRow row = all_rows().back();
+    shadow::ShaderKey row = all_rows().back();
     row.filter_file = "shadow/filters/none_such.glsl";
-    EXPECT_FALSE(programs.row(row, lighting::RowOutput::blended));
-    EXPECT_TRUE(programs.row(all_rows().back(), lighting::RowOutput::blended));
+    EXPECT_FALSE(programs.row(row, lighting::ShaderPass::blended));
+    EXPECT_TRUE(programs.row(all_rows().back(), lighting::ShaderPass::blended));
 }
 
 }  // namespace

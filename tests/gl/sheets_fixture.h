@@ -81,11 +81,11 @@ protected:
                       {}};
         if (ask != Ask::middle)
             drawn.maps.ends =
-                device().create_buffer({.label = "ends", .size = shadow::ends_bytes(size_px, layers)}, {}).handle;
+                device().create_buffer({.label = "ends", .size = shadow::pyramid_bytes(size_px, layers)}, {}).handle;
         for (std::uint32_t v = 0; v < layers; ++v) {
             shadow::ShadowView& view = frame.fitted.views[v];
             view.casters = {0, static_cast<std::uint32_t>(frame.fitted.casters.size())};
-            view.still_casters = view.casters.count;
+            view.static_casters = view.casters.count;
             const auto layer = static_cast<std::int32_t>(view.layer);
             shadow::MapAssignment assigned;
             assigned.texture = drawn.maps.depths;
@@ -100,9 +100,9 @@ protected:
             assigned.size_px = size_px;
             frame.maps.push_back(assigned);
         }
-        shadow::DepthRecorder depths(device());
-        shadow::SheetRecorder sheets(device(), {.with_margins = margins, .with_points = points});
-        shadow::EndsRecorder ends(device(), margins);
+        shadow::DepthPass depths(device());
+        shadow::BoundsPass sheets(device(), {.with_margins = margins, .with_points = points});
+        shadow::OccluderPyramidPass ends(device(), margins);
         FrameReport report;
         report.lights.resize(1);
         const shadow::DrawnViews drawn_views = shadow::drawn_views(frame);

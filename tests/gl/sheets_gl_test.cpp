@@ -30,7 +30,7 @@ glm::dvec3 end_of_reach(const LightItem& light, const glm::dvec3& at_ws_m, doubl
 
 /// Of places that maps hold.
 /// A few worlds may happen to be such as leave nearly all to rays. Then so many times as many are played.
-constexpr int kPatience = 8;
+constexpr int kSizeHysteresis = 8;
 
 struct Tally {
     std::size_t places = 0, lit = 0, dark = 0, wrong = 0;
@@ -103,7 +103,7 @@ TEST_P(Sheets, AreRightWhereTheyAreCertain) {
     const std::uint64_t seed = print_seed();
     Tally tally;
     const auto goes_on = [&](int world) {
-        return world < worlds() || (!tally.is_of_use() && world < kPatience * worlds());
+        return world < worlds() || (!tally.is_of_use() && world < kSizeHysteresis * worlds());
     };
     for (int world = 0; goes_on(world) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
@@ -159,7 +159,7 @@ TEST_P(Sheets, AreRightBelowNeedles) {
     const std::uint64_t seed = print_seed();
     Tally tally;
     const auto is_of_use = [&] { return tally.lit + tally.dark > tally.places / 20; };
-    for (int world = 0; (world < 4 || (!is_of_use() && world < 4 * kPatience)) && !HasFailure(); ++world) {
+    for (int world = 0; (world < 4 || (!is_of_use() && world < 4 * kSizeHysteresis)) && !HasFailure(); ++world) {
         SCOPED_TRACE("world " + std::to_string(world) + " of seed " + std::to_string(seed));
         Random random(seed + static_cast<std::uint64_t>(world));
         QueryScene scene = test::needle_world(random);

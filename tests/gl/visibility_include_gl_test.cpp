@@ -108,7 +108,7 @@ protected:
         gl::ProgramHandle& program = programs_[static_cast<std::size_t>(kind)];
         if (program) return program;
         const auto& kind_row = shadow::light_kind_row(kind);
-        const shadow::ProgramRow program_row{.kind_define = kind_row.define,
+        const shadow::ShaderKey program_row{.kind_define = kind_row.define,
                                              .kind_file = kind_row.file,
                                              .filter_file = row_.file,
                                              .reach_texel = filtering(kind).reach_texel,

@@ -101,11 +101,11 @@ void draw(const gl::Device& device, const GpuScene& scene, GLuint program, const
 }
 // [draw]
 
-/// A filter, and what of ProgramRow it is here to show.
+/// A filter, and what of ShaderKey it is here to show.
 struct Case {
     const char* name;
     LightShadow shadow;
-    bool shadow::ProgramRow::*needs;
+    bool shadow::ShaderKey::*needs;
     ShadowTuning tuning = {};
     float source_radius_m = 0.0f, sun_radius_rad = 0.0f;
 };
@@ -172,19 +172,19 @@ int main() {
     const OwnContext context;
     if (!context) return fail("no OpenGL 4.5 context");
     const Case cases[] = {
-        {"sharp_4x4", {.filter = ShadowFilter::sharp_4x4, .resolution_px = 2048}, &shadow::ProgramRow::depths},
-        {"triangles", {.filter = ShadowFilter::triangles}, &shadow::ProgramRow::triangles},
-        {"moments", {.filter = ShadowFilter::moments, .resolution_px = 512}, &shadow::ProgramRow::moments},
+        {"sharp_4x4", {.filter = ShadowFilter::sharp_4x4, .resolution_px = 2048}, &shadow::ShaderKey::depths},
+        {"triangles", {.filter = ShadowFilter::triangles}, &shadow::ShaderKey::triangles},
+        {"moments", {.filter = ShadowFilter::moments, .resolution_px = 512}, &shadow::ShaderKey::moments},
         {"evsm4 with mipmaps",
          {.filter = ShadowFilter::evsm4, .resolution_px = 2048},
-         &shadow::ProgramRow::footprint,
+         &shadow::ShaderKey::footprint,
          {.moments = {.levels = 2, .anisotropy = 4}}},
-        {"pcss", {.filter = ShadowFilter::pcss}, &shadow::ProgramRow::depths, {}, 1.0f, 0.01f},
-        {"exact", {.filter = ShadowFilter::exact}, &shadow::ProgramRow::sheets},
-        {"exact_soft", {.filter = ShadowFilter::exact_soft}, &shadow::ProgramRow::sheets, {}, 1.0f, 0.01f},
+        {"pcss", {.filter = ShadowFilter::pcss}, &shadow::ShaderKey::depths, {}, 1.0f, 0.01f},
+        {"exact", {.filter = ShadowFilter::exact}, &shadow::ShaderKey::sheets},
+        {"exact_soft", {.filter = ShadowFilter::exact_soft}, &shadow::ShaderKey::sheets, {}, 1.0f, 0.01f},
         {"exact without a map",
          {.filter = ShadowFilter::exact},
-         &shadow::ProgramRow::rays,
+         &shadow::ShaderKey::rays,
          {.projection = {.kind = LightProjection::perspective}}}};
     int failed = 0;
     for (const Case& one : cases)

@@ -17,7 +17,7 @@ gnomon::SceneSnapshot stage_with(const std::vector<gnomon::LightKind>& kinds, co
                                  const gnomon::assets::MeshLibrary& library);
 
 /// `main_text` with all it includes, for one light: which kind and which filter is said by row.glsl and its defines.
-gnomon::Result<std::string> fragment_for(const gnomon::shadow::ProgramRow& row, const char* main_text);
+gnomon::Result<std::string> fragment_for(const gnomon::shadow::ShaderKey& row, const char* main_text);
 
 /// 0 if it does not compile or link; stderr says why.
 GLuint make_program(const char* vertex, const char* fragment);

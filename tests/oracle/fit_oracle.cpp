@@ -97,7 +97,7 @@ Deciding deciding_views(std::span<const shadow::ShadowView> views, const shadow:
     const Real distance = -dot(p - exact(consumer.position_ws_m), exact(consumer.rotation_ws[2]));
     for (const shadow::ShadowView& view : views) {
         const bool spot = view.projection == ViewProjection::perspective;
-        if (spot && (!shadow::has_faces(demand.projection.faces_eighths) || view.layer == shadow::kSingleView)) {
+        if (spot && (!shadow::has_faces(demand.projection.cube_blend_eighths) || view.layer == shadow::kSingleView)) {
             deciding.wants_single = true;
             deciding.single = &view;
             continue;

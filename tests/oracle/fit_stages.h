@@ -27,8 +27,8 @@ public:
     void select(const SceneSnapshot& scene) {
         select_sets(scene, {frame.requests, {}}, storage.sets, frame.sets, {frame.statuses, {}});
     }
-    void fit(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
-        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, held, {}, shared_out}, storage, frame.fitted,
+    void fit(const SceneSnapshot& scene, const History& held = {}, bool budget_active = false) {
+        fit_views(scene, {frame.requests, frame.sets, {}, sampled_depths, held, {}, budget_active}, storage, frame.fitted,
                   frame.next_history, {frame.statuses, {}});
     }
 
@@ -40,11 +40,11 @@ private:
 };
 
 /// Returns a frame with its requests, sets and fits.
-inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}, bool shared_out = false) {
+inline ShadowFrame fitted(const SceneSnapshot& scene, const History& held = {}, bool budget_active = false) {
     FitStages stages;
     stages.decide(scene, held);
     stages.select(scene);
-    stages.fit(scene, held, shared_out);
+    stages.fit(scene, held, budget_active);
     return std::move(stages.frame);
 }
 

@@ -122,7 +122,7 @@ void SoakWorld::leave_to_rays(const std::function<void()>& run_frame) {
 }
 
 /// A fit may settle in the second; then what pixels saw is kept, and read.
-constexpr std::uint32_t kFramesToRest = 2 + lighting::KeptVisibility::kStillFrames + 1;
+constexpr std::uint32_t kFramesToRest = 2 + lighting::KeptVisibility::kStaticFrames + 1;
 
 void SoakWorld::use_every_light(const std::function<void()>& run_frame) {
     for (const shadow::LightKindRow& kind : shadow::light_kind_table())
@@ -144,7 +144,7 @@ void SoakWorld::clear(const std::function<void()>& run_frame) {
     while (!lights_.empty()) remove_one(lights_);
     while (!casters_.empty()) remove_one(casters_);
     world_.move(camera_, {0, 6, 10});  // emptied worlds are alike
-    for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames; ++i) run_frame();
+    for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames; ++i) run_frame();
 }
 
 std::size_t held_bytes() {

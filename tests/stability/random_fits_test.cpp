@@ -121,7 +121,7 @@ protected:
         // Without a view, since nothing casts into it, the eye is still where the view would have had it.
         source.position_ws_m =
             frame.fitted.views.empty()
-                ? sun_eye(math::basis_from_back(light.rotation_ws[2]),
+                ? sun_viewpoint(math::basis_from_back(light.rotation_ws[2]),
                           std::span(frame.sets.receiver_points_ws).subspan(seen.first, seen.count), light.tuning.projection)
                       .position_ws_m
                 : frame.fitted.views[0].pose.anchor_ws_m;

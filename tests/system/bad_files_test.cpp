@@ -53,7 +53,7 @@ protected:
 
 TEST_F(ShownWorld, StaysAsItIsWhenAnyBadFileIsRefused) {
     // The maps are drawn, and what pixels saw is kept: from now on one frame is like the next.
-    for (std::uint32_t i = 0; i < 2 + lighting::KeptVisibility::kStillFrames; ++i) step();
+    for (std::uint32_t i = 0; i < 2 + lighting::KeptVisibility::kStaticFrames; ++i) step();
     const std::uint64_t version = frame_->snapshot().version;
     const gl::CommandList commands = frame_->commands();
     const assets::MeshLibrary library = library_;

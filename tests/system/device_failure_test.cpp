@@ -128,7 +128,7 @@ TEST_P(DeviceFailure, WithoutOneTheLightIsShadowed) {
 TEST_P(DeviceFailure, NoMapOfAnySizeLeavesTheLightLit) {
     EXPECT_CALL(device, create_texture).Times(::testing::AnyNumber());
     EXPECT_CALL(device, create_texture(is_map, _))
-        .Times(1 + static_cast<int>(shadow::MapStore::kHalvings))
+        .Times(1 + static_cast<int>(shadow::MapCache::kHalvings))
         .WillRepeatedly(refusal<gl::TextureHandle>(gl::Failure::out_of_memory));
     for (std::uint64_t i = 0; i < Retry::kFrames; ++i) {
         step();

@@ -46,7 +46,7 @@ protected:
 
 TEST_F(DimLightsTest, OneThatRoundsAwayCostsNothing) {
     add_lamp("dim", candela_of(0.1));
-    for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames + 1; ++i) step();
+    for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames + 1; ++i) step();
     EXPECT_TRUE(left_out("dim"));
     EXPECT_NEAR(light("dim").why.display_steps.value(), 0.1, 1.0e-5);
     EXPECT_THAT(depth_passes(), IsEmpty());
@@ -221,7 +221,7 @@ TEST_F(MeasuredExposure, ThatTremblesLeavesTheFrameStill) {
     add_lamp("bright", kBright_cd);
     add_lamp("faint", kFaint_cd);
     answer(exposure);
-    for (std::uint64_t i = 0; i < 2 * shadow::MapStore::kHoldFrames; ++i) step();
+    for (std::uint64_t i = 0; i < 2 * shadow::MapCache::kHoldFrames; ++i) step();
     EXPECT_TRUE(frame->report().still);
     for (const double factor : {0.8, 1.0, 0.7, 0.95}) {
         answer(factor * exposure);

@@ -24,7 +24,7 @@ std::vector<ShadowFilter> all_filters() {
 
 class EconomyIdentity : public ::testing::Test {
 protected:
-    using Way = BothWays::Way;
+    using DepthVariant = BothWays::DepthVariant;
 
     void TearDown() override {
         both.reset();
@@ -48,11 +48,11 @@ protected:
     }
     static bool is_left_to_rays(const shadow::ShadowFrame& frame, std::uint32_t light) {
         const shadow::IndexRange views = frame.fitted.lights[light].views;
-        return views.count > 0 && frame.updates[views.first].left_to_rays;
+        return views.count > 0 && frame.updates[views.first].skipped_for_rays;
     }
     /// Prints the first difference.
     bool same() const {
-        const shadow::ShadowFrame &a = both->frame(Way::kThrifty), &b = both->frame(Way::kLavish);
+        const shadow::ShadowFrame &a = both->frame(DepthVariant::kThrifty), &b = both->frame(DepthVariant::kLavish);
         if (a.fitted.views.size() != b.fitted.views.size() || a.inputs.size() != b.inputs.size()) return false;
         for (std::size_t c = 0; c < a.inputs.size(); ++c)
             for (std::size_t i = 0; i < a.inputs[c].lights.size(); ++i) {
@@ -61,11 +61,11 @@ protected:
                 if (!(x.row == y.row) || std::memcmp(&x.record, &y.record, sizeof x.record) != 0) return false;
             }
         for (std::size_t v = 0; v < a.maps.size(); ++v) {
-            if (a.updates[v].left_to_rays) continue;
+            if (a.updates[v].skipped_for_rays) continue;
             // Neither drawn nor looked up: it may hold what it did before rays did without it.
             if (a.fitted.views[v].lit && b.fitted.views[v].lit && a.fitted.lights[a.fitted.views[v].light].request.rays.used) continue;
-            if (contents[Way::kThrifty].of(a.maps[v].target, device) ==
-                contents[Way::kLavish].of(b.maps[v].target, device))
+            if (contents[DepthVariant::kThrifty].of(a.maps[v].target, device) ==
+                contents[DepthVariant::kLavish].of(b.maps[v].target, device))
                 continue;
             const LightItem& light = both->scene().lights[a.fitted.views[v].light];
             if (!mislead)
@@ -77,12 +77,12 @@ protected:
         return true;
     }
     void count() {
-        for (const LightReport& light : both->report(Way::kThrifty).lights) {
+        for (const LightReport& light : both->report(DepthVariant::kThrifty).lights) {
             thrifty_views += light.views_drawn;
             states.insert(light.state);
             reasons.insert(light.reason);
         }
-        for (const LightReport& light : both->report(Way::kLavish).lights) {
+        for (const LightReport& light : both->report(DepthVariant::kLavish).lights) {
             lavish_views += light.views_drawn;
             if (light.state == LightState::skipped) continue;
             EXPECT_EQ(light.views_drawn, light.views) << "economy=off saves";

@@ -128,7 +128,7 @@ TEST_F(ExactMaps, AreDoneWithoutWhereThereIsNoRoom) {
         EXPECT_TRUE(light("lamp").keeps_max_error) << "rays do without";
         EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("exact")));
         device.stop_failing();
-        for (std::uint64_t i = 0; i < shadow::MapStore::kRetryFrames; ++i) step();
+        for (std::uint64_t i = 0; i < shadow::MapCache::kRetryFrames; ++i) step();
         EXPECT_THAT(drawn(), SizeIs(3));
         EXPECT_EQ(light("lamp").state, LightState::rendered);
         world.registry.destroy(lamp);
@@ -171,7 +171,7 @@ TEST_F(ExactMaps, GiveWayToFilteredOnesByWhatTheyMeanAndComeBackWithRoomToSpare)
     const ecs::Entity dim = add_light(LightKind::spot, "dim");
     world.registry.patch<Light>(dim, [](Light& l) { l.intensity *= 0.5f; });
     step();
-    const auto pixels = [&] { return shadow::asking_pixels(frame->snapshot(), frame->snapshot().lights[0]); };
+    const auto pixels = [&] { return shadow::lookup_pixels(frame->snapshot(), frame->snapshot().lights[0]); };
     ASSERT_GT(pixels(), 100.0);
     const double each = pixels() * shadow::kUncertainShare;
     settings.shadow_budget.rays = static_cast<std::uint64_t>(1.9 * each);

@@ -51,7 +51,7 @@ TEST_F(ExactSoftMaps, HaveOneBufferMoreThatIsFilledWhenTheyAreDrawnAndKeptWhenNo
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
     step();
     EXPECT_EQ(light("lamp").state, LightState::rendered);
-    EXPECT_EQ(light("lamp").bytes, light("hard").bytes + shadow::ends_bytes(kSize_px, 1));
+    EXPECT_EQ(light("lamp").bytes, light("hard").bytes + shadow::pyramid_bytes(kSize_px, 1));
     EXPECT_EQ(dispatches(), others + kLevels);
     EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("exact_soft")));
     step();
@@ -93,7 +93,7 @@ TEST_F(ExactSoftMaps, CountEveryRayInABudgetAndGiveWayToTheFilterOfASourceWithAS
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
     step();
     const SceneSnapshot& scene = frame->snapshot();
-    const double one_ray = shadow::asking_pixels(scene, scene.lights[0]) * shadow::kUncertainShare;
+    const double one_ray = shadow::lookup_pixels(scene, scene.lights[0]) * shadow::kUncertainShare;
     settings.shadow_budget.rays = static_cast<std::uint64_t>(15.5 * one_ray);
     step();
     EXPECT_EQ(light("lamp").reason, Reason::ray_budget) << "of 16 for each";

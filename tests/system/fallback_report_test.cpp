@@ -66,7 +66,7 @@ protected:
             EXPECT_TRUE(lamp().keeps_max_error);
         } else {
             EXPECT_GT(lamp().predicted_error_px, 1.0) << "the picture's own pixel, and more";
-            EXPECT_EQ(lamp().keeps_max_error, shadow::keeps_contract(lamp().predicted_error_px, 1.0));
+            EXPECT_EQ(lamp().keeps_max_error, shadow::meets_target(lamp().predicted_error_px, 1.0));
         }
     }
     void expect_fallback(ShadowFilter filter, Reason reason) const {

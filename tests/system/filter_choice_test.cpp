@@ -12,7 +12,7 @@
 namespace gnomon {
 namespace {
 
-constexpr ShadowFilter kUsual = shadow::kUsualFilter, kKeeping = shadow::kKeepingFilter;
+constexpr ShadowFilter kUsual = shadow::kDefaultFilter, kKeeping = shadow::kExactFilter;
 /// No map of a picture of 640 columns keeps the first from near by; any keeps the second from far away.
 constexpr float kFine_px = 0.25f, kLoose_px = 2.0f;
 const glm::dvec3 kNear_m{0.0, 4.0, 8.0}, kFar_m{0.0, 80.0, 160.0};

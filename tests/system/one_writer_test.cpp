@@ -43,14 +43,14 @@ void add_columns(std::string_view stage, const shadow::ShadowFrame& f, Columns& 
         add("receivers", hash(f.sets.receiver_items));
         add("casters", hash(f.sets.caster_items));
         add("points", hash(f.sets.receiver_points_ws));
-        add("beams", hash(f.sets.beams));
+        add("beams", hash(f.sets.hulls));
         add("outlines", hash(f.sets.outlines));
     }
     if (stage == "fitting") {
         add("choices", hash(f.fitted.lights));
         add("views", hash(f.fitted.views));
         add("view casters", hash(f.fitted.casters));
-        add("resized beams", hash(f.fitted.resized_sets.beams));
+        add("resized beams", hash(f.fitted.resized_sets.hulls));
     }
     if (stage == "budget") add("decisions", hash(f.decisions));
     if (stage == "maps") add("maps", hash(f.maps));
@@ -136,7 +136,7 @@ TEST_F(OneWriter, ASecondWriterWouldBeSeen) {
         meddle = [stage](std::string_view now, shadow::ShadowFrame& frame) {
             if (now != stage || frame.requests.empty()) return;
             frame.requests[0].map.resolution_px += 1;
-            if (!frame.sets.beams.empty()) frame.sets.beams[0].far_m += 1.0;
+            if (!frame.sets.hulls.empty()) frame.sets.hulls[0].far_m += 1.0;
         };
         EXPECT_GT(run(150), 0) << stage;
     }

@@ -42,15 +42,15 @@ protected:
 };
 
 TEST_F(QuietSuns, GetALargerMapOnceWhileTheCameraWalks) {
-    EXPECT_EQ(walk(shadow::kQuietFrames), 0u) << "not before";
+    EXPECT_EQ(walk(shadow::kStaticSunFrames), 0u) << "not before";
     EXPECT_EQ(walk(1), 1u);
     EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
-    EXPECT_EQ(walk(3 * shadow::kQuietFrames), 0u) << "and it stays";
+    EXPECT_EQ(walk(3 * shadow::kStaticSunFrames), 0u) << "and it stays";
     EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
 }
 
 TEST_F(QuietSuns, ThatAreDimmedInEveryFrameAreQuiet) {
-    for (std::uint32_t i = 0; i < shadow::kQuietFrames; ++i) {
+    for (std::uint32_t i = 0; i < shadow::kStaticSunFrames; ++i) {
         world.registry.patch<Light>(sun, [](Light& l) { l.intensity *= 0.999f; });
         walk(1);
     }
@@ -59,15 +59,15 @@ TEST_F(QuietSuns, ThatAreDimmedInEveryFrameAreQuiet) {
 }
 
 TEST_F(QuietSuns, StayQuietWhenSomethingElseComes) {
-    walk(shadow::kQuietFrames / 2);
+    walk(shadow::kStaticSunFrames / 2);
     world.add_light(LightKind::point, {0, 4, 0}, "another", false);
     world.add_mesh(kBox, {0, -50, 0}, false);
-    walk(shadow::kQuietFrames / 2 + 1);
+    walk(shadow::kStaticSunFrames / 2 + 1);
     EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
 }
 
 TEST_F(QuietSuns, AreNoneWhileTheyTurn) {
-    for (std::uint32_t i = 0; i < 2 * shadow::kQuietFrames; ++i) {
+    for (std::uint32_t i = 0; i < 2 * shadow::kStaticSunFrames; ++i) {
         world.registry.patch<Transform>(sun, [](Transform& t) { t.rotation.x += 1e-6; });
         walk(1);
     }
@@ -75,7 +75,7 @@ TEST_F(QuietSuns, AreNoneWhileTheyTurn) {
 }
 
 TEST_F(QuietSuns, GetTheSmallerOneAgainWithWhatHasToBeDrawnAnyway) {
-    walk(shadow::kQuietFrames + 1);
+    walk(shadow::kStaticSunFrames + 1);
     for (int i = 1; i <= 3; ++i) {
         world.move(stage.box, {0.01 * i, 1, 0});
         step();
@@ -83,12 +83,12 @@ TEST_F(QuietSuns, GetTheSmallerOneAgainWithWhatHasToBeDrawnAnyway) {
         step();
     }
     EXPECT_EQ(light("sun").texels, moving_texels);
-    EXPECT_LE(walk(shadow::kQuietFrames - 1), 1u);
+    EXPECT_LE(walk(shadow::kStaticSunFrames - 1), 1u);
     EXPECT_EQ(light("sun").texels, moving_texels);
 }
 
 TEST_F(QuietSuns, OfAStillPictureHaveNothingDrawn) {
-    for (std::uint32_t i = 0; i < 3 * shadow::kQuietFrames; ++i) {
+    for (std::uint32_t i = 0; i < 3 * shadow::kStaticSunFrames; ++i) {
         step();
         ASSERT_EQ(light("sun").views_drawn, 0u) << i;
     }
@@ -99,21 +99,21 @@ TEST_F(QuietSuns, OfAStillPictureHaveNothingDrawn) {
 TEST_F(QuietSuns, KeepTheSizeThatIsAskedFor) {
     set([](LightShadow& s) { s.resolution_px = 256; });
     step();
-    EXPECT_EQ(walk(2 * shadow::kQuietFrames), 0u);
+    EXPECT_EQ(walk(2 * shadow::kStaticSunFrames), 0u);
     EXPECT_EQ(light("sun").texels, 256u * 256u);
 }
 
 TEST_F(QuietSuns, AreNoneWhereAllIsDrawnInEveryFrame) {
     set([](ShadowTuning& t) { t.reuse.economy = false; });
     step();
-    EXPECT_EQ(walk(2 * shadow::kQuietFrames), 2 * shadow::kQuietFrames);
+    EXPECT_EQ(walk(2 * shadow::kStaticSunFrames), 2 * shadow::kStaticSunFrames);
     EXPECT_EQ(light("sun").texels, moving_texels);
 }
 
 TEST_F(QuietSuns, DoNotGrowWithinABudget) {
     settings.shadow_budget.bytes = 2 * light("sun").bytes;  // there would be no room, and then room again
     walk(1);
-    EXPECT_EQ(walk(4 * shadow::kQuietFrames), 0u);
+    EXPECT_EQ(walk(4 * shadow::kStaticSunFrames), 0u);
     EXPECT_EQ(light("sun").texels, moving_texels);
 }
 
@@ -121,7 +121,7 @@ TEST_F(QuietSuns, AreOnlyThoseThatAskByRays) {
     set([](LightShadow& s) { s.filter = ShadowFilter::triangles; });
     step();
     const std::uint64_t texels = light("sun").texels;
-    EXPECT_EQ(walk(2 * shadow::kQuietFrames), 0u);
+    EXPECT_EQ(walk(2 * shadow::kStaticSunFrames), 0u);
     EXPECT_EQ(light("sun").texels, texels);
 }
 

@@ -140,7 +140,7 @@ TEST_F(RayScene, SaysTheBytesOfItsPicturesAndOfWhatSheetsAreDrawnFrom) {
     EXPECT_EQ(rays.list_bytes, bytes("verdicts of maps") + bytes("answers of rays") + bytes("pixels for rays"));
     EXPECT_EQ(rays.place_bytes, bytes("surface places"));
     EXPECT_EQ(rays.sheet_bytes, bytes("shadow sheet items") + bytes("shadow sheet views"));
-    EXPECT_GE(rays.sheet_host_bytes, 12 * sizeof(shadow::CasterSurface::Facet)) << "a box";
+    EXPECT_GE(rays.sheet_host_bytes, 12 * sizeof(shadow::CasterTopology::Facet)) << "a box";
     const RayReport before = rays;
     for (int i = 0; i < 3; ++i) step();
     EXPECT_TRUE(frame->report().still);

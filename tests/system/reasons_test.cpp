@@ -206,10 +206,10 @@ TEST(Reasons, PointsInInfinityHaveNoFit) {
     stages.decide(scene, gl::RecordingDevice::default_info());
     shadow::ShadowFrame& frame = stages.frame;
     frame.sets.receiver_points_ws = {glm::dvec3(HUGE_VAL), glm::dvec3(-HUGE_VAL)};
-    frame.sets.beams.emplace_back();
+    frame.sets.hulls.emplace_back();
     frame.sets.lights.emplace_back();
     frame.sets.lights[0].receiver_points = {0, 2};
-    frame.sets.lights[0].beams = {0, 1};
+    frame.sets.lights[0].hulls = {0, 1};
     stages.fit(scene);
     EXPECT_EQ(frame.statuses[0].skipped(), Reason::fit_degenerate);
     EXPECT_TRUE(frame.fitted.views.empty());

@@ -9,7 +9,7 @@
 namespace gnomon {
 namespace {
 
-constexpr int kRest = static_cast<int>(shadow::CasterMotion::kStillFrames);
+constexpr int kRest = static_cast<int>(shadow::DynamicCasters::kStaticFrames);
 
 class Refresh : public FrameTest {
 protected:

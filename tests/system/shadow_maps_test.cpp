@@ -198,7 +198,7 @@ TEST_F(ShadowMaps, AMapThatNobodySeesIsHeldForAWhileThenFreed) {
     world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     step();
     world.registry.patch<Transform>(stage.camera, [](Transform& t) { t.translation_m.z = -1000.0; });
-    for (std::uint64_t i = 0; i < shadow::MapStore::kHoldFrames; ++i) step();
+    for (std::uint64_t i = 0; i < shadow::MapCache::kHoldFrames; ++i) step();
     EXPECT_THAT(map_labels(device), SizeIs(2)) << "one second on";
     step();
     expect_no_shadow(Reason::no_visible_receiver);

@@ -158,7 +158,7 @@ TEST_P(OneSpot, GetsASecondStoreWhenItsMoverMovesAgainAndLosesItASecondAfterItRe
     EXPECT_EQ(light("lamp").clears, 0u);
     EXPECT_EQ(light("lamp").triangles, 12u);
     std::uint32_t drawn = 0;
-    for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames; ++i) step(), drawn += light("lamp").views_drawn;
+    for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames; ++i) step(), drawn += light("lamp").views_drawn;
     EXPECT_EQ(drawn, 1u) << "once more, when it counts as still";
     EXPECT_FALSE(texture("shadow map lamp, still"));
     EXPECT_EQ(light("lamp").bytes, alone);
@@ -176,7 +176,7 @@ TEST_P(OneSpot, DrawsAllWhereTheDeviceHasNoRoomAndSaysNothingOfIt) {
         EXPECT_EQ(light("lamp").state, LightState::rendered);
         EXPECT_STREQ(reason_code(light("lamp").reason), "none");
         EXPECT_FALSE(texture("shadow map lamp, still"));
-        for (std::uint64_t i = 0; i < shadow::MapStore::kRetryFrames - 1; ++i) {
+        for (std::uint64_t i = 0; i < shadow::MapCache::kRetryFrames - 1; ++i) {
             nudge(), step();
             EXPECT_EQ(copies(), 0u);
         }

@@ -18,7 +18,7 @@ protected:
     }
     /// Frames until one stands still; 0: none did.
     int settle() {
-        constexpr int kMost = 2 * static_cast<int>(shadow::MapStore::kHoldFrames);  // what anything counts up to
+        constexpr int kMost = 2 * static_cast<int>(shadow::MapCache::kHoldFrames);  // what anything counts up to
         for (int i = 1; i <= kMost; ++i)
             if (step().still) return i;
         return 0;

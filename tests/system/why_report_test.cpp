@@ -91,7 +91,7 @@ TEST_F(WhyReport, AMapThatIsHeldForAWhileIsNotSavedYet) {
     EXPECT_EQ(light("lamp").bytes, kLayer_bytes);
     EXPECT_EQ(light("lamp").why.bytes_saved, 0u);
     EXPECT_TRUE(light("lamp").why.saved_us);
-    for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames; ++i) step();
+    for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames; ++i) step();
     EXPECT_EQ(light("lamp").bytes, 0u);
     EXPECT_EQ(light("lamp").why.bytes_saved, kLayer_bytes);
 }
@@ -112,7 +112,7 @@ TEST_F(WhyReport, EveryFiltersBytesAreThoseThatTheMapWouldHold) {
         const std::uint64_t held = light("lamp").bytes;
         EXPECT_GT(held, 0u);
         world.registry.remove<ShadowCaster>(stage.box);
-        for (std::uint64_t i = 0; i <= shadow::MapStore::kHoldFrames + 1; ++i) step();
+        for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames + 1; ++i) step();
         EXPECT_EQ(light("lamp").why.bytes_saved, held) << row.name;
     }
 }

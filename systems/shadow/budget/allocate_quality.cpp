@@ -12,22 +12,22 @@ constexpr std::uint32_t kMostRefresh_frames = 4;  // a fifteenth of a second: sl
 
 /// Limits one step away from those of a light, one item per kind of step. Impossible steps are left out.
 struct NextGrants {
-    std::array<Grant, 5> items;
+    std::array<QualityLimits, 5> items;
     std::size_t count = 0;
-    void add(const Grant& grant) { items[count++] = grant; }
-    const Grant* begin() const { return items.data(); }
-    const Grant* end() const { return items.data() + count; }
+    void add(const QualityLimits& grant) { items[count++] = grant; }
+    const QualityLimits* begin() const { return items.data(); }
+    const QualityLimits* end() const { return items.data() + count; }
 };
 
-NextGrants next_grants(const LightLoad& load, const Grant& now) {
+NextGrants next_grants(const LightLoad& load, const QualityLimits& now) {
     NextGrants next;
     if (now.none) return next;
     const ShadowRequest& wanted = load.wanted;
     const std::uint32_t edge_px = std::min(wanted.map.resolution_px, now.most_px);
-    const auto add_less = [&](const Grant& less) {
+    const auto add_less = [&](const QualityLimits& less) {
         if (!(less == now) && is_less(*load.light, wanted, less)) next.add(less);
     };
-    Grant less = now;
+    QualityLimits less = now;
     less.most_px = std::max(edge_px / 2, kLeastGranted_px);
     if (less.most_px < edge_px) add_less(less);
     less = now;
@@ -36,7 +36,7 @@ NextGrants next_grants(const LightLoad& load, const Grant& now) {
     if (less.most_views > 0 && fewer.map.view_count == less.most_views) add_less(less);
     less = now;
     less.plain = true;
-    if (wanted.map.filter != kPlainFilter) add_less(less);
+    if (wanted.map.filter != kCheapestFilter) add_less(less);
     less = now;
     less.refresh_frames = std::max(now.refresh_frames, 1u) * 2;
     if (less.refresh_frames <= kMostRefresh_frames && load.activity > 0.0) add_less(less);
@@ -47,16 +47,16 @@ NextGrants next_grants(const LightLoad& load, const Grant& now) {
 }
 
 /// Returns limits one step back toward `start`. `lastly`: the first step for a light that has no map.
-NextGrants more_grants(const Grant& now, const Grant& start, const Grant& lastly) {
+NextGrants more_grants(const QualityLimits& now, const QualityLimits& start, const QualityLimits& lastly) {
     NextGrants next;
-    const auto add_more = [&](const Grant& more) {
+    const auto add_more = [&](const QualityLimits& more) {
         if (!(more == now)) next.add(more);
     };
     if (now.none) {
         if (!start.none) next.add(lastly);
         return next;
     }
-    Grant more = now;
+    QualityLimits more = now;
     more.most_px = now.most_px <= start.most_px / 2 ? std::min(2 * now.most_px, start.most_px) : start.most_px;
     add_more(more);
     more = now;
@@ -82,7 +82,7 @@ std::uint64_t less_by(std::uint64_t before, std::uint64_t after) { return before
 class Taking {
 public:
     Taking(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
-           std::span<Grant> grants, BudgetScratch& scratch)
+           std::span<QualityLimits> grants, BudgetScratch& scratch)
         : loads_(loads), limits_(limits), factors_(factors), grants_(grants), scratch_(scratch) {}
 
     BudgetUse run() {
@@ -108,7 +108,7 @@ private:
         use_.bytes += cost.bytes;
         use_.ns += cost.ns;
     }
-    void replace(std::uint32_t load, const Grant& grant, const Cost& cost) {
+    void replace(std::uint32_t load, const QualityLimits& grant, const Cost& cost) {
         use_.bytes -= scratch_.costs[load].bytes;
         use_.ns -= scratch_.costs[load].ns;
         add(cost);
@@ -149,7 +149,7 @@ private:
         const NextGrants next = next_grants(loads_[load], grants_[load]);
         Step best{std::numeric_limits<double>::infinity(), load, {}, {}};
         bool found = false;
-        for (const Grant& less : next) {
+        for (const QualityLimits& less : next) {
             const Cost cost = cost_of(loads_[load], less, factors_);
             const double freed = share_of(less_by(now.bytes, cost.bytes), less_by(now.ns, cost.ns));
             const double price = std::max(cost.harm - now.harm, 0.0) / freed;
@@ -181,7 +181,7 @@ private:
         const Cost& now = scratch_.costs[load];
         const NextGrants next = more_grants(grants_[load], scratch_.start[load], scratch_.lastly[load]);
         Step best{0.0, load, {}, {}};
-        for (const Grant& more : next) {
+        for (const QualityLimits& more : next) {
             const Cost cost = cost_of(loads_[load], more, factors_);
             const double gain = now.harm - cost.harm;
             if (!(gain > 0.0) || !fits(load, cost)) continue;
@@ -208,7 +208,7 @@ private:
     std::span<const LightLoad> loads_;
     BudgetLimits limits_;
     CostFactors factors_;
-    std::span<Grant> grants_;
+    std::span<QualityLimits> grants_;
     BudgetScratch& scratch_;
     BudgetUse use_;
     bool counts_bytes_ = false, counts_ns_ = false;  // prices count bytes; prices count time
@@ -228,7 +228,7 @@ BudgetLimits limits_of(const ShadowBudget& budget) {
     return limits;
 }
 
-BudgetUse use_of(std::span<const LightLoad> loads, std::span<const Grant> grants, const CostFactors& factors) {
+BudgetUse use_of(std::span<const LightLoad> loads, std::span<const QualityLimits> grants, const CostFactors& factors) {
     BudgetUse use;
     for (std::size_t i = 0; i < loads.size(); ++i) {
         const Cost cost = cost_of(loads[i], grants[i], factors);
@@ -240,23 +240,23 @@ BudgetUse use_of(std::span<const LightLoad> loads, std::span<const Grant> grants
 }
 
 BudgetUse take_away(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
-                    std::span<Grant> grants, BudgetScratch& scratch) {
+                    std::span<QualityLimits> grants, BudgetScratch& scratch) {
     return Taking(loads, limits, factors, grants, scratch).run();
 }
 
-BudgetUse settle_grants(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
-                        std::uint32_t& calm_frames, std::span<Grant> grants, BudgetScratch& scratch) {
+BudgetUse settle_limits(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
+                        std::uint32_t& budget_cooldown, std::span<QualityLimits> grants, BudgetScratch& scratch) {
     const BudgetUse use = use_of(loads, grants, factors);
     if (!holds(limits, use)) {
-        calm_frames = 0;
+        budget_cooldown = 0;
         return take_away(loads, limits, factors, grants, scratch);
     }
-    calm_frames = std::min(calm_frames + 1, kCalmFrames);
-    if (calm_frames < kCalmFrames) return use;
+    budget_cooldown = std::min(budget_cooldown + 1, kBudgetCooldown);
+    if (budget_cooldown < kBudgetCooldown) return use;
     bool any = false;
     for (std::size_t i = 0; i < loads.size() && !any; ++i) any = is_less(*loads[i].light, loads[i].wanted, grants[i]);
     if (!any) return use;
-    scratch.fresh.assign(loads.size(), Grant{});
+    scratch.fresh.assign(loads.size(), QualityLimits{});
     const BudgetUse fresh_use =
         take_away(loads, {with_room(limits.bytes), with_room(limits.ns)}, factors, scratch.fresh, scratch);
     double gain = 0.0, loss = 0.0;
@@ -266,7 +266,7 @@ BudgetUse settle_grants(std::span<const LightLoad> loads, const BudgetLimits& li
     }
     if (!(gain > kLeastGain * loss)) return use;
     std::copy(scratch.fresh.begin(), scratch.fresh.end(), grants.begin());
-    calm_frames = 0;
+    budget_cooldown = 0;
     return fresh_use;
 }
 

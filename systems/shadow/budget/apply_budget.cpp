@@ -17,7 +17,7 @@ namespace gnomon::shadow {
 namespace {
 
 /// Share of the remaining difference by which activity follows changes per frame. It takes half a second, as long as a
-/// stopped object counts as moving (CasterMotion).
+/// stopped object counts as moving (DynamicCasters).
 constexpr float kActivityGain = 1.0f / 8.0f;
 /// Difference below which activity takes its final value, so that a static scene settles.
 constexpr float kActivityRest = 1.0f / 64.0f;
@@ -61,10 +61,10 @@ double seen_share(std::span<const glm::dvec3> points_ws, const ConsumerItem& c) 
 }
 
 /// Returns the light's illuminance halfway to its farthest receiver, lux.
-double typical_lux(const LightItem& light, std::span<const Beam> beams) {
+double typical_lux(const LightItem& light, std::span<const ReceiverHull> hulls) {
     double reach_m = 0.0;
-    for (const Beam& beam : beams)
-        if (beam.receivers > 0) reach_m = std::max(reach_m, beam.reach_m);
+    for (const ReceiverHull& receiver_hull : hulls)
+        if (receiver_hull.receivers > 0) reach_m = std::max(reach_m, receiver_hull.reach_m);
     const double way_m = 0.5 * (light.range_m > 0.0 ? std::min(reach_m, light.range_m) : reach_m);
     return illuminance_lux(light, way_m * way_m);
 }
@@ -77,13 +77,13 @@ std::uint32_t needed_px(const LightItem& light, const ShadowRequest& wanted, con
         fitted.map.filter == wanted.map.filter && fitted.map.view_count == wanted.map.view_count &&
         (fitted.map.resolution_px < fitted.limits.max_px || fitted.limits.max_px == wanted.limits.max_px);
     if (as_wanted) return fitted.map.resolution_px;
-    if (!follows_contract(light, wanted)) return wanted.limits.max_px;
+    if (!adapts_to_target(light, wanted)) return wanted.limits.max_px;
     const double edge_texel = static_cast<double>(wanted.map.filtering.widest_texel - wanted.map.filtering.still_texel);
-    return contract_size_px(fitted.map.resolution_px, false, edge_error_px(extent_px, edge_texel),
-                            wished_error_px(light.shadow), wanted.limits.max_px);
+    return target_size_px(fitted.map.resolution_px, false, edge_error_px(extent_px, edge_texel),
+                          target_error_px(light.shadow), wanted.limits.max_px);
 }
 
-BudgetReport outcome(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
+BudgetReport outcome(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors) {
     const ShadowRequest given = granted(*load.light, load.wanted, grant);
     const Cost full = cost_of(load, {}, factors), cost = cost_of(load, grant, factors);
     BudgetReport out;
@@ -102,15 +102,15 @@ BudgetReport outcome(const LightLoad& load, const Grant& grant, const CostFactor
 }
 
 /// Applies the limits to a fitted request, as far as possible after the fit. The rest follows in the next frame.
-void cut(const LightLoad& load, const Grant& grant, BudgetDecision& decision) {
+void cut(const LightLoad& load, const QualityLimits& grant, BudgetDecision& decision) {
     const LightItem& light = *load.light;
     ShadowRequest& request = decision.request;
     const ShadowRequest given = granted(light, load.wanted, grant);
     decision.over_budget = is_less(light, load.wanted, grant);
     decision.refresh_frames = refresh_frames(light, grant);
     decision.weight = load.weight;
-    if (given.map.filter != request.map.filter && given.map.filter == kPlainFilter) {
-        request.map.filter = kPlainFilter;
+    if (given.map.filter != request.map.filter && given.map.filter == kCheapestFilter) {
+        request.map.filter = kCheapestFilter;
         set_resolution(light, request.map.resolution_px, request);
     }
     const std::uint64_t most_bytes = map_bytes(light, given);
@@ -120,19 +120,19 @@ void cut(const LightLoad& load, const Grant& grant, BudgetDecision& decision) {
 
 }  // namespace
 
-void limit_by_grants(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
-                     std::vector<ShadowRequest>& limited) {
+void apply_last_limits(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
+                       std::vector<ShadowRequest>& limited) {
     limited.assign(requests.begin(), requests.end());
     std::size_t guess = 0;
     for (std::size_t i = 0; i < limited.size(); ++i) {
         if (limited[i].skip != Reason::none) continue;
-        const HeldLight* last = find(held, scene.lights[i].entity, guess++);
+        const LightFitHistory* last = find(held, scene.lights[i].entity, guess++);
         if (last && !last->budget.grant.none) limited[i] = granted(scene.lights[i], limited[i], last->budget.grant);
     }
 }
 
 LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
-                               std::uint32_t light, const HeldLight& next) const {
+                               std::uint32_t light, const LightFitHistory& next) const {
     const ShadowRequest& fitted = inputs.fitted.lights[light].request;
     LightLoad load;
     load.light = &scene.lights[light];
@@ -171,7 +171,7 @@ LightLoad BudgetStage::load_of(const SceneSnapshot& scene, const GpuScene& gpu, 
 /// Weighs each light's shadow by brightness. Lightness grows with the cube root of luminance (CIE 1976).
 void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) {
     const auto lux = [&](std::size_t i) {
-        return typical_lux(scene.lights[lights_[i]], inputs.fitted.sets_of(inputs.sets, lights_[i]).beams());
+        return typical_lux(scene.lights[lights_[i]], inputs.fitted.sets_of(inputs.sets, lights_[i]).hulls());
     };
     double brightest = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i)
@@ -195,7 +195,7 @@ std::uint64_t BudgetStage::collect(const SceneSnapshot& scene, const GpuScene& g
     for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
         const FitChoice& choice = inputs.fitted.lights[i];
         if (choice.request.skip != Reason::none) continue;
-        const HeldLight& entry = next.lights[held++];
+        const LightFitHistory& entry = next.lights[held++];
         if (statuses[i].is_skipped() || choice.views.count == 0) continue;
         if (inputs.waiting_bytes[i]) {
             fixed_bytes += *inputs.waiting_bytes[i];
@@ -214,17 +214,17 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
                          std::vector<BudgetDecision>& decisions, const LightAccounts& accounts) {
     decisions.clear();
     for (const FitChoice& choice : inputs.fitted.lights) decisions.push_back({choice.request});
-    next.calm_frames = is_active() ? inputs.held.calm_frames : 0;
+    next.budget_cooldown = is_active() ? inputs.held.budget_cooldown : 0;
     outcomes_.clear();
     if (!is_active()) {
         loads_.clear();
-        for (HeldLight& light : next.lights) light.budget = {};
+        for (LightFitHistory& light : next.lights) light.budget = {};
         return;
     }
     BudgetLimits limits = limits_;
     const std::uint64_t fixed_bytes = collect(scene, gpu, inputs, next, accounts.statuses);
     if (limits.bytes != BudgetLimits::kNone) limits.bytes -= std::min(limits.bytes, fixed_bytes);
-    settle_grants(loads_, limits, factors_, next.calm_frames, grants_, scratch_);
+    settle_limits(loads_, limits, factors_, next.budget_cooldown, grants_, scratch_);
     lookups_ns_ = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) {
         BudgetHistory& history = next.lights[held_[i]].budget;
@@ -256,7 +256,7 @@ void BudgetStage::note_changes(const SceneSnapshot& scene, const DrawnViews& dra
         float views = 0.0f, changed = 0.0f;
         for (std::size_t v = range.first; v < range.end(); ++v) {
             const ShadowView& view = drawn.fitted.views[v];
-            const bool has_moving = view.still_casters < view.casters.count;
+            const bool has_moving = view.static_casters < view.casters.count;
             views += 1.0f;
             changed += (drawn.has_map(v) ? drawn.updates[v].changed : has_moving) ? 1.0f : 0.0f;
         }

@@ -24,7 +24,7 @@ struct BudgetInputs {
     const ReceiverCasterSets& sets;
     const FittedViews& fitted;
     const History& held;
-    WaitingBytes waiting_bytes;  // MapStore::waiting_bytes(); these lights keep their maps until the next try
+    WaitingBytes waiting_bytes;  // MapCache::waiting_bytes(); these lights keep their maps until the next try
 };
 
 /// What a budget leaves for drawing maps in one frame, by the cost model.
@@ -64,13 +64,13 @@ private:
     std::uint64_t collect(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs,
                           const History& next, std::span<const LightStatus> statuses);
     LightLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const BudgetInputs& inputs, std::uint32_t light,
-                      const HeldLight& next) const;
+                      const LightFitHistory& next) const;
     void weigh(const SceneSnapshot& scene, const BudgetInputs& inputs);
 
     BudgetLimits limits_;
     CostFactors factors_, decided_factors_;
     std::vector<LightLoad> loads_;        // lights that would have maps
-    std::vector<Grant> grants_;           // one per load
+    std::vector<QualityLimits> grants_;   // one per load
     std::vector<std::uint32_t> lights_;   // one per load: index of its light
     std::vector<std::size_t> held_;       // one per load: index into History::lights
     std::vector<BudgetReport> outcomes_;  // one per load
@@ -79,7 +79,7 @@ private:
 };
 
 /// Applies each light's last limits to its request and writes the results to `limited`, one entry per light.
-void limit_by_grants(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
-                     std::vector<ShadowRequest>& limited);
+void apply_last_limits(const SceneSnapshot& scene, const History& held, std::span<const ShadowRequest> requests,
+                       std::vector<ShadowRequest>& limited);
 
 }  // namespace gnomon::shadow

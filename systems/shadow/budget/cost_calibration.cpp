@@ -27,18 +27,18 @@ double lit_ns(const LightItem& item, const ShadowRequest& request, const Lightin
 }  // namespace
 
 double learned(double factor, double measured_ns, double modelled_ns, std::uint32_t& frames) {
-    if (!(modelled_ns >= CostClock::kLeastWork_ns) || !(measured_ns > 0.0) || !std::isfinite(measured_ns))
+    if (!(modelled_ns >= CostCalibration::kLeastWork_ns) || !(measured_ns > 0.0) || !std::isfinite(measured_ns))
         return factor;
-    const double gain = frames < CostClock::kFirstFrames ? CostClock::kFirstGain : CostClock::kGain;
-    frames = std::min(frames + 1, CostClock::kFirstFrames);
+    const double gain = frames < CostCalibration::kFirstFrames ? CostCalibration::kFirstGain : CostCalibration::kGain;
+    frames = std::min(frames + 1, CostCalibration::kFirstFrames);
     const double step = (std::log(measured_ns / modelled_ns) - std::log(factor)) * gain;
-    return std::clamp(factor * std::exp(std::clamp(step, -CostClock::kMostStep, CostClock::kMostStep)),
-                      CostClock::kLeastFactor, CostClock::kMostFactor);
+    return std::clamp(factor * std::exp(std::clamp(step, -CostCalibration::kMostStep, CostCalibration::kMostStep)),
+                      CostCalibration::kLeastFactor, CostCalibration::kMostFactor);
 }
 
-void CostClock::submitted(std::uint64_t submission, const SceneSnapshot& scene,
-                          std::span<const BudgetDecision> decisions, std::span<const LightingInputs> inputs,
-                          const FrameReport& report) {
+void CostCalibration::submitted(std::uint64_t submission, const SceneSnapshot& scene,
+                                std::span<const BudgetDecision> decisions, std::span<const LightingInputs> inputs,
+                                const FrameReport& report) {
     Submission& now = submissions_[next_];
     next_ = (next_ + 1) % kFrames;
     now = {submission, true, {}, {}};
@@ -50,7 +50,7 @@ void CostClock::submitted(std::uint64_t submission, const SceneSnapshot& scene,
             lit_ns(scene.lights[light.light], decisions[light.light].request, light, report.lights[light.light]);
 }
 
-void CostClock::close(Submission& submission) {
+void CostCalibration::close(Submission& submission) {
     submission.open = false;
     factors_.drawing =
         learned(factors_.drawing, submission.measured.drawing_ns, submission.modelled.drawing_ns, learned_.drawing);
@@ -59,7 +59,7 @@ void CostClock::close(Submission& submission) {
 }
 
 /// Adds the timers of a submission, which may arrive in parts. The first timer of a later submission completes it.
-void CostClock::learn(std::span<const gl::Timing> timings) {
+void CostCalibration::learn(std::span<const gl::Timing> timings) {
     for (const gl::Timing& timing : timings) {
         if (timing.id >= kSurfaceTimer) continue;
         for (Submission& s : submissions_) {

@@ -14,7 +14,7 @@ namespace gnomon::shadow {
 /// Calibration of the cost model by the device's timers: measured over modelled time, for drawing maps and for lighting
 /// with them. It changes slowly, and only in frames with enough work of that kind. It reads no clock itself. Without
 /// timers, and in repeatable runs, which pass it none, the model's times stand.
-class CostClock {
+class CostCalibration {
 public:
     /// Records the modelled work of the frame that was just submitted.
     void submitted(std::uint64_t submission, const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,

@@ -49,7 +49,7 @@ double usual_error_px(const ShadowRequest& request, double extent_px) {
 }
 
 /// Returns how much the mean edge error exceeds that of the request without limits, pixels.
-double rise_px(const LightLoad& load, const ShadowRequest& given, const Grant& grant) {
+double rise_px(const LightLoad& load, const ShadowRequest& given, const QualityLimits& grant) {
     const ShadowRequest& wanted = load.wanted;
     const double coarser =
         static_cast<double>(wanted.map.resolution_px) / given.map.resolution_px *
@@ -63,10 +63,10 @@ double rise_px(const LightLoad& load, const ShadowRequest& given, const Grant& g
 
 }  // namespace
 
-ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const Grant& grant) {
+ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant) {
     ShadowRequest request = wanted;
     if (grant.none) return request;
-    if (grant.plain) request.map.filter = kPlainFilter;
+    if (grant.plain) request.map.filter = kCheapestFilter;
     request.rays.used = request.rays.used && !grant.plain;
     if (has_cascades(light, wanted)) {
         request.map.view_count = std::clamp(grant.most_views, 1u, wanted.map.view_count);
@@ -80,12 +80,12 @@ ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const
     return request;
 }
 
-std::uint32_t refresh_frames(const LightItem& light, const Grant& grant) {
+std::uint32_t refresh_frames(const LightItem& light, const QualityLimits& grant) {
     return light.tuning.reuse.economy ? grant.refresh_frames : 1;
 }
 
-bool is_less(const LightItem& light, const ShadowRequest& wanted, const Grant& grant) {
-    return grant.none || (grant.plain && wanted.map.filter != kPlainFilter) ||
+bool is_less(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant) {
+    return grant.none || (grant.plain && wanted.map.filter != kCheapestFilter) ||
            grant.most_px < wanted.map.resolution_px ||
            (has_cascades(light, wanted) && grant.most_views < wanted.map.view_count) ||
            (grant.refresh_frames > 1 && light.tuning.reuse.economy);
@@ -119,17 +119,17 @@ double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, d
     return views * view_ns + triangles * kTriangle_ns + draws * kDraw_ns;
 }
 
-double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
+double lookup_ns(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors) {
     if (grant.none) return 0.0;
     const ShadowRequest given = granted(*load.light, load.wanted, grant);
     return load.pixels * mean_fetches(*load.light, given, given.map.filter) * kFetch_ns * factors.lighting;
 }
 
-double edge_harm(double rise_px) {
+double edge_error_cost(double rise_px) {
     return std::isfinite(rise_px) ? kMostByEdges * rise_px / (rise_px + kHalfLost_px) : kMostByEdges;
 }
 
-Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors) {
+Cost cost_of(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors) {
     const double weight = share_in_bounds(load.weight);
     if (grant.none) return {0, 0, weight};
     const ShadowRequest given = granted(*load.light, load.wanted, grant);
@@ -146,7 +146,7 @@ Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& facto
     constexpr double kMost_ns = 1.0e15;  // eleven days, so that sums stay in range
     cost.ns = static_cast<std::uint64_t>(ns < kMost_ns ? std::max(ns, 0.0) : kMost_ns);
     if (is_less(*load.light, load.wanted, grant))
-        cost.harm = weight * edge_harm(std::max(rise_px(load, given, grant), 0.0));
+        cost.harm = weight * edge_error_cost(std::max(rise_px(load, given, grant), 0.0));
     return cost;
 }
 

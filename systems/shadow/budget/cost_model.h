@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kLeastGranted_px = 64;
 inline constexpr double kPass_ns = 5000.0, kDraw_ns = 1000.0, kTriangle_ns = 1.0, kTexel_ns = 0.02;
 inline constexpr double kFetch_ns = 0.1, kShadedPixel_ns = 0.5;
 
-/// Measured over modelled time, by kind of work (CostClock).
+/// Measured over modelled time, by kind of work (CostCalibration).
 struct CostFactors {
     double drawing = 1.0, lighting = 1.0;
     bool operator==(const CostFactors&) const = default;
@@ -53,22 +53,22 @@ struct Cost {
     double harm = 0.0;     // share of the image that is wrong, by the model; 0: all as requested
 };
 
-/// Returns the request with the limits applied. Grant::none leaves it unchanged.
-ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const Grant& grant);
+/// Returns the request with the limits applied. QualityLimits::none leaves it unchanged.
+ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant);
 
 /// Returns the interval, in frames, at which a view of the light is drawn if only its casters changed.
-std::uint32_t refresh_frames(const LightItem& light, const Grant& grant);
+std::uint32_t refresh_frames(const LightItem& light, const QualityLimits& grant);
 
 /// Returns whether the limits give that request less than it needs.
-bool is_less(const LightItem& light, const ShadowRequest& wanted, const Grant& grant);
+bool is_less(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant);
 
-Cost cost_of(const LightLoad& load, const Grant& grant, const CostFactors& factors);
+Cost cost_of(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors);
 
 /// Returns the lookup part of the cost, ns.
-double lookup_ns(const LightLoad& load, const Grant& grant, const CostFactors& factors);
+double lookup_ns(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors);
 
 /// Returns the share of a light's weight that is lost when edges are `rise_px` less accurate, 0 to kMostByEdges.
-double edge_harm(double rise_px);
+double edge_error_cost(double rise_px);
 
 /// Returns the mean number of fetches per lookup with the filter.
 double mean_fetches(const LightItem& light, const ShadowRequest& request, ShadowFilter filter);

@@ -57,8 +57,8 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
                                  [&](const math::Aabb& box_ws) { return math::distance(box_ws, light.position_ws_m); });
 }
 
-void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                           double exposure, std::span<const LightStatus> statuses) {
+void ContributionCulling::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+                                     double exposure, std::span<const LightStatus> statuses) {
     const bool known = std::isfinite(exposure);
     const auto asked = [](const LightStatus& status) { return !status.is_skipped(); };
     if (!known && std::count_if(statuses.begin(), statuses.end(), asked) < 2) return;  // no light to compare with
@@ -79,8 +79,8 @@ void DimLights::ask_lights(const SceneSnapshot& scene, const GpuScene& gpu, cons
     wants_exposure_ = brightest > 0.0 && faintest * kFaint <= brightest;
 }
 
-void DimLights::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
-                          std::optional<double> exposure, std::span<LightStatus> statuses) {
+void ContributionCulling::leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,
+                                    std::optional<double> exposure, std::span<LightStatus> statuses) {
     steps_.assign(scene.lights.size(), std::nullopt);
     candidates_.clear();
     wants_exposure_ = false;

@@ -19,7 +19,7 @@ double most_display_steps(const SceneSnapshot& scene, const GpuScene& gpu, const
 /// together change no pixel by more than half a display step. The dimmest lights are culled first. Hysteresis: a light
 /// is culled only well below that limit, and stays culled up to the limit. Needs LightingFeedback::exposure; no light
 /// is culled where that is infinite. ShadowTuning::Reuse::economy = false exempts a light.
-class DimLights {
+class ContributionCulling {
 public:
     /// Skips culled lights with below_display_step. Call after select_sets(). Allocates nothing in a steady state.
     void leave_out(const SceneSnapshot& scene, const GpuScene& gpu, const ReceiverCasterSets& sets,

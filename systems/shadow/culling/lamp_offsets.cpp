@@ -57,7 +57,7 @@ bool may_touch(const math::ShapeTree& shape, const InstanceItem& item, const glm
 
 /// Finds casters with a part near the lamp. They are visited by rising index, so that the result does not depend on the
 /// tree's shape.
-void LampPlaces::find_near(const SceneSnapshot& scene, const LightItem& light, double share) {
+void LampOffsets::find_near(const SceneSnapshot& scene, const LightItem& light, double share) {
     const glm::dvec3& lamp_ws_m = light.position_ws_m;
     near_.clear(scene.instances.size());
     const auto touches = [&](const math::Aabb& box_ws) {
@@ -75,13 +75,13 @@ void LampPlaces::find_near(const SceneSnapshot& scene, const LightItem& light, d
 
 /// Adds a plane, unless it is the opposite side of a plane already added and the lamp lies in both. The first face
 /// decides the lamp's side.
-void LampPlaces::add_side(Side side) {
+void LampOffsets::add_side(Side side) {
     for (const Side& other : sides_)
         if (side.in_plane && other.in_plane && glm::dot(side.normal, other.normal) < kOpposite) return;
     sides_.push_back(side);
 }
 
-void LampPlaces::find_sides(const GpuScene& gpu, const LightItem& light, const InstanceItem& item, double share) {
+void LampOffsets::find_sides(const GpuScene& gpu, const LightItem& light, const InstanceItem& item, double share) {
     const GpuScene::MeshShape shape = gpu.shape(item.mesh);
     const GpuScene::MeshRange& mesh = gpu.mesh(item.mesh);
     const auto& indices = *shape.indices;
@@ -112,7 +112,7 @@ void LampPlaces::find_sides(const GpuScene& gpu, const LightItem& light, const I
 
 /// Computes the offset that lifts the lamp to the target height above all planes, by projections onto them in turn.
 /// Where there is less room, the height is a part of the target. 0: there is no room.
-glm::dvec3 LampPlaces::step_m() const {
+glm::dvec3 LampOffsets::step_m() const {
     double share = 1.0;
     for (int halving = 0; halving <= kHalvings; ++halving, share *= 0.5) {
         glm::dvec3 step(0.0);
@@ -131,8 +131,8 @@ glm::dvec3 LampPlaces::step_m() const {
     return glm::dvec3(0.0);
 }
 
-glm::dvec3 LampPlaces::place_of(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light, double share,
-                                Held& held) {
+glm::dvec3 LampOffsets::place_of(const SceneSnapshot& scene, const GpuScene& gpu, const LightItem& light, double share,
+                                 Held& held) {
     find_near(scene, light, share);
     Signature signature;
     signature.add(share);
@@ -153,15 +153,15 @@ glm::dvec3 LampPlaces::place_of(const SceneSnapshot& scene, const GpuScene& gpu,
     return held.place_ws_m;
 }
 
-void LampPlaces::update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
-                        std::vector<glm::dvec3>& lamps_ws_m, std::span<double> cpu_us) {
+void LampOffsets::update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
+                         std::vector<glm::dvec3>& lamps_ws_m, std::span<double> cpu_us) {
     held_.resize(scene.lights.size());
     lamps_ws_m.resize(scene.lights.size());
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
         lamps_ws_m[i] = light.position_ws_m;
         if (light_facts(light.kind).parallel || requests[i].skip != Reason::none) continue;
-        const LightTime time(cpu_us, i);
+        const LightTimer time(cpu_us, i);
         const double share = requests[i].rays.used ? kClearOfPlanes : kClearOfClipping;
         lamps_ws_m[i] = place_of(scene, gpu, light, share, held_[i]);
     }

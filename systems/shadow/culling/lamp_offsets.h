@@ -24,7 +24,7 @@ inline constexpr double kClearOfClipping = 0x1p-16;
 /// Positions from which maps and lookups of local lights see the scene. A lamp on a caster's triangle, or nearer than
 /// floats resolve, would be before it for one pixel and behind it for the next. Such a lamp gets a small offset to the
 /// side of the triangle on which it is in double. Where it lies in the triangle's plane, that is the front side.
-class LampPlaces {
+class LampOffsets {
 public:
     /// Writes the position of each light to `lamps_ws_m`. `gpu`: has meshes deformed as drawn in this frame.
     void update(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const ShadowRequest> requests,
@@ -52,12 +52,12 @@ private:
     glm::dvec3 step_m() const;
 
     std::vector<Held> held_;  // one per light
-    Marks near_;              // casters with a part near the lamp
+    IndexSet near_;           // casters with a part near the lamp
     std::vector<Side> sides_;
     std::vector<glm::dvec3> scratch_;
 };
 
-/// Returns the position from which a local light's maps see the scene. `lamps_ws_m`: output of LampPlaces. Empty: the
+/// Returns the position from which a local light's maps see the scene. `lamps_ws_m`: output of LampOffsets. Empty: the
 /// lights' own positions.
 inline const glm::dvec3& lamp_ws_m(std::span<const glm::dvec3> lamps_ws_m, const SceneSnapshot& scene,
                                    std::uint32_t light) {

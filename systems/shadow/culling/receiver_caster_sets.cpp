@@ -37,17 +37,17 @@ public:
 
     LightSets run(const ShadowRequest& request) {
         const std::size_t receivers = out_.receiver_items.size(), points = out_.receiver_points_ws.size(),
-                          beams = out_.beams.size();
+                          hulls = out_.hulls.size();
         find_candidates();
         scratch_.receivers.clear(scene_.instances.size());
         if (light_facts(light_.kind).parallel) look_along_sun();
-        const LightOpenings openings = light_openings(light_, request);
-        for (const LightOpening& opening : openings.span()) look_through(opening);
+        const LightFrusta openings = light_frusta(light_, request);
+        for (const LightFrustum& opening : openings.span()) look_through(opening);
         scratch_.receivers.for_each([&](std::uint32_t i) { out_.receiver_items.push_back(i); });
         LightSets sets;
         sets.receivers = since(receivers, out_.receiver_items.size());
         sets.receiver_points = since(points, out_.receiver_points_ws.size());
-        sets.beams = since(beams, out_.beams.size());
+        sets.hulls = since(hulls, out_.hulls.size());
         return sets;
     }
 
@@ -73,8 +73,8 @@ private:
     }
 
     /// Clips the candidates to their camera's frustum and the given planes, and appends the corners. Adds the numbers
-    /// of receivers and the cameras to `beam`.
-    IndexRange clip_candidates(std::span<const math::Plane> opening, Beam& beam) {
+    /// of receivers and the cameras to `receiver_hull`.
+    IndexRange clip_candidates(std::span<const math::Plane> opening, ReceiverHull& receiver_hull) {
         const std::size_t first = out_.receiver_points_ws.size();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
         for (const SetScratch::Candidate& candidate : scratch_.candidates) {
@@ -85,42 +85,43 @@ private:
             const auto used = std::span(planes).first(static_cast<std::size_t>(end - planes.begin()));
             if (math::clip_box(used, box, out_.receiver_points_ws) == 0) continue;
             scratch_.receivers.add(candidate.item);
-            beam.consumers |= consumer_bit(candidate.consumer);
-            ++beam.receivers;
+            receiver_hull.consumers |= consumer_bit(candidate.consumer);
+            ++receiver_hull.receivers;
         }
         return since(first, out_.receiver_points_ws.size());
     }
 
     void look_along_sun() {
-        Beam seen;
+        ReceiverHull seen;
         const IndexRange range = clip_candidates({}, seen);
         if (range.count == 0) return;
-        Beam beam = parallel_beam(math::basis_from_back(light_.rotation_ws[2]), points(range), out_.outlines, scratch_);
-        beam.receiver_points = range;
-        beam.receivers = seen.receivers;
-        beam.consumers = seen.consumers;
-        out_.beams.push_back(beam);
+        ReceiverHull receiver_hull =
+            directional_hull(math::basis_from_back(light_.rotation_ws[2]), points(range), out_.outlines, scratch_);
+        receiver_hull.receiver_points = range;
+        receiver_hull.receivers = seen.receivers;
+        receiver_hull.consumers = seen.consumers;
+        out_.hulls.push_back(receiver_hull);
     }
 
-    void look_through(const LightOpening& opening) {
+    void look_through(const LightFrustum& opening) {
         const glm::dvec3& lamp = lamp_ws_m_;
-        const auto sides = opening_planes(lamp, opening);
+        const auto sides = frustum_planes(lamp, opening);
         std::array<math::Plane, 5> planes;
         const auto end = std::copy(sides.begin(), sides.end(), planes.begin());
         const glm::dvec3& back = light_.rotation_ws[2];
         const bool cone = light_facts(light_.kind).cone;
         if (cone) *end = {-back, glm::dot(back, lamp)};
-        Beam seen, beam;
+        ReceiverHull seen, receiver_hull;
         const IndexRange range = clip_candidates(std::span(planes).first(cone ? 5 : 4), seen);
-        if (range.count > 0) beam = opening_beam(lamp, opening, points(range), out_.outlines, scratch_);
-        beam.origin_ws_m = lamp;
-        beam.axes = opening.axes;
-        if (beam.outline.count > 0) {
-            beam.receiver_points = range;
-            beam.receivers = seen.receivers;
-            beam.consumers = seen.consumers;
+        if (range.count > 0) receiver_hull = frustum_hull(lamp, opening, points(range), out_.outlines, scratch_);
+        receiver_hull.origin_ws_m = lamp;
+        receiver_hull.axes = opening.axes;
+        if (receiver_hull.outline.count > 0) {
+            receiver_hull.receiver_points = range;
+            receiver_hull.receivers = seen.receivers;
+            receiver_hull.consumers = seen.consumers;
         }
-        out_.beams.push_back(beam);  // also without receivers: hull i belongs to light frustum i
+        out_.hulls.push_back(receiver_hull);  // also without receivers: hull i belongs to light frustum i
     }
 
     std::span<const glm::dvec3> points(IndexRange range) const { return slice(out_.receiver_points_ws, range); }
@@ -135,7 +136,7 @@ private:
 
 /// Returns how far outside a lamp's receiver hull casters may hide part of an area light, as a tangent: as far as
 /// filters read texels.
-double lamp_reach(const FilterSettings& filter, double size_px, const LightOpening& opening) {
+double lamp_reach(const FilterSettings& filter, double size_px, const LightFrustum& opening) {
     const glm::dvec2 sides = opening.high - opening.low;
     const double seen_px = size_px - 2.0 * border_px(size_px, static_cast<double>(filter.border_texel));
     return std::max(sides.x, sides.y) * static_cast<double>(filter.widest_texel) / seen_px;
@@ -147,14 +148,14 @@ constexpr double kHeightRounding = 0x1p-48;
 
 /// Returns how far outside a sun's receiver hull casters may hide part of the sun, metres. It is the height of the
 /// highest caster above the lowest receiver, times the tangent of the sun's radius.
-double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, const Beam& beam) {
+double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, const ReceiverHull& receiver_hull) {
     const auto height_m = [&](const math::Aabb& box) {
-        return glm::dot(math::centre(box) - beam.origin_ws_m, beam.axes[2]) +
-               glm::dot(math::half_extent(box), glm::abs(beam.axes[2])) + beam.far_m;
+        return glm::dot(math::centre(box) - receiver_hull.origin_ws_m, receiver_hull.axes[2]) +
+               glm::dot(math::half_extent(box), glm::abs(receiver_hull.axes[2])) + receiver_hull.far_m;
     };
     const auto rank = [&](const math::Aabb& box) {
-        const glm::dvec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(beam.origin_ws_m);
-        return -height_m(box) - kHeightRounding * (largest.x + largest.y + largest.z + beam.far_m);
+        const glm::dvec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max)) + glm::abs(receiver_hull.origin_ws_m);
+        return -height_m(box) - kHeightRounding * (largest.x + largest.y + largest.z + receiver_hull.far_m);
     };
     const double highest_m = -lowest_of_instances(scene, rank, [&](std::uint32_t i, double lowest) {
         const InstanceItem& item = scene.instances[i];
@@ -165,24 +166,24 @@ double sun_reach_m(const SceneSnapshot& scene, const FilterSettings& filter, con
 
 /// Appends the casters that touch the volume between the light and any of its receiver hulls.
 IndexRange select_casters(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request,
-                          IndexRange beams, SetScratch& scratch, ReceiverCasterSets& out) {
+                          IndexRange hulls, SetScratch& scratch, ReceiverCasterSets& out) {
     scratch.marks.clear(scene.instances.size());
     const FilterSettings& filter = request.map.filtering;
     const bool has_size = needs_distances(filter);
-    const LightOpenings openings = has_size ? light_openings(light, request) : LightOpenings{};
-    for (std::uint32_t b = 0; b < beams.count; ++b) {
-        const Beam& beam = out.beams[beams.first + b];
-        if (beam.outline.count == 0) continue;
-        const auto outline = slice(out.outlines, beam.outline);
+    const LightFrusta openings = has_size ? light_frusta(light, request) : LightFrusta{};
+    for (std::uint32_t b = 0; b < hulls.count; ++b) {
+        const ReceiverHull& receiver_hull = out.hulls[hulls.first + b];
+        if (receiver_hull.outline.count == 0) continue;
+        const auto outline = slice(out.outlines, receiver_hull.outline);
         scratch.polygon.assign(outline.begin(), outline.end());
         double reach = 0.0;
         if (has_size)
-            reach = beam.parallel ? sun_reach_m(scene, filter, beam)
-                                  : lamp_reach(filter, request.map.resolution_px, openings.items[b]);
+            reach = receiver_hull.parallel ? sun_reach_m(scene, filter, receiver_hull)
+                                           : lamp_reach(filter, request.map.resolution_px, openings.items[b]);
         if (has_size) widen(scratch.polygon, glm::dvec2(reach), scratch);
-        const double reach_m = 2.0 * reach * (beam.parallel ? 1.0 : beam.far_m);
+        const double reach_m = 2.0 * reach * (receiver_hull.parallel ? 1.0 : receiver_hull.far_m);
         const SweptVolume volume =
-            swept_volume(beam, scratch.polygon, seen_by_the_only_consumer(out.camera_frusta), reach_m);
+            swept_volume(receiver_hull, scratch.polygon, seen_by_the_only_consumer(out.camera_frusta), reach_m);
         visit_instances(
             scene, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
@@ -244,7 +245,7 @@ LightSets select_light_sets(const SceneSnapshot& scene, std::uint32_t light, con
                             const glm::dvec3& lamp_ws_m, SetScratch& scratch, ReceiverCasterSets& out) {
     const LightItem& item = scene.lights[light];
     LightSets sets = Search(scene, item, lamp_ws_m, scratch, out).run(request);
-    sets.casters = select_casters(scene, item, request, sets.beams, scratch, out);
+    sets.casters = select_casters(scene, item, request, sets.hulls, scratch, out);
     return sets;
 }
 
@@ -255,7 +256,7 @@ void select_sets(const SceneSnapshot& scene, const SetInputs& inputs, SetScratch
     for (const ConsumerItem& consumer : scene.consumers)
         sets.camera_frusta.push_back(seen_receivers(scene, consumer, layers, scratch));
     for (std::uint32_t i = 0; i < inputs.requests.size(); ++i) {
-        const LightTime time(accounts.cpu_us, i);
+        const LightTimer time(accounts.cpu_us, i);
         LightSets& found = sets.lights.emplace_back();
         LightStatus& status = accounts.statuses[i];
         if (status.is_skipped()) continue;

@@ -35,7 +35,7 @@ void widen(std::vector<glm::dvec2>& polygon, const glm::dvec2& by, SetScratch& s
     math::convex_hull(scratch.points, polygon);
 }
 
-std::array<math::Plane, 4> opening_planes(const glm::dvec3& light_ws_m, const LightOpening& opening) {
+std::array<math::Plane, 4> frustum_planes(const glm::dvec3& light_ws_m, const LightFrustum& opening) {
     const glm::dvec3 &u = opening.axes[0], &v = opening.axes[1], &back = opening.axes[2];
     const auto through_light = [&](const glm::dvec3& normal) {
         return math::Plane{normal, -glm::dot(normal, light_ws_m)};
@@ -44,61 +44,62 @@ std::array<math::Plane, 4> opening_planes(const glm::dvec3& light_ws_m, const Li
             through_light(v + opening.low.y * back), through_light(-v - opening.high.y * back)};
 }
 
-Beam parallel_beam(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws, std::vector<glm::dvec2>& outlines,
-                   SetScratch& scratch) {
-    Beam beam;
-    beam.parallel = true;
-    beam.origin_ws_m = points_ws.front();
-    beam.axes = axes;
-    beam.far_m = 0.0;
-    beam.reach_m = std::numeric_limits<double>::infinity();
+ReceiverHull directional_hull(const glm::dmat3& axes, std::span<const glm::dvec3> points_ws,
+                              std::vector<glm::dvec2>& outlines, SetScratch& scratch) {
+    ReceiverHull receiver_hull;
+    receiver_hull.parallel = true;
+    receiver_hull.origin_ws_m = points_ws.front();
+    receiver_hull.axes = axes;
+    receiver_hull.far_m = 0.0;
+    receiver_hull.reach_m = std::numeric_limits<double>::infinity();
     scratch.points.clear();
     double size = 0.0;
     for (const glm::dvec3& p_ws : points_ws) {
-        const glm::dvec3 p = (p_ws - beam.origin_ws_m) * axes;
+        const glm::dvec3 p = (p_ws - receiver_hull.origin_ws_m) * axes;
         scratch.points.emplace_back(p.x, p.y);
-        beam.far_m = std::max(beam.far_m, -p.z);
+        receiver_hull.far_m = std::max(receiver_hull.far_m, -p.z);
         size = std::max(size, largest_coordinate(p_ws));
     }
-    beam.slack = math::kClippedRounding * size;
-    beam.far_m += beam.slack;
-    beam.outline = append_outline(beam.slack, outlines, scratch);
-    return beam;
+    receiver_hull.slack = math::kClippedRounding * size;
+    receiver_hull.far_m += receiver_hull.slack;
+    receiver_hull.outline = append_outline(receiver_hull.slack, outlines, scratch);
+    return receiver_hull;
 }
 
-Beam opening_beam(const glm::dvec3& light_ws_m, const LightOpening& opening, std::span<const glm::dvec3> points_ws,
-                  std::vector<glm::dvec2>& outlines, SetScratch& scratch) {
-    Beam beam;
-    beam.origin_ws_m = light_ws_m;
-    beam.axes = opening.axes;
+ReceiverHull frustum_hull(const glm::dvec3& light_ws_m, const LightFrustum& opening,
+                          std::span<const glm::dvec3> points_ws, std::vector<glm::dvec2>& outlines,
+                          SetScratch& scratch) {
+    ReceiverHull receiver_hull;
+    receiver_hull.origin_ws_m = light_ws_m;
+    receiver_hull.axes = opening.axes;
     scratch.points.clear();
     double size = largest_coordinate(light_ws_m), slack = 0.0;
     for (const glm::dvec3& p_ws : points_ws) size = std::max(size, largest_coordinate(p_ws));
     for (const glm::dvec3& p_ws : points_ws) {
         const glm::dvec3 p = (p_ws - light_ws_m) * opening.axes;
-        beam.far_m = std::max(beam.far_m, -p.z);
-        beam.reach_m = std::max(beam.reach_m, glm::length(p));
+        receiver_hull.far_m = std::max(receiver_hull.far_m, -p.z);
+        receiver_hull.reach_m = std::max(receiver_hull.reach_m, glm::length(p));
         // A point at the light itself has no direction: the clamp below handles NaN and infinity. No point is behind.
         const glm::dvec2 tangents = glm::dvec2(p) / -p.z;
         slack = std::max(slack,
                          -p.z > 0.0 ? math::kClippedRounding * size / -p.z : std::numeric_limits<double>::infinity());
         scratch.points.push_back(glm::clamp(tangents, opening.low, opening.high));
     }
-    if (!(beam.far_m > math::kClippedRounding * size)) {
-        beam.far_m = beam.reach_m = 0.0;
-        return beam;
+    if (!(receiver_hull.far_m > math::kClippedRounding * size)) {
+        receiver_hull.far_m = receiver_hull.reach_m = 0.0;
+        return receiver_hull;
     }
-    beam.far_m += math::kClippedRounding * size;
-    beam.reach_m += math::kClippedRounding * size;
+    receiver_hull.far_m += math::kClippedRounding * size;
+    receiver_hull.reach_m += math::kClippedRounding * size;
     const glm::dvec2 sides = opening.high - opening.low;
     if (slack < std::max(sides.x, sides.y)) {
-        beam.slack = slack;
+        receiver_hull.slack = slack;
     } else {
         scratch.points.assign(
             {opening.low, {opening.high.x, opening.low.y}, opening.high, {opening.low.x, opening.high.y}});
     }
-    beam.outline = append_outline(beam.slack, outlines, scratch);
-    return beam;
+    receiver_hull.outline = append_outline(receiver_hull.slack, outlines, scratch);
+    return receiver_hull;
 }
 
 }  // namespace gnomon::shadow

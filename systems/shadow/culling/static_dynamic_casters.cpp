@@ -7,7 +7,7 @@ constexpr std::size_t kBits = 64;  // bits per word of `moving_`
 
 }  // namespace
 
-bool CasterMotion::update(const SceneSnapshot& scene) {
+bool DynamicCasters::update(const SceneSnapshot& scene) {
     ++frame_;
     changed_ = false;
     if (seen_ != 0 && scene.version != seen_) {
@@ -23,7 +23,7 @@ bool CasterMotion::update(const SceneSnapshot& scene) {
     return changed_;
 }
 
-void CasterMotion::touch(const InstanceItem& item) {
+void DynamicCasters::touch(const InstanceItem& item) {
     if (item.version <= seen_) return;
     const std::uint32_t slot = item.gpu_slot;
     if (slot >= slots_.size()) slots_.resize(slot + std::size_t{1});
@@ -38,21 +38,21 @@ void CasterMotion::touch(const InstanceItem& item) {
     append(slot);
 }
 
-void CasterMotion::unlink(std::uint32_t slot) {
+void DynamicCasters::unlink(std::uint32_t slot) {
     const Slot& s = slots_[slot];
     (s.before == kNone ? first_ : slots_[s.before].after) = s.after;
     (s.after == kNone ? last_ : slots_[s.after].before) = s.before;
 }
 
-void CasterMotion::append(std::uint32_t slot) {
+void DynamicCasters::append(std::uint32_t slot) {
     slots_[slot].before = last_;
     slots_[slot].after = kNone;
     (last_ == kNone ? first_ : slots_[last_].after) = slot;
     last_ = slot;
 }
 
-void CasterMotion::let_rest() {
-    while (first_ != kNone && slots_[first_].touched + kStillFrames <= frame_) {
+void DynamicCasters::let_rest() {
+    while (first_ != kNone && slots_[first_].touched + kStaticFrames <= frame_) {
         moving_[first_ / kBits] &= ~(std::uint64_t{1} << first_ % kBits);
         unlink(first_);
         changed_ = true;

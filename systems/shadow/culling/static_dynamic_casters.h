@@ -8,9 +8,9 @@ namespace gnomon::shadow {
 
 /// Classifies instances as static or dynamic, so that depths of static casters can be kept.
 ///
-/// An instance is dynamic from a frame in which its version grows until kStillFrames frames without growth. Instances
+/// An instance is dynamic from a frame in which its version grows until kStaticFrames frames without growth. Instances
 /// of the first frame are static until they move. Later ones start as dynamic.
-class CasterMotion {
+class DynamicCasters {
 public:
     /// Updates the classes; call once per frame. Returns true if any changed. Takes time for the changed instances
     /// only, or for all where the scene's lists were rebuilt or a version was missed.
@@ -23,7 +23,7 @@ public:
     /// animation at 8 Hz, a figure that turns around, a body that settles. After each stop, a map with the instance is
     /// drawn once more, with it among the static casters. Until then its light needs memory for a copy of the static
     /// casters.
-    static constexpr std::uint64_t kStillFrames = 30;
+    static constexpr std::uint64_t kStaticFrames = 30;
 
 private:
     static constexpr std::uint32_t kNone = 0xffffffffu;
@@ -44,7 +44,7 @@ private:
     std::uint32_t first_ = kNone, last_ = kNone;
 };
 
-/// Returns true if the item is dynamic. `marks`: result of CasterMotion::moving().
+/// Returns true if the item is dynamic. `marks`: result of DynamicCasters::moving().
 inline bool moves(std::span<const std::uint64_t> marks, const InstanceItem& item) {
     const std::size_t word = item.gpu_slot / 64;
     return word < marks.size() && (marks[word] >> item.gpu_slot % 64 & 1) != 0;

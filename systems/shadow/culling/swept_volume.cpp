@@ -28,9 +28,10 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 
 class Builder {
 public:
-    Builder(const Beam& beam, std::span<const glm::dvec2> polygon) : beam_(beam), polygon_(polygon) {
-        volume_.origin_ws_m = beam.origin_ws_m;
-        volume_.reach_m = beam.reach_m;
+    Builder(const ReceiverHull& receiver_hull, std::span<const glm::dvec2> polygon)
+        : receiver_hull_(receiver_hull), polygon_(polygon) {
+        volume_.origin_ws_m = receiver_hull.origin_ws_m;
+        volume_.reach_m = receiver_hull.reach_m;
     }
 
     SweptVolume build(std::span<const math::Plane> seen, double slack_m) {
@@ -38,8 +39,10 @@ public:
         add_edges();
         for (int axis = 0; axis < 3; ++axis) add_world_axis(axis);
         // From the farthest receiver toward the light, and from the light on.
-        add(beam_.axes[2], beam_.far_m - glm::dot(beam_.axes[2], beam_.origin_ws_m));
-        if (!beam_.parallel) add(-beam_.axes[2], glm::dot(beam_.axes[2], beam_.origin_ws_m));
+        add(receiver_hull_.axes[2],
+            receiver_hull_.far_m - glm::dot(receiver_hull_.axes[2], receiver_hull_.origin_ws_m));
+        if (!receiver_hull_.parallel)
+            add(-receiver_hull_.axes[2], glm::dot(receiver_hull_.axes[2], receiver_hull_.origin_ws_m));
         for (const math::Plane& plane : seen) add_seen(plane, slack_m);
         return volume_;
     }
@@ -53,19 +56,19 @@ private:
     void add_line(const glm::dvec2& normal) {
         double least = kInfinity;
         for (const glm::dvec2& p : polygon_) least = std::min(least, glm::dot(normal, p));
-        const glm::dvec3 across = beam_.axes[0] * normal.x + beam_.axes[1] * normal.y;
-        if (beam_.parallel) {
-            add(across, -least - glm::dot(across, beam_.origin_ws_m));
+        const glm::dvec3 across = receiver_hull_.axes[0] * normal.x + receiver_hull_.axes[1] * normal.y;
+        if (receiver_hull_.parallel) {
+            add(across, -least - glm::dot(across, receiver_hull_.origin_ws_m));
         } else {
-            const glm::dvec3 through_light = across + beam_.axes[2] * least;
-            add(through_light, -glm::dot(through_light, beam_.origin_ws_m));
+            const glm::dvec3 through_light = across + receiver_hull_.axes[2] * least;
+            add(through_light, -glm::dot(through_light, receiver_hull_.origin_ws_m));
         }
     }
 
     void add_edges() {
         const auto edge = [&](std::size_t i) { return polygon_[(i + 1) % polygon_.size()] - polygon_[i]; };
         // Squared length of the shortest edge that counts.
-        double least = kShortestEdge * kShortestEdge * beam_.slack * beam_.slack;
+        double least = kShortestEdge * kShortestEdge * receiver_hull_.slack * receiver_hull_.slack;
         if (polygon_.size() > kMostEdges) {
             std::array<double, kMostEdges> longest{};
             for (std::size_t i = 0; i < polygon_.size(); ++i) {
@@ -88,7 +91,7 @@ private:
     }
 
     void add_world_axis(int axis) {
-        if (beam_.parallel)
+        if (receiver_hull_.parallel)
             add_slab(axis);
         else
             add_pencil(axis);
@@ -98,8 +101,8 @@ private:
     void add_slab(int axis) {
         glm::dvec3 edge(0.0);
         edge[axis] = 1.0;
-        const glm::dvec3 across = glm::cross(edge, beam_.axes[2]);
-        const glm::dvec2 normal(glm::dot(across, beam_.axes[0]), glm::dot(across, beam_.axes[1]));
+        const glm::dvec3 across = glm::cross(edge, receiver_hull_.axes[2]);
+        const glm::dvec2 normal(glm::dot(across, receiver_hull_.axes[0]), glm::dot(across, receiver_hull_.axes[1]));
         add_line(normal);
         add_line(-normal);
     }
@@ -109,7 +112,7 @@ private:
     void add_pencil(int axis) {
         const int first = (axis + 1) % 3, second = (axis + 2) % 3;
         const auto ray = [&](const glm::dvec2& p) {
-            const glm::dvec3 r = beam_.axes[0] * p.x + beam_.axes[1] * p.y - beam_.axes[2];
+            const glm::dvec3 r = receiver_hull_.axes[0] * p.x + receiver_hull_.axes[1] * p.y - receiver_hull_.axes[2];
             return glm::dvec2(r[first], r[second]);
         };
         glm::dvec2 low = ray(polygon_.front()), high = low;
@@ -130,39 +133,41 @@ private:
             glm::dvec3 normal(0.0);
             normal[first] = inward.x;
             normal[second] = inward.y;
-            add(normal, -glm::dot(normal, beam_.origin_ws_m));
+            add(normal, -glm::dot(normal, receiver_hull_.origin_ws_m));
         };
         add_half({-low.y, low.x});
         add_half({high.y, -high.x});
     }
 
     void add_seen(const math::Plane& plane, double slack_m) {
-        const double toward_light = beam_.parallel ? glm::dot(plane.normal, beam_.axes[2])
-                                                   : glm::dot(plane.normal, beam_.origin_ws_m) + plane.offset;
+        const double toward_light = receiver_hull_.parallel
+                                        ? glm::dot(plane.normal, receiver_hull_.axes[2])
+                                        : glm::dot(plane.normal, receiver_hull_.origin_ws_m) + plane.offset;
         if (toward_light >= 0.0) add(plane.normal, plane.offset + slack_m * glm::length(plane.normal));
     }
 
     /// Computes the bounding box of the light and the polygon at the far end.
     void bound() {
         math::Aabb& bounds = volume_.bounds;
-        if (!beam_.parallel) bounds = math::extended(bounds, beam_.origin_ws_m);
+        if (!receiver_hull_.parallel) bounds = math::extended(bounds, receiver_hull_.origin_ws_m);
         for (const glm::dvec2& p : polygon_) {
-            const glm::dvec3 across = beam_.axes[0] * p.x + beam_.axes[1] * p.y;
-            const glm::dvec3 offset =
-                beam_.parallel ? across - beam_.axes[2] * beam_.far_m : (across - beam_.axes[2]) * beam_.far_m;
-            bounds = math::extended(bounds, beam_.origin_ws_m + offset);
+            const glm::dvec3 across = receiver_hull_.axes[0] * p.x + receiver_hull_.axes[1] * p.y;
+            const glm::dvec3 offset = receiver_hull_.parallel
+                                          ? across - receiver_hull_.axes[2] * receiver_hull_.far_m
+                                          : (across - receiver_hull_.axes[2]) * receiver_hull_.far_m;
+            bounds = math::extended(bounds, receiver_hull_.origin_ws_m + offset);
         }
         const glm::dvec3 slack = kRounding * glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
         bounds.min -= slack;
         bounds.max += slack;
-        if (!beam_.parallel) return;
+        if (!receiver_hull_.parallel) return;
         for (int axis = 0; axis < 3; ++axis) {
-            if (beam_.axes[2][axis] > 0.0) bounds.max[axis] = kInfinity;
-            if (beam_.axes[2][axis] < 0.0) bounds.min[axis] = -kInfinity;
+            if (receiver_hull_.axes[2][axis] > 0.0) bounds.max[axis] = kInfinity;
+            if (receiver_hull_.axes[2][axis] < 0.0) bounds.min[axis] = -kInfinity;
         }
     }
 
-    const Beam& beam_;
+    const ReceiverHull& receiver_hull_;
     std::span<const glm::dvec2> polygon_;
     SweptVolume volume_;
 };
@@ -178,9 +183,9 @@ math::Overlap both(math::Overlap a, math::Overlap b) {
 
 }  // namespace
 
-SweptVolume swept_volume(const Beam& beam, std::span<const glm::dvec2> polygon, std::span<const math::Plane> seen,
-                         double slack_m) {
-    return Builder(beam, polygon).build(seen, slack_m);
+SweptVolume swept_volume(const ReceiverHull& receiver_hull, std::span<const glm::dvec2> polygon,
+                         std::span<const math::Plane> seen, double slack_m) {
+    return Builder(receiver_hull, polygon).build(seen, slack_m);
 }
 
 math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box) {

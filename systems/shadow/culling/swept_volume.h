@@ -25,8 +25,8 @@ struct SweptVolume {
 /// `polygon`: the hull's own, or another convex one in its coordinates; not empty. `seen`: planes of a camera that
 /// contain all receivers. A plane is used where the light is on the receivers' side of it. `slack_m`: distance beyond
 /// the planes at which casters still count, because of the filter's width.
-SweptVolume swept_volume(const Beam& beam, std::span<const glm::dvec2> polygon, std::span<const math::Plane> seen,
-                         double slack_m);
+SweptVolume swept_volume(const ReceiverHull& receiver_hull, std::span<const glm::dvec2> polygon,
+                         std::span<const math::Plane> seen, double slack_m);
 
 /// Classifies a box against the volume.
 math::Overlap overlap(const SweptVolume& volume, const math::Aabb& box);

@@ -29,7 +29,7 @@ void assign_rectangle(const glm::dvec2& low, const glm::dvec2& high, std::vector
 }
 
 /// Returns the light frustum of a perspective view's map from its matrix: u/z = low.x maps to x/w = -1, and so on.
-LightOpening opening_of(const ShadowView& view) {
+LightFrustum frustum_of(const ShadowView& view) {
     const auto row = [&](int r) {
         return glm::dvec3(view.clip_from_anchor[0][r], view.clip_from_anchor[1][r], view.clip_from_anchor[2][r]);
     };
@@ -59,12 +59,12 @@ public:
     }
 
 private:
-    /// Marks the casters between the light and scratch_.polygon, which has the coordinates of `beam`.
-    void mark_casters(const Beam& beam, double reach_m) {
+    /// IndexSet the casters between the light and scratch_.polygon, which has the coordinates of `receiver_hull`.
+    void mark_casters(const ReceiverHull& receiver_hull, double reach_m) {
         if (scratch_.polygon.empty()) return;
         const auto seen =
             view_.held ? std::span<const math::Plane>() : seen_by_the_only_consumer(sets_.arrays.camera_frusta);
-        const SweptVolume volume = swept_volume(beam, scratch_.polygon, seen, reach_m);
+        const SweptVolume volume = swept_volume(receiver_hull, scratch_.polygon, seen, reach_m);
         visit_instances(
             scene_, [&](const math::Aabb& box) { return overlap(volume, box); },
             [&](std::uint32_t i) {
@@ -99,77 +99,77 @@ private:
         return reach_m;
     }
 
-    /// Marks the casters of a cascade: between the light and the receiver hull within the map's rectangle.
+    /// IndexSet the casters of a cascade: between the light and the receiver hull within the map's rectangle.
     void look_along() {
-        Beam beam = sets_.beams().front();
+        ReceiverHull receiver_hull = sets_.hulls().front();
         const bool warps = view_.plane.warp != glm::dvec2(0.0);
         const glm::dvec2 origin_m = warps ? glm::dvec2(0.0) : view_.plane.centre_ls_m,
                          centre_m = view_.plane.centre_ls_m - origin_m;
         const glm::dvec3 origin_ws_m =
             view_.pose.anchor_ws_m + view_.pose.axis_u * origin_m.x + view_.pose.axis_v * origin_m.y;
         double reach_m = reach_.x + reach_.y;
-        const glm::dvec3 offset = beam.origin_ws_m - origin_ws_m;
+        const glm::dvec3 offset = receiver_hull.origin_ws_m - origin_ws_m;
         const double far_m = view_.depth.far_m + glm::dot(view_.pose.axis_back, origin_ws_m - view_.pose.anchor_ws_m);
         if (view_.held) {
             assign_rectangle(-view_.plane.half_extent_m, view_.plane.half_extent_m, scratch_.polygon);
-            beam.far_m = far_m;
+            receiver_hull.far_m = far_m;
         } else {
             scratch_.polygon.clear();
-            for (const glm::dvec2& p : sets_.outline(beam)) {
-                const glm::dvec3 at = offset + beam.axes[0] * p.x + beam.axes[1] * p.y;
+            for (const glm::dvec2& p : sets_.outline(receiver_hull)) {
+                const glm::dvec3 at = offset + receiver_hull.axes[0] * p.x + receiver_hull.axes[1] * p.y;
                 scratch_.polygon.emplace_back(glm::dot(at, view_.pose.axis_u), glm::dot(at, view_.pose.axis_v));
             }
             const double farthest_w = warps ? warp_polygon() : 1.0;
             // In rotated axes the hull's own widening (two slacks) is a chamfer of any direction. Dropping it is undone
             // by widening: for receivers edge-on to the sun the chamfer may be larger than their whole map.
-            const double dropped_m = kOutlineSlacks * beam.slack;
+            const double dropped_m = kOutlineSlacks * receiver_hull.slack;
             math::drop_flat_corners(dropped_m, scratch_.polygon, scratch_.clipped);
             widen(scratch_.polygon, reach_ + dropped_m, scratch_);
-            const glm::dvec2 half = view_.plane.half_extent_m + beam.slack;
+            const glm::dvec2 half = view_.plane.half_extent_m + receiver_hull.slack;
             math::clip_polygon({1, 0}, half.x - centre_m.x, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({-1, 0}, half.x + centre_m.x, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({0, 1}, half.y - centre_m.y, scratch_.polygon, scratch_.clipped);
             math::clip_polygon({0, -1}, half.y + centre_m.y, scratch_.polygon, scratch_.clipped);
             if (warps) reach_m = unwarp_polygon(farthest_w);
-            beam.far_m = std::min(far_m, beam.far_m - glm::dot(offset, view_.pose.axis_back));
+            receiver_hull.far_m = std::min(far_m, receiver_hull.far_m - glm::dot(offset, view_.pose.axis_back));
         }
-        beam.origin_ws_m = origin_ws_m;
-        beam.axes = axes_of(view_);
-        mark_casters(beam, reach_m);
+        receiver_hull.origin_ws_m = origin_ws_m;
+        receiver_hull.axes = axes_of(view_);
+        mark_casters(receiver_hull, reach_m);
     }
 
-    /// Marks the casters of a spot's view, a cube face or a sun's view from an eye.
+    /// IndexSet the casters of a spot's view, a cube face or a sun's view from an eye.
     void look_through() {
-        const LightOpening opening = opening_of(view_);
-        Beam beam;
-        const auto beams = sets_.beams();
-        const auto same = std::find_if(beams.begin(), beams.end(), [&](const Beam& b) {
+        const LightFrustum opening = frustum_of(view_);
+        ReceiverHull receiver_hull;
+        const auto hulls = sets_.hulls();
+        const auto same = std::find_if(hulls.begin(), hulls.end(), [&](const ReceiverHull& b) {
             return !b.parallel && b.origin_ws_m == apex_ws_m(view_) && b.axes == opening.axes;
         });
         if (view_.held) {
-            beam.origin_ws_m = apex_ws_m(view_);
-            beam.axes = opening.axes;
-            beam.far_m = view_.depth.far_m;
-            beam.reach_m = std::numeric_limits<double>::infinity();
+            receiver_hull.origin_ws_m = apex_ws_m(view_);
+            receiver_hull.axes = opening.axes;
+            receiver_hull.far_m = view_.depth.far_m;
+            receiver_hull.reach_m = std::numeric_limits<double>::infinity();
             assign_rectangle(opening.low, opening.high, scratch_.polygon);
-        } else if (same != beams.end()) {
-            beam = *same;
-            const auto outline = sets_.outline(beam);
+        } else if (same != hulls.end()) {
+            receiver_hull = *same;
+            const auto outline = sets_.outline(receiver_hull);
             scratch_.polygon.assign(outline.begin(), outline.end());
         } else {
-            beam = beam_through(opening);
+            receiver_hull = hull_through(opening);
         }
         if (scratch_.polygon.empty()) return;
         widen(scratch_.polygon, reach_, scratch_);
-        beam.far_m = std::min(beam.far_m, view_.depth.far_m);
-        const double reach_m = (reach_.x + reach_.y) * beam.far_m;
-        beam.reach_m += reach_m;
-        mark_casters(beam, reach_m);
+        receiver_hull.far_m = std::min(receiver_hull.far_m, view_.depth.far_m);
+        const double reach_m = (reach_.x + reach_.y) * receiver_hull.far_m;
+        receiver_hull.reach_m += reach_m;
+        mark_casters(receiver_hull, reach_m);
     }
 
     /// Computes the receiver hull of a light frustum that the sets do not contain, by clipping the receivers again.
-    Beam beam_through(const LightOpening& opening) {
-        const auto sides = opening_planes(apex_ws_m(view_), opening);
+    ReceiverHull hull_through(const LightFrustum& opening) {
+        const auto sides = frustum_planes(apex_ws_m(view_), opening);
         scratch_.points_ws.clear();
         std::array<math::Plane, math::kMaxClipPlanes> planes;
         for (const math::Frustum& frustum : sets_.arrays.camera_frusta) {
@@ -182,9 +182,10 @@ private:
         scratch_.polygon.clear();
         if (scratch_.points_ws.empty()) return {};
         scratch_.outline.clear();
-        Beam beam = opening_beam(apex_ws_m(view_), opening, scratch_.points_ws, scratch_.outline, scratch_);
+        ReceiverHull receiver_hull =
+            frustum_hull(apex_ws_m(view_), opening, scratch_.points_ws, scratch_.outline, scratch_);
         scratch_.polygon.assign(scratch_.outline.begin(), scratch_.outline.end());
-        return beam;
+        return receiver_hull;
     }
 
     const SceneSnapshot& scene_;
@@ -220,8 +221,8 @@ void append_by_mesh(const SceneSnapshot& scene, SetScratch& scratch, std::vector
 }
 
 /// Moves dynamic casters to the end, and keeps the order otherwise. Returns the number of static casters.
-std::uint32_t move_movers_back(const SceneSnapshot& scene, std::span<const std::uint64_t> moving,
-                               std::span<std::uint32_t> casters, std::vector<std::uint32_t>& movers) {
+std::uint32_t partition_dynamic_last(const SceneSnapshot& scene, std::span<const std::uint64_t> moving,
+                                     std::span<std::uint32_t> casters, std::vector<std::uint32_t>& movers) {
     if (moving.empty()) return static_cast<std::uint32_t>(casters.size());
     movers.clear();
     std::size_t still = 0;
@@ -243,8 +244,8 @@ void select_view_casters(const SceneSnapshot& scene, const CasterInputs& inputs,
     view.casters.first = static_cast<std::uint32_t>(casters.size());
     append_by_mesh(scene, scratch, casters);
     view.casters.count = static_cast<std::uint32_t>(casters.size()) - view.casters.first;
-    view.still_casters =
-        move_movers_back(scene, inputs.moving, std::span(casters).subspan(view.casters.first), scratch.items);
+    view.static_casters =
+        partition_dynamic_last(scene, inputs.moving, std::span(casters).subspan(view.casters.first), scratch.items);
 }
 
 }  // namespace gnomon::shadow

@@ -11,13 +11,13 @@ namespace gnomon::shadow {
 struct CasterInputs {
     LightSetsView sets;  // sets of the view's light
     const FilterSettings& filter;
-    std::span<const std::uint64_t> moving;  // result of CasterMotion::moving(); empty: all are static
+    std::span<const std::uint64_t> moving;  // result of DynamicCasters::moving(); empty: all are static
 };
 
 /// Appends the casters of one fitted view to `casters`. These can darken its visible receivers, the filter's width
 /// included. For a view that stays in place (`held`) they are all casters in its map. Dynamic casters come last, each
 /// group by mesh, then by index. Only this function decides the drawing order. Sets view.casters and
-/// view.still_casters.
+/// view.static_casters.
 void select_view_casters(const SceneSnapshot& scene, const CasterInputs& inputs, ShadowView& view, SetScratch& scratch,
                          std::vector<std::uint32_t>& casters);
 

@@ -44,13 +44,13 @@ public:
 
     /// Returns the side: positive where the facet's outside faces the light. In perspective it is the light's height
     /// above the plane, times the factor. `error`: bound on how far it is off.
-    double operator()(const CasterSurface::Facet& facet, double& error) const {
+    double operator()(const CasterTopology::Facet& facet, double& error) const {
         const glm::dvec3 toward = parallel_ ? toward_ms_ : toward_ms_ - scale_ * glm::dvec3(facet.corner_ms);
         error = kFacingUnits * kUnitRoundoff * glm::length(toward) + rounding_;
         return glm::dot(glm::dvec3(facet.normal_ms), toward);
     }
     /// Returns the facet's normal along the view's axes, times the same factor.
-    glm::dvec3 in_view(const CasterSurface::Facet& facet) const { return from_model_ * glm::dvec3(facet.normal_ms); }
+    glm::dvec3 in_view(const CasterTopology::Facet& facet) const { return from_model_ * glm::dvec3(facet.normal_ms); }
 
 private:
     bool parallel_;
@@ -68,8 +68,8 @@ bool is_contour(const assets::SurfaceEdges::Fold& fold, const std::vector<std::i
 
 /// Projects the vertices into the map. Bits of `beyond` allow for float's rounding and for the reach of quads. Each bit
 /// is one side of the map, except that for `behind`.
-void SheetGatherer::place(const std::vector<assets::Vertex>& vertices, const CasterSurface& surface,
-                          const InstanceItem& item, const ShadowView& view, std::uint32_t size_px) {
+void BoundsGatherer::place(const std::vector<assets::Vertex>& vertices, const CasterTopology& surface,
+                           const InstanceItem& item, const ShadowView& view, std::uint32_t size_px) {
     const glm::dmat4 clip_from_anchor(view.clip_from_anchor);
     glm::dmat4 anchor_from_model(item.basis);
     anchor_from_model[3] = glm::dvec4(item.translation_ws_m - view.pose.anchor_ws_m, 1.0);
@@ -96,26 +96,26 @@ void SheetGatherer::place(const std::vector<assets::Vertex>& vertices, const Cas
     }
 }
 
-bool SheetGatherer::is_small(const Placed& a, const Placed& b, const Placed& c) const {
+bool BoundsGatherer::is_small(const Placed& a, const Placed& b, const Placed& c) const {
     if (!draws_points_ || !a.is_placed || !b.is_placed || !c.is_placed) return false;
     const glm::vec2 size =
         glm::max(a.at_texel, glm::max(b.at_texel, c.at_texel)) - glm::min(a.at_texel, glm::min(b.at_texel, c.at_texel));
     return std::max(size.x, size.y) <= static_cast<float>(kSmall_texel);
 }
 
-void SheetGatherer::append(const GpuScene& gpu, const CasterSurface& surface, const InstanceItem& item,
-                           const ShadowView& view, std::uint32_t size_px, SheetItems& items) {
+void BoundsGatherer::append(const GpuScene& gpu, const CasterTopology& surface, const InstanceItem& item,
+                            const ShadowView& view, std::uint32_t size_px, BoundsItems& items) {
     const GpuScene::MeshShape shape = gpu.shape(item.mesh);
     const auto& indices = *shape.indices;
     const auto base = static_cast<std::uint32_t>(gpu.mesh(item.mesh).base_vertex);
     place(*shape.vertices, surface, item, view, size_px);
-    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, SheetItems::Kind kind) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, BoundsItems::Kind kind) {
         const Placed &one = placed_[a], &two = placed_[b], &three = placed_[c];
         if ((one.beyond & two.beyond & three.beyond) != 0) return;
-        std::vector<SheetItem>& to = (is_small(one, two, three) ? items.small : items.large)[kind];
+        std::vector<BoundsItem>& to = (is_small(one, two, three) ? items.small : items.large)[kind];
         to.push_back({item.gpu_slot, base + a, base + b, base + c});
     };
-    const auto add_triangle = [&](std::uint32_t t, SheetItems::Kind kind) {
+    const auto add_triangle = [&](std::uint32_t t, BoundsItems::Kind kind) {
         add(indices[std::size_t{3} * t], indices[std::size_t{3} * t + 1], indices[std::size_t{3} * t + 2], kind);
     };
     const auto farthest_m = [&](std::uint32_t t) {
@@ -125,19 +125,19 @@ void SheetGatherer::append(const GpuScene& gpu, const CasterSurface& surface, co
         return std::max({distance(0), distance(1), distance(2)});
     };
     const FacingTest test(item, view);
-    const FlatFacets is_flat(surface, item, view, size_px);
+    const FacetDepthRanges is_flat(surface, item, view, size_px);
     facing_.resize(surface.facets.size());
     for (const std::uint32_t t : surface.opaque) {
-        const CasterSurface::Facet& facet = surface.facets[t];
+        const CasterTopology::Facet& facet = surface.facets[t];
         double error = 0.0;
         const double side = test(facet, error);
         facing_[t] = side > error ? 1 : (side < -error ? -1 : 0);
-        if (!is_flat(facet, test.in_view(facet), side, error, farthest_m(t))) add_triangle(t, SheetItems::triangles);
+        if (!is_flat(facet, test.in_view(facet), side, error, farthest_m(t))) add_triangle(t, BoundsItems::triangles);
     }
-    for (const auto& border : surface.edges.borders) add(border.a, border.b, border.a, SheetItems::contours);
+    for (const auto& border : surface.edges.borders) add(border.a, border.b, border.a, BoundsItems::contours);
     for (const auto& fold : surface.edges.folds)
-        if (is_contour(fold, facing_)) add(fold.a, fold.b, fold.a, SheetItems::contours);
-    for (const std::uint32_t t : surface.masked) add_triangle(t, SheetItems::masked);
+        if (is_contour(fold, facing_)) add(fold.a, fold.b, fold.a, BoundsItems::contours);
+    for (const std::uint32_t t : surface.masked) add_triangle(t, BoundsItems::masked);
 }
 
 }  // namespace gnomon::shadow

@@ -15,11 +15,11 @@ namespace {
 
 /// Corners of a quad's two triangles.
 constexpr std::uint32_t kQuadVertices = 6;
-static_assert(sizeof(assets::Vertex) == 2 * gl::kTexelBytes && sizeof(SheetItem) == gl::kTexelBytes);
+static_assert(sizeof(assets::Vertex) == 2 * gl::kTexelBytes && sizeof(BoundsItem) == gl::kTexelBytes);
 /// Cleared depth of silhouette edges: there is none. Behind any depth.
 constexpr float kNoContour = -1.0f;
 
-bool is_small(std::size_t which) { return which >= SheetItems::kinds; }
+bool is_small(std::size_t which) { return which >= BoundsItems::kinds; }
 
 bool is_bounded(const DrawnViews& drawn, std::size_t view) {
     return drawn.is_drawn(view) && drawn.maps[view].sheets.bounds_target;
@@ -27,31 +27,31 @@ bool is_bounded(const DrawnViews& drawn, std::size_t view) {
 
 }  // namespace
 
-SheetRecorder::SheetRecorder(gl::Device& device, const Options& options)
+BoundsPass::BoundsPass(gl::Device& device, const Options& options)
     : device_(device),
       with_margins_(options.with_margins),
       gatherer_(options.with_points ? device.info().max_point_px : 0),
       items_(device, "shadow sheet items", true),
       view_records_(device, "shadow sheet views") {}
 
-SheetRecorder::~SheetRecorder() {
+BoundsPass::~BoundsPass() {
     for (const Program& p : programs_) device_.destroy(p.program);
 }
 
-void SheetRecorder::release() {
+void BoundsPass::release() {
     items_.release();
     view_records_.release();
     surfaces_.clear();
 }
 
-bool SheetRecorder::program(std::size_t which) {
+bool BoundsPass::program(std::size_t which) {
     Program& made = programs_[which];
     if (made.program) return true;
     if (!made.retry.due(frame_)) return false;
-    const std::size_t kind = which % SheetItems::kinds;
-    const bool contours = kind == SheetItems::contours, points = is_small(which);
+    const std::size_t kind = which % BoundsItems::kinds;
+    const bool contours = kind == BoundsItems::contours, points = is_small(which);
     std::vector<std::string> defines;
-    if (kind == SheetItems::masked) defines.emplace_back("MASKED 1");
+    if (kind == BoundsItems::masked) defines.emplace_back("MASKED 1");
     if (points) defines.emplace_back("AS_POINTS 1");
     if (!with_margins_) defines.emplace_back("SHEETS_WITHOUT_MARGINS 1");
     const char* const name = contours ? "shadow/passes/bounds/silhouettes" : "shadow/passes/bounds/depth_range";
@@ -67,17 +67,17 @@ bool SheetRecorder::program(std::size_t which) {
 
 /// Compiles the programs that the view needs. Both variants of a kind are compiled at once, so that a close-up with
 /// large items does not stall on the second.
-bool SheetRecorder::programs_ready(const View& view) {
+bool BoundsPass::programs_ready(const View& view) {
     bool ready = true;
-    for (std::size_t kind = 0; kind < SheetItems::kinds; ++kind) {
-        const std::size_t small = kind + SheetItems::kinds;
+    for (std::size_t kind = 0; kind < BoundsItems::kinds; ++kind) {
+        const std::size_t small = kind + BoundsItems::kinds;
         if (view.count[kind] + view.count[small] == 0) continue;
         ready = program(kind) && (!gatherer_.draws_points() || program(small)) && ready;
     }
     return ready;
 }
 
-SheetRecorder::View SheetRecorder::gather(const PassInputs& in, std::size_t v) {
+BoundsPass::View BoundsPass::gather(const PassInputs& in, std::size_t v) {
     const ShadowView& view = in.drawn.view(v);
     view_scratch_.clear();
     for (const std::uint32_t i : in.drawn.fitted.casters_of(view)) {
@@ -87,8 +87,8 @@ SheetRecorder::View SheetRecorder::gather(const PassInputs& in, std::size_t v) {
     View found;
     found.view = v;
     for (std::size_t which = 0; which < kPrograms; ++which) {
-        const std::vector<SheetItem>& items =
-            is_small(which) ? view_scratch_.small[which - SheetItems::kinds] : view_scratch_.large[which];
+        const std::vector<BoundsItem>& items =
+            is_small(which) ? view_scratch_.small[which - BoundsItems::kinds] : view_scratch_.large[which];
         found.first[which] = static_cast<std::uint32_t>(item_scratch_.size());
         found.count[which] = static_cast<std::uint32_t>(items.size());
         item_scratch_.insert(item_scratch_.end(), items.begin(), items.end());
@@ -96,14 +96,14 @@ SheetRecorder::View SheetRecorder::gather(const PassInputs& in, std::size_t v) {
     return found;
 }
 
-void SheetRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
+void BoundsPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     views_.clear();
     item_scratch_.clear();
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         if (!is_bounded(in.drawn, v)) continue;
         const std::uint32_t light = in.drawn.view(v).light;
-        const LightTime time(accounts.cpu_us, light);
+        const LightTimer time(accounts.cpu_us, light);
         const View view = gather(in, v);
         if (programs_ready(view))
             views_.push_back(view);
@@ -112,7 +112,7 @@ void SheetRecorder::prepare(const PassInputs& in, const LightAccounts& accounts)
     }
     if (views_.empty()) return;
     const std::uint32_t stride = aligned(sizeof(DepthViewRecord), device_.info().uniform_alignment);
-    if (items_.reserve(std::max<std::size_t>(item_scratch_.size(), 1) * sizeof(SheetItem)) &&
+    if (items_.reserve(std::max<std::size_t>(item_scratch_.size(), 1) * sizeof(BoundsItem)) &&
         view_records_.reserve(views_.size() * stride))
         return;
     for (const View& view : views_)
@@ -120,12 +120,12 @@ void SheetRecorder::prepare(const PassInputs& in, const LightAccounts& accounts)
     views_.clear();
 }
 
-void SheetRecorder::record_view(const PassInputs& in, const View& drawn, std::uint32_t offset, gl::CommandList& list,
-                                LightReport& report) {
+void BoundsPass::record_view(const PassInputs& in, const View& drawn, std::uint32_t offset, gl::CommandList& list,
+                             LightReport& report) {
     const ShadowView& view = in.drawn.view(drawn.view);
     const MapAssignment& map = in.drawn.maps[drawn.view];
     const auto size = static_cast<std::int32_t>(map.size_px);
-    const SheetFloor floor = sheet_floor(view, map.size_px);
+    const BoundsFloor floor = bounds_floor(view, map.size_px);
     const float cleared = with_margins_ ? floor.cleared : static_cast<float>(floor.departure);
     list.add(gl::BeginGroup{{"sheets", in.scene.lights[view.light].name, std::to_string(view.layer)}});
     list.add(gl::BeginTimer{shadow_timer(view.light)});
@@ -153,7 +153,7 @@ void SheetRecorder::record_view(const PassInputs& in, const View& drawn, std::ui
     list.add(gl::EndGroup{});
 }
 
-void SheetRecorder::record(const PassInputs& in, const PassOutputs& out) {
+void BoundsPass::record(const PassInputs& in, const PassOutputs& out) {
     // Views that lost their maps in another recorder are not drawn.
     std::erase_if(views_, [&](const View& view) { return !is_bounded(in.drawn, view.view); });
     if (views_.empty()) return;
@@ -167,11 +167,11 @@ void SheetRecorder::record(const PassInputs& in, const PassOutputs& out) {
                                      glm::vec4(anchor.low, static_cast<float>(view.layer))};
         std::memcpy(record_scratch_.data() + i * stride, &record, sizeof record);
     }
-    if (!item_scratch_.empty()) out.list.update(items_.handle(), 0, std::span<const SheetItem>(item_scratch_));
+    if (!item_scratch_.empty()) out.list.update(items_.handle(), 0, std::span<const BoundsItem>(item_scratch_));
     out.list.update(view_records_.handle(), 0, std::span<const std::byte>(record_scratch_));
     for (std::size_t i = 0; i < views_.size(); ++i) {
         const std::uint32_t light = in.drawn.view(views_[i].view).light;
-        const LightTime time(out.cpu_us, light);
+        const LightTimer time(out.cpu_us, light);
         record_view(in, views_[i], static_cast<std::uint32_t>(i) * stride, out.list, out.report.lights[light]);
     }
 }

@@ -17,20 +17,20 @@ namespace gnomon::shadow {
 
 /// Recorder of the last pass of views with BoundsMaps::bounds (docs/exact.md). Per texel, it finds the nearest place
 /// where a surface may end. It also finds a bound on the difference between a surface's depths and that in the texel's
-/// middle. The DepthRecorder draws the first two passes, nearest and second depths. Programs, surfaces and buffers are
+/// middle. The DepthPass draws the first two passes, nearest and second depths. Programs, surfaces and buffers are
 /// made on first use.
-class SheetRecorder {
+class BoundsPass {
 public:
     /// Options for tests: without margins, to show that they are needed; with quads alone, to show that points cover
     /// the same.
     struct Options {
         bool with_margins = true, with_points = true;
     };
-    explicit SheetRecorder(gl::Device& device) : SheetRecorder(device, Options{}) {}
-    SheetRecorder(gl::Device& device, const Options& options);
-    ~SheetRecorder();
-    SheetRecorder(const SheetRecorder&) = delete;
-    SheetRecorder& operator=(const SheetRecorder&) = delete;
+    explicit BoundsPass(gl::Device& device) : BoundsPass(device, Options{}) {}
+    BoundsPass(gl::Device& device, const Options& options);
+    ~BoundsPass();
+    BoundsPass(const BoundsPass&) = delete;
+    BoundsPass& operator=(const BoundsPass&) = delete;
 
     /// Gathers what drawn views need, and makes room for it. A light that cannot have it loses its maps. Call before
     /// record(), once the meshes are bent (GpuScene::update).
@@ -44,8 +44,8 @@ public:
     std::uint64_t host_bytes() const { return surfaces_.bytes(); }
 
 private:
-    /// Number of programs: one per SheetItems::Kind for large items, then one for small items.
-    static constexpr std::size_t kPrograms = 2 * std::size_t{SheetItems::kinds};
+    /// Number of programs: one per BoundsItems::Kind for large items, then one for small items.
+    static constexpr std::size_t kPrograms = 2 * std::size_t{BoundsItems::kinds};
     struct View {
         std::size_t view = 0;
         std::uint32_t first[kPrograms] = {}, count[kPrograms] = {};  // items
@@ -62,15 +62,15 @@ private:
 
     gl::Device& device_;
     bool with_margins_;
-    CasterSurfaces surfaces_;
-    SheetGatherer gatherer_;
+    CasterTopologies surfaces_;
+    BoundsGatherer gatherer_;
     GrowingBuffer items_, view_records_;
     Program programs_[kPrograms];
     std::uint64_t frame_ = 0;
     // One frame's; storage is reused.
     std::vector<View> views_;
-    std::vector<SheetItem> item_scratch_;
-    SheetItems view_scratch_;
+    std::vector<BoundsItem> item_scratch_;
+    BoundsItems view_scratch_;
     std::vector<std::byte> record_scratch_;
 };
 

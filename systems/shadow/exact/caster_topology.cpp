@@ -6,7 +6,7 @@
 namespace gnomon::shadow {
 namespace {
 
-CasterSurface::Facet facet_of(const GpuScene::MeshShape& shape, std::size_t triangle) {
+CasterTopology::Facet facet_of(const GpuScene::MeshShape& shape, std::size_t triangle) {
     const auto corner = [&](std::size_t c) {
         return (*shape.vertices)[(*shape.indices)[3 * triangle + c]].position_ms;
     };
@@ -18,7 +18,7 @@ CasterSurface::Facet facet_of(const GpuScene::MeshShape& shape, std::size_t tria
     return {glm::vec3(normal / size), corner(0), static_cast<float>(size / longest)};
 }
 
-void fill(const GpuScene& gpu, std::uint32_t mesh, const GpuScene::MeshShape& shape, CasterSurface& surface) {
+void fill(const GpuScene& gpu, std::uint32_t mesh, const GpuScene::MeshShape& shape, CasterTopology& surface) {
     const GpuScene::MeshRange& range = gpu.mesh(mesh);
     const std::size_t count = shape.indices->size() / 3;
     surface.opaque.clear();
@@ -44,14 +44,14 @@ void fill(const GpuScene& gpu, std::uint32_t mesh, const GpuScene::MeshShape& sh
 
 }  // namespace
 
-std::uint64_t CasterSurfaces::bytes_of(const CasterSurface& surface) {
+std::uint64_t CasterTopologies::bytes_of(const CasterTopology& surface) {
     return surface.edges.borders.capacity() * sizeof(assets::SurfaceEdges::Border) +
            surface.edges.folds.capacity() * sizeof(assets::SurfaceEdges::Fold) +
-           surface.facets.capacity() * sizeof(CasterSurface::Facet) +
+           surface.facets.capacity() * sizeof(CasterTopology::Facet) +
            (surface.opaque.capacity() + surface.masked.capacity()) * sizeof(std::uint32_t);
 }
 
-const CasterSurface& CasterSurfaces::of(const GpuScene& gpu, std::uint32_t mesh) {
+const CasterTopology& CasterTopologies::of(const GpuScene& gpu, std::uint32_t mesh) {
     if (kept_.size() < gpu.mesh_count()) kept_.resize(gpu.mesh_count());
     Kept& kept = kept_[mesh];
     const GpuScene::MeshShape shape = gpu.shape(mesh);

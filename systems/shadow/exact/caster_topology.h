@@ -12,7 +12,7 @@
 namespace gnomon::shadow {
 
 /// Opaque and masked surfaces of a mesh, bent as on the device.
-struct CasterSurface {
+struct CasterTopology {
     struct Facet {
         glm::vec3 normal_ms{0.0f};  // unit, exact to float rounding; zero for a facet without area
         glm::vec3 corner_ms{0.0f};  // any of its corners
@@ -26,10 +26,10 @@ struct CasterSurface {
 
 /// Surfaces of all meshes that exact lights needed. Made on first use, and again after a mesh bent. Uses no memory
 /// before.
-class CasterSurfaces {
+class CasterTopologies {
 public:
     /// Returns the surface as the device has it now. Valid until the next call.
-    const CasterSurface& of(const GpuScene& gpu, std::uint32_t mesh);
+    const CasterTopology& of(const GpuScene& gpu, std::uint32_t mesh);
     /// Forgets all of them.
     void clear() {
         std::vector<Kept>().swap(kept_);
@@ -39,11 +39,11 @@ public:
 
 private:
     struct Kept {
-        CasterSurface surface;
+        CasterTopology surface;
         std::uint64_t version = 0;  // MeshShape::version
         bool made = false;
     };
-    static std::uint64_t bytes_of(const CasterSurface& surface);
+    static std::uint64_t bytes_of(const CasterTopology& surface);
 
     std::vector<Kept> kept_;  // by mesh
     std::uint64_t bytes_ = 0;

@@ -19,7 +19,7 @@ inline glm::dvec3 absolute(const glm::dmat3& m, const glm::dvec3& v) {
 /// Bound on float's error of any vertex of an instance in clip space. It covers what bounds_item.glsl computes.
 class ClipRounding {
 public:
-    ClipRounding(const CasterSurface& surface, const InstanceItem& item, const ShadowView& view)
+    ClipRounding(const CasterTopology& surface, const InstanceItem& item, const ShadowView& view)
         : clip_from_anchor_(view.clip_from_anchor) {
         const glm::dvec3 local = absolute(item.basis, surface.reach_ms);
         const glm::dvec3 reach = local + glm::abs(item.translation_ws_m - view.pose.anchor_ws_m);

@@ -37,7 +37,7 @@ inline constexpr double kSmall_texel = 12.0, kSmallMoved_texel = 0.25;
 constexpr std::uint32_t most_point_px() {
     return static_cast<std::uint32_t>(kSmall_texel + 2.0 * (kQuadReach_texel + kSmallMoved_texel)) + 1;
 }
-/// Tangent between normal and light up to which a facet is not drawn (SheetFloor).
+/// Tangent between normal and light up to which a facet is not drawn (BoundsFloor).
 inline constexpr double kFloorTangent = 4.0;
 /// Rounding of depth in [0, 1], for facets that are not drawn.
 inline constexpr double kFlatRounding = 6.0e-7;

@@ -11,31 +11,32 @@ namespace gnomon::shadow {
 
 /// Depth slope bound of surfaces that are not drawn: greatest change of depth between a texel's middle and its border.
 /// It applies to planes with an angle of at most atan 4 between normal and light. Steeper ones are few, and are drawn.
-struct SheetFloor {
+struct BoundsFloor {
     double departure = 0.0;  // orthographic: bound for such a plane, without margins
     float cleared = 0.0f;    // with margins: what the map of slope bounds is cleared to
     double share = 0.0;      // perspective: the bound as a share of depth minus alpha (ViewDepths), without margins;
-                             // sheet_floor() in shaders/shadow/filters/exact/classify.glsl has it with them
+                             // bounds_floor() in shaders/shadow/filters/exact/classify.glsl has it with them
 };
-SheetFloor sheet_floor(const ShadowView& view, std::uint32_t size_px);
+BoundsFloor bounds_floor(const ShadowView& view, std::uint32_t size_px);
 
 /// Test for facets with a depth slope below that bound, whatever float's rounding does to their corners.
-class FlatFacets {
+class FacetDepthRanges {
 public:
-    FlatFacets(const CasterSurface& surface, const InstanceItem& item, const ShadowView& view, std::uint32_t size_px);
+    FacetDepthRanges(const CasterTopology& surface, const InstanceItem& item, const ShadowView& view,
+                     std::uint32_t size_px);
 
     /// Returns whether the facet need not be drawn. `normal_vs`: along the view's axes, of any length. `height`: height
     /// of the light above the facet's plane times that length (perspective), off by at most `error`. `farthest_m`:
     /// greatest distance of its corners along the view (perspective).
-    bool operator()(const CasterSurface::Facet& facet, const glm::dvec3& normal_vs, double height, double error,
+    bool operator()(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs, double height, double error,
                     double farthest_m) const;
 
 private:
-    bool orthographic(const CasterSurface::Facet& facet, const glm::dvec3& normal_vs) const;
-    bool perspective(const CasterSurface::Facet& facet, const glm::dvec3& normal_vs, double height,
+    bool orthographic(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs) const;
+    bool perspective(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs, double height,
                      double farthest_m) const;
 
-    SheetFloor floor_;
+    BoundsFloor floor_;
     bool parallel_ = false, possible_ = false;
     glm::dvec2 half_texel_{0.0};                // along u and v: metres, or tangents
     double depth_per_m_ = 0.0;                  // orthographic

@@ -144,7 +144,7 @@ void measure_clearances(const PassInputs& in, std::vector<double>& clearances_m,
         if (!soft || in.drawn.statuses[i].is_skipped() || request.rays.only ||
             light_facts(in.scene.lights[i].kind).parallel)
             continue;
-        const LightTime time(cpu_us, i);
+        const LightTimer time(cpu_us, i);
         clearances_m[i] = Clearance(in, i).run();
     }
 }

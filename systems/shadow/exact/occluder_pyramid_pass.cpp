@@ -17,15 +17,15 @@ namespace {
 /// Squares that a work group makes along an edge, as in shaders/shadow/passes/bounds/occluder_pyramid.comp.
 constexpr std::uint32_t kGroup = 8;
 
-bool has_ends(const DrawnViews& drawn, std::size_t v) { return drawn.is_drawn(v) && drawn.maps[v].sheets.ends; }
+bool has_pyramid(const DrawnViews& drawn, std::size_t v) { return drawn.is_drawn(v) && drawn.maps[v].sheets.ends; }
 
 std::uint32_t levels_of(std::uint32_t size_px) {
     std::uint32_t levels = 1;
-    for (EndsLevel level = first_ends(size_px); level.side > 1; level = next_ends(level)) ++levels;
+    for (PyramidLevel level = first_pyramid_level(size_px); level.side > 1; level = next_pyramid_level(level)) ++levels;
     return levels;
 }
 
-glm::ivec4 place_of(const EndsLevel& level, std::uint32_t before) {
+glm::ivec4 place_of(const PyramidLevel& level, std::uint32_t before) {
     return {static_cast<std::int32_t>(before + level.first), static_cast<std::int32_t>(level.side), 0, 0};
 }
 
@@ -36,18 +36,18 @@ double size_of(const FilterSettings& filter, const ShadowView& view) {
 
 }  // namespace
 
-EndsRecorder::EndsRecorder(gl::Device& device, bool with_margins)
+OccluderPyramidPass::OccluderPyramidPass(gl::Device& device, bool with_margins)
     : device_(device), with_margins_(with_margins), records_(device, "shadow sheet ends") {}
 
-EndsRecorder::~EndsRecorder() {
+OccluderPyramidPass::~OccluderPyramidPass() {
     for (const Program& p : programs_) device_.destroy(p.program);
 }
 
-EndsRecorder::Source EndsRecorder::first_source(const ShadowView& view) {
+OccluderPyramidPass::Source OccluderPyramidPass::first_source(const ShadowView& view) {
     return view.projection == ViewProjection::cube_face ? Source::cube : Source::map;
 }
 
-bool EndsRecorder::program(Source source) {
+bool OccluderPyramidPass::program(Source source) {
     Program& made = programs_[static_cast<std::size_t>(source)];
     if (made.program) return true;
     if (!made.retry.due(frame_)) return false;
@@ -62,31 +62,31 @@ bool EndsRecorder::program(Source source) {
     return static_cast<bool>(made.program);
 }
 
-void EndsRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
+void OccluderPyramidPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     std::size_t records = 0;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
-        if (!has_ends(in.drawn, v)) continue;
+        if (!has_pyramid(in.drawn, v)) continue;
         if (program(first_source(in.drawn.view(v))) && program(Source::level))
             records += levels_of(in.drawn.maps[v].size_px);
         else
             accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::depth_program_failed, true);
     }
-    if (records == 0 || records_.reserve(records * aligned(sizeof(EndsRecord), device_.info().uniform_alignment)))
+    if (records == 0 || records_.reserve(records * aligned(sizeof(PyramidRecord), device_.info().uniform_alignment)))
         return;
     for (std::size_t v = 0; v < in.drawn.count(); ++v)
-        if (has_ends(in.drawn, v)) accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::buffer_failed, true);
+        if (has_pyramid(in.drawn, v)) accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::buffer_failed, true);
 }
 
-void EndsRecorder::append_records(const DrawnViews& drawn, std::size_t v) {
+void OccluderPyramidPass::append_records(const DrawnViews& drawn, std::size_t v) {
     const ShadowView& view = drawn.view(v);
     const ShadowRequest& request = drawn.lights[view.light].request;
-    const std::uint32_t size_px = drawn.maps[v].size_px, before = view.layer * ends_count(size_px);
+    const std::uint32_t size_px = drawn.maps[v].size_px, before = view.layer * pyramid_count(size_px);
     // A map that was shrunk has larger texels than the fit planned.
     const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(size_px);
     const double texel_u = view.plane.texel_u * stretch, texel_v = view.plane.texel_v * stretch;
     const bool parallel = view.projection == ViewProjection::orthographic;
-    EndsRecord record;
+    PyramidRecord record;
     if (view.projection == ViewProjection::cube_face) {
         const CubeFace& face = cube_face(view.layer);
         record.axis_u = glm::vec4(glm::vec3(face.axis_u), 0.0f);
@@ -103,8 +103,8 @@ void EndsRecorder::append_records(const DrawnViews& drawn, std::size_t v) {
     };
     const auto layer = static_cast<std::int32_t>(view.layer);
     record.from = {0, static_cast<std::int32_t>(size_px), layer, 0};
-    EndsLevel level = first_ends(size_px);
-    for (;; level = next_ends(level)) {
+    PyramidLevel level = first_pyramid_level(size_px);
+    for (;; level = next_pyramid_level(level)) {
         record.to = place_of(level, before);
         append();
         if (level.side == 1) return;
@@ -112,7 +112,8 @@ void EndsRecorder::append_records(const DrawnViews& drawn, std::size_t v) {
     }
 }
 
-void EndsRecorder::record_view(const PassInputs& in, std::size_t v, std::uint32_t& offset, gl::CommandList& list) {
+void OccluderPyramidPass::record_view(const PassInputs& in, std::size_t v, std::uint32_t& offset,
+                                      gl::CommandList& list) {
     const ShadowView& view = in.drawn.view(v);
     const MapAssignment& map = in.drawn.maps[v];
     list.add(gl::BeginGroup{{"sheet ends", in.scene.lights[view.light].name, std::to_string(view.layer)}});
@@ -121,28 +122,28 @@ void EndsRecorder::record_view(const PassInputs& in, std::size_t v, std::uint32_
     list.add(gl::BindTexture{bindings::kBoundsUnit, map.sheets.bounds, {}});
     list.add(gl::BindStorage{bindings::kPyramidBuffer, map.sheets.ends});
     Source source = first_source(view);
-    EndsLevel level = first_ends(map.size_px);
-    for (;; level = next_ends(level), source = Source::level) {
+    PyramidLevel level = first_pyramid_level(map.size_px);
+    for (;; level = next_pyramid_level(level), source = Source::level) {
         const std::uint32_t groups = (level.side + kGroup - 1) / kGroup;
-        list.add(gl::BindUniforms{bindings::kPyramidBlock, records_.handle(), offset, sizeof(EndsRecord)});
+        list.add(gl::BindUniforms{bindings::kPyramidBlock, records_.handle(), offset, sizeof(PyramidRecord)});
         list.add(gl::Dispatch{programs_[static_cast<std::size_t>(source)].program, groups, groups});
-        offset += aligned(sizeof(EndsRecord), device_.info().uniform_alignment);
+        offset += aligned(sizeof(PyramidRecord), device_.info().uniform_alignment);
         if (level.side == 1) break;
     }
     list.add(gl::EndTimer{shadow_timer(view.light)});
     list.add(gl::EndGroup{});
 }
 
-void EndsRecorder::record(const PassInputs& in, const PassOutputs& out) {
+void OccluderPyramidPass::record(const PassInputs& in, const PassOutputs& out) {
     record_scratch_.clear();
     for (std::size_t v = 0; v < in.drawn.count(); ++v)
-        if (has_ends(in.drawn, v)) append_records(in.drawn, v);
+        if (has_pyramid(in.drawn, v)) append_records(in.drawn, v);
     if (record_scratch_.empty()) return;
     out.list.update(records_.handle(), 0, std::span<const std::byte>(record_scratch_));
     std::uint32_t offset = 0;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
-        if (!has_ends(in.drawn, v)) continue;
-        const LightTime time(out.cpu_us, in.drawn.view(v).light);
+        if (!has_pyramid(in.drawn, v)) continue;
+        const LightTimer time(out.cpu_us, in.drawn.view(v).light);
         record_view(in, v, offset, out.list);
     }
 }

@@ -14,26 +14,26 @@
 namespace gnomon::shadow {
 
 /// Matches EndsBlock in shaders/shadow/passes/bounds/occluder_pyramid.comp (std140).
-struct EndsRecord {
+struct PyramidRecord {
     glm::vec4 axis_u{0.0f}, axis_v{0.0f}, axis_back{0.0f};
     glm::ivec4 from{0}, to{0};
     glm::vec4 numbers{0.0f};
 };
-static_assert(sizeof(EndsRecord) == 96);
+static_assert(sizeof(PyramidRecord) == 96);
 
-/// Recorder of the occluder pyramid, for views with BoundsMaps::ends. It runs after the SheetRecorder's pass, with one
+/// Recorder of the occluder pyramid, for views with BoundsMaps::ends. It runs after the BoundsPass's pass, with one
 /// dispatch per level. Programs and buffers are made on first use.
-class EndsRecorder {
+class OccluderPyramidPass {
 public:
-    /// Sets the device. `with_margins`: as SheetRecorder::Options.
-    explicit EndsRecorder(gl::Device& device, bool with_margins = true);
-    ~EndsRecorder();
-    EndsRecorder(const EndsRecorder&) = delete;
-    EndsRecorder& operator=(const EndsRecorder&) = delete;
+    /// Sets the device. `with_margins`: as BoundsPass::Options.
+    explicit OccluderPyramidPass(gl::Device& device, bool with_margins = true);
+    ~OccluderPyramidPass();
+    OccluderPyramidPass(const OccluderPyramidPass&) = delete;
+    OccluderPyramidPass& operator=(const OccluderPyramidPass&) = delete;
 
     /// Makes programs and room for records. A light that cannot have them loses its maps. Call before record().
     void prepare(const PassInputs& in, const LightAccounts& accounts);
-    /// Records the dispatches. Call after SheetRecorder::record().
+    /// Records the dispatches. Call after BoundsPass::record().
     void record(const PassInputs& in, const PassOutputs& out);
 
     /// Frees all except programs. Call it when no light has such views.

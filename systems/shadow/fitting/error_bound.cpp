@@ -86,7 +86,7 @@ TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
     return {side({view.plane.texel_u, 0.0}), side({0.0, view.plane.texel_v})};
 }
 
-double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
+double min_resolvable_gap_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
     constexpr double kSteps = 2.0;
     const double depth = kSteps * depth_format_row(format).step;
     if (orthographic(view)) return depth * (view.depth.far_m - view.depth.near_m);
@@ -110,7 +110,7 @@ double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, con
 }
 
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
-    return edge_error_px(view.error.extent_px * steeper_than_stated(cosine), reach_texel);
+    return edge_error_px(view.error.extent_px * slope_factor(cosine), reach_texel);
 }
 
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,

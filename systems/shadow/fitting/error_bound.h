@@ -18,8 +18,8 @@
 ///
 /// Exceptions, by name, and no others:
 /// - `sub_texel_caster`: the shadow, or the light beside it, is thinner than a texel there. Or the caster is nearer to
-///   the receiver than the receiver's own rise over the texel, or than the depth format resolves (told_apart_m). A map
-///   may miss such a thing altogether.
+///   the receiver than the receiver's own rise over the texel, or than the depth format resolves
+///   (min_resolvable_gap_m). A map may miss such a thing altogether.
 /// - `truth_ambiguous`: the visible surface, or its visibility from the light, depends on less than the rasteriser's
 ///   snapping or the last digits of the position.
 ///
@@ -35,7 +35,7 @@ TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws);
 /// Returns the least distance, along the ray, from a caster to a surface at p_ws that fixed-point depths resolve,
 /// metres. It is two steps of the format: the stored depth may be off by one, and the bias makes up for another. 0 for
 /// floats: their steps are a share of the distance. In a warped map it holds at the anchor.
-double told_apart_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws);
+double min_resolvable_gap_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws);
 
 /// Returns the longest extent of one texel on screen, pixels, on a plane through p_ws with unit normal `normal` (m of
 /// Lloyd et al. 2006). Projects the texel's diagonals along the light's ray onto the plane and from there to the

@@ -37,11 +37,11 @@ void state_errors(const SceneSnapshot& scene, std::span<const glm::dvec3> points
 
 /// States which cameras see receivers of the view, and how many receivers. A sun's cascade counts all receivers, since
 /// it may reach into other slices.
-void state_receivers(const LightItem& light, std::span<const Beam> beams, ShadowView& view) {
+void state_receivers(const LightItem& light, std::span<const ReceiverHull> hulls, ShadowView& view) {
     const bool sun = light_facts(light.kind).parallel;
-    const Beam& beam = beams[sun ? 0 : view.layer];
-    view.consumer_mask = beam.consumers;
-    if (view.receivers == 0) view.receivers = beam.receivers;
+    const ReceiverHull& receiver_hull = hulls[sun ? 0 : view.layer];
+    view.consumer_mask = receiver_hull.consumers;
+    if (view.receivers == 0) view.receivers = receiver_hull.receivers;
 }
 
 /// Returns the least distance that floats along a lamp's rays, and doubles of its place, resolve, metres. It is a share
@@ -87,39 +87,39 @@ struct FittedSizes {
 
 /// Sets the size of the light's maps that meets its error target. Shrinks only after kSpareFrames frames. Returns
 /// whether the size differs from the fitted one.
-bool settle_size(const LightItem& light, std::span<const ShadowView> views, const HeldLight& held, FittedSizes& fitted,
-                 std::uint32_t& spare_frames, ShadowRequest& request) {
-    if (views.empty() || !follows_contract(light, request)) return false;
+bool settle_size(const LightItem& light, std::span<const ShadowView> views, const LightFitHistory& held,
+                 FittedSizes& fitted, std::uint32_t& downsize_frames, ShadowRequest& request) {
+    if (views.empty() || !adapts_to_target(light, request)) return false;
     const bool is_held = request.map.resolution_px == held.size.map_px;
-    const double wished_px = wished_error_px(light.shadow), error_px = predicted_px(views);
-    fitted.note(request.map.resolution_px, keeps_contract(error_px, wished_px));
+    const double target_px = target_error_px(light.shadow), error_px = predicted_px(views);
+    fitted.note(request.map.resolution_px, meets_target(error_px, target_px));
     const std::uint32_t wish_px =
-        contract_size_px(request.map.resolution_px, is_held, error_px, wished_px, request.limits.max_px);
+        target_size_px(request.map.resolution_px, is_held, error_px, target_px, request.limits.max_px);
     const std::uint32_t size_px = std::min(fitted.between(wish_px), request.limits.max_px);
     const bool spare = is_held && size_px < request.map.resolution_px;
     // Counts past kSpareFrames mean that the smaller size missed the target: a border is a larger share of a smaller
     // map.
-    if (is_held) spare_frames = spare ? std::min(held.size.spare_frames + 1, kSpareFrames + 1) : 0;
-    if (size_px == request.map.resolution_px || (spare && spare_frames != kSpareFrames)) return false;
+    if (is_held) downsize_frames = spare ? std::min(held.size.downsize_frames + 1, kSpareFrames + 1) : 0;
+    if (size_px == request.map.resolution_px || (spare && downsize_frames != kSpareFrames)) return false;
     set_resolution(light, size_px, request);
     return true;
 }
 
 /// Returns whether what is seen needs other sizes. The best number of cascades then may change as well.
-bool has_stepped(const HeldLight& held, const HeldLight& next) {
+bool has_stepped(const LightFitHistory& held, const LightFitHistory& next) {
     if (next.splits.near_step != held.splits.near_step || next.splits.far_step != held.splits.far_step) return true;
     return !std::equal(next.views.begin(), next.views.end(), held.views.begin(),
-                       [](const HeldView& a, const HeldView& b) { return a.extent_step == b.extent_step; });
+                       [](const ViewFitHistory& a, const ViewFitHistory& b) { return a.extent_step == b.extent_step; });
 }
 
 }  // namespace
 
-HeldLight without_fits(const HeldLight& held) {
-    HeldLight fresh = held;
+LightFitHistory without_fits(const LightFitHistory& held) {
+    LightFitHistory fresh = held;
     fresh.views = {};
     fresh.splits = {};
-    fresh.sampled_ends = {};
-    fresh.size.map_px = fresh.size.spare_frames = fresh.size.large_frames = fresh.size.tired_frames = 0;
+    fresh.sampled_splits = {};
+    fresh.size.map_px = fresh.size.downsize_frames = fresh.size.oversize_frames = fresh.size.shrink_cooldown = 0;
     return fresh;
 }
 
@@ -136,13 +136,13 @@ LightFit::LightFit(const SceneSnapshot& scene, const FitInputs& inputs, std::uin
       first_resized_(sizes_of(out.resized_sets)) {}
 
 LightFit::ArraySizes LightFit::sizes_of(const ReceiverCasterSets& sets) {
-    return {sets.receiver_items.size(), sets.caster_items.size(), sets.receiver_points_ws.size(), sets.beams.size(),
+    return {sets.receiver_items.size(), sets.caster_items.size(), sets.receiver_points_ws.size(), sets.hulls.size(),
             sets.outlines.size()};
 }
 
 std::span<const ShadowView> LightFit::views() const { return std::span(out_.views).subspan(first_view_); }
 
-Reason LightFit::run(const HeldLight& held, bool recount, HeldLight& next) {
+Reason LightFit::run(const LightFitHistory& held, bool recount, LightFitHistory& next) {
     forget_views();
     out_.casters.resize(first_caster_);
     const Reason reason = fit_and_count(held, recount, next) ? select_casters() : Reason::fit_degenerate;
@@ -158,14 +158,14 @@ void LightFit::request_anew(const ShadowRequest& request) {
 
 void LightFit::forget_views() { out_.views.resize(first_view_); }
 
-bool LightFit::fit_and_count(const HeldLight& held, bool recount, HeldLight& next) {
+bool LightFit::fit_and_count(const LightFitHistory& held, bool recount, LightFitHistory& next) {
     if (!fit_size(held, next)) return false;
     if (is_count_due(held, next) || (recount && !views().empty())) return choose_count(held, next);
     return true;
 }
 
 /// Fits views without casters for maps of the request's size. Returns false if no finite volume exists.
-bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
+bool LightFit::fit_once(const LightFitHistory& held, LightFitHistory& next) {
     const ShadowRequest& request = out_.lights[index_].request;
     const LightSetsView sets = out_.sets_of(inputs_.sets, index_);
     const auto points = sets.receiver_points_ws();
@@ -175,7 +175,7 @@ bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
                          sets.receivers(),
                          sets.casters(),
                          points,
-                         sets.beams(),
+                         sets.hulls(),
                          sets.arrays.receiver_points_ws,
                          request.map.filtering.border_texel,
                          inputs_.sampled_depths,
@@ -187,15 +187,15 @@ bool LightFit::fit_once(const HeldLight& held, HeldLight& next) {
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {
         ShadowView& view = out_.views[v];
         view.light = index_;
-        state_receivers(light_, sets.beams(), view);
+        state_receivers(light_, sets.hulls(), view);
         state_errors(scene_, points, edge_texel_at(request.map.filtering, finest_texel_m(view)), view);
     }
     return true;
 }
 
 /// Fits for the size that the accuracy target needs.
-bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
-    std::uint32_t spare_frames = 0;
+bool LightFit::fit_size(const LightFitHistory& held, LightFitHistory& next) {
+    std::uint32_t downsize_frames = 0;
     FittedSizes sizes;
     bool fitted = false;
     for (std::uint32_t again = 0;; ++again) {
@@ -204,18 +204,18 @@ bool LightFit::fit_size(const HeldLight& held, HeldLight& next) {
         fitted = fit_once(held, next);
         // After kMostSizes one more is fitted if they were too small: a border is another share of each size.
         if (!fitted || again > kMostSizes || (again == kMostSizes && has_met_target())) break;
-        if (!settle_size(light_, views(), held, sizes, spare_frames, request())) break;
+        if (!settle_size(light_, views(), held, sizes, downsize_frames, request())) break;
         select_sets_again();
     }
-    next.size.map_px = follows_contract(light_, request()) ? request().map.resolution_px : 0;
-    next.size.spare_frames = next.size.map_px == held.size.map_px ? spare_frames : 0;
+    next.size.map_px = adapts_to_target(light_, request()) ? request().map.resolution_px : 0;
+    next.size.downsize_frames = next.size.map_px == held.size.map_px ? downsize_frames : 0;
     return fitted;
 }
 
-bool LightFit::has_met_target() const { return keeps_contract(predicted_px(views()), wished_error_px(light_.shadow)); }
+bool LightFit::has_met_target() const { return meets_target(predicted_px(views()), target_error_px(light_.shadow)); }
 
 /// Returns whether the search for another number of cascades is due.
-bool LightFit::is_count_due(const HeldLight& held, HeldLight& next) const {
+bool LightFit::is_count_due(const LightFitHistory& held, LightFitHistory& next) const {
     const ShadowRequest& request = out_.lights[index_].request;
     const std::uint32_t most = request.limits.max_views, usual = held.count.cascades > 0 ? held.count.cascades : most;
     if (most == 0) next.count.cascades = next.count.moves = 0;
@@ -227,8 +227,8 @@ bool LightFit::is_count_due(const HeldLight& held, HeldLight& next) const {
 
 /// Fits increasing numbers of cascades, doubled each time, and chooses one of them. Each fit starts without history,
 /// since that of other slices does not apply.
-bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
-    const HeldLight fresh = without_fits(held);
+bool LightFit::choose_count(const LightFitHistory& held, LightFitHistory& next) {
+    const LightFitHistory fresh = without_fits(held);
     const ShadowRequest usual = request();
     const std::uint32_t most = usual.limits.max_views;
     std::array<CascadeTrial, kMaxCascades> trials;
@@ -242,7 +242,7 @@ bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
         if (count == most) break;
     }
     const std::uint32_t chosen =
-        contract_cascades(std::span(trials).first(tried), held.count.cascades, wished_error_px(light_.shadow));
+        choose_cascades(std::span(trials).first(tried), held.count.cascades, target_error_px(light_.shadow));
     const bool stays = chosen == held.count.cascades;
     const bool fitted = fit_count(chosen, usual, stays ? held : fresh, next);
     next.count.cascades = chosen;
@@ -250,7 +250,8 @@ bool LightFit::choose_count(const HeldLight& held, HeldLight& next) {
     return fitted;
 }
 
-bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const HeldLight& held, HeldLight& next) {
+bool LightFit::fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& held,
+                         LightFitHistory& next) {
     request() = usual;
     set_cascades(light_.tuning.cascades, count, request());
     set_most(light_, usual.limits.max_px, held.size.map_px, request());
@@ -265,7 +266,7 @@ void LightFit::select_sets_again() {
     sets.receiver_items.resize(first_resized_.receivers);
     sets.caster_items.resize(first_resized_.casters);
     sets.receiver_points_ws.resize(first_resized_.points);
-    sets.beams.resize(first_resized_.beams);
+    sets.hulls.resize(first_resized_.hulls);
     sets.outlines.resize(first_resized_.outlines);
     FitChoice& choice = out_.lights[index_];
     choice.sets = select_light_sets(scene_, index_, choice.request, lamp_ws_m(inputs_.lamps_ws_m, scene_, index_),
@@ -277,8 +278,7 @@ void LightFit::select_sets_again() {
 /// find it empty.
 Reason LightFit::select_casters() {
     ShadowRequest& request = out_.lights[index_].request;
-    const bool samples =
-        light_facts(light_.kind).parallel && light_.tuning.cascades.splits == CascadeSplits::sampled;
+    const bool samples = light_facts(light_.kind).parallel && light_.tuning.cascades.splits == CascadeSplits::sampled;
     if (samples && inputs_.sampled_depths.failed && request.note == Reason::none) request.note = Reason::depths_unread;
     bool any = false;
     for (std::size_t v = first_view_; v < out_.views.size(); ++v) {

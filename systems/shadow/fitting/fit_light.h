@@ -18,8 +18,8 @@ struct FitInputs {
     std::span<const glm::dvec3> lamps_ws_m;  // one per light (lamp_offsets.h); empty: the lights' own positions
     const SampledDepths& sampled_depths;     // depths of an earlier picture; optional
     const History& held;                     // fit history that the frame before left; empty: none
-    std::span<const std::uint64_t> moving;   // as CasterMotion::moving()
-    bool shared_out = false;                 // a budget is active: another filter applies from the next frame on
+    std::span<const std::uint64_t> moving;   // as DynamicCasters::moving()
+    bool budget_active = false;              // a budget is active: another filter applies from the next frame on
 };
 
 /// Reused storage of the fits and of their searches; empty of meaning between frames.
@@ -47,7 +47,7 @@ public:
 
     /// Fits for the request as it stands and replaces what an earlier run appended. `recount`: also compares other
     /// numbers of a sun's cascades, where the system chooses. Returns why there are no views; Reason::none: there are.
-    Reason run(const HeldLight& held, bool recount, HeldLight& next);
+    Reason run(const LightFitHistory& held, bool recount, LightFitHistory& next);
     /// Replaces the request and the sets that follow from its size.
     void request_anew(const ShadowRequest& request);
 
@@ -56,18 +56,18 @@ public:
 
 private:
     struct ArraySizes {
-        std::size_t receivers, casters, points, beams, outlines;
+        std::size_t receivers, casters, points, hulls, outlines;
     };
     static ArraySizes sizes_of(const ReceiverCasterSets& sets);
     ShadowRequest& request() { return out_.lights[index_].request; }
     void forget_views();
-    bool fit_and_count(const HeldLight& held, bool recount, HeldLight& next);
-    bool fit_once(const HeldLight& held, HeldLight& next);
-    bool fit_size(const HeldLight& held, HeldLight& next);
+    bool fit_and_count(const LightFitHistory& held, bool recount, LightFitHistory& next);
+    bool fit_once(const LightFitHistory& held, LightFitHistory& next);
+    bool fit_size(const LightFitHistory& held, LightFitHistory& next);
     bool has_met_target() const;
-    bool is_count_due(const HeldLight& held, HeldLight& next) const;
-    bool choose_count(const HeldLight& held, HeldLight& next);
-    bool fit_count(std::uint32_t count, const ShadowRequest& usual, const HeldLight& held, HeldLight& next);
+    bool is_count_due(const LightFitHistory& held, LightFitHistory& next) const;
+    bool choose_count(const LightFitHistory& held, LightFitHistory& next);
+    bool fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& held, LightFitHistory& next);
     void select_sets_again();
     Reason select_casters();
 
@@ -82,6 +82,6 @@ private:
 };
 
 /// Returns a light's history without its fits, so that the next fit starts as its first.
-HeldLight without_fits(const HeldLight& held);
+LightFitHistory without_fits(const LightFitHistory& held);
 
 }  // namespace gnomon::shadow

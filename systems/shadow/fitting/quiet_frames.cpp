@@ -19,8 +19,8 @@ std::uint64_t pictures_of(const SceneSnapshot& scene) {
 
 }  // namespace
 
-void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool shared_out,
-                        History& next) {
+void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool budget_active,
+                         History& next) {
     const auto uses_rays = [](const FitChoice& choice) {
         return choice.request.skip == Reason::none && choice.request.rays.used;
     };
@@ -39,11 +39,12 @@ void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, c
                 casters.add(std::uint64_t{scene.instances[c].gpu_slot});
                 casters.add(scene.instances[c].version);
             }
-        for (HeldLight& entry : next.lights) {
+        for (LightFitHistory& entry : next.lights) {
             if (entry.light != light.entity) continue;
-            const bool same = entry.rays.casters == casters.value() && light.tuning.reuse.economy && !shared_out;
+            const bool same = entry.rays.casters == casters.value() && light.tuning.reuse.economy && !budget_active;
             entry.rays.casters = casters.value();
-            entry.rays.quiet_frames = same ? std::min(entry.rays.quiet_frames + (moved ? 1 : 0), kQuietFrames) : 0;
+            entry.rays.static_frames =
+                same ? std::min(entry.rays.static_frames + (moved ? 1 : 0), kStaticSunFrames) : 0;
         }
     }
 }

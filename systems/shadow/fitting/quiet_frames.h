@@ -4,9 +4,9 @@
 
 namespace gnomon::shadow {
 
-/// Counts the frames of is_quiet() for lights that use rays. Runs after the fits. `shared_out`: a budget is active, so
-/// that no light grows by itself.
-void count_quiet_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool shared_out,
-                        History& next);
+/// Counts the frames of is_static() for lights that use rays. Runs after the fits. `budget_active`: a budget is active,
+/// so that no light grows by itself.
+void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, const History& held, bool budget_active,
+                         History& next);
 
 }  // namespace gnomon::shadow

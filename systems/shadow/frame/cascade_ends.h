@@ -11,6 +11,6 @@ struct DepthSpan {
 };
 
 /// View distances at which cascades end, metres: cascade i reaches from [i] to [i + 1].
-using CascadeEnds = std::array<double, kMaxCascades + 1>;
+using CascadeSplitDistances = std::array<double, kMaxCascades + 1>;
 
 }  // namespace gnomon::shadow

@@ -7,12 +7,12 @@ namespace gnomon::shadow {
 
 /// Adds the time between its construction and destruction to one light's CPU time. `cpu_us`: one entry per light,
 /// microseconds. A light beyond its end is not timed.
-class LightTime {
+class LightTimer {
 public:
-    LightTime(std::span<double> cpu_us, std::uint32_t light) : cpu_us_(cpu_us), light_(light), start_(Clock::now()) {}
-    LightTime(const LightTime&) = delete;
-    LightTime& operator=(const LightTime&) = delete;
-    ~LightTime() {
+    LightTimer(std::span<double> cpu_us, std::uint32_t light) : cpu_us_(cpu_us), light_(light), start_(Clock::now()) {}
+    LightTimer(const LightTimer&) = delete;
+    LightTimer& operator=(const LightTimer&) = delete;
+    ~LightTimer() {
         if (light_ < cpu_us_.size())
             cpu_us_[light_] += std::chrono::duration<double, std::micro>(Clock::now() - start_).count();
     }

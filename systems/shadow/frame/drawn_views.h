@@ -24,7 +24,7 @@ struct DrawnViews {
 
     /// Returns true if the view has a map in this frame, drawn or reused.
     bool has_map(std::size_t v) const {
-        return maps[v].texture && !updates[v].left_to_rays && !statuses[view(v).light].has_lost_maps();
+        return maps[v].texture && !updates[v].skipped_for_rays && !statuses[view(v).light].has_lost_maps();
     }
     bool is_drawn(std::size_t v) const { return has_map(v) && !updates[v].reuse; }
     bool has_prefiltered(std::size_t v) const {

@@ -29,7 +29,7 @@
 namespace gnomon::shadow {
 
 /// Last fit of one cascade, spot view or cube face.
-struct HeldView {
+struct ViewFitHistory {
     bool used = false;          // the numbers below come from a fit
     glm::ivec2 extent_step{0};  // sun: sides of the map, step_size() metres
     glm::dvec2 low{0.0};        // lower corner of the map, in the kind's own fixed axes: metres (sun) or tangents
@@ -38,63 +38,63 @@ struct HeldView {
     int far_step = 0;           // local light: far plane; sun: depth range
     double near_m = 0.0;        // sun: start of the depth range, in the kind's own fixed axes
     bool too_large = false;     // sun: one of its sizes is kept for now, although a much smaller one would suffice
-    bool operator==(const HeldView&) const = default;
+    bool operator==(const ViewFitHistory&) const = default;
 };
 
 /// Number of views in the history of a light. They are indexed by cascade or face, not by their order in this frame.
-inline constexpr std::size_t kHeldViews = kMaxViews;
+inline constexpr std::size_t kHistoryViews = kMaxViews;
 
 /// Gradual transition of a spot between one perspective view and the faces of a cube (spot_cube_transition.h).
-struct ConeFade {
+struct SpotCubeTransition {
     bool used = false;
     bool prefers_faces = false;  // the side of the hysteresis that its cone is on
-    int faces_eighths = 0;       // share of the faces in the lookup, eighths; 0 and 8: only one of the two exists
-    bool operator==(const ConeFade&) const = default;
+    int cube_blend_eighths = 0;  // share of the faces in the lookup, eighths; 0 and 8: only one of the two exists
+    bool operator==(const SpotCubeTransition&) const = default;
 };
 
 /// Ball around the visible receivers of a far lamp, at which its one map looks (projection/far_lamp_aim.h).
-struct LampAim {
+struct FarLampAim {
     bool used = false;
     glm::dvec3 middle_ws_m{0.0};
     double radius_m = 0.0;
-    bool operator==(const LampAim&) const = default;
+    bool operator==(const FarLampAim&) const = default;
 };
 
 /// Split distances of a sun's cascades during their transition (fitting/directional/split_transition.h).
-struct HeldSplits {
+struct SplitHistory {
     bool used = false;
-    int near_step = 0, far_step = 0;       // the depths that are split
-    std::uint32_t count = 0;               // number of cascades; 0: the members below are not from a fit
-    CascadeEnds at_m{}, from_m{}, to_m{};  // present splits, and the transition's start and goal
-    glm::dvec3 position_ws_m{0.0};         // pose of the camera that used the present splits
+    int near_step = 0, far_step = 0;                 // the depths that are split
+    std::uint32_t count = 0;                         // number of cascades; 0: the members below are not from a fit
+    CascadeSplitDistances at_m{}, from_m{}, to_m{};  // present splits, and the transition's start and goal
+    glm::dvec3 position_ws_m{0.0};                   // pose of the camera that used the present splits
     glm::dmat3 rotation_ws{1.0};
-    bool operator==(const HeldSplits&) const = default;
+    bool operator==(const SplitHistory&) const = default;
 };
 
 /// Split distances of CascadeSplits::sampled, metres along the view.
-struct HeldEnds {
+struct SampledSplitHistory {
     std::uint32_t count = 0;  // number of cascades; 0: no splits are stored
-    std::array<double, kHeldViews + 1> ends_m{};
-    bool operator==(const HeldEnds&) const = default;
+    std::array<double, kHistoryViews + 1> ends_m{};
+    bool operator==(const SampledSplitHistory&) const = default;
 };
 
 /// Filter that the accuracy target chose for a light (filter_choice.h).
-struct HeldFilter {
+struct FilterHistory {
     ShadowFilter filter = ShadowFilter::automatic;  // automatic: no choice yet, or the target does not choose it
-    double wished_px = 0.0;                         // target of the choice
+    double target_px = 0.0;                         // target of the choice
     double usual_px = 0.0;                          // error of the default filter's maps when these were last fitted
     double seen_px = 0.0;      // error of the last fit's own maps; while it is equal, the visible scene is unchanged
     std::uint32_t frames = 0;  // frames until the default filter is fitted again; 0: not before seen_px changes
     std::uint32_t passed = 0;  // consecutive frames in which the default filter met the target
-    bool operator==(const HeldFilter&) const = default;
+    bool operator==(const FilterHistory&) const = default;
 };
 
 /// Sizes of a light's maps, and how long they have been otherwise than needed.
 struct SizeHistory {
-    std::uint32_t map_px = 0;        // edge of its maps where they follow the target (accuracy_target.h); else 0
-    std::uint32_t spare_frames = 0;  // consecutive frames in which half of that edge appeared to meet the target
-    std::uint32_t large_frames = 0;  // consecutive frames in which some view was too large
-    std::uint32_t tired_frames = 0;  // frames until a size may become smaller again, after some have changed
+    std::uint32_t map_px = 0;           // edge of its maps where they follow the target (accuracy_target.h); else 0
+    std::uint32_t downsize_frames = 0;  // consecutive frames in which half of that edge appeared to meet the target
+    std::uint32_t oversize_frames = 0;  // consecutive frames in which some view was too large
+    std::uint32_t shrink_cooldown = 0;  // frames until a size may become smaller again, after some have changed
     bool operator==(const SizeHistory&) const = default;
 };
 
@@ -107,55 +107,55 @@ struct CountHistory {
 
 /// Light that uses rays.
 struct RayHistory {
-    bool gave_way = false;           // RayUse::fell_back of the last frame
-    std::uint64_t casters = 0;       // hash of the casters in its conservative maps, wherever those maps lie
-    std::uint32_t quiet_frames = 0;  // frames with a moving camera since that hash changed, at most kQuietFrames
+    bool fell_back = false;           // RayUse::fell_back of the last frame
+    std::uint64_t casters = 0;        // hash of the casters in its conservative maps, wherever those maps lie
+    std::uint32_t static_frames = 0;  // frames with a moving camera since that hash changed, at most kStaticSunFrames
     bool operator==(const RayHistory&) const = default;
 };
 
 /// What a budget left of a light. BudgetStage alone writes it.
 struct BudgetHistory {
-    Grant grant;
+    QualityLimits grant;
     float activity = 0.0f;         // share of its views that change per frame, smoothed
     std::uint32_t new_frames = 0;  // frames from now in which its views change because its limits did
     bool operator==(const BudgetHistory&) const = default;
 };
 
 /// What the fits remember of one light.
-struct HeldLight {
+struct LightFitHistory {
     ecs::Entity light = {};
-    HeldSplits splits;
-    std::array<HeldView, kHeldViews> views;
-    ConeFade cone;
-    LampAim aim;
-    HeldEnds sampled_ends;
+    SplitHistory splits;
+    std::array<ViewFitHistory, kHistoryViews> views;
+    SpotCubeTransition cone;
+    FarLampAim aim;
+    SampledSplitHistory sampled_splits;
     SizeHistory size;
     CountHistory count;
-    HeldFilter filter;
+    FilterHistory filter;
     RayHistory rays;
     BudgetHistory budget;
-    bool operator==(const HeldLight&) const = default;
+    bool operator==(const LightFitHistory&) const = default;
 };
 
 /// Frames, half a second, after which a sun with unchanged casters under a moving camera gets larger maps. Such a map
 /// is drawn once and looked up in all later frames. An unchanged picture needs no rays, so that it does not count, and
 /// maps within a budget do not grow by themselves.
-inline constexpr std::uint32_t kQuietFrames = 30;
+inline constexpr std::uint32_t kStaticSunFrames = 30;
 /// Growth of the map's edge: twice the edge leaves a third fewer pixels to rays (docs/exact.md, "What it costs").
-inline constexpr float kQuietEdges = 2.0f;
-inline bool is_quiet(const HeldLight& held) { return held.rays.quiet_frames >= kQuietFrames; }
+inline constexpr float kStaticSunEdges = 2.0f;
+inline bool is_static(const LightFitHistory& held) { return held.rays.static_frames >= kStaticSunFrames; }
 
 struct History {
-    std::vector<HeldLight> lights;  // in the order of the frame's lights
-    std::uint64_t pictures = 0;     // hash of the poses of the last frame's cameras
-    std::uint32_t calm_frames = 0;  // frames since grants changed (settle_grants); 0 without a budget
+    std::vector<LightFitHistory> lights;  // in the order of the frame's lights
+    std::uint64_t pictures = 0;           // hash of the poses of the last frame's cameras
+    std::uint32_t budget_cooldown = 0;    // frames since grants changed (settle_limits); 0 without a budget
     bool operator==(const History&) const = default;
 };
 
 /// Returns the entry of `light`, or null. `guess`: its probable index.
-inline const HeldLight* find(const History& history, ecs::Entity light, std::size_t guess) {
+inline const LightFitHistory* find(const History& history, ecs::Entity light, std::size_t guess) {
     if (guess < history.lights.size() && history.lights[guess].light == light) return &history.lights[guess];
-    for (const HeldLight& held : history.lights)
+    for (const LightFitHistory& held : history.lights)
         if (held.light == light) return &held;
     return nullptr;
 }

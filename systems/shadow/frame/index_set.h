@@ -8,7 +8,7 @@ namespace gnomon::shadow {
 
 /// Set of indices. Indices added in any order, even repeatedly, are visited once and in rising order. Clearing and
 /// visiting take time for the members, plus a 4096th of the range.
-class Marks {
+class IndexSet {
 public:
     /// Empties the set and prepares it for indices below `count`.
     void clear(std::size_t count) {

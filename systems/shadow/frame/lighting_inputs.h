@@ -59,8 +59,8 @@ struct LookupAccuracy {
 };
 
 /// Fallback while the light's own program is unavailable: one tap of the depth map, which every filter has.
-struct PlainLookup {
-    ProgramRow row;  // no filter file: the light has no map
+struct FallbackLookup {
+    ShaderKey row;  // no filter file: the light has no map
     gl::TextureHandle map{};
     gl::SamplerHandle sampler{};
     LookupAccuracy accuracy;
@@ -69,13 +69,13 @@ struct PlainLookup {
 /// Struct 6. GPU-ready data of one light for one camera view, with the textures to bind.
 struct LightingLight {
     std::uint32_t light = 0;  // index into SceneSnapshot::lights and FrameReport::lights
-    ProgramRow row;
+    ShaderKey row;
     gl::TextureHandle map{}, triangles{};  // triangles: {0} unless row.triangles
     gl::TextureHandle second{}, bounds{};  // {0} unless row.sheets
     gl::BufferHandle ends{};               // occluder pyramid; {0} unless the source has a size
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
-    PlainLookup plain;
+    FallbackLookup plain;
     gl::Rect screen{};            // pixels within the light's range; empty: none
     float farthest_depth = 0.0f;  // lower bound on the picture's reversed depths within its range; the sky is below it
     /// Hash of every input of the shadow lookup except pixel and camera (visibility_hash.h). Equal hashes mean equal

@@ -13,7 +13,7 @@ namespace gnomon::shadow {
 
 /// Receiver hull in light space, for one light frustum: a sun's whole view, a spot's cone, or a face of the cube around
 /// a light. Only casters between the light and the hull can darken these receivers.
-struct Beam {
+struct ReceiverHull {
     bool parallel = false;        // the light comes along -axes[2]; else from the origin
     glm::dvec3 origin_ws_m{0.0};  // origin of the outline's coordinates
     glm::dmat3 axes{1.0};         // columns u, v, toward the light; orthonormal
@@ -32,7 +32,7 @@ struct LightSets {
     IndexRange receivers;        // into receiver_items
     IndexRange casters;          // into caster_items, for all views of the light
     IndexRange receiver_points;  // into receiver_points_ws: corners of receivers clipped to camera frusta and light
-    IndexRange beams;            // one for a sun or a single spot view, one per face of a cube
+    IndexRange hulls;            // one for a sun or a single spot view, one per face of a cube
 };
 
 /// Struct 3. Visible lit receivers, and the casters that can darken these.
@@ -42,7 +42,7 @@ struct ReceiverCasterSets {
     std::vector<std::uint32_t> receiver_items;  // indices into SceneSnapshot::instances
     std::vector<std::uint32_t> caster_items;    // indices into SceneSnapshot::instances
     std::vector<glm::dvec3> receiver_points_ws;
-    std::vector<Beam> beams;
+    std::vector<ReceiverHull> hulls;
     std::vector<glm::dvec2> outlines;
 
     void clear();
@@ -57,8 +57,10 @@ struct LightSetsView {
     std::span<const glm::dvec3> receiver_points_ws() const {
         return slice(arrays.receiver_points_ws, ranges.receiver_points);
     }
-    std::span<const Beam> beams() const { return slice(arrays.beams, ranges.beams); }
-    std::span<const glm::dvec2> outline(const Beam& beam) const { return slice(arrays.outlines, beam.outline); }
+    std::span<const ReceiverHull> hulls() const { return slice(arrays.hulls, ranges.hulls); }
+    std::span<const glm::dvec2> outline(const ReceiverHull& receiver_hull) const {
+        return slice(arrays.outlines, receiver_hull.outline);
+    }
 };
 
 inline void ReceiverCasterSets::clear() {
@@ -67,7 +69,7 @@ inline void ReceiverCasterSets::clear() {
     receiver_items.clear();
     caster_items.clear();
     receiver_points_ws.clear();
-    beams.clear();
+    hulls.clear();
     outlines.clear();
 }
 
@@ -76,7 +78,7 @@ struct SetScratch {
     struct Candidate {
         std::uint32_t item, consumer;
     };
-    Marks marks, receivers;  // sets of instances
+    IndexSet marks, receivers;  // sets of instances
     std::vector<Candidate> candidates;
     std::vector<glm::dvec3> points_ws;
     std::vector<glm::dvec2> points, polygon, clipped, outline;

@@ -7,7 +7,7 @@ namespace {
 std::string flag(std::string_view name, bool is_set) { return std::string(name) + (is_set ? " 1" : " 0"); }
 
 /// Returns what a lookup reads of the row's map: the last part of a file's name in shaders/shadow/lookup/maps.
-std::string_view map_reading(const ProgramRow& row) {
+std::string_view map_reading(const ShaderKey& row) {
     if (row.footprint) return "footprint";
     if (row.moments) return "moments";
     if (row.triangles) return "triangles";
@@ -18,7 +18,7 @@ std::string file(std::string_view name, const std::string& path) { return std::s
 
 }  // namespace
 
-std::vector<std::string> program_defines(const ProgramRow& row) {
+std::vector<std::string> program_defines(const ShaderKey& row) {
     const bool is_shadowed = !row.filter_file.empty();
     std::vector<std::string> defines;
     for (const std::string_view kind : {"LIGHT_DIRECTIONAL", "LIGHT_SPOT", "LIGHT_POINT"})
@@ -40,7 +40,7 @@ std::vector<std::string> program_defines(const ProgramRow& row) {
     return defines;
 }
 
-std::string row_glsl(const ProgramRow& row) {
+std::string row_glsl(const ShaderKey& row) {
     if (row.filter_file.empty()) return {};
     std::string text;
     if (row.footprint || row.triangles || row.rays) text += "#include \"common/camera_block.glsl\"\n";

@@ -7,7 +7,7 @@ namespace gnomon::shadow {
 
 /// Key of the shader permutation that evaluates a light, from its rows of the light-kind and filter tables. File names
 /// are paths below shaders/ with static lifetime. An empty filter_file means an unshadowed light.
-struct ProgramRow {
+struct ShaderKey {
     std::string_view kind_define;  // LIGHT_DIRECTIONAL, …
     std::string_view kind_file, filter_file;
     float reach_texel = 0.0f;  // kernel radius E, texels, without the part that LightRecord::spread adds
@@ -20,16 +20,16 @@ struct ProgramRow {
     bool rays = false;         // traces rays to the casters' triangles from surfaces with exact positions
     bool ray_masks = false;    // some of the triangles read by `rays` or `triangles` are alpha-masked
     bool footprint = false;    // filters the prefiltered map over a pixel's footprint, by mipmaps or anisotropy
-    bool operator==(const ProgramRow&) const = default;
+    bool operator==(const ShaderKey&) const = default;
 };
 
 /// Returns all defines that the row's shaders require, in any program: "NAME value". Each is always given: a flag as 0
 /// or 1, a file to include as a path in quotes (engine/gl/shader_source.h). lighting/light_programs.h adds the
 /// outputs'.
-std::vector<std::string> program_defines(const ProgramRow& row);
+std::vector<std::string> program_defines(const ShaderKey& row);
 
 /// Returns the text that they include as "row.glsl": the kind's file and the filter's, and the camera's block where
 /// those read it. Empty if the light is unshadowed.
-std::string row_glsl(const ProgramRow& row);
+std::string row_glsl(const ShaderKey& row);
 
 }  // namespace gnomon::shadow

@@ -20,7 +20,7 @@ namespace gnomon::shadow {
 /// member changes after that stage. Only LightStatus is added to by all stages. Storage is reused from frame to frame.
 /// Only ShadowSystem sees the whole.
 struct ShadowFrame {
-    std::vector<std::uint64_t> moving;    // bits of dynamic instances, as CasterMotion::moving(); empty: none
+    std::vector<std::uint64_t> moving;    // bits of dynamic instances, as DynamicCasters::moving(); empty: none
     std::vector<LightStatus> statuses;    // one per light
     std::vector<ShadowRequest> requests;  // one per light: its request
     std::vector<ShadowRequest> limited;   // one per light: the same within the limits of its last grant

@@ -73,8 +73,8 @@ struct MapLimits {
 
 /// How a light projects onto its maps.
 struct ProjectionRequest {
-    int faces_eighths = 0;         // spot: weight of cube faces against one view (projection/spot_cube_transition.h)
-    LampAim aim = {};              // far lamp: one view of its visible receivers (projection/far_lamp_aim.h)
+    int cube_blend_eighths = 0;    // spot: weight of cube faces against one view (projection/spot_cube_transition.h)
+    FarLampAim aim = {};           // far lamp: one view of its visible receivers (projection/far_lamp_aim.h)
     bool perspective_sun = false;  // one view from an eye instead of cascades
     float warp = 0.0f;             // sun: largest warp of its maps (fitting/directional/fit_lispsm.h); 0: none
     double near_m = 0.0, far_m = 0.0;  // depth range, from the light or a sun's eye; 0: fitted

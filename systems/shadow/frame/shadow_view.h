@@ -74,8 +74,8 @@ struct ShadowView {
     /// Into FittedViews::casters: static casters, then dynamic ones, each by mesh, then by index. The drawing order
     /// matters, because at equal depths the first one drawn stays.
     IndexRange casters;
-    std::uint32_t still_casters = 0;  // number of static casters
-    bool lit = false;                 // no caster can darken its receivers: published, but neither drawn nor looked up
+    std::uint32_t static_casters = 0;  // number of static casters
+    bool lit = false;                  // no caster can darken its receivers: published, but neither drawn nor looked up
 };
 
 /// Returns the position of the light of a perspective view or cube face.
@@ -109,11 +109,11 @@ struct FittedViews {
 
     std::span<const ShadowView> views_of(std::uint32_t light) const { return slice(views, lights[light].views); }
     std::span<const std::uint32_t> casters_of(const ShadowView& view) const { return slice(casters, view.casters); }
-    std::span<const std::uint32_t> still_casters_of(const ShadowView& view) const {
-        return casters_of(view).first(view.still_casters);
+    std::span<const std::uint32_t> static_casters_of(const ShadowView& view) const {
+        return casters_of(view).first(view.static_casters);
     }
     std::span<const std::uint32_t> moving_casters_of(const ShadowView& view) const {
-        return casters_of(view).subspan(view.still_casters);
+        return casters_of(view).subspan(view.static_casters);
     }
     /// Returns the light's sets, from the culling stage's `sets` or from resized_sets.
     LightSetsView sets_of(const ReceiverCasterSets& sets, std::uint32_t light) const {

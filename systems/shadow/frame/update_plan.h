@@ -7,7 +7,7 @@
 namespace gnomon::shadow {
 
 /// How a drawn view uses the copy of its static casters (update/static_caster_copy.h).
-enum class StillUse : std::uint8_t {
+enum class StaticCopyUse : std::uint8_t {
     none,
     fill,  // static casters are drawn into the map, which is then copied before dynamic casters are drawn
     copy   // static casters are copied into the map instead of being drawn
@@ -17,7 +17,7 @@ enum class StillUse : std::uint8_t {
 enum class Hold : std::uint8_t {
     none,
     within_error,  // within LightShadow::refresh_error_px
-    by_turn        // deferred by a budget: other views are drawn (Grant::refresh_frames, update_scheduler.h)
+    by_turn        // deferred by a budget: other views are drawn (QualityLimits::refresh_frames, update_scheduler.h)
 };
 
 /// Error of a stale map (stale_error.h). Infinite: unknown.
@@ -28,7 +28,7 @@ struct Staleness {
 
 /// Plan for a view's map in this frame: draw it, keep it, or skip it for rays.
 struct UpdatePlan {
-    bool left_to_rays = false;         // rays replace the map, because drawing it costs more
+    bool skipped_for_rays = false;     // rays replace the map, because drawing it costs more
     bool reuse = false;                // the layer is kept
     Hold hold = Hold::none;            // why it is kept although casters moved
     Staleness stale{};                 // error of the kept layer; else 0
@@ -39,8 +39,8 @@ struct UpdatePlan {
     std::uint32_t waited_frames = 0;   // consecutive frames for which its update was deferred
     bool convert = false;              // the prefiltered map is computed again
     std::uint64_t moment_content = 0;  // hash of the prefiltered map's content after that
-    StillUse still_use = StillUse::none;
-    gl::TextureHandle still{}, still_triangles{};  // the copy of static casters, if used
+    StaticCopyUse copy_use = StaticCopyUse::none;
+    gl::TextureHandle still{}, static_triangles{};  // the copy of static casters, if used
     gl::TargetHandle whole{};  // all layers of the light's map, where one pass draws all of its views; else {0}
     CubeRoute route = CubeRoute::six_passes;
 };

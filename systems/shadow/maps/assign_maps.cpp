@@ -38,7 +38,7 @@ ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px
             s.add(scene.instances[i].version);
         }
     };
-    const std::size_t still = std::min<std::size_t>(view.still_casters, casters.size());
+    const std::size_t still = std::min<std::size_t>(view.static_casters, casters.size());
     add(casters.first(still));
     const std::uint64_t of_still = s.value();
     if (still > 0 && still < casters.size()) s.add(kBoundary);
@@ -46,16 +46,16 @@ ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px
     return {of_still, s.value(), placement};
 }
 
-void MapStore::assign(const SceneSnapshot& scene, const FittedViews& fitted, std::span<const BudgetDecision> decisions,
+void MapCache::assign(const SceneSnapshot& scene, const FittedViews& fitted, std::span<const BudgetDecision> decisions,
                       std::vector<MapAssignment>& maps, const LightAccounts& accounts) {
     provide_maps(scene, decisions, accounts);
     maps.assign(fitted.views.size(), {});
     for (std::size_t v = 0; v < fitted.views.size(); ++v) {
         const ShadowView& view = fitted.views[v];
         if (accounts.statuses[view.light].is_skipped()) continue;
-        const LightTime time(accounts.cpu_us, view.light);
+        const LightTimer time(accounts.cpu_us, view.light);
         const LightItem& light = scene.lights[view.light];
-        const LightHistory& history = entry(light.entity);
+        const CachedMap& history = entry(light.entity);
         if (!history.texture) continue;  // rays replace the map
         MapAssignment& map = maps[v];
         map.texture = history.texture;

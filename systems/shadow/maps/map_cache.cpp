@@ -10,7 +10,7 @@
 namespace gnomon::shadow {
 namespace {
 
-bool is_same_store(const MomentMap& a, const MomentDescs& b) {
+bool is_same_store(const PrefilterTextures& a, const PrefilterDescs& b) {
     return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
 }
 
@@ -18,54 +18,55 @@ bool has_triangles(const FilterStorage& storage) { return storage.triangle_ids |
 
 }  // namespace
 
-std::uint64_t layer_bytes(const LightHistory& map) {
+std::uint64_t layer_bytes(const CachedMap& map) {
     std::uint64_t texel = gl::texel_bytes(map.desc.format);
     if (map.triangles) texel += gl::texel_bytes(kTriangleFormat);
     return texel * map.desc.width * map.desc.height;
 }
 
-std::uint64_t still_bytes(const LightHistory& map) { return layer_bytes(map) * gl::layer_count(map.desc); }
+std::uint64_t static_copy_bytes(const CachedMap& map) { return layer_bytes(map) * gl::layer_count(map.desc); }
 
-gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer) {
+gl::TargetDesc target_of(const CachedMap& map, std::int32_t layer) {
     gl::TargetDesc target{map.desc.label, {}, {map.texture, layer}};
     const bool shared = map.storage.conservative_bounds;
     if (map.triangles) target.colours.push_back({map.triangles, shared ? 0 : layer});
     return target;
 }
 
-MapStore::~MapStore() {
-    for (LightHistory& history : lights_) release(history);
+MapCache::~MapCache() {
+    for (CachedMap& history : lights_) release(history);
 }
 
-const LightHistory* MapStore::find(ecs::Entity light) const {
+const CachedMap* MapCache::find(ecs::Entity light) const {
     const auto place = places_.find(light.index);
     if (place == places_.end() || place->second >= lights_.size()) return nullptr;
-    const LightHistory& history = lights_[place->second];
+    const CachedMap& history = lights_[place->second];
     return history.entity == light ? &history : nullptr;
 }
 
-std::uint64_t MapStore::bytes(const LightHistory& history) {
+std::uint64_t MapCache::bytes(const CachedMap& history) {
     if (!history.texture) return 0;
-    const std::uint64_t still = history.still.texture ? still_bytes(history) : 0;
+    const std::uint64_t still = history.still.texture ? static_copy_bytes(history) : 0;
     return map_bytes(history.desc, history.storage, history.moments.desc, history.moments.scratch_desc) + still;
 }
 
-std::uint64_t MapStore::bytes() const {
+std::uint64_t MapCache::bytes() const {
     std::uint64_t sum = 0;
-    for (const LightHistory& history : lights_) sum += bytes(history);
+    for (const CachedMap& history : lights_) sum += bytes(history);
     return sum;
 }
 
-void MapStore::waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const {
+void MapCache::waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const {
     bytes_of.assign(scene.lights.size(), std::nullopt);
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const LightHistory* map = find(scene.lights[i].entity);
-        if (map && map->allocation.failure != Reason::none && frame_ < map->allocation.retry_frame) bytes_of[i] = bytes(*map);
+        const CachedMap* map = find(scene.lights[i].entity);
+        if (map && map->allocation.failure != Reason::none && frame_ < map->allocation.retry_frame)
+            bytes_of[i] = bytes(*map);
     }
 }
 
-LightHistory& MapStore::entry(ecs::Entity light) {
-    if (const LightHistory* history = find(light)) return lights_[static_cast<std::size_t>(history - lights_.data())];
+CachedMap& MapCache::entry(ecs::Entity light) {
+    if (const CachedMap* history = find(light)) return lights_[static_cast<std::size_t>(history - lights_.data())];
     lights_.emplace_back();
     lights_.back().entity = light;
     note_places(lights_.size() - 1);
@@ -73,13 +74,13 @@ LightHistory& MapStore::entry(ecs::Entity light) {
 }
 
 /// Updates the index of entries from `first` on.
-void MapStore::note_places(std::size_t first) {
+void MapCache::note_places(std::size_t first) {
     if (first == 0) places_.clear();
     for (std::size_t i = first; i < lights_.size(); ++i)
         places_.insert_or_assign(lights_[i].entity.index, static_cast<std::uint32_t>(i));
 }
 
-void MapStore::release(LightHistory& history) {
+void MapCache::release(CachedMap& history) {
     for (const gl::TargetHandle target : history.layers.targets) device_.destroy(target);
     device_.destroy(history.whole);
     device_.destroy(history.texture);
@@ -88,7 +89,7 @@ void MapStore::release(LightHistory& history) {
     for (const gl::TargetHandle target : history.moments.targets) device_.destroy(target);
     device_.destroy(history.moments.scratch_target);
     device_.destroy(history.moments.texture);
-    release_still(history.still);
+    release_static_copy(history.still);
     history.still = {};
     device_.destroy(history.moments.scratch);
     history.moments = {};
@@ -101,7 +102,7 @@ void MapStore::release(LightHistory& history) {
     history.texture = history.triangles = {};
 }
 
-bool MapStore::make_targets(LightHistory& map) const {
+bool MapCache::make_targets(CachedMap& map) const {
     for (std::uint32_t layer = 0; layer < gl::layer_count(map.desc); ++layer) {
         const auto target = device_.create_target(target_of(map, static_cast<std::int32_t>(layer)));
         if (!target) return false;
@@ -110,9 +111,9 @@ bool MapStore::make_targets(LightHistory& map) const {
     return true;
 }
 
-Reason MapStore::make_moments(const ShadowRequest& request, LightHistory& map) const {
-    MomentDescs descs = moments_of(map.desc, request.map);
-    MomentMap& moments = map.moments = {};
+Reason MapCache::make_moments(const ShadowRequest& request, CachedMap& map) const {
+    PrefilterDescs descs = moments_of(map.desc, request.map);
+    PrefilterTextures& moments = map.moments = {};
     moments.desc = std::move(descs.texture);
     moments.scratch_desc = std::move(descs.scratch);
     if (moments.desc.width == 0) return Reason::none;
@@ -134,16 +135,16 @@ Reason MapStore::make_moments(const ShadowRequest& request, LightHistory& map) c
     return moments.scratch_target ? Reason::none : Reason::target_incomplete;
 }
 
-Reason MapStore::make_sheets(LightHistory& map) const {
-    SheetDescs descs = sheets_of(map.desc);
+Reason MapCache::make_sheets(CachedMap& map) const {
+    BoundsDescs descs = bounds_descs_of(map.desc);
     descs.second.label = map.desc.label + ", second";
     descs.bounds.label = map.desc.label + ", bounds";
-    SheetMap& sheets = map.sheets;
+    BoundsTextures& sheets = map.sheets;
     sheets.second = device_.create_texture(descs.second, {}).handle;
     if (sheets.second) sheets.bounds = device_.create_texture(descs.bounds, {}).handle;
     if (!sheets.bounds) return Reason::map_allocation_failed;
     if (map.storage.occluder_pyramid) {
-        const std::uint64_t bytes = ends_bytes(map.desc.width, gl::layer_count(map.desc));
+        const std::uint64_t bytes = pyramid_bytes(map.desc.width, gl::layer_count(map.desc));
         sheets.ends = device_.create_buffer({map.desc.label + ", ends", bytes, gl::BufferUse::updated}, {}).handle;
         if (!sheets.ends) return Reason::map_allocation_failed;
     }
@@ -157,7 +158,7 @@ Reason MapStore::make_sheets(LightHistory& map) const {
     return Reason::none;
 }
 
-void MapStore::release_sheets(SheetMap& sheets) const {
+void MapCache::release_sheets(BoundsTextures& sheets) const {
     for (const auto* targets : {&sheets.second_targets, &sheets.bounds_targets})
         for (const gl::TargetHandle target : *targets) device_.destroy(target);
     device_.destroy(sheets.second);
@@ -166,13 +167,13 @@ void MapStore::release_sheets(SheetMap& sheets) const {
     sheets = {};
 }
 
-Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& request, LightHistory& history) {
-    LightHistory made;
+Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& history) {
+    CachedMap made;
     made.desc = desc;
     made.storage = filter_row(request.map.filter).storage;
     made.texture = device_.create_texture(desc, {}).handle;
     const bool triangles = has_triangles(made.storage), sheets = made.storage.conservative_bounds;
-    gl::TextureDesc shown = sheets ? sheets_of(desc).triangles : triangles_of(desc);
+    gl::TextureDesc shown = sheets ? bounds_descs_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
     Reason reason = Reason::none;
@@ -198,7 +199,7 @@ Reason MapStore::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     return Reason::none;
 }
 
-bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, LightHistory& history) {
+bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& history) {
     gl::TextureDesc desc = map_desc(light, request);
     const FilterStorage& storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = history.desc;
@@ -212,7 +213,8 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
     }
     const bool fits = history.texture && history.allocation.wanted_px == desc.width;
     if (fits && (history.allocation.failure == Reason::none || frame_ < history.allocation.retry_frame)) return true;
-    if (history.allocation.failure != Reason::none && frame_ < history.allocation.retry_frame && history.allocation.wanted_px == desc.width)
+    if (history.allocation.failure != Reason::none && frame_ < history.allocation.retry_frame &&
+        history.allocation.wanted_px == desc.width)
         return static_cast<bool>(history.texture);
     const std::uint32_t edge_px = desc.width;
     desc.label = "shadow map " + light.name;
@@ -221,7 +223,7 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
         if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // no larger
-        const MomentDescs moments = moments_of(desc, request.map);
+        const PrefilterDescs moments = moments_of(desc, request.map);
         const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
         Reason reason = has_room ? try_create(desc, request, history) : Reason::map_allocation_failed;
         if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
@@ -242,20 +244,21 @@ bool MapStore::ensure_map(const LightItem& light, const ShadowRequest& request, 
     return static_cast<bool>(history.texture);
 }
 
-bool MapStore::stay() {
-    for (const LightHistory& history : lights_) {
+bool MapCache::stay() {
+    for (const CachedMap& history : lights_) {
         const bool wanted = history.last_wanted_frame + 1 == frame_;
-        if (wanted && history.allocation.failure != Reason::none && frame_ >= history.allocation.retry_frame) return false;
+        if (wanted && history.allocation.failure != Reason::none && frame_ >= history.allocation.retry_frame)
+            return false;
         if (!wanted && history.texture && frame_ - history.last_wanted_frame > kHoldFrames) return false;
-        if (is_still_idle(history) || (wanted && history.waits)) return false;
+        if (is_copy_idle(history) || (wanted && history.waits)) return false;
     }
-    for (LightHistory& history : lights_)
+    for (CachedMap& history : lights_)
         if (history.last_wanted_frame + 1 == frame_) history.last_wanted_frame = frame_;
     return true;
 }
 
 /// Evicts the spare cache if that makes room for `bytes_more`. Returns whether anything was evicted.
-bool MapStore::yield_spare(std::uint64_t bytes_more) const {
+bool MapCache::yield_spare(std::uint64_t bytes_more) const {
     if (!spare_ || spare_->bytes() == 0 || spare_->bytes() <= room() - std::min(room(), bytes_more)) return false;
     spare_->release();
     return true;
@@ -263,13 +266,13 @@ bool MapStore::yield_spare(std::uint64_t bytes_more) const {
 
 /// Evicts until `bytes_more` fit, in this order: the spare cache, unused maps (least recently used first), static
 /// copies, the map to be replaced. Returns false if they still do not fit.
-bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
+bool MapCache::make_room(std::uint64_t bytes_more, CachedMap* replaced) {
     if (limit_ == kNoLimit) return true;
     yield_spare(bytes_more);
     for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
-        LightHistory* unseen = nullptr;
-        LightHistory* apart = nullptr;
-        for (LightHistory& history : lights_) {
+        CachedMap* unseen = nullptr;
+        CachedMap* apart = nullptr;
+        for (CachedMap& history : lights_) {
             const bool is_seen = history.last_wanted_frame == frame_;
             if (history.texture && !is_seen && (!unseen || history.last_wanted_frame < unseen->last_wanted_frame))
                 unseen = &history;
@@ -278,7 +281,7 @@ bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
         if (unseen)
             release(*unseen);
         else if (apart)
-            release_still(apart->still);
+            release_static_copy(apart->still);
         else if (replaced && replaced->texture)
             release(*replaced);
         else
@@ -289,15 +292,15 @@ bool MapStore::make_room(std::uint64_t bytes_more, LightHistory* replaced) {
 
 /// Frees the map of a light without views in this frame after kHoldFrames, or at once if the budget leaves it none.
 /// Until then the camera may turn back.
-void MapStore::keep_or_release(ecs::Entity light, Reason skip) {
-    const LightHistory* held = find(light);
+void MapCache::keep_or_release(ecs::Entity light, Reason skip) {
+    const CachedMap* held = find(light);
     if (!held) return;
-    LightHistory& history = entry(light);
+    CachedMap& history = entry(light);
     history.kept_frame = frame_;
     if (skip == Reason::over_budget || frame_ - history.last_wanted_frame > kHoldFrames) release(history);
 }
 
-void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
+void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
                             const LightAccounts& accounts) {
     const auto wants_map = [&](std::size_t i) {
         return !accounts.statuses[i].is_skipped() && has_map(decisions[i].request);
@@ -306,11 +309,11 @@ void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
         if (decisions[i].request.skip != Reason::none) continue;
         if (accounts.statuses[i].is_skipped()) keep_or_release(scene.lights[i].entity, accounts.statuses[i].skipped());
         if (!wants_map(i)) continue;
-        LightHistory& history = entry(scene.lights[i].entity);
+        CachedMap& history = entry(scene.lights[i].entity);
         history.kept_frame = history.last_wanted_frame = frame_;
         history.waits = false;
     }
-    const auto is_gone = [&](LightHistory& history) {
+    const auto is_gone = [&](CachedMap& history) {
         if (history.kept_frame == frame_) return false;
         release(history);
         return true;
@@ -322,9 +325,9 @@ void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
     for (int round = 0; round < (limited ? 2 : 1); ++round)
         for (std::uint32_t i = 0; i < decisions.size(); ++i) {
             if (!wants_map(i)) continue;
-            const LightTime time(accounts.cpu_us, i);
+            const LightTimer time(accounts.cpu_us, i);
             const ShadowRequest& request = decisions[i].request;
-            LightHistory& history = entry(scene.lights[i].entity);
+            CachedMap& history = entry(scene.lights[i].entity);
             const bool first = !limited || map_bytes(scene.lights[i], request) < bytes(history);
             if (first != (round == 0)) continue;
             if (ensure_map(scene.lights[i], request, history)) continue;
@@ -335,41 +338,41 @@ void MapStore::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
     short_until_frame_ = frame_ + kRetryFrames;
 }
 
-void MapStore::release_still(StillMap& still) const {
+void MapCache::release_static_copy(StaticCopy& still) const {
     device_.destroy(still.texture);
     device_.destroy(still.triangles);
     still.texture = still.triangles = {};
-    for (StillMap::Layer& layer : still.layers) layer.content = 0;
+    for (StaticCopy::Layer& layer : still.layers) layer.content = 0;
 }
 
-bool MapStore::provide_still(LightHistory& map) const {
-    StillMap& still = map.still;
+bool MapCache::provide_static_copy(CachedMap& map) const {
+    StaticCopy& still = map.still;
     if (still.texture) return true;
     if (frame_ < still.retry_frame) return false;
     gl::TextureDesc desc = map.desc;
     desc.label += ", still";
-    const bool fits = limit_ == kNoLimit || bytes() + still_bytes(map) <= limit_;
-    if (fits) yield_spare(still_bytes(map));
+    const bool fits = limit_ == kNoLimit || bytes() + static_copy_bytes(map) <= limit_;
+    if (fits) yield_spare(static_copy_bytes(map));
     if (fits) still.texture = device_.create_texture(desc, {}).handle;
     desc.label += " triangles";
     desc.format = kTriangleFormat;
     if (still.texture && map.triangles) still.triangles = device_.create_texture(desc, {}).handle;
     if (still.texture && static_cast<bool>(still.triangles) == static_cast<bool>(map.triangles)) return true;
-    release_still(still);
+    release_static_copy(still);
     still.retry_frame = frame_ + kRetryFrames;
     return false;
 }
 
-bool MapStore::is_still_idle(const LightHistory& map) const {
+bool MapCache::is_copy_idle(const CachedMap& map) const {
     return map.still.texture && frame_ - map.still.last_used_frame > kHoldFrames;
 }
 
-void MapStore::release_idle_still() {
-    for (LightHistory& map : lights_)
-        if (is_still_idle(map)) release_still(map.still);
+void MapCache::release_idle_copies() {
+    for (CachedMap& map : lights_)
+        if (is_copy_idle(map)) release_static_copy(map.still);
 }
 
-gl::TargetHandle MapStore::whole_target(LightHistory& map) const {
+gl::TargetHandle MapCache::whole_target(CachedMap& map) const {
     if (!map.whole) map.whole = device_.create_target(target_of(map, gl::kAllLayers)).handle;
     return map.whole;
 }

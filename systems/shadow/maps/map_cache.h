@@ -23,17 +23,17 @@ namespace gnomon::shadow {
 
 /// Prefiltered map: moments of a depth map's distances, layer by layer, and scratch storage between its blur's two
 /// passes.
-struct MomentMap {
+struct PrefilterTextures {
     gl::TextureDesc desc{.width = 0}, scratch_desc{.width = 0};  // width 0: there is none
     gl::TextureHandle texture{}, scratch{};
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle scratch_target{};
-    std::vector<std::uint64_t> content;  // per layer, as LightHistory::content
+    std::vector<std::uint64_t> content;  // per layer, as CachedMap::content
 };
 
-/// Conservative map beside a depth map of FilterStorage::conservative_bounds (SheetDescs). LightHistory::triangles has
+/// Conservative map beside a depth map of FilterStorage::conservative_bounds (BoundsDescs). CachedMap::triangles has
 /// the triangle that each texel shows.
-struct SheetMap {
+struct BoundsTextures {
     gl::TextureHandle second{}, bounds{};  // {0}: there is none
     gl::BufferHandle ends{};               // FilterStorage::occluder_pyramid (occluder_pyramid.h); {0}: none
     std::vector<gl::TargetHandle> second_targets, bounds_targets;  // one per layer
@@ -55,41 +55,41 @@ struct MapAllocation {
 };
 
 /// State of one light that outlives a frame: its map, and what each layer shows.
-struct LightHistory {
+struct CachedMap {
     ecs::Entity entity;
     gl::TextureDesc desc;
     gl::TextureHandle texture{};
-    FilterStorage storage{};           // what the map was made for
-    gl::TextureHandle triangles{};     // triangle per texel, for a filter that reads or peels them; else {0}
-    SheetMap sheets;                   // conservative map, for a filter of FilterStorage::conservative_bounds
-    MomentMap moments;                 // prefiltered map, for a filter with FilterRow::moments
-    StillMap still;                    // copy of its static casters, while only some casters move
+    FilterStorage storage{};        // what the map was made for
+    gl::TextureHandle triangles{};  // triangle per texel, for a filter that reads or peels them; else {0}
+    BoundsTextures sheets;          // conservative map, for a filter of FilterStorage::conservative_bounds
+    PrefilterTextures moments;      // prefiltered map, for a filter with FilterRow::moments
+    StaticCopy still;               // copy of its static casters, while only some casters move
     MapLayers layers;
     gl::TargetHandle whole{};          // all layers at once; made when first drawn that way
     std::uint64_t wanted_content = 0;  // hash of all layers in the last frame, for lights that may skip their map
-    bool waits = false;                // an update of a layer is deferred (Grant::refresh_frames)
+    bool waits = false;                // an update of a layer is deferred (QualityLimits::refresh_frames)
     MapAllocation allocation;
     std::uint64_t last_wanted_frame = 0;
     std::uint64_t kept_frame = 0;  // last frame in which its light requested shadows
 };
 
 /// Returns the bytes of one layer of a light's map, with its triangles.
-std::uint64_t layer_bytes(const LightHistory& map);
+std::uint64_t layer_bytes(const CachedMap& map);
 
 /// Returns the bytes of a copy of static casters beside a light's map.
-std::uint64_t still_bytes(const LightHistory& map);
+std::uint64_t static_copy_bytes(const CachedMap& map);
 
 /// Describes the target of one layer of a light's map, with its triangles; gl::kAllLayers: of all layers.
-gl::TargetDesc target_of(const LightHistory& map, std::int32_t layer);
+gl::TargetDesc target_of(const CachedMap& map, std::int32_t layer);
 
 /// Maps of all lights, and what their layers show. Owns the device objects. With the fit History, all that outlives a
 /// frame.
-class MapStore {
+class MapCache {
 public:
-    explicit MapStore(gl::Device& device) : device_(device) {}
-    ~MapStore();
-    MapStore(const MapStore&) = delete;
-    MapStore& operator=(const MapStore&) = delete;
+    explicit MapCache(gl::Device& device) : device_(device) {}
+    ~MapCache();
+    MapCache(const MapCache&) = delete;
+    MapCache& operator=(const MapCache&) = delete;
 
     /// Counts the frame. Call it first in each frame.
     void begin_frame() { ++frame_; }
@@ -120,22 +120,22 @@ public:
     /// Returns the number of frames begun.
     std::uint64_t frame() const { return frame_; }
     /// Returns the entry of the light, empty if it has none yet. Valid until the next assign().
-    LightHistory& entry(ecs::Entity light);
+    CachedMap& entry(ecs::Entity light);
     /// Makes the copy of static casters beside the light's map. Returns false if the device or the limit has no room.
     /// Then all casters are drawn, as without a copy.
-    bool provide_still(LightHistory& map) const;
+    bool provide_static_copy(CachedMap& map) const;
     /// Frees copies that were not used for kHoldFrames.
-    void release_idle_still();
+    void release_idle_copies();
     /// Returns the target of all layers at once, {0} where the device refuses.
-    gl::TargetHandle whole_target(LightHistory& map) const;
+    gl::TargetHandle whole_target(CachedMap& map) const;
     const gl::DeviceInfo& device() const { return device_.info(); }
 
-    const LightHistory* find(ecs::Entity light) const;
+    const CachedMap* find(ecs::Entity light) const;
     /// Lists, for each light of the scene, the bytes of its map while a failed allocation is not yet to be tried again;
     /// else empty.
     void waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const;
     std::uint64_t bytes() const;
-    static std::uint64_t bytes(const LightHistory& history);
+    static std::uint64_t bytes(const CachedMap& history);
 
     static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
     static constexpr std::uint64_t kRetryFrames = 30;  // shadows return within a second after memory does
@@ -143,23 +143,23 @@ public:
 
 private:
     void note_places(std::size_t first);
-    void release(LightHistory& history);
+    void release(CachedMap& history);
     bool yield_spare(std::uint64_t bytes_more) const;
-    bool make_room(std::uint64_t bytes_more, LightHistory* replaced);
+    bool make_room(std::uint64_t bytes_more, CachedMap* replaced);
     void keep_or_release(ecs::Entity light, Reason skip);
     void provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
                       const LightAccounts& accounts);
-    bool ensure_map(const LightItem& light, const ShadowRequest& request, LightHistory& history);
-    void release_still(StillMap& still) const;
-    bool is_still_idle(const LightHistory& map) const;
-    Reason try_create(const gl::TextureDesc& desc, const ShadowRequest& request, LightHistory& history);
-    bool make_targets(LightHistory& map) const;
-    Reason make_moments(const ShadowRequest& request, LightHistory& map) const;
-    Reason make_sheets(LightHistory& map) const;
-    void release_sheets(SheetMap& sheets) const;
+    bool ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& history);
+    void release_static_copy(StaticCopy& still) const;
+    bool is_copy_idle(const CachedMap& map) const;
+    Reason try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& history);
+    bool make_targets(CachedMap& map) const;
+    Reason make_moments(const ShadowRequest& request, CachedMap& map) const;
+    Reason make_sheets(CachedMap& map) const;
+    void release_sheets(BoundsTextures& sheets) const;
 
     gl::Device& device_;
-    std::vector<LightHistory> lights_;
+    std::vector<CachedMap> lights_;
     std::unordered_map<std::uint32_t, std::uint32_t> places_;  // into lights_, by the entity's index (any number)
     std::uint64_t frame_ = 0, limit_ = kNoLimit;
     SpareMemory* spare_ = nullptr;
@@ -168,7 +168,7 @@ private:
 };
 
 /// Computes the hash of what a view's layer is to show.
-/// `casters`: the view's static casters, view.still_casters in number, then its moving ones.
+/// `casters`: the view's static casters, view.static_casters in number, then its moving ones.
 ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px, const SceneSnapshot& scene,
                                    std::span<const std::uint32_t> casters, CasterFaces faces);
 

@@ -9,7 +9,7 @@ namespace gnomon::shadow {
 /// Copy of what the static casters of a light's map leave in it, layer by layer. Where only some casters move, it is
 /// copied back instead of drawing the static ones again. It exists only while a view has both kinds and a copy is less
 /// work.
-struct StillMap {
+struct StaticCopy {
     gl::TextureHandle texture{}, triangles{};  // {0}: there is none; the second beside triangles of the map
     struct Layer {
         std::uint64_t content = 0;  // ContentSignature::still of the copy; 0: nothing

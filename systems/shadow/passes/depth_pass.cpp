@@ -29,7 +29,7 @@ gl::PipelineState depth_state(gl::ProgramHandle program) {
 /// Returns the casters that the view draws in this frame.
 std::span<const std::uint32_t> drawn_casters(const DrawnViews& drawn, std::size_t v) {
     const ShadowView& view = drawn.view(v);
-    if (drawn.updates[v].still_use == StillUse::copy) return drawn.fitted.moving_casters_of(view);
+    if (drawn.updates[v].copy_use == StaticCopyUse::copy) return drawn.fitted.moving_casters_of(view);
     return drawn.fitted.casters_of(view);
 }
 
@@ -42,20 +42,20 @@ void copy_layer(const DrawnViews& drawn, std::size_t v, bool back, gl::CommandLi
         if (from) list.add(back ? gl::CopyTexture{to, from, layer} : gl::CopyTexture{from, to, layer});
     };
     copy(map.texture, plan.still);
-    copy(map.triangles, plan.still_triangles);
+    copy(map.triangles, plan.static_triangles);
 }
 
 }  // namespace
 
-DepthRecorder::DepthRecorder(gl::Device& device)
+DepthPass::DepthPass(gl::Device& device)
     : device_(device), items_(device, "shadow draw items"), views_(device, "shadow views") {}
 
-DepthRecorder::~DepthRecorder() {
+DepthPass::~DepthPass() {
     for (const gl::ProgramHandle p : programs_) device_.destroy(p);
 }
 
 /// Returns the index of a depth program. The plan has replaced CubeRoute::automatic by a definite route.
-std::size_t DepthRecorder::which(const Way& way, bool masked) {
+std::size_t DepthPass::which(const DepthVariant& way, bool masked) {
     if (way.peel) return kPlainPrograms - 1;
     const std::size_t route =
         way.route == CubeRoute::layered_vertex ? 1 : (way.route == CubeRoute::layered_geometry ? 2 : 0);
@@ -63,7 +63,7 @@ std::size_t DepthRecorder::which(const Way& way, bool masked) {
     return coloured + 4 * route + (way.triangles ? 2 : 0) + (masked ? 1 : 0);
 }
 
-DepthRecorder::Way DepthRecorder::way_of(const PassInputs& in, std::size_t v) const {
+DepthPass::DepthVariant DepthPass::variant_of(const PassInputs& in, std::size_t v) const {
     const MapAssignment& map = in.drawn.maps[v];
     const CubeRoute route = is_layered(in, v) ? in.drawn.updates[v].route : CubeRoute::six_passes;
     return {route, static_cast<bool>(map.triangles), static_cast<bool>(map.sheets.second), false,
@@ -71,12 +71,12 @@ DepthRecorder::Way DepthRecorder::way_of(const PassInputs& in, std::size_t v) co
 }
 
 /// Returns whether one pass draws the view with the others of its light.
-bool DepthRecorder::is_layered(const PassInputs& in, std::size_t v) const {
+bool DepthPass::is_layered(const PassInputs& in, std::size_t v) const {
     const std::uint32_t light = in.drawn.view(v).light;
     return in.drawn.updates[v].whole && !std::binary_search(separate_.begin(), separate_.end(), light);
 }
 
-bool DepthRecorder::program(const Way& way, bool masked) {
+bool DepthPass::program(const DepthVariant& way, bool masked) {
     const std::size_t i = which(way, masked);
     if (programs_[i]) return true;
     if (!retries_[i].due(frame_)) return false;
@@ -106,7 +106,7 @@ bool DepthRecorder::program(const Way& way, bool masked) {
 
 /// Returns why these casters cannot be drawn: a program failed, or the device has no room for their records.
 /// Reason::none: they can.
-Reason DepthRecorder::ready(const PassInputs& in, const Way& way, std::span<const std::uint32_t> casters) {
+Reason DepthPass::ready(const PassInputs& in, const DepthVariant& way, std::span<const std::uint32_t> casters) {
     bool masked = false;
     for (const std::uint32_t i : casters) {
         if (in.scene.instances[i].gpu_slot >= in.gpu.capacity()) return Reason::buffer_failed;
@@ -116,7 +116,7 @@ Reason DepthRecorder::ready(const PassInputs& in, const Way& way, std::span<cons
     return program(way, false) && (!masked || program(way, true)) ? Reason::none : Reason::depth_program_failed;
 }
 
-std::size_t DepthRecorder::item_count(const PassInputs& in, std::size_t v) const {
+std::size_t DepthPass::item_count(const PassInputs& in, std::size_t v) const {
     const auto casters = drawn_casters(in.drawn, v);
     if (!in.drawn.maps[v].triangles) return casters.size();
     std::size_t items = 0;
@@ -125,19 +125,19 @@ std::size_t DepthRecorder::item_count(const PassInputs& in, std::size_t v) const
     return items;
 }
 
-void DepthRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
+void DepthPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     separate_.clear();
     std::size_t items = 0, views = 0;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         if (!in.drawn.is_drawn(v)) continue;
         const std::uint32_t light = in.drawn.view(v).light;
-        const LightTime time(accounts.cpu_us, light);
+        const LightTimer time(accounts.cpu_us, light);
         const auto casters = drawn_casters(in.drawn, v);
         // Without a layered program, each view gets its own pass. The maps are the same.
-        if (is_layered(in, v) && ready(in, way_of(in, v), casters) == Reason::depth_program_failed)
+        if (is_layered(in, v) && ready(in, variant_of(in, v), casters) == Reason::depth_program_failed)
             separate_.push_back(light);
-        const Reason reason = ready(in, way_of(in, v), casters);
+        const Reason reason = ready(in, variant_of(in, v), casters);
         if (reason != Reason::none) {
             accounts.statuses[light].lose_maps(reason, in.drawn.lights[light].request.rays.used);
             continue;
@@ -161,10 +161,10 @@ void DepthRecorder::prepare(const PassInputs& in, const LightAccounts& accounts)
 /// Returns the pipeline state for an opaque caster; one side of a solid is culled. From outside a solid, the nearest
 /// surface is always a front face, so that one side is enough. From inside, there are only back faces. With the light
 /// in the caster's bounds, it may be on either side, so that nothing is culled.
-gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
-                                              const InstanceItem& item) const {
-    gl::PipelineState state = depth_state(programs_[which(way_, false)]);
-    if (way_.sheets) return state;
+gl::PipelineState DepthPass::opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
+                                          const InstanceItem& item) const {
+    gl::PipelineState state = depth_state(programs_[which(variant_, false)]);
+    if (variant_.sheets) return state;
     const CasterFaces faces = light.shadow.caster_faces;
     const bool outside =
         view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, apex_ws_m(view)) > 0.0;
@@ -175,19 +175,19 @@ gl::PipelineState DepthRecorder::opaque_state(const GpuScene& gpu, const ShadowV
 }
 
 /// Draws instances of one mesh.
-void DepthRecorder::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::PipelineState& opaque,
-                             gl::CommandList& list, LightReport& report) {
+void DepthPass::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::PipelineState& opaque,
+                         gl::CommandList& list, LightReport& report) {
     std::uint32_t first_item = meshes.first_item;
     for_each_depth_run(gpu, meshes.mesh, [&](const DepthRun& run) {
         const std::uint32_t item = first_item;
         first_item += meshes.items_per_draw;
-        if (run.mask && way_.sheets) return;
+        if (run.mask && variant_.sheets) return;
         if (run.mask) {
             list.add(gl::BindTexture{bindings::kBaseColourUnit, run.mask->texture, run.mask->sampler});
             list.add(gl::BindUniforms{bindings::kMaterialBlock, gpu.material_uniforms(), run.mask->uniform_offset,
                                       sizeof(MaterialRecord)});
         }
-        const gl::PipelineState state = run.mask ? depth_state(programs_[which(way_, true)]) : opaque;
+        const gl::PipelineState state = run.mask ? depth_state(programs_[which(variant_, true)]) : opaque;
         if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
         pipeline_ = state;
         list.add(
@@ -199,7 +199,7 @@ void DepthRecorder::draw_run(const GpuScene& gpu, const MeshRun& meshes, const g
 
 /// Opens the pass on cleared faces, or on those of static casters alone. A layered clear would clear every face, so it
 /// is for a pass that draws every face.
-void DepthRecorder::begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const {
+void DepthPass::begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const {
     const UpdatePlan& plan = in.drawn.updates[pass.first];
     const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
     const ShadowView& view = in.drawn.view(pass.first);
@@ -212,17 +212,17 @@ void DepthRecorder::begin(const PassInputs& in, const Pass& pass, gl::CommandLis
         list.add(gl::BeginPass{in.drawn.maps[v].target, {0, 0, size, size}, true, 0.0f, false, {}});
         list.add(gl::EndPass{});
     }
-    if (plan.still_use == StillUse::copy) copy_layer(in.drawn, pass.first, true, list);
-    begin_pass(in, pass, one_clear && plan.still_use != StillUse::copy, list);
+    if (plan.copy_use == StaticCopyUse::copy) copy_layer(in.drawn, pass.first, true, list);
+    begin_pass(in, pass, one_clear && plan.copy_use != StaticCopyUse::copy, list);
 }
 
-void DepthRecorder::begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const {
+void DepthPass::begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const {
     begin_pass_into(pass.layered ? in.drawn.updates[pass.first].whole : in.drawn.maps[pass.first].target, in, pass,
                     clear, list);
 }
 
-void DepthRecorder::begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
-                                    gl::CommandList& list) const {
+void DepthPass::begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
+                                gl::CommandList& list) const {
     const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
     list.add(gl::BeginPass{target, {0, 0, size, size}, clear, 0.0f, false, {}});
     const std::size_t records = pass.layered ? kFaces : 1;
@@ -233,11 +233,11 @@ void DepthRecorder::begin_pass_into(gl::TargetHandle target, const PassInputs& i
     list.add(gl::BindMeshes{in.gpu.vertices(), in.gpu.indices(), items_.handle()});
 }
 
-void DepthRecorder::draw(const PassInputs& in, const Pass& pass, const Way& way, const Group& group,
-                         gl::CommandList& list, LightReport& report) {
+void DepthPass::draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, const Group& group,
+                     gl::CommandList& list, LightReport& report) {
     const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
     const ShadowView& view = in.drawn.view(pass.first);
-    way_ = way;
+    variant_ = way;
     std::uint32_t next_item = group.first_item;
     const LightItem& light = in.scene.lights[view.light];
     const auto state_of = [&](std::uint32_t i) {
@@ -247,11 +247,11 @@ void DepthRecorder::draw(const PassInputs& in, const Pass& pass, const Way& way,
         for (std::uint32_t from = first, to = first; from < first + count; from = to) {
             const gl::PipelineState state = state_of(from);
             while (to < first + count && state_of(to) == state) ++to;
-            draw_run(in.gpu, {mesh, next_item + from - first, to - from, way_.triangles ? count : 0}, state, list,
+            draw_run(in.gpu, {mesh, next_item + from - first, to - from, variant_.triangles ? count : 0}, state, list,
                      report);
         }
         std::uint32_t draws = 1;
-        if (way_.triangles) {
+        if (variant_.triangles) {
             draws = 0;
             for_each_depth_run(in.gpu, mesh, [&](const DepthRun&) { ++draws; });
         }
@@ -260,19 +260,19 @@ void DepthRecorder::draw(const PassInputs& in, const Pass& pass, const Way& way,
 }
 
 /// Draws the same casters once more, without the triangles that the first map shows.
-void DepthRecorder::peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report) {
+void DepthPass::peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report) {
     const MapAssignment& map = in.drawn.maps[pass.first];
     pipeline_ = {};
     begin_pass_into(map.sheets.second_target, in, pass, true, list);
     list.add(gl::BindTexture{bindings::kNearestTriangleUnit, map.triangles, {}});
-    const Way way{in.drawn.updates[pass.first].route, true, true, true};
+    const DepthVariant way{in.drawn.updates[pass.first].route, true, true, true};
     draw(in, pass, way, pass.still, list, report);
     draw(in, pass, way, pass.moving, list, report);
     list.add(gl::BindTexture{bindings::kNearestTriangleUnit, {}, {}});
     list.add(gl::EndPass{});
 }
 
-void DepthRecorder::record(const PassInputs& in, const PassOutputs& out) {
+void DepthPass::record(const PassInputs& in, const PassOutputs& out) {
     gather(in);
     if (passes_.empty()) return;
     gl::CommandList& list = out.list;
@@ -280,14 +280,14 @@ void DepthRecorder::record(const PassInputs& in, const PassOutputs& out) {
     list.update(views_.handle(), 0, std::span<const std::byte>(view_scratch_));
     for (const Pass& pass : passes_) {
         const std::uint32_t light = in.drawn.view(pass.first).light;
-        const LightTime time(out.cpu_us, light);
+        const LightTimer time(out.cpu_us, light);
         LightReport& report = out.report.lights[light];
-        const StillUse still_use = in.drawn.updates[pass.first].still_use;
+        const StaticCopyUse copy_use = in.drawn.updates[pass.first].copy_use;
         pipeline_ = {};
         begin(in, pass, list);
-        const Way way = way_of(in, pass.first);
+        const DepthVariant way = variant_of(in, pass.first);
         draw(in, pass, way, pass.still, list, report);
-        if (still_use == StillUse::fill) {
+        if (copy_use == StaticCopyUse::fill) {
             list.add(gl::EndPass{});
             copy_layer(in.drawn, pass.first, false, list);
             begin_pass(in, pass, false, list);
@@ -297,7 +297,7 @@ void DepthRecorder::record(const PassInputs& in, const PassOutputs& out) {
         if (way.sheets) peel(in, pass, list, report);
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
-        if (still_use != StillUse::copy) report.clears += pass.views;
+        if (copy_use != StaticCopyUse::copy) report.clears += pass.views;
         report.views_drawn += pass.views;
     }
 }

@@ -12,12 +12,12 @@
 namespace gnomon::shadow {
 
 /// Recorder of depth passes, and what they need on the device. Programs are made on first use.
-class DepthRecorder {
+class DepthPass {
 public:
-    explicit DepthRecorder(gl::Device& device);
-    ~DepthRecorder();
-    DepthRecorder(const DepthRecorder&) = delete;
-    DepthRecorder& operator=(const DepthRecorder&) = delete;
+    explicit DepthPass(gl::Device& device);
+    ~DepthPass();
+    DepthPass(const DepthPass&) = delete;
+    DepthPass& operator=(const DepthPass&) = delete;
 
     /// Makes programs and buffers for the views that are drawn. A light with views that cannot be drawn loses its maps.
     /// Call before record().
@@ -33,7 +33,7 @@ private:
         std::uint32_t place;  // layer, and above its three bits the first triangle of the draw
     };
     /// Variant of the depth program that a pass uses; each exists for opaque and for masked casters.
-    struct Way {
+    struct DepthVariant {
         CubeRoute route = CubeRoute::six_passes;
         bool triangles = false;  // writes which triangle each texel shows
         bool sheets = false;     // conservative map: no masked casters, and both faces
@@ -57,11 +57,11 @@ private:
         std::uint32_t mesh, first_item, count;
         std::uint32_t items_per_draw;  // between the items of one draw and those of the next
     };
-    static std::size_t which(const Way& way, bool masked);
-    Way way_of(const PassInputs& in, std::size_t v) const;
+    static std::size_t which(const DepthVariant& way, bool masked);
+    DepthVariant variant_of(const PassInputs& in, std::size_t v) const;
     bool is_layered(const PassInputs& in, std::size_t v) const;
-    bool program(const Way& way, bool masked);
-    Reason ready(const PassInputs& in, const Way& way, std::span<const std::uint32_t> casters);
+    bool program(const DepthVariant& way, bool masked);
+    Reason ready(const PassInputs& in, const DepthVariant& way, std::span<const std::uint32_t> casters);
     std::size_t item_count(const PassInputs& in, std::size_t v) const;
     void gather(const PassInputs& in);
     void append_items(const PassInputs& in, bool triangles, Group& group);
@@ -73,8 +73,8 @@ private:
     void begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const;
     void begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
                          gl::CommandList& list) const;
-    void draw(const PassInputs& in, const Pass& pass, const Way& way, const Group& group, gl::CommandList& list,
-              LightReport& report);
+    void draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, const Group& group,
+              gl::CommandList& list, LightReport& report);
     void peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report);
     gl::PipelineState opaque_state(const GpuScene& gpu, const ShadowView& view, const LightItem& light,
                                    const InstanceItem& item) const;
@@ -102,7 +102,7 @@ private:
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pair_scratch_;  // instance, layer
     std::vector<std::byte> view_scratch_;
     gl::PipelineState pipeline_;  // state of the pass being recorded
-    Way way_;                     // variant of that pass
+    DepthVariant variant_;        // variant of that pass
 };
 
 }  // namespace gnomon::shadow

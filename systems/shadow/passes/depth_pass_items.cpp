@@ -19,7 +19,7 @@ bool drawn_before(const SceneSnapshot& scene, std::uint32_t a, std::uint32_t b) 
 
 }  // namespace
 
-void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
+void DepthPass::append_uniforms(const ShadowView& view, std::size_t at) {
     const math::TwoFloat3 anchor = math::split(view.pose.anchor_ws_m);
     const DepthViewRecord record{view.clip_from_anchor, glm::vec4(anchor.high, 0.0f),
                                  glm::vec4(anchor.low, static_cast<float>(view.layer))};
@@ -27,7 +27,7 @@ void DepthRecorder::append_uniforms(const ShadowView& view, std::size_t at) {
 }
 
 /// Gathers the casters of one view's group.
-DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
+DepthPass::Group DepthPass::gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters) {
     const std::size_t first = caster_scratch_.size();
     caster_scratch_.insert(caster_scratch_.end(), casters.begin(), casters.end());
     const auto mirrored = [&](std::uint32_t i) { return scene.instances[i].mirrored; };
@@ -39,13 +39,13 @@ DepthRecorder::Group DepthRecorder::gather_view(const SceneSnapshot& scene, std:
 }
 
 /// Gathers the casters of a group over all views, sorted by mesh: one draw per mesh draws it into every face.
-DepthRecorder::Group DepthRecorder::gather_layers(const PassInputs& in, const Pass& pass, bool moving) {
+DepthPass::Group DepthPass::gather_layers(const PassInputs& in, const Pass& pass, bool moving) {
     pair_scratch_.clear();
     for (std::size_t v = pass.first; v < pass.end; ++v) {
         if (!in.drawn.is_drawn(v)) continue;
         const ShadowView& view = in.drawn.view(v);
         const FittedViews& fitted = in.drawn.fitted;
-        for (const std::uint32_t i : moving ? fitted.moving_casters_of(view) : fitted.still_casters_of(view))
+        for (const std::uint32_t i : moving ? fitted.moving_casters_of(view) : fitted.static_casters_of(view))
             pair_scratch_.emplace_back(i, view.layer);
     }
     std::sort(pair_scratch_.begin(), pair_scratch_.end(), [&](const auto& a, const auto& b) {
@@ -61,7 +61,7 @@ DepthRecorder::Group DepthRecorder::gather_layers(const PassInputs& in, const Pa
 }
 
 /// Appends the items of a group with gathered casters, in the order in which draw() reads them.
-void DepthRecorder::append_items(const PassInputs& in, bool triangles, Group& group) {
+void DepthPass::append_items(const PassInputs& in, bool triangles, Group& group) {
     group.first_item = static_cast<std::uint32_t>(item_scratch_.size());
     const auto casters = std::span(caster_scratch_).subspan(group.casters.first, group.casters.count);
     const auto append = [&](std::uint32_t i, std::uint32_t first_triangle) {
@@ -80,7 +80,7 @@ void DepthRecorder::append_items(const PassInputs& in, bool triangles, Group& gr
 }
 
 /// Appends the matrices of a pass's views; a layered pass has them by face.
-void DepthRecorder::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
+void DepthPass::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
     const std::size_t at = view_scratch_.size();
     pass.uniform_offset = static_cast<std::uint32_t>(at);
     const std::size_t records = pass.layered ? kFaces : 1;
@@ -96,7 +96,7 @@ void DepthRecorder::gather_uniforms(const DrawnViews& drawn, Pass& pass) {
 }
 
 /// Gathers what this frame draws, pass by pass.
-void DepthRecorder::gather(const PassInputs& in) {
+void DepthPass::gather(const PassInputs& in) {
     passes_.clear();
     layer_scratch_.clear();
     caster_scratch_.clear();
@@ -113,8 +113,8 @@ void DepthRecorder::gather(const PassInputs& in) {
             pass.still = gather_layers(in, pass, false);
             pass.moving = gather_layers(in, pass, true);
         } else {
-            if (in.drawn.updates[v].still_use != StillUse::copy)
-                pass.still = gather_view(in.scene, fitted.still_casters_of(view));
+            if (in.drawn.updates[v].copy_use != StaticCopyUse::copy)
+                pass.still = gather_view(in.scene, fitted.static_casters_of(view));
             pass.moving = gather_view(in.scene, fitted.moving_casters_of(view));
         }
         const bool triangles = static_cast<bool>(in.drawn.maps[v].triangles);

@@ -68,16 +68,16 @@ MomentRecord moment_record(const MapSettings& map, const ShadowView& view, std::
     return record;
 }
 
-MomentRecorder::~MomentRecorder() {
+PrefilterPass::~PrefilterPass() {
     for (const Program& p : programs_) device_.destroy(p.program);
 }
 
-MomentRecorder::Source MomentRecorder::source_of(const ShadowView& view) {
+PrefilterPass::Source PrefilterPass::source_of(const ShadowView& view) {
     if (is_cube(view)) return Source::cube;
     return view.projection == ViewProjection::perspective ? Source::perspective : Source::orthographic;
 }
 
-gl::ProgramHandle MomentRecorder::program(std::string_view filter_file, Source source) {
+gl::ProgramHandle PrefilterPass::program(std::string_view filter_file, Source source) {
     auto found = std::find_if(programs_.begin(), programs_.end(),
                               [&](const Program& p) { return p.filter_file == filter_file && p.source == source; });
     if (found == programs_.end()) found = programs_.insert(programs_.end(), {filter_file, source, {}, {}});
@@ -101,18 +101,18 @@ gl::ProgramHandle MomentRecorder::program(std::string_view filter_file, Source s
     return found->program;
 }
 
-bool MomentRecorder::ready(const DrawnViews& drawn, std::size_t v) {
+bool PrefilterPass::ready(const DrawnViews& drawn, std::size_t v) {
     return program(filter_row(drawn.request_of(v).map.filter).file, source_of(drawn.view(v))) &&
            (!drawn.maps[v].prefiltered.scratch || program({}, Source::scratch));
 }
 
-void MomentRecorder::prepare(const PassInputs& in, const LightAccounts& accounts) {
+void PrefilterPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
     ++frame_;
     std::size_t count = 0;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         if (!is_converted(in.drawn, v)) continue;
         const std::uint32_t light = in.drawn.view(v).light;
-        const LightTime time(accounts.cpu_us, light);
+        const LightTimer time(accounts.cpu_us, light);
         if (ready(in.drawn, v))
             ++count;
         else
@@ -124,7 +124,7 @@ void MomentRecorder::prepare(const PassInputs& in, const LightAccounts& accounts
             accounts.statuses[in.drawn.view(v).light].lose_maps(Reason::buffer_failed, false);
 }
 
-void MomentRecorder::record_view(const PassInputs& in, std::size_t v, std::uint32_t offset, gl::CommandList& list) {
+void PrefilterPass::record_view(const PassInputs& in, std::size_t v, std::uint32_t offset, gl::CommandList& list) {
     const ShadowView& view = in.drawn.view(v);
     const MapAssignment& map = in.drawn.maps[v];
     const MapSettings& settings = in.drawn.request_of(v).map;
@@ -148,7 +148,7 @@ void MomentRecorder::record_view(const PassInputs& in, std::size_t v, std::uint3
     list.add(gl::EndGroup{});
 }
 
-void MomentRecorder::record(const PassInputs& in, const PassOutputs& out) {
+void PrefilterPass::record(const PassInputs& in, const PassOutputs& out) {
     const std::uint32_t stride = aligned(sizeof(MomentRecord), device_.info().uniform_alignment);
     record_scratch_.clear();
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
@@ -165,7 +165,7 @@ void MomentRecorder::record(const PassInputs& in, const PassOutputs& out) {
     std::uint32_t offset = 0;
     for (std::size_t v = 0; v < in.drawn.count(); ++v) {
         if (!is_converted(in.drawn, v)) continue;
-        const LightTime time(out.cpu_us, in.drawn.view(v).light);
+        const LightTimer time(out.cpu_us, in.drawn.view(v).light);
         record_view(in, v, offset, out.list);
         offset += stride;
     }

@@ -28,12 +28,12 @@ MomentRecord moment_record(const MapSettings& map, const ShadowView& view, std::
 
 /// Recorder of the passes that make prefiltered maps from depth maps. There are two passes per view, one without a
 /// blur, and mipmaps where the settings have them. Programs are made on first use.
-class MomentRecorder {
+class PrefilterPass {
 public:
-    explicit MomentRecorder(gl::Device& device) : device_(device), records_(device, "shadow moment records") {}
-    ~MomentRecorder();
-    MomentRecorder(const MomentRecorder&) = delete;
-    MomentRecorder& operator=(const MomentRecorder&) = delete;
+    explicit PrefilterPass(gl::Device& device) : device_(device), records_(device, "shadow moment records") {}
+    ~PrefilterPass();
+    PrefilterPass(const PrefilterPass&) = delete;
+    PrefilterPass& operator=(const PrefilterPass&) = delete;
 
     /// Makes programs and buffers for the prefiltered maps to be made in this frame. A light loses these maps if its
     /// programs fail, and all of its maps if the buffer fails. Call before record().

@@ -68,8 +68,9 @@ std::uint32_t cascade_count(const LightItem& light, std::uint32_t automatic) {
     return light.shadow.cascades == 0 ? automatic : std::min<std::uint32_t>(light.shadow.cascades, kMaxCascades);
 }
 
-CascadeEnds cascade_ends(const ShadowTuning::Cascades& tuning, std::uint32_t count, const DepthSpan& whole,
-                         bool perspective, std::span<DepthSpan> receivers) {
+CascadeSplitDistances cascade_split_distances(const ShadowTuning::Cascades& tuning, std::uint32_t count,
+                                              const DepthSpan& whole, bool perspective,
+                                              std::span<DepthSpan> receivers) {
     const ShadowTuning::Cascades defaults;
     const bool usable = are_splits(tuning);
     const CascadeSplits splits = usable ? tuning.splits : defaults.splits;
@@ -98,7 +99,7 @@ CascadeEnds cascade_ends(const ShadowTuning::Cascades& tuning, std::uint32_t cou
         }
         return lambda * even(logarithmic, whole, share) + (1.0 - lambda) * even(uniform, whole, share);
     };
-    CascadeEnds ends{};
+    CascadeSplitDistances ends{};
     ends[0] = whole.lowest;
     for (std::uint32_t i = 1; i < count; ++i) ends[i] = std::clamp(end_m(i), ends[i - 1], whole.highest);
     ends[count] = whole.highest;

@@ -20,7 +20,7 @@ std::uint32_t cascade_count(const LightItem& light, std::uint32_t automatic);
 /// split scheme", Zhang et al. 2006).
 /// `receivers`: depths of visible receivers, in any order; sorted by this function. Read by CascadeSplits::seen, and by
 /// sampled without counts (systems/shadow/fitting/directional/sdsm_splits.h).
-CascadeEnds cascade_ends(const ShadowTuning::Cascades& tuning, std::uint32_t count, const DepthSpan& whole,
-                         bool perspective, std::span<DepthSpan> receivers);
+CascadeSplitDistances cascade_split_distances(const ShadowTuning::Cascades& tuning, std::uint32_t count,
+                                              const DepthSpan& whole, bool perspective, std::span<DepthSpan> receivers);
 
 }  // namespace gnomon::shadow

@@ -67,11 +67,11 @@ math::Aabb lit_box(const SceneSnapshot& scene, const LightItem& light) {
 
 }  // namespace
 
-LampAim next_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const LampAim& held) {
+FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const FarLampAim& held) {
     if (light_facts(light.kind).parallel || !light.has_shadow) return {};
     const math::Aabb lit = lit_box(scene, light);
     const bool fits = held.used && held.radius_m <= kWidestBall * glm::distance(held.middle_ws_m, light.position_ws_m);
-    if (math::is_empty(lit)) return fits ? held : LampAim{};
+    if (math::is_empty(lit)) return fits ? held : FarLampAim{};
     const glm::dvec3 middle_ws_m = math::centre(lit);
     const double distance_m = glm::distance(middle_ws_m, light.position_ws_m);
     const double radius_m = std::max(glm::length(math::half_extent(lit)), kLeastRadius * distance_m);
@@ -82,10 +82,10 @@ LampAim next_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const 
     return {true, middle_ws_m, kSpareSize * radius_m};
 }
 
-LightOpening aimed_opening(const LightItem& light, const LampAim& aim) {
+LightFrustum aimed_frustum(const LightItem& light, const FarLampAim& aim) {
     const glm::dvec3 back = light.position_ws_m - aim.middle_ws_m;
     const double sine = aim.radius_m / glm::length(back);
-    LightOpening opening;
+    LightFrustum opening;
     opening.axes = math::basis_from_back(back);
     opening.high = glm::dvec2(sine / std::sqrt(1.0 - sine * sine));
     opening.low = -opening.high;

@@ -14,9 +14,9 @@ inline constexpr std::uint32_t kAimedView = 6;
 /// Computes the aim of this frame. Not `used`: the lamp has the maps of its kind. `held`: aim of the last frame. It
 /// stays, bit for bit, while it contains all visible receivers and is at most 32 times too large. Aiming ends at twice
 /// the angle at which it begins.
-LampAim next_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const LampAim& held);
+FarLampAim next_far_lamp_aim(const SceneSnapshot& scene, const LightItem& light, const FarLampAim& held);
 
 /// Returns the light frustum around the ball; layer 0.
-LightOpening aimed_opening(const LightItem& light, const LampAim& aim);
+LightFrustum aimed_frustum(const LightItem& light, const FarLampAim& aim);
 
 }  // namespace gnomon::shadow

@@ -19,9 +19,9 @@ constexpr std::uint32_t kConeFaceOrder[kConeFaces] = {5, 0, 1, 2, 3};
 
 /// Returns the part of a face that the cone can light. A direction at the angle a from the axis, with coordinate 1
 /// across it, has cot(a) along it.
-LightOpening cone_in_face(const LightItem& light, std::uint32_t layer) {
+LightFrustum cone_in_face(const LightItem& light, std::uint32_t layer) {
     const CubeFace& face = cube_face(kConeFaceOrder[layer]);
-    LightOpening opening;
+    LightFrustum opening;
     opening.axes = light.rotation_ws * axes_of(face);
     opening.layer = opening.held_as = layer;
     if (layer == 0) return opening;
@@ -37,18 +37,18 @@ LightOpening cone_in_face(const LightItem& light, std::uint32_t layer) {
 
 }  // namespace
 
-void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightOpenings& openings) {
-    const int faces_eighths = request.projection.faces_eighths;
-    if (has_faces(faces_eighths))
+void add_spot_frusta(const LightItem& light, const ShadowRequest& request, LightFrusta& openings) {
+    const int cube_blend_eighths = request.projection.cube_blend_eighths;
+    if (has_faces(cube_blend_eighths))
         for (std::uint32_t layer = 0; layer < kConeFaces; ++layer)
             openings.items[openings.count++] = cone_in_face(light, layer);
-    if (!has_single_view(faces_eighths)) return;
+    if (!has_single_view(cube_blend_eighths)) return;
     const double tan_half = std::tan(std::min(light.outer_cone_rad, kWidestMap_rad));
     openings.items[openings.count++] = {light.rotation_ws, glm::dvec2(-tan_half), glm::dvec2(tan_half),
-                                        has_faces(faces_eighths) ? kSingleView : 0, kSingleView};
+                                        has_faces(cube_blend_eighths) ? kSingleView : 0, kSingleView};
 }
 
-void add_cube_frusta(const LightItem&, const ShadowRequest& request, LightOpenings& openings) {
+void add_cube_frusta(const LightItem&, const ShadowRequest& request, LightFrusta& openings) {
     // A receiver in one face may be filtered with texels of the next.
     const auto reach_texel = static_cast<double>(request.map.filtering.border_texel);
     const TangentRectangle wide = with_border({}, request.map.resolution_px, reach_texel);

@@ -14,13 +14,13 @@ inline constexpr std::uint32_t kSingleView = kConeFaces;
 
 /// Computes the transition of this frame from the last one, `held`. Faces fade in above 122.5 degrees and out below
 /// 117.5, by an eighth per frame. A new light, or one too wide for a single view, switches at once.
-ConeFade next_cone_fade(double outer_cone_rad, const ConeFade& held);
+SpotCubeTransition next_spot_cube_transition(double outer_cone_rad, const SpotCubeTransition& held);
 
-inline bool has_single_view(int faces_eighths) { return faces_eighths < 8; }
-inline bool has_faces(int faces_eighths) { return faces_eighths > 0; }
+inline bool has_single_view(int cube_blend_eighths) { return cube_blend_eighths < 8; }
+inline bool has_faces(int cube_blend_eighths) { return cube_blend_eighths > 0; }
 
-inline std::uint32_t cone_layers(int faces_eighths) {
-    return (has_faces(faces_eighths) ? kConeFaces : 0) + (has_single_view(faces_eighths) ? 1 : 0);
+inline std::uint32_t cone_layers(int cube_blend_eighths) {
+    return (has_faces(cube_blend_eighths) ? kConeFaces : 0) + (has_single_view(cube_blend_eighths) ? 1 : 0);
 }
 
 }  // namespace gnomon::shadow

@@ -14,12 +14,12 @@ bool is_eye(const ShadowTuning::Projection& tuning) {
            static_cast<double>(tuning.eye_angle_rad) <= 2.0 * kWidestMap_rad;
 }
 
-SunEye sun_eye(const glm::dmat3& light_basis, std::span<const glm::dvec3> points_ws,
-               const ShadowTuning::Projection& tuning) {
+SunViewpoint sun_viewpoint(const glm::dmat3& light_basis, std::span<const glm::dvec3> points_ws,
+                           const ShadowTuning::Projection& tuning) {
     math::Aabb box;
     for (const glm::dvec3& p : points_ws) box = math::extended(box, (p - points_ws.front()) * light_basis);
     const glm::dvec3 middle_ws = points_ws.front() + light_basis * math::centre(box);
-    SunEye eye;
+    SunViewpoint eye;
     eye.distance_m = static_cast<double>(tuning.eye_distance_m);
     if (eye.distance_m == 0.0) {
         double radius_m = 0.0;

@@ -8,7 +8,7 @@
 namespace gnomon::shadow {
 
 /// Position that stands for a sun: apex of its perspective view, and origin of its near_m and far_m.
-struct SunEye {
+struct SunViewpoint {
     glm::dvec3 position_ws_m{0.0};
     double distance_m = 0.0;  // from the middle of the visible receivers; 0 only where these are one point
 };
@@ -19,7 +19,7 @@ bool is_eye(const ShadowTuning::Projection& tuning);
 /// Computes the eye of a sun. `light_basis`: columns right, up, back. `points_ws`: corners of visible receivers, not
 /// empty; their middle is that of their bounding box in the light's axes. eye_distance_m 0: the distance at which a
 /// cone of eye_angle_rad contains every point.
-SunEye sun_eye(const glm::dmat3& light_basis, std::span<const glm::dvec3> points_ws,
-               const ShadowTuning::Projection& tuning);
+SunViewpoint sun_viewpoint(const glm::dmat3& light_basis, std::span<const glm::dvec3> points_ws,
+                           const ShadowTuning::Projection& tuning);
 
 }  // namespace gnomon::shadow

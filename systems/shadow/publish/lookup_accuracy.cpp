@@ -32,7 +32,7 @@ ShadowFilter map_filter(const DrawnViews& drawn, std::size_t v) {
     if (!drawn.has_map(v)) return ShadowFilter::automatic;
     const ShadowRequest& request = drawn.request_of(v);
     const bool prefiltered = filter_row(request.map.filter).moments != nullptr;
-    return request.rays.used || (prefiltered && !drawn.has_prefiltered(v)) ? kPlainFilter : request.map.filter;
+    return request.rays.used || (prefiltered && !drawn.has_prefiltered(v)) ? kCheapestFilter : request.map.filter;
 }
 
 ShadowFilter published_filter(const DrawnViews& drawn, std::uint32_t light, bool rays) {
@@ -48,7 +48,7 @@ void add_view(const LightItem& light, const DrawnViews& drawn, std::size_t v, Lo
     accuracy.predicted_error_px = std::max(accuracy.predicted_error_px, shown_error_px(drawn, v, accuracy.filter));
     accuracy.keeps_max_error = drawn.maps[v].size_px >= map_edge_px(decision.request.map) &&
                                decision.refresh_frames == 1 &&
-                               keeps_contract(accuracy.predicted_error_px, wished_error_px(light.shadow));
+                               meets_target(accuracy.predicted_error_px, target_error_px(light.shadow));
 }
 
 }  // namespace gnomon::shadow

@@ -16,8 +16,8 @@ const glm::dvec3 kAxes[3] = {{-20.0 / 30.0, 4.0 / 30.0, 22.0 / 30.0},
 
 }  // namespace
 
-SeedCell seed_cell(const glm::dvec3& camera_ws_m, double cell_m) {
-    SeedCell at;
+NoiseCell seed_cell(const glm::dvec3& camera_ws_m, double cell_m) {
+    NoiseCell at;
     for (int i = 0; i < 3; ++i) {
         const double along = glm::dot(kAxes[i], camera_ws_m) / cell_m;
         const double whole = glm::floor(along);

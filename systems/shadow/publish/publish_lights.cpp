@@ -88,7 +88,7 @@ void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind
                 LightingLight& out) {
     const ShadowRequest& request = drawn.request_of(v);
     const MapAssignment& map = drawn.maps[v];
-    const FilterRow &filter = filter_row(request.map.filter), &one_tap = filter_row(kPlainFilter);
+    const FilterRow &filter = filter_row(request.map.filter), &one_tap = filter_row(kCheapestFilter);
     out.plain.row = {kind.define, kind_file(request.projection, kind), one_tap.file, one_tap.reach_texel};
     out.plain.map = map.texture;
     out.plain.sampler = samplers.of(one_tap.reading);
@@ -108,7 +108,7 @@ void set_lookup(const DrawnViews& drawn, std::size_t v, const LightKindRow& kind
     out.row.moments = moments;
     out.row.footprint = request.map.moments.levels > 1 || request.map.moments.anisotropy > 1;
     out.row.fades = !request.projection.perspective_sun &&
-                    (request.map.cascade_blend > 0.0f || request.projection.faces_eighths % 8 != 0);
+                    (request.map.cascade_blend > 0.0f || request.projection.cube_blend_eighths % 8 != 0);
     out.triangles = map.triangles;
     out.map = moments ? map.prefiltered.moments : map.texture;
     out.sampler = moments ? samplers.of(request.map.moments) : samplers.of(filter.reading);
@@ -152,7 +152,7 @@ void filter_record(const ShadowTuning::Kernel& kernel, const FilterSettings& fil
                         kernel.seed == FilterSeed::world ? 1 : 0};
     record.spread = {filter.spread_texel, filter.spread_m, filter.doubles_m > 0.0f ? 1.0f / filter.doubles_m : 0.0f,
                      filter.most_spread_texel};
-    const SeedCell cell = seed_cell(consumer.position_ws_m, static_cast<double>(filter.cell_m));
+    const NoiseCell cell = seed_cell(consumer.position_ws_m, static_cast<double>(filter.cell_m));
     record.seed_cell = glm::ivec4(cell.cell, 0);
     record.seed_place = with_w(cell.place, 1.0 / static_cast<double>(filter.cell_m));
 }
@@ -265,14 +265,14 @@ void publish_view(const SceneSnapshot& scene, const PublishInputs& in, std::size
     const ShadowRequest& request = in.drawn.request_of(v);
     const LightItem& light = scene.lights[view.light];
     set_lookup(in.drawn, v, light_kind_row(light.kind), in.samplers, out);
-    out.plain.accuracy.filter = kPlainFilter;
+    out.plain.accuracy.filter = kCheapestFilter;
     add_view(light, in.drawn, v, out.plain.accuracy);
     out.row.ray_masks = out.row.triangles && in.masked;
     if (out.record.options.x < static_cast<std::int32_t>(kMaxViews))
         out.record.views[out.record.options.x++] = view_record(in.drawn, v, consumer);
     out.record.options.w |= 1 << view.layer;
     if (map_texture(light, request) != gl::TextureKind::cube)
-        out.record.cone.z = static_cast<float>(request.projection.faces_eighths) / 8.0f;
+        out.record.cone.z = static_cast<float>(request.projection.cube_blend_eighths) / 8.0f;
     bias_record(light.tuning.bias, out);
     const MapSettings& map = request.map;
     filter_record(light.tuning.kernel, map.filtering, consumer, out.record);
@@ -300,7 +300,7 @@ void publish_lights(const SceneSnapshot& scene, const PublishInputs& in, std::ve
         inputs.camera = camera_record(consumer);
         inputs.lights.resize(scene.lights.size());
         for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-            const LightTime time(cpu_us, i);
+            const LightTimer time(cpu_us, i);
             publish_unshadowed(scene, in, i, fitted, consumer, inputs.lights[i]);
             const IndexRange views = in.drawn.fitted.lights[i].views;
             for (std::size_t v = views.first; v < views.end(); ++v) {

@@ -10,7 +10,7 @@ void add_object(const T& object, Signature& s) {
     s.add(std::as_bytes(std::span(&object, 1)));
 }
 
-void add_row(const ProgramRow& row, Signature& s) {
+void add_row(const ShaderKey& row, Signature& s) {
     for (const std::string_view text : {row.kind_define, row.kind_file, row.filter_file})
         s.add(std::as_bytes(std::span(text)));
     s.add(row.reach_texel);
@@ -43,7 +43,7 @@ bool add_views(const DrawnViews& drawn, std::uint32_t light, Signature& s) {
     const IndexRange range = drawn.fitted.lights[light].views;
     for (std::size_t v = range.first; v < range.end(); ++v) {
         const UpdatePlan& plan = drawn.updates[v];
-        if (plan.hold != Hold::none || plan.left_to_rays) return false;
+        if (plan.hold != Hold::none || plan.skipped_for_rays) return false;
         s.add(drawn.has_map(v) ? plan.content : 0);
         s.add(drawn.has_prefiltered(v) ? plan.moment_content : 0);
     }

@@ -9,9 +9,9 @@ namespace gnomon::shadow {
 namespace {
 
 /// Explains a view that the fits left out: no receiver is visible in it, or no caster stands before the visible ones.
-Reason why_left_out(const LightItem& light, std::span<const Beam> beams, std::uint32_t layer, Why& why) {
+Reason why_left_out(const LightItem& light, std::span<const ReceiverHull> hulls, std::uint32_t layer, Why& why) {
     if (light_facts(light.kind).parallel) return Reason::no_visible_receiver;
-    why.receivers = beams[layer].receivers;
+    why.receivers = hulls[layer].receivers;
     return why.receivers == 0 ? Reason::no_visible_receiver : Reason::no_caster;
 }
 
@@ -22,7 +22,7 @@ Reason why_reused(const UpdatePlan& plan) {
 /// Returns whether rays replace any of the light's maps in this frame.
 bool is_left_to_rays(const DrawnViews& drawn, std::uint32_t light) {
     const IndexRange views = drawn.fitted.lights[light].views;
-    return views.count > 0 && drawn.updates[views.first].left_to_rays;
+    return views.count > 0 && drawn.updates[views.first].skipped_for_rays;
 }
 
 /// Explains the state of view `v`.
@@ -36,7 +36,7 @@ void explain_view(const DrawnViews& drawn, std::size_t v, ViewReport& view) {
     if (has_map && plan.reuse) view.reason = why_reused(plan);
     if (!has_map) view.state = LightState::skipped;  // rays replace the map
     if (!has_map)
-        view.reason = plan.left_to_rays ? Reason::rays_cheaper : drawn.statuses[drawn.view(v).light].degraded();
+        view.reason = plan.skipped_for_rays ? Reason::rays_cheaper : drawn.statuses[drawn.view(v).light].degraded();
     if (drawn.view(v).lit) view.state = LightState::skipped;
     if (drawn.view(v).lit) view.reason = Reason::no_caster;
 }
@@ -56,7 +56,7 @@ void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t
         while (v < views.end() && in.drawn.view(v).layer != layer) ++v;
         if (v == views.end()) {
             view.state = LightState::skipped;
-            view.reason = why_left_out(light, in.drawn.fitted.sets_of(in.sets, index).beams(), layer, view.why);
+            view.reason = why_left_out(light, in.drawn.fitted.sets_of(in.sets, index).hulls(), layer, view.why);
         } else {
             explain_view(in.drawn, v, view);
         }
@@ -71,10 +71,10 @@ struct LookupState {
     bool lost = false;   // there is neither a map to look up nor rays to trace
     bool drawn = false;  // what the light looks up was made or changed in this frame
     bool held = false;   // a layer of its maps shows earlier casters
-    bool left_to_rays = false;
+    bool skipped_for_rays = false;
 };
 
-void explain_state(const LightStatus& status, const BudgetDecision& decision, const LightHistory* history,
+void explain_state(const LightStatus& status, const BudgetDecision& decision, const CachedMap* history,
                    const LookupState& lookup, LightReport& out) {
     out.reason = status.skipped();
     if (status.is_skipped()) {
@@ -91,7 +91,7 @@ void explain_state(const LightStatus& status, const BudgetDecision& decision, co
     } else if (status.degraded() != Reason::none) {
         out.state = LightState::degraded;
         out.reason = status.degraded();
-    } else if (lookup.left_to_rays) {
+    } else if (lookup.skipped_for_rays) {
         out.state = LightState::rendered;
         out.reason = Reason::rays_cheaper;
     } else if (!lookup.drawn) {
@@ -138,10 +138,10 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     out.name = light.name;
     out.kind = light.kind;
     out.cpu_us = in.cpu_us[i];
-    const LightHistory* history = in.maps.find(light.entity);
+    const CachedMap* history = in.maps.find(light.entity);
     if (history && history->texture) {
         out.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
-        out.bytes = MapStore::bytes(*history);
+        out.bytes = MapCache::bytes(*history);
     }
     const ShadowFilter filter = published_filter(in.drawn, i, in.has_rays);
     LookupAccuracy shown{filter, 0.0, false};
@@ -159,10 +159,10 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     if (!exact) out.predicted_error_px = shown.predicted_error_px;
     lookup.lost = uses_rays && filter == ShadowFilter::automatic;
     lookup.drawn = out.views_drawn > 0 || (exact && trees_changed);
-    lookup.left_to_rays = is_left_to_rays(in.drawn, i);
+    lookup.skipped_for_rays = is_left_to_rays(in.drawn, i);
     explain_state(status, decision, history, lookup, out);
-    out.keeps_max_error =
-        (exact && !status.is_skipped()) || (shown.keeps_max_error && !exact && history->allocation.failure == Reason::none);
+    out.keeps_max_error = (exact && !status.is_skipped()) ||
+                          (shown.keeps_max_error && !exact && history->allocation.failure == Reason::none);
     const LightSetsView sets = in.drawn.fitted.sets_of(in.sets, i);
     out.why.receivers = sets.ranges.receivers.count;
     out.why.casters = sets.ranges.casters.count;

@@ -12,9 +12,9 @@ namespace gnomon::shadow {
 struct ReportInputs {
     const DrawnViews& drawn;
     const ReceiverCasterSets& sets;
-    const MapStore& maps;
+    const MapCache& maps;
     const DrawTimes& times;
-    const DimLights& dim;
+    const ContributionCulling& dim;
     bool has_rays = false;           // the casters' trees are on the device
     std::span<const double> cpu_us;  // one per light
 };

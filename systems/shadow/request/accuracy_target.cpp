@@ -13,9 +13,9 @@ namespace {
 
 /// Hysteresis: a map shrinks when half of its edge, a quarter of its bytes, suffices. A number of cascades changes when
 /// it takes twice the texels of another.
-constexpr std::uint32_t kPatience = 2;
+constexpr std::uint32_t kSizeHysteresis = 2;
 /// Hysteresis of the product of count and error: sqrt(2).
-constexpr double kCountPatience = 1.4142135623730951;
+constexpr double kCountHysteresis = 1.4142135623730951;
 
 /// Returns the part of a predicted error that texels cause, without the pixel grid's.
 double of_texels_px(double predicted_px) { return predicted_px - edge_error_px(0.0, 0.0); }
@@ -27,48 +27,48 @@ double edge_error_px(double extent_px, double reach_texel) {
     return (kSampling_texel + reach_texel) * extent_px + kPixelCentres_px;
 }
 
-double steeper_than_stated(double cosine) { return std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0))); }
+double slope_factor(double cosine) { return std::max(1.0, 1.0 / (kSteepestReceiver * std::max(cosine, 0.0))); }
 
-double wished_error_px(const LightShadow& shadow) {
+double target_error_px(const LightShadow& shadow) {
     return shadow.max_error_px > 0.0f ? static_cast<double>(shadow.max_error_px) : 1.0;
 }
 
-bool follows_contract(const LightItem& light, const ShadowRequest& request) {
+bool adapts_to_target(const LightItem& light, const ShadowRequest& request) {
     const bool stable = light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
     return light.shadow.resolution_px == 0 && !stable && !needs_distances(request.map.filtering) &&
            !filter_row(request.map.filter).rays;  // rays have no such error
 }
 
-std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
-                               std::uint32_t most_px) {
-    const double needed_px = std::ceil(size_px * of_texels_px(predicted_px) / wished_px);
+std::uint32_t target_size_px(std::uint32_t size_px, bool held, double predicted_px, double target_px,
+                             std::uint32_t most_px) {
+    const double needed_px = std::ceil(size_px * of_texels_px(predicted_px) / target_px);
     if (!(needed_px < most_px)) return most_px;
     const auto least_px = static_cast<std::uint32_t>(std::max(needed_px, 1.0));
     const std::uint32_t wish_px = std::min((least_px + kLeastMap_px - 1) / kLeastMap_px * kLeastMap_px, most_px);
-    const bool stays = held && wish_px <= size_px && size_px <= most_px && size_px < kPatience * wish_px;
+    const bool stays = held && wish_px <= size_px && size_px <= most_px && size_px < kSizeHysteresis * wish_px;
     return stays ? size_px : wish_px;
 }
 
-bool keeps_contract(double predicted_px, double wished_px) { return of_texels_px(predicted_px) <= wished_px; }
+bool meets_target(double predicted_px, double target_px) { return of_texels_px(predicted_px) <= target_px; }
 
-std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px) {
+std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double target_px) {
     const std::uint64_t most = trials.back().texels;
     for (const CascadeTrial& trial : trials) {
-        if (!keeps_contract(trial.predicted_px, wished_px)) continue;
-        if (trial.texels <= most || (trial.count == held && trial.texels < kPatience * most)) return trial.count;
+        if (!meets_target(trial.predicted_px, target_px)) continue;
+        if (trial.texels <= most || (trial.count == held && trial.texels < kSizeHysteresis * most)) return trial.count;
     }
     const auto product = [&](const CascadeTrial& trial) {
         const double product_px = trial.count * std::sqrt(trial.count) * of_texels_px(trial.predicted_px);
         if (!(product_px >= 0.0)) return std::numeric_limits<double>::infinity();
-        return trial.count == held ? product_px / kCountPatience : product_px;
+        return trial.count == held ? product_px / kCountHysteresis : product_px;
     };
     return std::min_element(trials.begin(), trials.end(),
                             [&](const CascadeTrial& a, const CascadeTrial& b) { return product(a) < product(b); })
         ->count;
 }
 
-double allowed_error_px(double wished_px, double cosine) {
-    return wished_px * steeper_than_stated(cosine) + edge_error_px(0.0, 0.0);
+double allowed_error_px(double target_px, double cosine) {
+    return target_px * slope_factor(cosine) + edge_error_px(0.0, 0.0);
 }
 
 }  // namespace gnomon::shadow

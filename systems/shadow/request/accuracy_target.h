@@ -28,25 +28,25 @@ inline constexpr double kSteepestReceiver = 2.0;
 
 /// Returns the stretch of a texel on a receiver, relative to the steepest receiver of the stated error. `cosine`: n·l
 /// of the receiver. At least 1; infinite at grazing incidence.
-double steeper_than_stated(double cosine);
+double slope_factor(double cosine);
 
 /// Least edge of a map, texels; edges are multiples of it. It is as large as a quantised grid needs, and so coarse that
 /// a window that grows by some pixels seldom causes new maps.
 inline constexpr std::uint32_t kLeastMap_px = 256;
 
 /// Returns the target, pixels: max_error_px, or 1 where that is not above 0.
-double wished_error_px(const LightShadow& shadow);
+double target_error_px(const LightShadow& shadow);
 
 /// Returns true if the target may make the light's maps smaller than MapLimits::max_px. False where the size is given,
 /// must not depend on visible receivers (ShadowFit::stable), or determines a filter's width (FilterWidth::source).
-bool follows_contract(const LightItem& light, const ShadowRequest& request);
+bool adapts_to_target(const LightItem& light, const ShadowRequest& request);
 
 /// Computes the edge that maps of `size_px` with the error `predicted_px` should get, at most `most_px`. It is the
-/// least multiple of kLeastMap_px with an error up to `wished_px` beside the pixel grid's own.
+/// least multiple of kLeastMap_px with an error up to `target_px` beside the pixel grid's own.
 /// `held`: the maps exist; they keep size_px unless it is too small, or at least twice the needed edge.
 /// `predicted_px`: 0 if no receiver is visible. Infinite or NaN: returns most_px.
-std::uint32_t contract_size_px(std::uint32_t size_px, bool held, double predicted_px, double wished_px,
-                               std::uint32_t most_px);
+std::uint32_t target_size_px(std::uint32_t size_px, bool held, double predicted_px, double target_px,
+                             std::uint32_t most_px);
 
 /// Consecutive frames in which half of a map's edge must meet the target before the map shrinks. A second at 60 Hz is
 /// longer than a short look aside.
@@ -75,13 +75,13 @@ struct CascadeTrial {
 /// (docs/cost.md): courtyard and Sponza, where four maps divide the bound by 1.5 to 2.5, are best with one. A valley of
 /// kilometres, where they divide it by 6 to 50, is best with two or four. The present number stays while the least
 /// product is at least 1 / sqrt(2) of its own. Rounding two sides to steps changes a product by as much.
-std::uint32_t contract_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double wished_px);
+std::uint32_t choose_cascades(std::span<const CascadeTrial> trials, std::uint32_t held, double target_px);
 
-/// Returns true if maps with the error `predicted_px` meet the target `wished_px`.
-bool keeps_contract(double predicted_px, double wished_px);
+/// Returns true if maps with the error `predicted_px` meet the target `target_px`.
+bool meets_target(double predicted_px, double target_px);
 
 /// Computes the allowed error of an edge, pixels, under a light that meets its target. `cosine`: n·l of the receiver.
-/// Up to 60 degrees it is `wished_px` + 1; beyond, `wished_px` grows with the texel's stretch (steeper_than_stated).
-double allowed_error_px(double wished_px, double cosine);
+/// Up to 60 degrees it is `target_px` + 1; beyond, `target_px` grows with the texel's stretch (slope_factor).
+double allowed_error_px(double target_px, double cosine);
 
 }  // namespace gnomon::shadow

@@ -52,7 +52,7 @@ void decide_cascades(const LightItem& light, ShadowRequest& request) {
 /// Returns true if the fit may take fewer cascades. Neither their number nor their splits may be given, and the size of
 /// their maps must follow the target.
 bool leaves_count(const LightItem& light, const ShadowRequest& request) {
-    return light_facts(light.kind).parallel && light.shadow.cascades == 0 && follows_contract(light, request) &&
+    return light_facts(light.kind).parallel && light.shadow.cascades == 0 && adapts_to_target(light, request) &&
            light.tuning.cascades.splits != CascadeSplits::manual && !request.projection.perspective_sun &&
            request.projection.warp == 0.0f;
 }
@@ -101,14 +101,14 @@ ShadowFilter without_size(const LightItem& light, ShadowFilter filter) {
 
 /// Returns the texels of a map's edge per pixel of the picture's larger side. A conservative map costs time to draw and
 /// clear each layer, and saves rays. For a cube's six faces half the edge is best. For a sun's map that is drawn once
-/// (is_quiet) twice the edge is best (docs/exact.md, "What it costs").
-float texels_per_pixel(const LightItem& light, const HeldLight* held, const ShadowRequest& request) {
+/// (is_static) twice the edge is best (docs/exact.md, "What it costs").
+float texels_per_pixel(const LightItem& light, const LightFitHistory* held, const ShadowRequest& request) {
     constexpr float kOfAFace = 0.5f;
     const FilterRow& row = filter_row(request.map.filter);
     if (!row.rays) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
-    const bool waits = held && light_facts(light.kind).parallel && is_quiet(*held);
-    return row.texels_per_pixel * (waits ? kQuietEdges : 1.0f);
+    const bool waits = held && light_facts(light.kind).parallel && is_static(*held);
+    return row.texels_per_pixel * (waits ? kStaticSunEdges : 1.0f);
 }
 
 /// Returns the target that determines the size of maps. 0 for a filter with rays, which is exact at any size.
@@ -118,8 +118,8 @@ float wished_resolution_px(const LightItem& light, const ShadowRequest& request)
 
 /// Sets the size of the light's maps: the given size, or a size computed from the picture's. Where the size follows the
 /// target, the last frame's smaller size stays (accuracy_target.h).
-void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px, const HeldLight* held,
-                       ShadowRequest& request) {
+void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint32_t limit_px,
+                       const LightFitHistory* held, ShadowRequest& request) {
     const std::uint32_t held_px = held ? held->size.map_px : 0;
     const std::uint32_t asked_px = light.shadow.resolution_px;
     request.limits.max_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
@@ -127,7 +127,7 @@ void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint
                                                                 wished_resolution_px(light, request), limit_px);
     if (asked_px > 0 && request.limits.max_px != asked_px) request.note = Reason::resolution_clamped;
     set_resolution(light, request.limits.max_px, request);
-    if (held_px > 0 && held_px < request.limits.max_px && follows_contract(light, request))
+    if (held_px > 0 && held_px < request.limits.max_px && adapts_to_target(light, request))
         set_resolution(light, held_px, request);
 }
 
@@ -141,10 +141,10 @@ std::uint32_t sun_edge_px(const LightItem& light, glm::uvec2 viewport_px, std::u
     return std::max(std::min(usual_px, kUsualSunMap_px), own_px);
 }
 
-void decide_cone(const LightItem& light, const HeldLight* held, ShadowRequest& request) {
-    request.projection.faces_eighths =
-        next_cone_fade(light.outer_cone_rad, held ? held->cone : ConeFade{}).faces_eighths;
-    request.map.view_count = cone_layers(request.projection.faces_eighths);
+void decide_cone(const LightItem& light, const LightFitHistory* held, ShadowRequest& request) {
+    request.projection.cube_blend_eighths =
+        next_spot_cube_transition(light.outer_cone_rad, held ? held->cone : SpotCubeTransition{}).cube_blend_eighths;
+    request.map.view_count = cone_layers(request.projection.cube_blend_eighths);
 }
 
 /// Removes the light's map: rays trace all pixels. Notes on settings of maps are dropped.
@@ -205,7 +205,7 @@ ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& devic
                         filter);
 }
 
-ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held_light,
+ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const LightFitHistory* held_light,
                            std::uint32_t i, ShadowFilter filter) {
     filter = without_size(scene.lights[i], filter);
     glm::uvec2 viewport_px{1, 1};
@@ -216,13 +216,13 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
     request.map.depth_format = light.tuning.maps.depth_format;
     request.map.view_count = light_kind_row(light.kind).layers;
     request.limits.device_px = limit_px;
-    request.projection.aim = next_lamp_aim(scene, light, held_light ? held_light->aim : LampAim{});
+    request.projection.aim = next_far_lamp_aim(scene, light, held_light ? held_light->aim : FarLampAim{});
     decide_resolution(light, viewport_px, limit_px, held_light, request);
     decide_projection(light, request);
     if (light_facts(light.kind).parallel) decide_warp(light.tuning.cascades, scene.consumers.size() == 1, request);
     if (light_facts(light.kind).cone) decide_cone(light, held_light, request);
     if (request.projection.aim.used) {
-        request.projection.faces_eighths = 0;
+        request.projection.cube_blend_eighths = 0;
         request.map.view_count = 1;
     }
     if (leaves_count(light, request)) {
@@ -230,7 +230,7 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
         if (held_light && held_light->count.cascades > 0 && held_light->count.cascades < request.limits.max_views)
             set_cascades(light.tuning.cascades, held_light->count.cascades, request);
     }
-    if (light_facts(light.kind).parallel && follows_contract(light, request))
+    if (light_facts(light.kind).parallel && adapts_to_target(light, request))
         set_most(light, sun_edge_px(light, viewport_px, limit_px, request), held_light ? held_light->size.map_px : 0,
                  request);
     if (filter_row(request.map.filter).rays) decide_sheets(request);
@@ -240,7 +240,7 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
 bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
-        const HeldLight* last = find(held, light.entity, i);
+        const LightFitHistory* last = find(held, light.entity, i);
         const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
         if (wanted(light, shadows) == Reason::none && filter_row(filter).rays) return true;
     }
@@ -252,7 +252,7 @@ void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, Ra
     requests.clear();
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
-        const HeldLight* last = find(inputs.held, light.entity, i);
+        const LightFitHistory* last = find(inputs.held, light.entity, i);
         const ShadowFilter filter = filter_to_fit(light, last ? &last->filter : nullptr);
         requests.push_back(request_of(scene, inputs.device, inputs.held, i, filter));
         requests.back().skip = wanted(light, inputs.shadows);

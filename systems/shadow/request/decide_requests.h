@@ -26,7 +26,7 @@ ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& devic
                          std::uint32_t light, ShadowFilter filter);
 
 /// Decides such a request within the device's limit on a map's edge. `held`: the light's history, null if it has none.
-ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const HeldLight* held,
+ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const LightFitHistory* held,
                            std::uint32_t light, ShadowFilter filter);
 
 /// Limits the light's maps to most_px. Sets their size to that limit, or to their last size `held_px` if that is less

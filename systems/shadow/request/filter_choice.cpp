@@ -8,11 +8,11 @@ namespace {
 
 /// Returns true if the stored choice was made for this target. Compares bit for bit, because the setting was stored
 /// unchanged.
-bool is_of_word(const HeldFilter& held, double wished_px) {
-    return held.wished_px <= wished_px && held.wished_px >= wished_px;
+bool is_of_word(const FilterHistory& held, double target_px) {
+    return held.target_px <= target_px && held.target_px >= target_px;
 }
 
-bool is_seen_as_before(const HeldFilter& held, double seen_px) {
+bool is_seen_as_before(const FilterHistory& held, double seen_px) {
     return held.seen_px <= seen_px && held.seen_px >= seen_px;
 }
 
@@ -29,33 +29,33 @@ bool leaves_filter(const LightItem& light) {
     return !given && !apart && tuning.bias.mode == BiasMode::automatic;
 }
 
-ShadowFilter filter_to_fit(const LightItem& light, const HeldFilter* held) {
+ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held) {
     if (light.shadow.filter != ShadowFilter::automatic) return light.shadow.filter;
-    const bool keeping = held && held->filter == kKeepingFilter && leaves_filter(light);
-    return keeping ? kKeepingFilter : kUsualFilter;
+    const bool keeping = held && held->filter == kExactFilter && leaves_filter(light);
+    return keeping ? kExactFilter : kDefaultFilter;
 }
 
-ShadowFilter chosen_filter(const HeldFilter& held, double usual_px, double wished_px) {
-    const bool comes_back = held.filter == kKeepingFilter && is_of_word(held, wished_px);
-    const double most_px = comes_back ? wished_px / kFilterPatience : wished_px;
-    return keeps_contract(usual_px, most_px) ? kUsualFilter : kKeepingFilter;
+ShadowFilter chosen_filter(const FilterHistory& held, double usual_px, double target_px) {
+    const bool comes_back = held.filter == kExactFilter && is_of_word(held, target_px);
+    const double most_px = comes_back ? target_px / kFilterHysteresis : target_px;
+    return meets_target(usual_px, most_px) ? kDefaultFilter : kExactFilter;
 }
 
-bool is_trial_due(const HeldFilter& held, double wished_px) {
-    return !is_of_word(held, wished_px) || held.frames == 1 || held.passed > 0;
+bool is_trial_due(const FilterHistory& held, double target_px) {
+    return !is_of_word(held, target_px) || held.frames == 1 || held.passed > 0;
 }
 
-bool comes_back(const HeldFilter& held, double wished_px) {
-    return !is_of_word(held, wished_px) || held.passed + 1 >= kFilterPasses;
+bool comes_back(const FilterHistory& held, double target_px) {
+    return !is_of_word(held, target_px) || held.passed + 1 >= kFilterPasses;
 }
 
-HeldFilter held_keeping(const HeldFilter& held, double usual_px, bool passed, double seen_px, double wished_px) {
-    HeldFilter next{kKeepingFilter, wished_px, usual_px, seen_px, 0, 0};
+FilterHistory held_keeping(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px) {
+    FilterHistory next{kExactFilter, target_px, usual_px, seen_px, 0, 0};
     if (passed)
         next.passed = held.passed + 1;
-    else if (held.filter == kKeepingFilter && held.frames > 1)
+    else if (held.filter == kExactFilter && held.frames > 1)
         next.frames = held.frames - 1;
-    else if (held.filter != kKeepingFilter || held.passed > 0 || !is_seen_as_before(held, seen_px))
+    else if (held.filter != kExactFilter || held.passed > 0 || !is_seen_as_before(held, seen_px))
         next.frames = kFilterFrames;
     return next;
 }

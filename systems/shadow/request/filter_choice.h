@@ -3,25 +3,26 @@
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/request/filter_table.h"
 
-/// Choice of the filter for ShadowFilter::automatic. It is kUsualFilter, unless LightShadow::max_error_px is above 0
-/// and no map within the light's limits meets it. Then it is kKeepingFilter, which has no such error because it traces
+/// Choice of the filter for ShadowFilter::automatic. It is kDefaultFilter, unless LightShadow::max_error_px is above 0
+/// and no map within the light's limits meets it. Then it is kExactFilter, which has no such error because it traces
 /// rays. Without max_error_px the default filter's maps suffice: rays cost one and a half to three times as much
 /// (docs/cost.md).
 ///
-/// A cheaper filter is never chosen here. The bound of `hard` is that of kUsualFilter at the same size (error_bound.h).
-/// It would meet the target wherever the default does, and edges would become stairs. Only budgets choose it
-/// (Grant::plain).
+/// A cheaper filter is never chosen here. The bound of `hard` is that of kDefaultFilter at the same size
+/// (error_bound.h). It would meet the target wherever the default does, and edges would become stairs. Only budgets
+/// choose it (QualityLimits::plain).
 ///
 /// Hysteresis: a light returns to the default filter after this filter's largest maps had an error below the target /
-/// kFilterPatience in kFilterPasses consecutive frames. After a failed trial, the next one follows kFilterFrames later.
+/// kFilterHysteresis in kFilterPasses consecutive frames. After a failed trial, the next one follows kFilterFrames
+/// later.
 namespace gnomon::shadow {
 
 /// Filter that meets every target.
-inline constexpr ShadowFilter kKeepingFilter = ShadowFilter::exact;
+inline constexpr ShadowFilter kExactFilter = ShadowFilter::exact;
 
-/// Hysteresis: the default filter is taken back only when its error is below the target / kFilterPatience. The camera
+/// Hysteresis: the default filter is taken back only when its error is below the target / kFilterHysteresis. The camera
 /// must move by that factor before the choice changes again. sqrt(2), as for a number of cascades.
-inline constexpr double kFilterPatience = 1.4142135623730951;
+inline constexpr double kFilterHysteresis = 1.4142135623730951;
 
 /// Frames between trial fits of the default filter: a second at 60 Hz.
 inline constexpr std::uint32_t kFilterFrames = 60;
@@ -36,21 +37,21 @@ inline constexpr std::uint32_t kFilterPasses = 30;
 bool leaves_filter(const LightItem& light);
 
 /// Returns the filter with which the light's request starts. `held`: last choice of the target, null for a new light.
-ShadowFilter filter_to_fit(const LightItem& light, const HeldFilter* held);
+ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held);
 
 /// Chooses the filter where the largest maps of the default filter have the error `usual_px`, pixels. NaN: they miss
 /// the target.
-ShadowFilter chosen_filter(const HeldFilter& held, double usual_px, double wished_px);
+ShadowFilter chosen_filter(const FilterHistory& held, double usual_px, double target_px);
 
-/// Returns true if a light with kKeepingFilter is due for a trial fit of the default filter.
-bool is_trial_due(const HeldFilter& held, double wished_px);
+/// Returns true if a light with kExactFilter is due for a trial fit of the default filter.
+bool is_trial_due(const FilterHistory& held, double target_px);
 
 /// Returns true if a light returns to the default filter after a trial that passed. After a change of the target it
 /// does at once.
-bool comes_back(const HeldFilter& held, double wished_px);
+bool comes_back(const FilterHistory& held, double target_px);
 
-/// Computes the history of a light with kKeepingFilter after a frame. `seen_px`: error of its maps. `usual_px`: error
+/// Computes the history of a light with kExactFilter after a frame. `seen_px`: error of its maps. `usual_px`: error
 /// of the default filter's maps at the last trial. `passed`: a trial in this frame met the target.
-HeldFilter held_keeping(const HeldFilter& held, double usual_px, bool passed, double seen_px, double wished_px);
+FilterHistory held_keeping(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px);
 
 }  // namespace gnomon::shadow

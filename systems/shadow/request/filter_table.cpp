@@ -59,7 +59,7 @@ constexpr DrawingWork kBoundsWork{3.0, 3.0, kDepth_bytes + kTriangle_bytes + kDe
 constexpr FilterStorage kConservativeBounds{.conservative_bounds = true, .work = kBoundsWork};
 /// The same for an area light. The occluder pyramid, a small share of the work, is not counted.
 constexpr FilterStorage kSourceBounds{.conservative_bounds = true, .occluder_pyramid = true, .work = kBoundsWork};
-constexpr RayRow kOneRay{false, kUsualFilter, ShadowFilter::exact};
+constexpr RayRow kOneRay{false, kDefaultFilter, ShadowFilter::exact};
 constexpr RayRow kSourceRays{true, ShadowFilter::pcss, ShadowFilter::exact};
 
 /// Counts the blocker search of pcss.glsl, then two disks or votes.
@@ -150,7 +150,7 @@ static_assert(rows_are_in_order());
 std::span<const FilterRow> filter_table() { return kRows; }
 
 const FilterRow& filter_row(ShadowFilter filter) {
-    const auto index = static_cast<std::size_t>(filter == ShadowFilter::automatic ? kUsualFilter : filter);
+    const auto index = static_cast<std::size_t>(filter == ShadowFilter::automatic ? kDefaultFilter : filter);
     return kRows[index < std::size(kRows) ? index : 0];
 }
 

@@ -87,15 +87,16 @@ struct FilterRow {
 
 /// Default filter, and meaning of ShadowFilter::automatic unless the target chooses another: the row that measures
 /// best.
-inline constexpr ShadowFilter kUsualFilter = ShadowFilter::triangles;
+inline constexpr ShadowFilter kDefaultFilter = ShadowFilter::triangles;
 
 /// Cheapest filter: fallback under a budget, and while the light's own program is unavailable. One fetch of one texel,
 /// no texture beside the map, and the narrowest footprint, so that every border and bias suffices for it.
-inline constexpr ShadowFilter kPlainFilter = ShadowFilter::hard;
+inline constexpr ShadowFilter kCheapestFilter = ShadowFilter::hard;
 
 /// Returns all rows in the order of ShadowFilter.
 std::span<const FilterRow> filter_table();
-/// Returns the row of a filter. ShadowFilter::automatic: kUsualFilter's row. Other values outside the table: the first.
+/// Returns the row of a filter. ShadowFilter::automatic: kDefaultFilter's row. Other values outside the table: the
+/// first.
 const FilterRow& filter_row(ShadowFilter filter);
 /// Returns the row with that name, or nullptr.
 const FilterRow* find_filter(std::string_view name);

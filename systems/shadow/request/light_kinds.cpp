@@ -32,11 +32,11 @@ std::span<const LightKindRow> light_kind_table() { return kKindRows; }
 
 const LightKindRow& light_kind_row(LightKind kind) { return kKindRows[static_cast<std::size_t>(kind)]; }
 
-LightOpenings light_openings(const LightItem& light, const ShadowRequest& request) {
-    LightOpenings openings;
+LightFrusta light_frusta(const LightItem& light, const ShadowRequest& request) {
+    LightFrusta openings;
     const FrustaFunction add = light_kind_row(light.kind).frusta;
     if (request.projection.aim.used)
-        openings.items[openings.count++] = aimed_opening(light, request.projection.aim);
+        openings.items[openings.count++] = aimed_frustum(light, request.projection.aim);
     else if (add)
         add(light, request, openings);
     return openings;

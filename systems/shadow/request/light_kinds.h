@@ -20,16 +20,16 @@ struct FitInput {
     std::span<const std::uint32_t> receivers;  // indices into scene.instances
     std::span<const std::uint32_t> casters;
     std::span<const glm::dvec3> receiver_points_ws;  // not empty
-    std::span<const Beam> beams;                     // receiver hulls; local light: one per light_openings() item
-    std::span<const glm::dvec3> frame_points_ws;     // array that Beam::receiver_points refers to
+    std::span<const ReceiverHull> hulls;             // receiver hulls; local light: one per light_frusta() item
+    std::span<const glm::dvec3> frame_points_ws;     // array that ReceiverHull::receiver_points refers to
     float reach_texel = 0.5f;                        // E for borders: FilterSettings::border_texel
     const SampledDepths& sampled_depths;             // depths of an earlier picture; optional
     FitScratch& scratch;                             // reused storage: a fit allocates nothing in a steady state
-    const HeldLight& held;                           // history after this light's last fit
-    HeldLight& next;                                 // output; starts as a copy of `held` (fit_history.h)
+    const LightFitHistory& held;                     // history after this light's last fit
+    LightFitHistory& next;                           // output; starts as a copy of `held` (fit_history.h)
 
-    std::span<const glm::dvec3> points_of(const Beam& beam) const {
-        return frame_points_ws.subspan(beam.receiver_points.first, beam.receiver_points.count);
+    std::span<const glm::dvec3> points_of(const ReceiverHull& receiver_hull) const {
+        return frame_points_ws.subspan(receiver_hull.receiver_points.first, receiver_hull.receiver_points.count);
     }
 };
 
@@ -59,7 +59,7 @@ std::span<const LightKindRow> light_kind_table();
 const LightKindRow& light_kind_row(LightKind kind);
 
 /// Returns the light frusta of a light: its kind's, or the one of an aimed lamp (far_lamp_aim.h). A sun has none.
-LightOpenings light_openings(const LightItem& light, const ShadowRequest& request);
+LightFrusta light_frusta(const LightItem& light, const ShadowRequest& request);
 
 /// Returns the texture kind of the light's map: flat for an aimed lamp, else its kind's.
 gl::TextureKind map_texture(const LightItem& light, const ShadowRequest& request);

@@ -30,8 +30,8 @@ gl::TextureDesc triangles_of(const gl::TextureDesc& map) {
 
 std::uint32_t scratch_rows(const MapSettings& settings, bool cube) { return cube ? settings.filtering.size / 2 : 0; }
 
-MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings) {
-    MomentDescs moments;
+PrefilterDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings) {
+    PrefilterDescs moments;
     if (!filter_row(settings.filter).moments) return moments;
     moments.texture = without_label(map);
     moments.texture.format = settings.moments.format;
@@ -42,7 +42,7 @@ MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings) 
     return moments;
 }
 
-SheetDescs sheets_of(const gl::TextureDesc& map) {
+BoundsDescs bounds_descs_of(const gl::TextureDesc& map) {
     const auto beside = [&](gl::Format format, std::uint32_t layers) {
         gl::TextureDesc desc = without_label(map);
         desc.kind = gl::TextureKind::array;
@@ -59,9 +59,9 @@ std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage
     std::uint64_t bytes = gl::byte_size(map);
     if (storage.triangle_ids) bytes += gl::byte_size(triangles_of(map));
     if (storage.conservative_bounds) {
-        const SheetDescs sheets = sheets_of(map);
+        const BoundsDescs sheets = bounds_descs_of(map);
         bytes += gl::byte_size(sheets.triangles) + gl::byte_size(sheets.second) + gl::byte_size(sheets.bounds);
-        if (storage.occluder_pyramid) bytes += ends_bytes(map.width, gl::layer_count(map));
+        if (storage.occluder_pyramid) bytes += pyramid_bytes(map.width, gl::layer_count(map));
     }
     if (moments.width > 0) bytes += gl::byte_size(moments);
     if (scratch.width > 0) bytes += gl::byte_size(scratch);
@@ -71,7 +71,7 @@ std::uint64_t map_bytes(const gl::TextureDesc& map, const FilterStorage& storage
 std::uint64_t map_bytes(const LightItem& light, const ShadowRequest& request) {
     if (!has_map(request)) return 0;
     const gl::TextureDesc map = map_desc(light, request);
-    const MomentDescs moments = moments_of(map, request.map);
+    const PrefilterDescs moments = moments_of(map, request.map);
     return map_bytes(map, filter_row(request.map.filter).storage, moments.texture, moments.scratch);
 }
 

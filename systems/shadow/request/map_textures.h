@@ -22,10 +22,10 @@ gl::TextureDesc map_desc(const LightItem& light, const ShadowRequest& request);
 gl::TextureDesc triangles_of(const gl::TextureDesc& map);
 
 /// Prefiltered map, and the result of its blur's first pass. Width 0: there is none.
-struct MomentDescs {
+struct PrefilterDescs {
     gl::TextureDesc texture{.width = 0}, scratch{.width = 0};
 };
-MomentDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings);
+PrefilterDescs moments_of(const gl::TextureDesc& map, const MapSettings& settings);
 
 /// Returns the additional rows of the scratch texture above and below the map's: a cube face's neighbours continue
 /// there.
@@ -35,10 +35,10 @@ std::uint32_t scratch_rows(const MapSettings& settings, bool cube);
 /// - `triangles`: triangle of each texel, read while the second layer is drawn; one layer for all views in turn.
 /// - `second`: per view, depths of the next triangles behind.
 /// - `bounds`: per view, depth of the nearest silhouette edge, and depth slope bound.
-struct SheetDescs {
+struct BoundsDescs {
     gl::TextureDesc triangles, second, bounds;
 };
-SheetDescs sheets_of(const gl::TextureDesc& map);
+BoundsDescs bounds_descs_of(const gl::TextureDesc& map);
 
 /// Returns the bytes of a map with all textures of its storage, and of `moments` and `scratch` where their width is not
 /// 0.

@@ -11,18 +11,20 @@ std::uint32_t squares(std::uint32_t side) { return (side + kEndsAcross - 1) / kE
 
 }  // namespace
 
-EndsLevel first_ends(std::uint32_t size_px) { return {0, squares(size_px)}; }
+PyramidLevel first_pyramid_level(std::uint32_t size_px) { return {0, squares(size_px)}; }
 
-EndsLevel next_ends(const EndsLevel& level) { return {level.first + level.side * level.side, squares(level.side)}; }
+PyramidLevel next_pyramid_level(const PyramidLevel& level) {
+    return {level.first + level.side * level.side, squares(level.side)};
+}
 
-std::uint32_t ends_count(std::uint32_t size_px) {
-    EndsLevel level = first_ends(size_px);
-    while (level.side > 1) level = next_ends(level);
+std::uint32_t pyramid_count(std::uint32_t size_px) {
+    PyramidLevel level = first_pyramid_level(size_px);
+    while (level.side > 1) level = next_pyramid_level(level);
     return level.first + 1;
 }
 
-std::uint64_t ends_bytes(std::uint32_t size_px, std::uint32_t views) {
-    return std::uint64_t{ends_count(size_px)} * views * kSquareBytes;
+std::uint64_t pyramid_bytes(std::uint32_t size_px, std::uint32_t views) {
+    return std::uint64_t{pyramid_count(size_px)} * views * kSquareBytes;
 }
 
 double steepest(const ShadowView& view, double texel_u, double texel_v, double source_size) {

@@ -16,18 +16,18 @@ inline constexpr std::uint32_t kEndsAcross = 4;
 
 /// One level of the pyramid of one view. `first`: index of its first square, from the view's start in the buffer.
 /// `side`: number of squares along an edge.
-struct EndsLevel {
+struct PyramidLevel {
     std::uint32_t first = 0, side = 0;
 };
 /// Returns the level above a map of `size_px` texels.
-EndsLevel first_ends(std::uint32_t size_px);
+PyramidLevel first_pyramid_level(std::uint32_t size_px);
 /// Returns the level above another one. A level of one square is the last.
-EndsLevel next_ends(const EndsLevel& level);
+PyramidLevel next_pyramid_level(const PyramidLevel& level);
 
 /// Returns the number of squares of one view.
-std::uint32_t ends_count(std::uint32_t size_px);
+std::uint32_t pyramid_count(std::uint32_t size_px);
 /// Returns the bytes of the pyramids of all views.
-std::uint64_t ends_bytes(std::uint32_t size_px, std::uint32_t views);
+std::uint64_t pyramid_bytes(std::uint32_t size_px, std::uint32_t views);
 
 /// Limit of the stretch of the source's ellipse, and of a penumbra, away from a lamp's axis. Equals kMostStretch in
 /// shaders/shadow/filters/exact/light_cone.glsl.

@@ -15,7 +15,7 @@ namespace {
 constexpr double kBackAgain = 1.25;
 
 double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowRequest& request) {
-    const double pixels = asking_pixels(scene, light) * (request.rays.only ? 1.0 : kUncertainShare);
+    const double pixels = lookup_pixels(scene, light) * (request.rays.only ? 1.0 : kUncertainShare);
     return pixels * rays_per_pixel(request.map);
 }
 
@@ -27,7 +27,7 @@ double meaning(const SceneSnapshot& scene, const LightItem& light) {
         nearest_m2 = std::min(nearest_m2, glm::dot(way_m, way_m));
     }
     constexpr double kLeast_m2 = 1.0;  // lights nearer than a metre count as at a metre
-    return illuminance_lux(light, std::max(nearest_m2, kLeast_m2)) * asking_pixels(scene, light);
+    return illuminance_lux(light, std::max(nearest_m2, kLeast_m2)) * lookup_pixels(scene, light);
 }
 
 bool uses_rays(const ShadowRequest& request) { return request.skip == Reason::none && request.rays.used; }
@@ -39,7 +39,7 @@ double rays_per_pixel(const MapSettings& map) {
     return rays && rays->per_source ? map.filtering.taps : 1.0;
 }
 
-double asking_pixels(const SceneSnapshot& scene, const LightItem& light) {
+double lookup_pixels(const SceneSnapshot& scene, const LightItem& light) {
     double pixels = 0.0;
     for (const ConsumerItem& consumer : scene.pictures.empty() ? scene.consumers : scene.pictures) {
         const gl::Rect area = screen_rectangle(light, consumer);
@@ -67,9 +67,9 @@ void choose_fallbacks(const SceneSnapshot& scene, const History& held, const Ray
     double left = static_cast<double>(limit.rays);
     for (const RayLight& asker : out.lights) {
         const LightItem& light = scene.lights[asker.light];
-        const HeldLight* last = find(held, light.entity, asker.light);
+        const LightFitHistory* last = find(held, light.entity, asker.light);
         const double rays = rays_of(scene, light, requests[asker.light]);
-        if (rays * (last && last->rays.gave_way ? kBackAgain : 1.0) <= left)
+        if (rays * (last && last->rays.fell_back ? kBackAgain : 1.0) <= left)
             left -= rays;
         else
             out.reasons[asker.light] = Reason::ray_budget;

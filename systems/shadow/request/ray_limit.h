@@ -15,7 +15,7 @@ namespace gnomon::shadow {
 inline constexpr double kUncertainShare = 0.2;
 
 /// Returns the pixels that look the light up: the area of its screen rectangles in all pictures.
-double asking_pixels(const SceneSnapshot& scene, const LightItem& light);
+double lookup_pixels(const SceneSnapshot& scene, const LightItem& light);
 
 /// Returns the rays per undecided pixel.
 double rays_per_pixel(const MapSettings& map);

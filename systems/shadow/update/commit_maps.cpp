@@ -8,25 +8,26 @@ namespace {
 
 /// Records the casters that a layer just drawn shows, if its map may be kept when they move.
 void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t v, bool takes_turns,
-                LightHistory& history) {
+                CachedMap& history) {
     const ShadowView& view = drawn.view(v);
     if (!may_be_held(scene.lights[view.light]) && !takes_turns) {
         history.layers.shown.clear();
         return;
     }
     history.layers.shown.resize(history.layers.targets.size());
-    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still, history.layers.shown[view.layer]);
+    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still,
+             history.layers.shown[view.layer]);
 }
 
 }  // namespace
 
-void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapStore& maps) {
+void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapCache& maps) {
     for (std::size_t v = 0; v < drawn.count(); ++v) {
         if (!drawn.has_map(v)) continue;
         const std::uint32_t layer = drawn.view(v).layer;
         const UpdatePlan& plan = drawn.updates[v];
         const ContentSignature& wanted = drawn.maps[v].content;
-        LightHistory& history = maps.entry(scene.lights[drawn.view(v).light].entity);
+        CachedMap& history = maps.entry(scene.lights[drawn.view(v).light].entity);
         if (!plan.reuse) {
             history.layers.content[layer] = end.executed ? plan.content : 0;
             history.layers.placements[layer] = wanted.placement;
@@ -34,7 +35,7 @@ void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const Fram
         }
         if (layer < history.layers.shown.size())
             history.layers.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
-        if (plan.still_use == StillUse::fill) history.still.layers[layer].content = end.executed ? wanted.still : 0;
+        if (plan.copy_use == StaticCopyUse::fill) history.still.layers[layer].content = end.executed ? wanted.still : 0;
         if (plan.convert && drawn.has_prefiltered(v))
             history.moments.content[layer] = end.executed ? plan.moment_content : 0;
     }

@@ -12,6 +12,6 @@ struct FrameEnd {
 };
 
 /// Records in the store what the frame drew. Call it after the frame was submitted.
-void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapStore& maps);
+void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapCache& maps);
 
 }  // namespace gnomon::shadow

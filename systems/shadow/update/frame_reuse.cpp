@@ -13,7 +13,7 @@ bool keep(T& last, const T& now) {
 
 }  // namespace
 
-bool StillFrame::unchanged(const SceneSnapshot& scene, const ShadowSettings& settings) {
+bool FrameReuse::unchanged(const SceneSnapshot& scene, const ShadowSettings& settings) {
     bool same = keep(version_, scene.version) && scene.version != 0;
     same &= keep(shadows_, settings.shadows);
     same &= keep(budget_, settings.budget);

@@ -10,7 +10,7 @@ namespace gnomon::shadow {
 
 /// Records what the stages read in the last frame, and detects a frame in which they would read the same. Costs one
 /// comparison per camera, whatever the size of the scene: its version stands for the rest.
-class StillFrame {
+class FrameReuse {
 public:
     /// Returns whether all inputs equal those of the last call. Never for a scene of version 0: it does not count
     /// changes.

@@ -15,7 +15,7 @@ void for_each_cube(const UpdateInputs& inputs, const std::vector<UpdatePlan>& pl
     for (const FitChoice& light : inputs.fitted.lights) {
         const IndexRange range = light.views;
         if (range.count == 0 || inputs.fitted.views[range.first].projection != ViewProjection::cube_face) continue;
-        if (inputs.maps[range.first].texture && !plans[range.first].left_to_rays) use(range);
+        if (inputs.maps[range.first].texture && !plans[range.first].skipped_for_rays) use(range);
     }
 }
 
@@ -65,12 +65,13 @@ bool may_be_held(const LightItem& light) {
 }
 
 Staleness staleness_if_held(const SceneSnapshot& scene, const UpdateInputs& inputs, std::size_t v,
-                            const LightHistory& history, std::uint64_t shown_content) {
+                            const CachedMap& history, std::uint64_t shown_content) {
     const ShadowView& view = inputs.fitted.views[v];
     const MapAssignment& map = inputs.maps[v];
     const bool certain = static_cast<bool>(map.sheets.second);  // a stale conservative map would classify wrongly
     const bool shows_it = shown_content != 0 && history.layers.placements[view.layer] == map.content.placement;
-    if (certain || !scene.lights[view.light].tuning.reuse.economy || !shows_it || view.layer >= history.layers.shown.size())
+    if (certain || !scene.lights[view.light].tuning.reuse.economy || !shows_it ||
+        view.layer >= history.layers.shown.size())
         return kUnknownStaleness;
     return staleness(scene, view, history.layers.shown[view.layer], map.content.still, inputs.fitted.casters_of(view));
 }

@@ -14,21 +14,22 @@ namespace gnomon::shadow {
 namespace {
 
 /// Compares what layers show with what they are to show.
-void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, const MapStore& maps,
+void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, const MapCache& maps,
                     std::vector<UpdatePlan>& plans) {
     for (std::size_t v = 0; v < plans.size(); ++v) {
         const MapAssignment& map = inputs.maps[v];
         if (!map.texture) continue;
         const ShadowView& view = inputs.fitted.views[v];
         const LightItem& light = scene.lights[view.light];
-        const LightHistory& history = *maps.find(light.entity);
+        const CachedMap& history = *maps.find(light.entity);
         UpdatePlan& plan = plans[v];
         plan.content = map.content.all;
         plan.reuse = view.lit || (light.tuning.reuse.economy && history.layers.content[view.layer] == plan.content);
         if (plan.reuse) continue;
         plan.shown_content = history.layers.content[view.layer];
         plan.if_held = staleness_if_held(scene, inputs, v, history, plan.shown_content);
-        if (view.layer < history.layers.shown.size()) plan.waited_frames = history.layers.shown[view.layer].waited_frames;
+        if (view.layer < history.layers.shown.size())
+            plan.waited_frames = history.layers.shown[view.layer].waited_frames;
     }
 }
 
@@ -39,7 +40,7 @@ void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateIn
     due.clear();
     for (std::size_t v = 0; v < plans.size(); ++v) {
         const UpdatePlan& plan = plans[v];
-        if (!inputs.maps[v].texture || plan.left_to_rays || plan.reuse) continue;
+        if (!inputs.maps[v].texture || plan.skipped_for_rays || plan.reuse) continue;
         const ShadowView& view = inputs.fitted.views[v];
         const BudgetDecision& decision = inputs.decisions[view.light];
         const MapSettings& map = decision.request.map;
@@ -48,7 +49,7 @@ void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateIn
         const double ns = drawing_ns(map, inputs.maps[v].size_px, 1.0, static_cast<double>(counts.triangles) * casters,
                                      static_cast<double>(counts.draws) * casters);
         const bool may_wait = std::isfinite(plan.if_held.error_px) && plan.waited_frames < kMostWait_frames;
-        const double harm = may_wait ? decision.weight * edge_harm(plan.if_held.error_px) : DueView::kMustNotWait;
+        const double harm = may_wait ? decision.weight * edge_error_cost(plan.if_held.error_px) : DueView::kMustNotWait;
         due.push_back({v, ns * inputs.allowance.factor, harm, plan.content});
     }
     const std::size_t waiting = choose_waiting(inputs.allowance.room_ns, due);
@@ -59,10 +60,10 @@ void defer_views(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateIn
 bool are_opposite_faces(std::uint32_t a, std::uint32_t b) { return a != b && a / 2 == b / 2; }
 
 /// Plans the prefiltered maps. A view's moments depend on its own depths and, in a cube, on those of adjacent faces.
-void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, const MapStore& maps,
+void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, const MapCache& maps,
                        std::vector<UpdatePlan>& plans) {
     for (std::size_t v = 0; v < plans.size(); ++v) {
-        if (!inputs.maps[v].prefiltered.moments || plans[v].left_to_rays) continue;
+        if (!inputs.maps[v].prefiltered.moments || plans[v].skipped_for_rays) continue;
         const ShadowView& view = inputs.fitted.views[v];
         const LightItem& light = scene.lights[view.light];
         const MapSettings& map = inputs.decisions[view.light].request.map;
@@ -86,10 +87,10 @@ void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, c
 }
 
 /// Chooses how the faces of cubes are drawn: one pass per face, or one for all.
-void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapStore& maps,
+void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapCache& maps,
                    std::vector<UpdatePlan>& plans) {
     const auto drawn = [&](std::size_t v) {
-        return inputs.maps[v].texture && !plans[v].left_to_rays && !plans[v].reuse;
+        return inputs.maps[v].texture && !plans[v].skipped_for_rays && !plans[v].reuse;
     };
     for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
         const IndexRange range = inputs.fitted.lights[i].views;
@@ -98,7 +99,7 @@ void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapSt
         bool apart = static_cast<bool>(inputs.maps[range.first].sheets.second);  // these are peeled face by face
         for (std::size_t v = range.first; v < range.end(); ++v) {
             faces += drawn(v) ? 1 : 0;
-            apart = apart || plans[v].still_use != StillUse::none;
+            apart = apart || plans[v].copy_use != StaticCopyUse::none;
         }
         if (faces == 0 || apart) continue;
         const CubeRoute route = cube_route(scene.lights[i].tuning.maps.cube_route, maps.device(), faces);
@@ -114,7 +115,7 @@ void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapSt
 
 }  // namespace
 
-void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
+void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapCache& maps,
                   std::vector<DueView>& due, std::vector<UpdatePlan>& plans) {
     plans.assign(inputs.fitted.views.size(), {});
     compare_layers(scene, inputs, maps, plans);
@@ -132,11 +133,11 @@ void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateI
 void keep_all(std::span<const MapAssignment> maps, std::vector<UpdatePlan>& plans) {
     for (std::size_t v = 0; v < plans.size(); ++v) {
         UpdatePlan& plan = plans[v];
-        plan.reuse = static_cast<bool>(maps[v].texture) && !plan.left_to_rays;
+        plan.reuse = static_cast<bool>(maps[v].texture) && !plan.skipped_for_rays;
         plan.convert = false;
         plan.whole = {};
         plan.route = CubeRoute::six_passes;
-        plan.still_use = StillUse::none;
+        plan.copy_use = StaticCopyUse::none;
     }
 }
 

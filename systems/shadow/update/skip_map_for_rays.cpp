@@ -17,9 +17,9 @@ std::uint64_t content_of(const std::vector<UpdatePlan>& plans, IndexRange range)
     return s.value();
 }
 
-SheetLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs,
-                  const std::vector<UpdatePlan>& plans, IndexRange range) {
-    SheetLoad load;
+BoundsLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs,
+                   const std::vector<UpdatePlan>& plans, IndexRange range) {
+    BoundsLoad load;
     for (std::size_t v = range.first; v < range.end(); ++v) {
         if (plans[v].reuse) continue;
         const double size_px = inputs.maps[v].size_px;
@@ -32,12 +32,12 @@ SheetLoad load_of(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateI
 
 }  // namespace
 
-bool are_rays_cheaper(double pixels, double rays_per_pixel, const SheetLoad& load) {
+bool are_rays_cheaper(double pixels, double rays_per_pixel, const BoundsLoad& load) {
     const double drawn = load.triangles * kTriangle_rays + load.texels * kTexel_rays;
     return pixels * rays_per_pixel < drawn + pixels * (kVerdict_rays + kUncertainShare * rays_per_pixel);
 }
 
-void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
+void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapCache& maps,
                         std::vector<UpdatePlan>& plans) {
     for (std::uint32_t i = 0; i < inputs.fitted.lights.size(); ++i) {
         const IndexRange range = inputs.fitted.lights[i].views;
@@ -45,16 +45,16 @@ void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const U
         const ShadowRequest& request = inputs.decisions[i].request;
         if (range.count == 0 || !request.rays.used || !light.tuning.reuse.economy || !inputs.maps[range.first].texture)
             continue;
-        LightHistory& history = maps.entry(light.entity);
+        CachedMap& history = maps.entry(light.entity);
         const std::uint64_t content = content_of(plans, range);
         const bool moves = history.wanted_content != 0 && history.wanted_content != content;
         history.wanted_content = content;
-        if (!moves || !are_rays_cheaper(asking_pixels(scene, light), rays_per_pixel(request.map),
+        if (!moves || !are_rays_cheaper(lookup_pixels(scene, light), rays_per_pixel(request.map),
                                         load_of(scene, gpu, inputs, plans, range)))
             continue;
         for (std::size_t v = range.first; v < range.end(); ++v) {
             plans[v] = {};
-            plans[v].left_to_rays = true;
+            plans[v].skipped_for_rays = true;
         }
     }
 }

@@ -63,9 +63,9 @@ double longest(const glm::dmat3& basis) {
 
 }  // namespace
 
-void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters, std::uint64_t still_content,
+void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters, std::uint64_t static_content,
               ShownCasters& shown) {
-    shown.still = still_content;
+    shown.still = static_content;
     shown.moving.clear();
     for (const std::uint32_t i : casters) {
         const InstanceItem& item = scene.instances[i];
@@ -91,9 +91,9 @@ CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const 
 }
 
 Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const ShownCasters& shown,
-                    std::uint64_t still_content, std::span<const std::uint32_t> casters) {
-    const auto moving = casters.subspan(std::min<std::size_t>(view.still_casters, casters.size()));
-    if (shown.still != still_content || shown.moving.size() != moving.size() || !(view.error.metre_px > 0.0))
+                    std::uint64_t static_content, std::span<const std::uint32_t> casters) {
+    const auto moving = casters.subspan(std::min<std::size_t>(view.static_casters, casters.size()));
+    if (shown.still != static_content || shown.moving.size() != moving.size() || !(view.error.metre_px > 0.0))
         return kUnknownStaleness;
     CasterShift most;
     for (std::size_t i = 0; i < moving.size(); ++i) {

@@ -28,7 +28,7 @@
 namespace gnomon::shadow {
 
 /// Records the view's moving casters as the layer shows them. `casters`: the moving ones alone.
-void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters, std::uint64_t still_content,
+void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters, std::uint64_t static_content,
               ShownCasters& shown);
 
 /// Movement of a caster's points: D, metres, and A across the light, metres (perspective views: tangents). Infinite:
@@ -46,6 +46,6 @@ inline constexpr Staleness kUnknownStaleness{std::numeric_limits<double>::infini
 /// the view now. Infinite if casters came or went or static ones changed. Infinite also if the size of a metre on
 /// screen is unknown: in a warped map, or a view that no camera sees.
 Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const ShownCasters& shown,
-                    std::uint64_t still_content, std::span<const std::uint32_t> casters);
+                    std::uint64_t static_content, std::span<const std::uint32_t> casters);
 
 }  // namespace gnomon::shadow

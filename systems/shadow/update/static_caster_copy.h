@@ -15,11 +15,11 @@ inline constexpr std::uint64_t kCopiedBytesPerTriangle = 256;
 
 /// Returns whether drawing these casters is more work than copying `bytes`. Counted, not timed, so that the result is
 /// the same on every device.
-bool pays_to_copy(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> still_casters,
+bool pays_to_copy(const SceneSnapshot& scene, const GpuScene& gpu, std::span<const std::uint32_t> static_casters,
                   std::uint64_t bytes);
 
 /// Plans copies of static casters for views in which only some casters move, where copying is less work than drawing.
-void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapStore& maps,
+void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapCache& maps,
                          std::vector<UpdatePlan>& plans);
 
 }  // namespace gnomon::shadow

@@ -18,7 +18,7 @@ struct DueView {
 };
 
 /// Most frames for which a view is deferred. Every fourth frame is also the slowest refresh that a budget allows
-/// (Grant::refresh_frames). Slower updates are seen to jump.
+/// (QualityLimits::refresh_frames). Slower updates are seen to jump.
 inline constexpr std::uint32_t kMostWait_frames = 3;
 
 /// Moves deferred views to the front of `due` and returns their number. Greedy: defers the view with the least error

@@ -99,12 +99,12 @@ TEST(EdgeExceptions, ACasterNearerThanTheSlopeOfItsReceiverOverATexelIsBelowATex
 }
 
 TEST(EdgeExceptions, ACasterNearerThanTheDepthsThatAMapTellsApartIsBelowATexel) {
-    for (const double told_apart_m : {0.9, 1.1}) {
+    for (const double min_resolvable_gap_m : {0.9, 1.1}) {
         Floor floor(kOverhead);
         floor.plate(-2.0, 2.0, 1.0);
-        floor.depth_m = told_apart_m;
+        floor.depth_m = min_resolvable_gap_m;
         const EdgeExceptions e = floor.judge(3, 0.1, 1.5);
-        EXPECT_EQ(e.unexplained == 0, told_apart_m > 1.0);
+        EXPECT_EQ(e.unexplained == 0, min_resolvable_gap_m > 1.0);
         EXPECT_GT(e.beyond(), 100u);
     }
 }

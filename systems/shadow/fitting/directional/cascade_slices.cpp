@@ -69,8 +69,8 @@ DepthSpan whole_span(const FitInput& input, const ConsumerItem& consumer) {
     span.highest = std::max(span.highest, span.lowest);
     if (fit == ShadowFit::tight || !std::isfinite(span.highest)) return span;
 
-    const HeldSplits& held = input.held.splits;
-    HeldSplits& next = input.next.splits;
+    const SplitHistory& held = input.held.splits;
+    SplitHistory& next = input.next.splits;
     const int patience = fit == ShadowFit::stable ? kHoldSteps : kHoldDepthSteps;
     next.far_step = hold_above(span.highest, held.used, held.far_step, patience);
     next.near_step = hold_below(span.lowest, held.used, held.near_step, patience);
@@ -91,14 +91,15 @@ double seen_width_m(std::span<const glm::dvec3> points_ws, const ConsumerItem& c
 }
 
 /// Places the splits by the pixels counted in an earlier frame. Returns false if there are no counts for this camera.
-bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const DepthSpan& whole, CascadeEnds& ends) {
+bool ends_by_pixels(const FitInput& input, const ConsumerItem& consumer, const DepthSpan& whole,
+                    CascadeSplitDistances& ends) {
     const ShadowTuning::Cascades& tuning = input.light.tuning.cascades;
     if (tuning.splits != CascadeSplits::sampled || !are_splits(tuning)) return false;
     const double width_m = tuning.fit == ShadowFit::stable ? std::numeric_limits<double>::infinity()
                                                            : seen_width_m(input.receiver_points_ws, consumer);
     const SampledSplit split{input.sampled_depths, consumer, input.request.map.view_count, whole, width_m};
-    if (tuning.fit == ShadowFit::tight) return sampled_ends(split, ends);
-    return held_sampled_ends(split, input.held.sampled_ends, input.next.sampled_ends, ends);
+    if (tuning.fit == ShadowFit::tight) return sampled_splits(split, ends);
+    return held_sampled_splits(split, input.held.sampled_splits, input.next.sampled_splits, ends);
 }
 
 /// Returns the tuning with logarithmic splits where the number of cascades is the system's to choose. It chooses more
@@ -109,10 +110,10 @@ ShadowTuning::Cascades with_ends_for_count(ShadowTuning::Cascades tuning, const 
     return tuning;
 }
 
-CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
+CascadeSplitDistances wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
     const ShadowTuning::Cascades& tuning = input.light.tuning.cascades;
     const DepthSpan whole = whole_span(input, consumer);
-    CascadeEnds ends{};
+    CascadeSplitDistances ends{};
     if (ends_by_pixels(input, consumer, whole, ends)) return ends;
     std::vector<DepthSpan>& receivers = input.scratch.depths;
     receivers.clear();
@@ -123,25 +124,26 @@ CascadeEnds wanted_ends(const FitInput& input, const ConsumerItem& consumer) {
             const double reach = glm::dot(math::half_extent(box), glm::abs(consumer.rotation_ws[2]));
             receivers.push_back({middle - reach, middle + reach});
         }
-    return cascade_ends(with_ends_for_count(tuning, input.request), input.request.map.view_count, whole,
-                        consumer.projection == CameraProjection::perspective, receivers);
+    return cascade_split_distances(with_ends_for_count(tuning, input.request), input.request.map.view_count, whole,
+                                   consumer.projection == CameraProjection::perspective, receivers);
 }
 
 }  // namespace
 
 CascadeSlices cascade_slices(const FitInput& input) {
     const ConsumerItem& consumer = input.scene.consumers.front();
-    const CascadeEnds wanted = wanted_ends(input, consumer);
+    const CascadeSplitDistances wanted = wanted_ends(input, consumer);
     const std::uint32_t count = input.request.map.view_count;
     // Several cameras share the cascades: each cascade serves by what its map contains, none by distance.
     const bool moves_slowly = input.light.tuning.cascades.fit != ShadowFit::tight && input.scene.consumers.size() == 1;
     const double blend = static_cast<double>(input.request.map.cascade_blend);
-    const GlidingEnds ends = moves_slowly ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
-                                          : GlidingEnds{wanted, wanted, wanted};
+    const SplitTransition ends = moves_slowly
+                                     ? glide(wanted, count, blend, consumer, input.held.splits, input.next.splits)
+                                     : SplitTransition{wanted, wanted, wanted};
     if (!moves_slowly) input.next.splits.count = 0;
     CascadeSlices slices{};
     for (std::uint32_t i = 0; i < count; ++i) {
-        const auto holds_from = [&](const CascadeEnds& e) { return i == 0 ? e[0] : fade_start(e, i, blend); };
+        const auto holds_from = [&](const CascadeSplitDistances& e) { return i == 0 ? e[0] : fade_start(e, i, blend); };
         slices[i].holds_from_m = std::min(holds_from(ends.from_m), holds_from(ends.to_m));
         slices[i].holds_to_m = std::max(ends.from_m[i + 1], ends.to_m[i + 1]);
         slices[i].fades_from_m = fade_start(ends.at_m, i + 1, blend);

@@ -80,7 +80,7 @@ namespace {
 constexpr double kRoomForCasters = 0.5;
 
 /// Replaces the depth range by the request's, counted from the sun's eye.
-void override_from_eye(const ShadowRequest& request, const SunEye& eye, OrthographicBox& box) {
+void override_from_eye(const ShadowRequest& request, const SunViewpoint& eye, OrthographicBox& box) {
     const double eye_at_m = -glm::dot(eye.position_ws_m - box.anchor_ws_m, box.axes[2]);
     double near_m = box.near_m - eye_at_m, far_m = box.far_m - eye_at_m;
     override_range(request.projection, near_m, far_m);
@@ -113,8 +113,8 @@ void end_before(double distance_m, ShadowView& view) {
 
 /// Returns whether a kept size of some cascade differs from the last frame's.
 bool has_stepped(const FitInput& input) {
-    for (std::size_t i = 0; i < kHeldViews; ++i) {
-        const HeldView &held = input.held.views[i], &next = input.next.views[i];
+    for (std::size_t i = 0; i < kHistoryViews; ++i) {
+        const ViewFitHistory &held = input.held.views[i], &next = input.next.views[i];
         if (held.used && (next.extent_step != held.extent_step || next.far_step != held.far_step)) return true;
     }
     return false;
@@ -123,14 +123,15 @@ bool has_stepped(const FitInput& input) {
 void fit_cascades(const FitInput& input, const glm::dmat3& basis, const CascadeSlices& slices, Stepping stepping,
                   std::vector<ShadowView>& views) {
     const bool counts_from_eye = input.request.projection.near_m > 0.0 || input.request.projection.far_m > 0.0;
-    const SunEye eye =
-        counts_from_eye ? sun_eye(basis, input.receiver_points_ws, input.light.tuning.projection) : SunEye{};
+    const SunViewpoint eye = counts_from_eye
+                                 ? sun_viewpoint(basis, input.receiver_points_ws, input.light.tuning.projection)
+                                 : SunViewpoint{};
     const ConsumerItem& consumer = input.scene.consumers.front();
     // Several cameras share the cascades: the last one then contains what any of them sees.
     const bool alone = input.scene.consumers.size() == 1;
     const std::uint32_t count = input.request.map.view_count;
     const std::size_t before = views.size();
-    for (HeldView& view : input.next.views) view.too_large = false;  // each cascade with receivers sets it again
+    for (ViewFitHistory& view : input.next.views) view.too_large = false;  // each cascade with receivers sets it again
     for (std::uint32_t i = 0; i < count; ++i) {
         const CascadeSlice& slice = slices[i];
         const bool first = views.size() == before, last = i + 1 == count, of_all = last && !alone;
@@ -172,21 +173,21 @@ bool fit_directional(const FitInput& input, std::vector<ShadowView>& views) {
     if (input.request.projection.perspective_sun) return fit_perspective_sun(input, basis, views);
     const CascadeSlices slices = cascade_slices(input);
     const std::size_t before = views.size();
-    const HeldLight& held = input.held;
-    HeldLight& next = input.next;
-    fit_cascades(input, basis, slices, held.size.tired_frames > 0 ? Stepping::larger : Stepping::as_needed, views);
+    const LightFitHistory& held = input.held;
+    LightFitHistory& next = input.next;
+    fit_cascades(input, basis, slices, held.size.shrink_cooldown > 0 ? Stepping::larger : Stepping::as_needed, views);
     const bool too_large =
-        std::any_of(next.views.begin(), next.views.end(), [](const HeldView& view) { return view.too_large; });
-    next.size.large_frames = too_large ? held.size.large_frames + 1 : 0;
-    next.size.tired_frames = std::max(held.size.tired_frames, 1u) - 1;
-    if (has_stepped(input) || next.size.large_frames >= kSpareFrames) {
+        std::any_of(next.views.begin(), next.views.end(), [](const ViewFitHistory& view) { return view.too_large; });
+    next.size.oversize_frames = too_large ? held.size.oversize_frames + 1 : 0;
+    next.size.shrink_cooldown = std::max(held.size.shrink_cooldown, 1u) - 1;
+    if (has_stepped(input) || next.size.oversize_frames >= kSpareFrames) {
         // Each change of a size shows. So sizes that would soon change do so in this frame, and none shrinks for
         // kSpareFrames frames.
         views.resize(before);
         next.views = held.views;
         fit_cascades(input, basis, slices, Stepping::together, views);
-        next.size.large_frames = 0;
-        next.size.tired_frames = kSpareFrames;
+        next.size.oversize_frames = 0;
+        next.size.shrink_cooldown = kSpareFrames;
     }
     return views.size() > before;
 }

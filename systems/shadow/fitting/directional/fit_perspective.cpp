@@ -11,7 +11,7 @@
 namespace gnomon::shadow {
 
 bool fit_perspective_sun(const FitInput& input, const glm::dmat3& basis, std::vector<ShadowView>& views) {
-    const SunEye eye = sun_eye(basis, input.receiver_points_ws, input.light.tuning.projection);
+    const SunViewpoint eye = sun_viewpoint(basis, input.receiver_points_ws, input.light.tuning.projection);
     double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
     for (const glm::dvec3& p : input.receiver_points_ws) {
         const double z = glm::dot(eye.position_ws_m - p, basis[2]);

@@ -29,8 +29,8 @@ constexpr Holding kAlong{12, 12, 4};
 constexpr int kSpare = 2;
 
 /// Returns the step for `needed`: the last frame's by hysteresis, or another.
-int held_step_for(double needed, const HeldView& held, int held_step, const Holding& holding, Stepping stepping,
-                  HeldView& next) {
+int held_step_for(double needed, const ViewFitHistory& held, int held_step, const Holding& holding, Stepping stepping,
+                  ViewFitHistory& next) {
     const int closest = step_at_or_above(needed);
     if (!held.used) return closest;
     const bool together = stepping == Stepping::together;
@@ -80,8 +80,8 @@ bool fit_quantised(const CascadeInput& input, OrthographicBox& box) {
     seen.low -= widened;
     seen.high += widened;
 
-    const HeldView& held = input.light.held.views[input.index];
-    HeldView& next = input.light.next.views[input.index];
+    const ViewFitHistory& held = input.light.held.views[input.index];
+    ViewFitHistory& next = input.light.next.views[input.index];
     const double texel = 1.0 / input.light.request.map.resolution_px;
     const double room = 1.0 / with_border(1.0, input.light) - texel;  // one texel less, for the grid
     glm::dvec3 low, size;

@@ -50,7 +50,7 @@ Counted counted(const SampledSplit& split) {
     return bins;
 }
 
-double cost_of(const Counted& bins, std::uint32_t count, const CascadeEnds& ends_m) {
+double cost_of(const Counted& bins, std::uint32_t count, const CascadeSplitDistances& ends_m) {
     double sum = 0.0;
     std::uint32_t from = 0;
     for (std::uint32_t c = 1; c <= count; ++c) {
@@ -64,7 +64,7 @@ double cost_of(const Counted& bins, std::uint32_t count, const CascadeEnds& ends
 
 /// Searches exhaustively by dynamic programming: the best c splits before a bin follow from the best c - 1 before each
 /// earlier one.
-CascadeEnds best_ends(const Counted& bins, std::uint32_t count) {
+CascadeSplitDistances best_ends(const Counted& bins, std::uint32_t count) {
     const std::uint32_t size = bins.size;
     std::array<std::array<std::uint16_t, kDepthBins + 1>, kMaxCascades + 1> from{};
     std::array<double, kDepthBins + 1> before{}, now{};
@@ -82,7 +82,7 @@ CascadeEnds best_ends(const Counted& bins, std::uint32_t count) {
                 from[c][to] = static_cast<std::uint16_t>(i);
             }
         }
-    CascadeEnds ends_m{};
+    CascadeSplitDistances ends_m{};
     ends_m[0] = bins.whole.lowest;
     ends_m[count] = bins.whole.highest;
     std::uint32_t to = size;
@@ -113,7 +113,7 @@ bool wants_sampled_depths(const SceneSnapshot& scene, const FittedViews& fitted,
     return false;
 }
 
-bool sampled_ends(const SampledSplit& split, CascadeEnds& ends_m) {
+bool sampled_splits(const SampledSplit& split, CascadeSplitDistances& ends_m) {
     if (!knows(split)) return false;
     const Counted bins = counted(split);
     if (bins.empty()) return false;
@@ -121,18 +121,19 @@ bool sampled_ends(const SampledSplit& split, CascadeEnds& ends_m) {
     return true;
 }
 
-bool held_sampled_ends(const SampledSplit& split, const HeldEnds& held, HeldEnds& next, CascadeEnds& ends_m) {
-    constexpr double kPatience = 1.1;
+bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& held, SampledSplitHistory& next,
+                         CascadeSplitDistances& ends_m) {
+    constexpr double kSizeHysteresis = 1.1;
     if (!knows(split)) return false;
     const Counted bins = counted(split);
     if (bins.empty()) return false;
     ends_m = best_ends(bins, split.count);
     if (held.count == split.count) {
-        CascadeEnds stay = held.ends_m;
+        CascadeSplitDistances stay = held.ends_m;
         stay[0] = split.whole.lowest;
         for (std::uint32_t i = 1; i < split.count; ++i) stay[i] = std::clamp(stay[i], stay[i - 1], split.whole.highest);
         stay[split.count] = split.whole.highest;
-        if (cost_of(bins, split.count, stay) <= kPatience * cost_of(bins, split.count, ends_m)) ends_m = stay;
+        if (cost_of(bins, split.count, stay) <= kSizeHysteresis * cost_of(bins, split.count, ends_m)) ends_m = stay;
     }
     next = {split.count, ends_m};
     return true;

@@ -22,10 +22,11 @@ struct SampledSplit {
 /// error cost is the sum over all pixels of map size over pixel width. A slice's map is taken to be as wide as the view
 /// at its far end, at most `width_m`, and as long as the slice. A pixel's width grows with its distance (perspective).
 /// The first and the last distance equal `whole`; the distances never fall. Returns false if this camera has no counts.
-bool sampled_ends(const SampledSplit& split, CascadeEnds& ends_m);
+bool sampled_splits(const SampledSplit& split, CascadeSplitDistances& ends_m);
 
 /// Does the same with hysteresis: keeps `held` while its cost is at most a tenth above the least. Counts flicker while
 /// the camera moves.
-bool held_sampled_ends(const SampledSplit& split, const HeldEnds& held, HeldEnds& next, CascadeEnds& ends_m);
+bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& held, SampledSplitHistory& next,
+                         CascadeSplitDistances& ends_m);
 
 }  // namespace gnomon::shadow

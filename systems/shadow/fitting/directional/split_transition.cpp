@@ -15,7 +15,7 @@ constexpr double kGlide = kMostFade / 2.0, kHastyGlide = kMostFade / 4.0;
 
 /// Bounds the change of a static point's view distance since the last frame, for a point seen at `distance_m`, metres.
 /// The change is linear across the view, so that a corner has the most.
-double carried_m(const HeldSplits& held, const ConsumerItem& now, double distance_m) {
+double carried_m(const SplitHistory& held, const ConsumerItem& now, double distance_m) {
     const bool flat = now.projection == CameraProjection::orthographic;
     const double half_y = flat ? now.half_height_m : distance_m * std::tan(0.5 * now.fov_y_rad);
     double most = 0.0;
@@ -30,8 +30,8 @@ double carried_m(const HeldSplits& held, const ConsumerItem& now, double distanc
 }
 
 /// Returns the share of the remaining way that the splits may move in this frame, 0 to 1.
-double next_share(const GlidingEnds& ends, std::uint32_t count, double blend, const ConsumerItem& consumer,
-                  const HeldSplits& held) {
+double next_share(const SplitTransition& ends, std::uint32_t count, double blend, const ConsumerItem& consumer,
+                  const SplitHistory& held) {
     double share = 1.0;
     for (std::uint32_t i = 1; i < count; ++i) {
         const double start_m = fade_start(ends.at_m, i, blend), to_start_m = fade_start(ends.to_m, i, blend);
@@ -47,7 +47,7 @@ double next_share(const GlidingEnds& ends, std::uint32_t count, double blend, co
     return share;
 }
 
-bool rises(const CascadeEnds& ends_m, std::uint32_t count) {
+bool rises(const CascadeSplitDistances& ends_m, std::uint32_t count) {
     for (std::uint32_t i = 0; i <= count; ++i)
         if (!std::isfinite(ends_m[i]) || (i > 0 && ends_m[i] < ends_m[i - 1])) return false;
     return true;
@@ -55,13 +55,13 @@ bool rises(const CascadeEnds& ends_m, std::uint32_t count) {
 
 }  // namespace
 
-double fade_start(const CascadeEnds& ends_m, std::uint32_t i, double blend) {
+double fade_start(const CascadeSplitDistances& ends_m, std::uint32_t i, double blend) {
     return ends_m[i] - blend * (ends_m[i] - ends_m[i - 1]);
 }
 
-GlidingEnds glide(const CascadeEnds& wanted_m, std::uint32_t count, double blend, const ConsumerItem& consumer,
-                  const HeldSplits& held, HeldSplits& next) {
-    GlidingEnds ends{wanted_m, wanted_m, wanted_m};
+SplitTransition glide(const CascadeSplitDistances& wanted_m, std::uint32_t count, double blend,
+                      const ConsumerItem& consumer, const SplitHistory& held, SplitHistory& next) {
+    SplitTransition ends{wanted_m, wanted_m, wanted_m};
     if (held.count == count && blend > 0.0 && rises(held.at_m, count)) {
         const bool goes_on = held.to_m == wanted_m && rises(held.from_m, count);
         ends = {held.at_m, goes_on ? held.from_m : held.at_m, wanted_m};

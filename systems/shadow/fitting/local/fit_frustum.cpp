@@ -37,7 +37,8 @@ double anchored_m(const FitInput& input) {
 
 /// Returns the depth range of the view. In an aimed view it is as short as the lit sphere, so that depths resolve a
 /// share of the range instead of the distance.
-PerspectiveRange depth_range(const FitInput& input, const LocalContent& content, const HeldView& held, HeldView& next) {
+PerspectiveRange depth_range(const FitInput& input, const FrustumContent& content, const ViewFitHistory& held,
+                             ViewFitHistory& next) {
     const double anchor_m = anchored_m(input), nearest_m = content.nearest_m, farthest_m = content.farthest_m;
     const bool near_is_free = is_near_free(input.request);
     if (!(anchor_m > 0.0)) return held_range(nearest_m, farthest_m, near_is_free, held, next);
@@ -47,16 +48,18 @@ PerspectiveRange depth_range(const FitInput& input, const LocalContent& content,
 
 }  // namespace
 
-bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam& beam, std::vector<ShadowView>& views) {
+bool fit_frustum(const FitInput& input, const LightFrustum& opening, const ReceiverHull& receiver_hull,
+                 std::vector<ShadowView>& views) {
     const TangentRectangle whole{opening.low, opening.high};
-    LocalContent content = visible_content(input, beam, whole);
+    FrustumContent content = visible_content(input, receiver_hull, whole);
     if (!content.receivers) return true;
-    const HeldView& held = input.held.views[opening.held_as];
-    HeldView next = held;
+    const ViewFitHistory& held = input.held.views[opening.held_as];
+    ViewFitHistory next = held;
     const TangentRectangle crop = held_rectangle(content.footprint, whole, held, next);
     const bool has_size = needs_distances(input.request.map.filtering);
     const auto reach = static_cast<double>(input.reach_texel);
-    include_casters(input, beam, has_size ? with_border(crop, input.request.map.resolution_px, reach) : crop, content);
+    include_casters(input, receiver_hull, has_size ? with_border(crop, input.request.map.resolution_px, reach) : crop,
+                    content);
     if (!content.casters) return true;
     const PerspectiveRange range = overridden(input.request.projection, depth_range(input, content, held, next));
     if (!(range.near_m < range.far_m) || !std::isfinite(range.far_m)) return false;
@@ -64,8 +67,8 @@ bool fit_opening(const FitInput& input, const LightOpening& opening, const Beam&
     input.next.views[opening.held_as] = next;
     const double size_px = input.request.map.resolution_px;
     const auto border_texel = static_cast<double>(reach_texel(input, crop, range));
-    ShadowView view = perspective_view(beam.origin_ws_m, opening.axes, with_border(crop, size_px, border_texel), range,
-                                       size_px, anchored_m(input));
+    ShadowView view = perspective_view(receiver_hull.origin_ws_m, opening.axes,
+                                       with_border(crop, size_px, border_texel), range, size_px, anchored_m(input));
     view.layer = opening.layer;
     view.held = true;
     views.push_back(view);

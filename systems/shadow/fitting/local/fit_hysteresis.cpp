@@ -40,8 +40,8 @@ bool is_near_free(const ShadowRequest& request) {
            !needs_distances(request.map.filtering) && !(request.map.filtering.spread_m > 0.0f);
 }
 
-PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
-                            HeldView& next) {
+PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const ViewFitHistory& held,
+                            ViewFitHistory& next) {
     const PerspectiveRange tight = perspective_range(nearest_m, farthest_m);
     if (!(tight.near_m < tight.far_m) || !std::isfinite(tight.far_m)) return tight;
     next.far_step = hold_above(tight.far_m, held.used, held.far_step, kHoldSteps);
@@ -52,7 +52,7 @@ PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_fr
 }
 
 PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, double farthest_m, bool near_is_free,
-                                   const HeldView& held, HeldView& next) {
+                                   const ViewFitHistory& held, ViewFitHistory& next) {
     constexpr double kSlack = 1.0 + 1.0 / (1 << 10);  // as in perspective_range()
     const double before_m = kSlack * std::max(anchor.at_m - nearest_m, anchor.least_m);
     const double behind_m = kSlack * std::max(farthest_m - anchor.at_m, anchor.least_m);
@@ -65,8 +65,8 @@ PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, 
     return {near_m, anchor.at_m + step_size(next.far_step)};
 }
 
-TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,
-                                HeldView& next) {
+TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full,
+                                const ViewFitHistory& held, ViewFitHistory& next) {
     TangentRectangle chosen;
     for (int axis = 0; axis < 2; ++axis) {
         const Side side = hold({needed.low[axis], needed.high[axis]}, {full.low[axis], full.high[axis]}, held.used,

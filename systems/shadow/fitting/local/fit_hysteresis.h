@@ -23,8 +23,8 @@ bool is_near_free(const ShadowRequest& request);
 
 /// Returns the range of perspective_range(), rounded outward to steps. near >= far only if nothing lies before the
 /// light.
-PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const HeldView& held,
-                            HeldView& next);
+PerspectiveRange held_range(double nearest_m, double farthest_m, bool near_is_free, const ViewFitHistory& held,
+                            ViewFitHistory& next);
 
 /// A fixed anchor that a range lies around: its distance from the light, and the least distance to both of its sides.
 struct RangeAnchor {
@@ -35,12 +35,12 @@ struct RangeAnchor {
 /// the distance itself would be much longer than what is seen. Equals held_range() where the near side reaches the
 /// light.
 PerspectiveRange held_range_around(const RangeAnchor& anchor, double nearest_m, double farthest_m, bool near_is_free,
-                                   const HeldView& held, HeldView& next);
+                                   const ViewFitHistory& held, ViewFitHistory& next);
 
 /// Returns `needed` within `full`, rounded outward: each side becomes a step, placed on sixteenths of itself. A side
 /// that would not be a step shorter than the full one stays full. None is cropped below a 64th of it: there a float
 /// matrix still places a texel of an 8192 px map to a sixteenth.
-TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full, const HeldView& held,
-                                HeldView& next);
+TangentRectangle held_rectangle(const TangentRectangle& needed, const TangentRectangle& full,
+                                const ViewFitHistory& held, ViewFitHistory& next);
 
 }  // namespace gnomon::shadow

@@ -19,11 +19,11 @@ namespace {
 
 constexpr double kOneTap_texel = 0.5;  // radius of a filter that reads the nearest texel only
 
-ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening& opening,
+ShadowView face_view(const FitInput& input, const ReceiverHull& receiver_hull, const LightFrustum& opening,
                      const PerspectiveRange& range) {
     const std::uint32_t face = opening.layer;
-    ShadowView view =
-        perspective_view(beam.origin_ws_m, opening.axes, TangentRectangle{}, range, input.request.map.resolution_px);
+    ShadowView view = perspective_view(receiver_hull.origin_ws_m, opening.axes, TangentRectangle{}, range,
+                                       input.request.map.resolution_px);
     view.projection = ViewProjection::cube_face;
     view.layer = face;
     view.held = true;
@@ -33,23 +33,23 @@ ShadowView face_view(const FitInput& input, const Beam& beam, const LightOpening
 }  // namespace
 
 bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
-    const LightOpenings openings = light_openings(input.light, input.request);
+    const LightFrusta openings = light_frusta(input.light, input.request);
     input.next.aim = input.request.projection.aim;
-    if (input.request.projection.aim.used) return fit_opening(input, openings.items[0], input.beams[0], views);
-    std::array<LocalContent, 6> faces;
+    if (input.request.projection.aim.used) return fit_frustum(input, openings.items[0], input.hulls[0], views);
+    std::array<FrustumContent, 6> faces;
     double nearest_m = HUGE_VAL, farthest_m = 0.0;
     bool any = false;
     for (std::uint32_t i = 0; i < openings.count; ++i) {
         const TangentRectangle whole{openings.items[i].low, openings.items[i].high};
-        faces[i] = visible_content(input, input.beams[i], whole);
+        faces[i] = visible_content(input, input.hulls[i], whole);
         if (!faces[i].receivers) continue;
-        include_casters(input, input.beams[i], whole, faces[i]);
+        include_casters(input, input.hulls[i], whole, faces[i]);
         any = any || faces[i].casters;
         nearest_m = std::min(nearest_m, faces[i].nearest_m);
         farthest_m = std::max(farthest_m, faces[i].farthest_m);
     }
     if (!any) return true;
-    HeldView next = input.held.views[0];
+    ViewFitHistory next = input.held.views[0];
     const PerspectiveRange range =
         overridden(input.request.projection,
                    held_range(nearest_m, farthest_m, is_near_free(input.request), input.held.views[0], next));
@@ -60,7 +60,7 @@ bool fit_point(const FitInput& input, std::vector<ShadowView>& views) {
     const bool blends = static_cast<double>(input.reach_texel) > kOneTap_texel;
     for (std::uint32_t face = 0; face < openings.count; ++face)
         if (faces[face].receivers && (faces[face].casters || blends))
-            views.push_back(face_view(input, input.beams[face], openings.items[face], range));
+            views.push_back(face_view(input, input.hulls[face], openings.items[face], range));
     return true;
 }
 

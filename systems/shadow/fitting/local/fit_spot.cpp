@@ -8,11 +8,11 @@
 namespace gnomon::shadow {
 
 bool fit_spot(const FitInput& input, std::vector<ShadowView>& views) {
-    input.next.cone = next_cone_fade(input.light.outer_cone_rad, input.held.cone);
+    input.next.cone = next_spot_cube_transition(input.light.outer_cone_rad, input.held.cone);
     input.next.aim = input.request.projection.aim;
-    const LightOpenings openings = light_openings(input.light, input.request);
+    const LightFrusta openings = light_frusta(input.light, input.request);
     for (std::uint32_t i = 0; i < openings.count; ++i)
-        if (!fit_opening(input, openings.items[i], input.beams[i], views)) return false;
+        if (!fit_frustum(input, openings.items[i], input.hulls[i], views)) return false;
     return true;
 }
 

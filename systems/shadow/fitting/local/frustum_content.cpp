@@ -11,11 +11,11 @@ namespace gnomon::shadow {
 namespace {
 
 /// Returns the four sides, the light's own plane and a far plane at `end_m`.
-std::array<math::Plane, 6> planes_of(const Beam& beam, const TangentRectangle& opening, double end_m) {
+std::array<math::Plane, 6> planes_of(const ReceiverHull& receiver_hull, const TangentRectangle& opening, double end_m) {
     const auto plane = [&](const glm::dvec3& normal, double inset_m) {
-        return math::Plane{normal, -glm::dot(normal, beam.origin_ws_m) - inset_m};
+        return math::Plane{normal, -glm::dot(normal, receiver_hull.origin_ws_m) - inset_m};
     };
-    const glm::dvec3 &u = beam.axes[0], &v = beam.axes[1], &back = beam.axes[2];
+    const glm::dvec3 &u = receiver_hull.axes[0], &v = receiver_hull.axes[1], &back = receiver_hull.axes[2];
     return {plane(u + opening.low.x * back, 0.0),
             plane(-u - opening.high.x * back, 0.0),
             plane(v + opening.low.y * back, 0.0),
@@ -25,18 +25,19 @@ std::array<math::Plane, 6> planes_of(const Beam& beam, const TangentRectangle& o
 }
 
 /// Returns the distance to a box's nearest corner along the axis, metres.
-double nearest_m(const Beam& beam, const math::Aabb& box_ws) {
-    const glm::dvec3& back = beam.axes[2];
-    return glm::dot(beam.origin_ws_m - math::centre(box_ws), back) -
+double nearest_m(const ReceiverHull& receiver_hull, const math::Aabb& box_ws) {
+    const glm::dvec3& back = receiver_hull.axes[2];
+    return glm::dot(receiver_hull.origin_ws_m - math::centre(box_ws), back) -
            glm::dot(math::half_extent(box_ws), glm::abs(back));
 }
 
 }  // namespace
 
-LocalContent visible_content(const FitInput& input, const Beam& beam, const TangentRectangle& opening) {
-    LocalContent content;
-    for (const glm::dvec3& p_ws : input.points_of(beam)) {
-        const glm::dvec3 p = (p_ws - beam.origin_ws_m) * beam.axes;
+FrustumContent visible_content(const FitInput& input, const ReceiverHull& receiver_hull,
+                               const TangentRectangle& opening) {
+    FrustumContent content;
+    for (const glm::dvec3& p_ws : input.points_of(receiver_hull)) {
+        const glm::dvec3 p = (p_ws - receiver_hull.origin_ws_m) * receiver_hull.axes;
         const double z_m = std::max(-p.z, 0.0);
         content.receivers = true;
         content.nearest_m = std::min(content.nearest_m, z_m);
@@ -52,18 +53,19 @@ LocalContent visible_content(const FitInput& input, const Beam& beam, const Tang
     return content;
 }
 
-void include_casters(const FitInput& input, const Beam& beam, const TangentRectangle& opening, LocalContent& content) {
-    const auto planes = planes_of(beam, opening, content.farthest_m);
+void include_casters(const FitInput& input, const ReceiverHull& receiver_hull, const TangentRectangle& opening,
+                     FrustumContent& content) {
+    const auto planes = planes_of(receiver_hull, opening, content.farthest_m);
     std::vector<glm::dvec3>& points_ws = input.scratch.points_ws;
     for (const std::uint32_t c : input.casters) {
         const math::Aabb& box_ws = input.scene.instances[c].bounds_ws;
-        if (content.casters && nearest_m(beam, box_ws) >= content.nearest_m) continue;
+        if (content.casters && nearest_m(receiver_hull, box_ws) >= content.nearest_m) continue;
         points_ws.clear();
         if (math::clip_box(planes, box_ws, points_ws) == 0) continue;
         content.casters = true;
         for (const glm::dvec3& p_ws : points_ws)
-            content.nearest_m =
-                std::min(content.nearest_m, std::max(glm::dot(beam.origin_ws_m - p_ws, beam.axes[2]), 0.0));
+            content.nearest_m = std::min(
+                content.nearest_m, std::max(glm::dot(receiver_hull.origin_ws_m - p_ws, receiver_hull.axes[2]), 0.0));
     }
 }
 

@@ -8,17 +8,19 @@
 /// What a spot or a point light sees through one light frustum: the base of its fits.
 namespace gnomon::shadow {
 
-struct LocalContent {
+struct FrustumContent {
     bool receivers = false, casters = false;
     TangentRectangle footprint{glm::dvec2(HUGE_VAL), glm::dvec2(-HUGE_VAL)};  // visible receivers, tangents
     double nearest_m = HUGE_VAL, farthest_m = 0.0;  // distances along the axis; farthest: of the receivers
 };
 
 /// Finds the receivers of a light frustum within `opening`.
-LocalContent visible_content(const FitInput& input, const Beam& beam, const TangentRectangle& opening);
+FrustumContent visible_content(const FitInput& input, const ReceiverHull& receiver_hull,
+                               const TangentRectangle& opening);
 
 /// Adds the casters within `opening` of the light frustum's axes, no farther than the farthest receiver. Sets whether
 /// there are any, and the distance to the nearest.
-void include_casters(const FitInput& input, const Beam& beam, const TangentRectangle& opening, LocalContent& content);
+void include_casters(const FitInput& input, const ReceiverHull& receiver_hull, const TangentRectangle& opening,
+                     FrustumContent& content);
 
 }  // namespace gnomon::shadow

@@ -63,13 +63,13 @@ private:
 
 /// A share of what all want.
 BudgetLimits share_of(const std::vector<LightLoad>& loads, double bytes, double ns) {
-    const BudgetUse all = use_of(loads, std::vector<Grant>(loads.size()), {});
+    const BudgetUse all = use_of(loads, std::vector<QualityLimits>(loads.size()), {});
     return {static_cast<std::uint64_t>(bytes * static_cast<double>(all.bytes)),
             static_cast<std::uint64_t>(ns * static_cast<double>(all.ns))};
 }
 
-std::vector<Grant> taken_from(const std::vector<LightLoad>& loads, const BudgetLimits& limits) {
-    std::vector<Grant> grants(loads.size());
+std::vector<QualityLimits> taken_from(const std::vector<LightLoad>& loads, const BudgetLimits& limits) {
+    std::vector<QualityLimits> grants(loads.size());
     BudgetScratch scratch;
     take_away(loads, limits, {}, grants, scratch);
     return grants;
@@ -80,7 +80,7 @@ TEST(Budget, IsNeverExceeded) {
     for (int i = 0; i < 200; ++i) {
         const auto loads = random.make(1 + random.below(60));
         const BudgetLimits limits = share_of(loads, random.number(0.0, 1.2), random.number(0.0, 1.2));
-        std::vector<Grant> grants(loads.size());
+        std::vector<QualityLimits> grants(loads.size());
         BudgetScratch scratch;
         const BudgetUse said = take_away(loads, limits, {}, grants, scratch), is = use_of(loads, grants, {});
         EXPECT_TRUE(holds(limits, is)) << i;
@@ -93,8 +93,8 @@ TEST(Budget, IsNeverExceeded) {
 TEST(Budget, TakesNothingWhereAllFits) {
     RandomLoads random(2);
     const auto loads = random.make(50);
-    for (const Grant& grant : taken_from(loads, share_of(loads, 1.001, 1.001))) EXPECT_EQ(grant, Grant{});
-    for (const Grant& grant : taken_from(loads, {})) EXPECT_EQ(grant, Grant{});
+    for (const QualityLimits& grant : taken_from(loads, share_of(loads, 1.001, 1.001))) EXPECT_EQ(grant, QualityLimits{});
+    for (const QualityLimits& grant : taken_from(loads, {})) EXPECT_EQ(grant, QualityLimits{});
 }
 
 TEST(Budget, LeavesNothingThatCouldBeGivenBack) {
@@ -103,17 +103,17 @@ TEST(Budget, LeavesNothingThatCouldBeGivenBack) {
     for (int i = 0; i < 100; ++i) {
         const auto loads = random.make(20);
         const BudgetLimits limits = share_of(loads, random.number(0.1, 0.9), random.number(0.1, 0.9));
-        std::vector<Grant> grants = taken_from(loads, limits);
+        std::vector<QualityLimits> grants = taken_from(loads, limits);
         for (std::size_t l = 0; l < loads.size(); ++l) {
-            const Grant now = grants[l];
-            if (now.none || now == Grant{}) continue;
-            std::array<Grant, 4> more{now, now, now, now};
+            const QualityLimits now = grants[l];
+            if (now.none || now == QualityLimits{}) continue;
+            std::array<QualityLimits, 4> more{now, now, now, now};
             more[0].plain = false;
-            more[1].most_px = now.most_px <= 4096 ? 2 * now.most_px : Grant::kAny;
+            more[1].most_px = now.most_px <= 4096 ? 2 * now.most_px : QualityLimits::kAny;
             more[2].refresh_frames = std::max(now.refresh_frames / 2, 1u);
-            more[3].most_views = now.most_views == Grant::kAny ? now.most_views : now.most_views + 1;
+            more[3].most_views = now.most_views == QualityLimits::kAny ? now.most_views : now.most_views + 1;
             const double harm = cost_of(loads[l], now, {}).harm;
-            for (const Grant& one : more) {
+            for (const QualityLimits& one : more) {
                 if (one == now || !(cost_of(loads[l], one, {}).harm < harm)) continue;
                 grants[l] = one;
                 EXPECT_FALSE(holds(limits, use_of(loads, grants, {}))) << "light " << l << " of set " << i;
@@ -130,7 +130,7 @@ TEST(Budget, DoesNotDependOnTheOrderOfLights) {
     for (int i = 0; i < 50; ++i) {
         auto loads = random.make(40);
         const BudgetLimits limits = share_of(loads, random.number(0.1, 0.9), random.number(0.1, 0.9));
-        std::map<std::uint64_t, Grant> by_key;
+        std::map<std::uint64_t, QualityLimits> by_key;
         const auto first = taken_from(loads, limits);
         for (std::size_t l = 0; l < loads.size(); ++l) by_key[loads[l].key] = first[l];
         std::shuffle(loads.begin(), loads.end(), random.engine());
@@ -141,7 +141,7 @@ TEST(Budget, DoesNotDependOnTheOrderOfLights) {
 
 /// Whether no light loses more, as a share of what it is worth, than one that is worth half as much. All are alike but
 /// for that. (Of two that are nearly alike, what is left of the budget may do for the lesser alone.)
-bool sheds_by_weight(const std::vector<LightLoad>& loads, const std::vector<Grant>& grants) {
+bool sheds_by_weight(const std::vector<LightLoad>& loads, const std::vector<QualityLimits>& grants) {
     const auto lost = [&](std::size_t i) { return cost_of(loads[i], grants[i], {}).harm / loads[i].weight; };
     for (std::size_t a = 0; a < loads.size(); ++a)
         for (std::size_t b = 0; b < loads.size(); ++b)
@@ -170,7 +170,7 @@ TEST(Budget, TakesFromThoseThatAreSeenLeastFirst) {
             share_of(loads, i % 2 == 0 ? random.number(0.05, 0.95) : 2.0, i % 2 == 1 ? random.number(0.05, 0.95) : 2.0);
         shed += sheds_by_weight(loads, taken_from(loads, limits)) ? 1 : 0;
         // One that takes from the first of the list is noticed.
-        std::vector<Grant> by_order(loads.size());
+        std::vector<QualityLimits> by_order(loads.size());
         for (std::size_t l = 0; l < loads.size() && !holds(limits, use_of(loads, by_order, {})); ++l)
             by_order[l].none = true;
         noticed += sheds_by_weight(loads, by_order) ? 0 : 1;
@@ -188,8 +188,8 @@ TEST(Budget, LeavesAShadowThatNobodySeesNothingBeforeOneThatIsSeenLosesAnything)
     loads[0].weight = 1.0;
     loads[1].weight = 0.0;
     const auto grants = taken_from(loads, share_of(loads, 0.6, 2.0));
-    EXPECT_EQ(grants[0], Grant{});
-    EXPECT_FALSE(grants[1] == Grant{});
+    EXPECT_EQ(grants[0], QualityLimits{});
+    EXPECT_FALSE(grants[1] == QualityLimits{});
 }
 
 TEST(Budget, SettlesAtOnceAndStaysWhileNothingChanges) {
@@ -197,13 +197,13 @@ TEST(Budget, SettlesAtOnceAndStaysWhileNothingChanges) {
     for (int i = 0; i < 30; ++i) {
         const auto loads = random.make(30);
         const BudgetLimits limits = share_of(loads, random.number(0.2, 0.9), random.number(0.2, 0.9));
-        std::vector<Grant> grants(loads.size());
+        std::vector<QualityLimits> grants(loads.size());
         BudgetScratch scratch;
         std::uint32_t calm = 0;
         int changes = 0;
         for (int f = 0; f < 400; ++f) {
-            const std::vector<Grant> before = grants;
-            settle_grants(loads, limits, {}, calm, grants, scratch);
+            const std::vector<QualityLimits> before = grants;
+            settle_limits(loads, limits, {}, calm, grants, scratch);
             EXPECT_TRUE(holds(limits, use_of(loads, grants, {})));
             changes += f > 0 && !(before == grants) ? 1 : 0;
         }
@@ -218,7 +218,7 @@ TEST(Budget, DoesNotFollowWhatTrembles) {
         auto loads = random.make(30);
         const auto still = loads;
         const BudgetLimits limits = share_of(loads, 0.5, 0.5);
-        std::vector<Grant> grants(loads.size()), last_without = grants;
+        std::vector<QualityLimits> grants(loads.size()), last_without = grants;
         BudgetScratch scratch;
         std::uint32_t calm = 0;
         for (int f = 0; f < 300; ++f) {
@@ -226,9 +226,9 @@ TEST(Budget, DoesNotFollowWhatTrembles) {
                 loads[l].pixels = still[l].pixels * random.number(0.97, 1.03);
                 loads[l].weight = still[l].weight * random.number(0.97, 1.03);
             }
-            const std::vector<Grant> before = grants;
-            settle_grants(loads, limits, {}, calm, grants, scratch);
-            const std::vector<Grant> without = taken_from(loads, limits);
+            const std::vector<QualityLimits> before = grants;
+            settle_limits(loads, limits, {}, calm, grants, scratch);
+            const std::vector<QualityLimits> without = taken_from(loads, limits);
             if (f >= 60) {
                 for (std::size_t l = 0; l < loads.size(); ++l) {
                     changes += grants[l] == before[l] ? 0 : 1;
@@ -247,20 +247,20 @@ TEST(Budget, GivesBackWhatThereIsRoomFor) {
     RandomLoads random(9);
     auto loads = random.make(30);
     const BudgetLimits limits = share_of(loads, 0.5, 0.5);
-    std::vector<Grant> grants(loads.size());
+    std::vector<QualityLimits> grants(loads.size());
     BudgetScratch scratch;
     std::uint32_t calm = 0;
-    settle_grants(loads, limits, {}, calm, grants, scratch);
-    ASSERT_FALSE(grants == std::vector<Grant>(loads.size()));
+    settle_limits(loads, limits, {}, calm, grants, scratch);
+    ASSERT_FALSE(grants == std::vector<QualityLimits>(loads.size()));
     loads.resize(10);
     grants.resize(10);
-    ASSERT_TRUE(holds({limits.bytes / 10 * 9, limits.ns / 10 * 9}, use_of(loads, std::vector<Grant>(10), {})));
+    ASSERT_TRUE(holds({limits.bytes / 10 * 9, limits.ns / 10 * 9}, use_of(loads, std::vector<QualityLimits>(10), {})));
     std::uint32_t frames = 0;
-    while (!(grants == std::vector<Grant>(10)) && frames < 100) {
-        settle_grants(loads, limits, {}, calm, grants, scratch);
+    while (!(grants == std::vector<QualityLimits>(10)) && frames < 100) {
+        settle_limits(loads, limits, {}, calm, grants, scratch);
         ++frames;
     }
-    EXPECT_EQ(frames, kCalmFrames) << "not before, lest it be taken away again at once";
+    EXPECT_EQ(frames, kBudgetCooldown) << "not before, lest it be taken away again at once";
 }
 
 TEST(Budget, HoldsWithAbsurdNumbers) {
@@ -271,12 +271,12 @@ TEST(Budget, HoldsWithAbsurdNumbers) {
             auto loads = random.make(10);
             const BudgetLimits limits = share_of(loads, 0.5, 0.5);
             for (std::size_t l = 0; l < loads.size(); l += 2) loads[l].*field = absurd;
-            const std::vector<Grant> grants = taken_from(loads, limits);
+            const std::vector<QualityLimits> grants = taken_from(loads, limits);
             EXPECT_TRUE(holds(limits, use_of(loads, grants, {}))) << absurd;
         }
     }
     const auto loads = random.make(10);
-    for (const Grant& grant : taken_from(loads, {1, BudgetLimits::kNone})) EXPECT_TRUE(grant.none);
+    for (const QualityLimits& grant : taken_from(loads, {1, BudgetLimits::kNone})) EXPECT_TRUE(grant.none);
     EXPECT_TRUE(taken_from({}, {1, 1}).empty());
 }
 
@@ -308,7 +308,7 @@ TEST(Budget, AGrantOfAllLeavesADemandAsItIs) {
 TEST(Budget, LessCostsLessAndHarmsMore) {
     RandomLoads random(12);
     for (const LightLoad& load : random.make(200)) {
-        Grant grant;
+        QualityLimits grant;
         Cost last = cost_of(load, grant, {});
         for (std::uint32_t px = load.wanted.map.resolution_px / 2; px >= kLeastGranted_px; px /= 2) {
             grant.most_px = px;
@@ -322,7 +322,7 @@ TEST(Budget, LessCostsLessAndHarmsMore) {
     }
 }
 
-TEST(CostClock, LearnsHowMuchSlowerTheDeviceIs) {
+TEST(CostCalibration, LearnsHowMuchSlowerTheDeviceIs) {
     double factor = 1.0;
     std::uint32_t frames = 0;
     for (int i = 0; i < 16; ++i) factor = learned(factor, 3.0e6, 1.0e6, frames);
@@ -332,7 +332,7 @@ TEST(CostClock, LearnsHowMuchSlowerTheDeviceIs) {
     EXPECT_LT(learned(factor, 600.0e6, 1.0e6, frames), 520.0) << "slowly, once it knows";
 }
 
-TEST(CostClock, BelievesNoOutlierAndNothingThatIsNoTime) {
+TEST(CostCalibration, BelievesNoOutlierAndNothingThatIsNoTime) {
     std::uint32_t frames = 0;
     EXPECT_LT(learned(1.0, 1.0e15, 1.0e6, frames), 1.3);
     EXPECT_GT(learned(1.0, 1.0, 1.0e6, frames), 0.75);
@@ -340,9 +340,9 @@ TEST(CostClock, BelievesNoOutlierAndNothingThatIsNoTime) {
     for (const double little : {kNan, 0.0, 1.0}) EXPECT_EQ(learned(2.0, 1.0e6, little, frames), 2.0);
     double factor = 1.0;
     for (int i = 0; i < 1000; ++i) factor = learned(factor, 1.0e300, 1.0e6, frames);
-    EXPECT_EQ(factor, CostClock::kMostFactor);
+    EXPECT_EQ(factor, CostCalibration::kMostFactor);
     for (int i = 0; i < 1000; ++i) factor = learned(factor, 1.0e-300, 1.0e6, frames);
-    EXPECT_EQ(factor, CostClock::kLeastFactor);
+    EXPECT_EQ(factor, CostCalibration::kLeastFactor);
 }
 
 /// What is written is what is held: a spot's map has one view.

@@ -28,7 +28,7 @@ double learned_factor(ShadowFilter drawn, ShadowFilter said) {
     const double fetches =
         drawn == ShadowFilter::automatic ? 0.0 : mean_fetches(scene.lights[0], decision.request, drawn);
     const double model_us = kPixels * (kShadedPixel_ns + fetches * kFetch_ns) / 1000.0;
-    CostClock clock;
+    CostCalibration clock;
     for (std::uint64_t i = 0; i < 32; ++i) {
         clock.submitted(i, scene, {&decision, 1}, {&inputs, 1}, report);
         const gl::Timing timing{lighting_timer(0), i, 2.0 * model_us};
@@ -39,7 +39,7 @@ double learned_factor(ShadowFilter drawn, ShadowFilter said) {
 
 /// A fault that lasts would have it take the device for a faster one, and a budget grant what does not hold once it is
 /// over.
-TEST(CostClock, CountsTheFilterThatWasDrawn) {
+TEST(CostCalibration, CountsTheFilterThatWasDrawn) {
     for (const ShadowFilter drawn : {ShadowFilter::exact, ShadowFilter::hard, ShadowFilter::automatic})
         EXPECT_NEAR(learned_factor(drawn, drawn), 2.0, 0.05);
     EXPECT_LT(learned_factor(ShadowFilter::hard, ShadowFilter::exact), 1.0) << "the figure that it has to know";

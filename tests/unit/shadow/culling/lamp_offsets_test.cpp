@@ -48,7 +48,7 @@ protected:
     }
 
     oracle::AnalyticScene scene;
-    shadow::LampPlaces places;
+    shadow::LampOffsets places;
     bool by_rays = false;
 };
 

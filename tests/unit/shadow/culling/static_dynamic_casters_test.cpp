@@ -5,7 +5,7 @@
 namespace gnomon::shadow {
 namespace {
 
-constexpr std::uint64_t kStill = CasterMotion::kStillFrames;
+constexpr std::uint64_t kStill = DynamicCasters::kStaticFrames;
 
 class CasterMotionTest : public ::testing::Test {
 protected:
@@ -30,7 +30,7 @@ protected:
     bool moving(std::uint32_t i) const { return moves(motion.moving(), scene.instances[i]); }
 
     SceneSnapshot scene;
-    CasterMotion motion;
+    DynamicCasters motion;
 };
 
 TEST_F(CasterMotionTest, WhatWasThereFromTheStartStandsStill) {

@@ -14,19 +14,19 @@ protected:
     static constexpr glm::dvec3 kLight_m{0.0, 20.0, 0.0};
     const math::Aabb receiver{glm::dvec3(-1.0, 0.0, -1.0), glm::dvec3(1.0, 0.5, 1.0)};
     // Tangents of 90 degrees, looking down.
-    const LightOpening opening{math::basis_from_back({0.0, 1.0, 0.0}), glm::dvec2(-1.0), glm::dvec2(1.0)};
+    const LightFrustum opening{math::basis_from_back({0.0, 1.0, 0.0}), glm::dvec2(-1.0), glm::dvec2(1.0)};
     std::vector<glm::dvec2> outlines;
     SetScratch scratch;
 
     SweptVolume from_sun(const glm::dvec3& back) {
         const auto points = math::corners(receiver);
-        const Beam beam = parallel_beam(math::basis_from_back(back), points, outlines, scratch);
-        return swept_volume(beam, outlines, {}, 0.0);
+        const ReceiverHull receiver_hull = directional_hull(math::basis_from_back(back), points, outlines, scratch);
+        return swept_volume(receiver_hull, outlines, {}, 0.0);
     }
     SweptVolume from_lamp() {
         const auto points = math::corners(receiver);
-        const Beam beam = opening_beam(kLight_m, opening, points, outlines, scratch);
-        return swept_volume(beam, outlines, {}, 0.0);
+        const ReceiverHull receiver_hull = frustum_hull(kLight_m, opening, points, outlines, scratch);
+        return swept_volume(receiver_hull, outlines, {}, 0.0);
     }
     static math::Aabb cube(const glm::dvec3& centre, double half = 0.1) { return {centre - half, centre + half}; }
     static bool touches(const SweptVolume& v, const math::Aabb& box) { return overlap(v, box) != math::Overlap::outside; }
@@ -61,10 +61,10 @@ TEST_F(SweptVolumeTest, OfALampNarrowsTowardTheLampAndEndsThere) {
 
 TEST_F(SweptVolumeTest, WhatIsSeenBoundsItOnTheLightsSide) {
     const auto points = math::corners(receiver);
-    const Beam beam = parallel_beam(math::basis_from_back(glm::normalize(glm::dvec3(1.0, 1.0, 0.0))), points, outlines, scratch);
+    const ReceiverHull receiver_hull = directional_hull(math::basis_from_back(glm::normalize(glm::dvec3(1.0, 1.0, 0.0))), points, outlines, scratch);
     // A camera sees nothing left of x = -0.5, nor anything right of x = 0.5; the sun comes from the right.
     const math::Plane planes[] = {{{1.0, 0.0, 0.0}, 0.5}, {{-1.0, 0.0, 0.0}, 0.5}};
-    const SweptVolume seen = swept_volume(beam, outlines, planes, 0.0), wider = swept_volume(beam, outlines, planes, 0.3);
+    const SweptVolume seen = swept_volume(receiver_hull, outlines, planes, 0.0), wider = swept_volume(receiver_hull, outlines, planes, 0.3);
     EXPECT_FALSE(touches(seen, cube({-0.8, 0.2, 0.0}))) << "its shadow falls to the left of what is seen";
     EXPECT_TRUE(touches(wider, cube({-0.8, 0.2, 0.0}))) << "but a filter of 0.3 m reads it";
     EXPECT_TRUE(touches(seen, cube({10.0, 10.0, 0.0}))) << "unseen itself, it still darkens";
@@ -75,9 +75,9 @@ TEST_F(SweptVolumeTest, FlatAndPointlikeReceiversHaveOne) {
         for (const bool sun : {true, false}) {
             outlines.clear();
             const auto points = math::corners({-half, half});
-            const Beam beam = sun ? parallel_beam(opening.axes, points, outlines, scratch)
-                                  : opening_beam(kLight_m, opening, points, outlines, scratch);
-            const SweptVolume v = swept_volume(beam, outlines, {}, 0.0);
+            const ReceiverHull receiver_hull = sun ? directional_hull(opening.axes, points, outlines, scratch)
+                                  : frustum_hull(kLight_m, opening, points, outlines, scratch);
+            const SweptVolume v = swept_volume(receiver_hull, outlines, {}, 0.0);
             EXPECT_TRUE(touches(v, cube({0.0, 5.0, 0.0})));
             EXPECT_FALSE(touches(v, cube({2.0, 5.0, 0.0})));
             EXPECT_FALSE(touches(v, cube({0.0, 5.0, 2.0})));
@@ -87,16 +87,16 @@ TEST_F(SweptVolumeTest, FlatAndPointlikeReceiversHaveOne) {
 TEST_F(SweptVolumeTest, ALampOnItsReceiverLooksAllAround) {
     outlines.clear();
     const auto points = math::corners({kLight_m + glm::dvec3(-1.0, -1.0, -1.0), kLight_m + glm::dvec3(1.0, 0.0, 1.0)});
-    const Beam beam = opening_beam(kLight_m, opening, points, outlines, scratch);
-    ASSERT_EQ(beam.outline.count, 4u);
-    EXPECT_TRUE(touches(swept_volume(beam, outlines, {}, 0.0), cube(kLight_m + glm::dvec3(0.85, -0.95, 0.85))));
+    const ReceiverHull receiver_hull = frustum_hull(kLight_m, opening, points, outlines, scratch);
+    ASSERT_EQ(receiver_hull.outline.count, 4u);
+    EXPECT_TRUE(touches(swept_volume(receiver_hull, outlines, {}, 0.0), cube(kLight_m + glm::dvec3(0.85, -0.95, 0.85))));
 }
 
 TEST_F(SweptVolumeTest, PointsAtTheLampItselfAreNoReceivers) {
     const glm::dvec3 points[] = {kLight_m, kLight_m};
-    const Beam beam = opening_beam(kLight_m, opening, points, outlines, scratch);
-    EXPECT_EQ(beam.outline.count, 0u);
-    EXPECT_EQ(beam.reach_m, 0.0);
+    const ReceiverHull receiver_hull = frustum_hull(kLight_m, opening, points, outlines, scratch);
+    EXPECT_EQ(receiver_hull.outline.count, 0u);
+    EXPECT_EQ(receiver_hull.reach_m, 0.0);
 }
 
 TEST_F(SweptVolumeTest, PointsThatAreOneButForRoundingAddNoPlane) {
@@ -110,9 +110,9 @@ TEST_F(SweptVolumeTest, PointsThatAreOneButForRoundingAddNoPlane) {
                 points.push_back(p + far_away);
                 if (twice) points.push_back(p + far_away + glm::dvec3(1.2e-10, -2.4e-10, 2.4e-10));
             }
-            const Beam beam = sun ? parallel_beam(math::basis_from_back({0.3, 1.0, 0.2}), points, outlines, scratch)
-                                  : opening_beam(kLight_m + far_away, opening, points, outlines, scratch);
-            planes[twice ? 1 : 0] = swept_volume(beam, outlines, {}, 0.0).plane_count;
+            const ReceiverHull receiver_hull = sun ? directional_hull(math::basis_from_back({0.3, 1.0, 0.2}), points, outlines, scratch)
+                                  : frustum_hull(kLight_m + far_away, opening, points, outlines, scratch);
+            planes[twice ? 1 : 0] = swept_volume(receiver_hull, outlines, {}, 0.0).plane_count;
         }
         EXPECT_EQ(planes[0], planes[1]) << (sun ? "sun" : "lamp");
     }

@@ -38,9 +38,9 @@ public:
         if (made) gpu_.emplace(std::move(made).value());
     }
     /// `max_point_px` 1: as quads alone, so that all items are large.
-    shadow::SheetItems before(const shadow::ShadowView& view, std::uint32_t max_point_px = 1) {
-        shadow::SheetItems items;
-        shadow::SheetGatherer gatherer(max_point_px);
+    shadow::BoundsItems before(const shadow::ShadowView& view, std::uint32_t max_point_px = 1) {
+        shadow::BoundsItems items;
+        shadow::BoundsGatherer gatherer(max_point_px);
         for (const InstanceItem& item : scene_.snapshot.instances)
             gatherer.append(*gpu_, surfaces_.of(*gpu_, item.mesh), item, view, kMap_px, items);
         return items;
@@ -50,7 +50,7 @@ private:
     oracle::AnalyticScene& scene_;
     gl::RecordingDevice device_;
     std::optional<GpuScene> gpu_;
-    shadow::CasterSurfaces surfaces_;
+    shadow::CasterTopologies surfaces_;
 };
 
 shadow::ShadowView sun(const glm::dvec3& toward) {
@@ -65,14 +65,14 @@ shadow::ShadowView lamp(const glm::dvec3& at) {
     return shadow::perspective_view(at, math::basis_from_back(at), shadow::TangentRectangle{}, {0.1, 50.0}, kMap_px);
 }
 
-std::set<std::array<std::uint32_t, 2>> edges_of(const shadow::SheetItems& items) {
+std::set<std::array<std::uint32_t, 2>> edges_of(const shadow::BoundsItems& items) {
     std::set<std::array<std::uint32_t, 2>> edges;
-    for (const shadow::SheetItem& item : items.large[shadow::SheetItems::contours])
+    for (const shadow::BoundsItem& item : items.large[shadow::BoundsItems::contours])
         edges.insert({std::min(item.a, item.b), std::max(item.a, item.b)});
     return edges;
 }
 
-TEST(SheetItems, OfACubeAreSixContoursHoweverItIsTurned) {
+TEST(BoundsItems, OfACubeAreSixContoursHoweverItIsTurned) {
     std::mt19937_64 random(print_seed());
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     for (int i = 0; i < 200; ++i) {
@@ -84,21 +84,21 @@ TEST(SheetItems, OfACubeAreSixContoursHoweverItIsTurned) {
         // Not within 1e-3 of edge-on.
         const glm::dvec3 seen = glm::abs(toward * turn);
         if (std::min({seen.x, seen.y, seen.z}) < 1e-3) continue;
-        EXPECT_THAT(SheetItemsOf(scene).before(sun(toward)).large[shadow::SheetItems::contours], SizeIs(6)) << i;
+        EXPECT_THAT(SheetItemsOf(scene).before(sun(toward)).large[shadow::BoundsItems::contours], SizeIs(6)) << i;
     }
 }
 
-TEST(SheetItems, HoldAllEdgesOfAFaceSeenEdgeOn) {
+TEST(BoundsItems, HoldAllEdgesOfAFaceSeenEdgeOn) {
     oracle::AnalyticScene scene;
     scene.place(scene.add_cube(), {});
     // The light lies in the planes of four faces.
-    EXPECT_THAT(SheetItemsOf(scene).before(sun({0.0, 1.0, 0.0})).large[shadow::SheetItems::contours],
+    EXPECT_THAT(SheetItemsOf(scene).before(sun({0.0, 1.0, 0.0})).large[shadow::BoundsItems::contours],
                 SizeIs(4 + 4 + 4 + 4));
-    EXPECT_THAT(SheetItemsOf(scene).before(sun({1e-9, 1.0, 0.0})).large[shadow::SheetItems::contours],
+    EXPECT_THAT(SheetItemsOf(scene).before(sun({1e-9, 1.0, 0.0})).large[shadow::BoundsItems::contours],
                 SizeIs(4 + 4 + 4 + 4));
 }
 
-TEST(SheetItems, OfAMirrorImageAreThoseOfTheThing) {
+TEST(BoundsItems, OfAMirrorImageAreThoseOfTheThing) {
     const auto contours = [](double side) {
         oracle::AnalyticScene scene;
         std::mt19937_64 random(5);
@@ -110,28 +110,28 @@ TEST(SheetItems, OfAMirrorImageAreThoseOfTheThing) {
     EXPECT_EQ(contours(1.0), contours(-1.0));
 }
 
-TEST(SheetItems, OfAnOpenSheetAreItsBordersAndNoFoldThatIsSeenFromOneSide) {
+TEST(BoundsItems, OfAnOpenSheetAreItsBordersAndNoFoldThatIsSeenFromOneSide) {
     for (const std::vector<std::uint32_t>& indices :
          {std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, {0, 1, 2, 2, 0, 3}, {0, 1, 2, 0, 3, 2}}) {
         // The last one disagrees about its front.
         oracle::AnalyticScene scene;
         scene.place(scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {1, 0.1f, 1}, {0, 0, 1}}, indices), {});
-        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2})).large[shadow::SheetItems::contours], SizeIs(4));
+        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2})).large[shadow::BoundsItems::contours], SizeIs(4));
     }
 }
 
-TEST(SheetItems, HoldAFoldBetweenFrontAndBackHoweverItIsWound) {
+TEST(BoundsItems, HoldAFoldBetweenFrontAndBackHoweverItIsWound) {
     for (const std::vector<std::uint32_t>& indices :
          {std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}, {0, 1, 2, 0, 3, 2}}) {
         // Bent over 0-2 so far that the sun sees one triangle from above and one from below.
         oracle::AnalyticScene scene;
         scene.place(scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {1, -1, 0}}, indices), {});
-        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.1, 1.0, -0.3})).large[shadow::SheetItems::contours], SizeIs(5));
+        EXPECT_THAT(SheetItemsOf(scene).before(sun({0.1, 1.0, -0.3})).large[shadow::BoundsItems::contours], SizeIs(5));
     }
 }
 
 /// Every fold, by corners in the world, in double.
-TEST(SheetItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
+TEST(BoundsItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
     std::mt19937_64 random(print_seed());
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     const auto point = [&] { return glm::dvec3(share(random), share(random), share(random)); };
@@ -186,22 +186,22 @@ TEST(SheetItems, AreWhatTheCornersSayWheneverTheySayItClearly) {
     EXPECT_GT(folds, 2 * contours);
 }
 
-TEST(SheetItems, LeaveOutWhatIsFlat) {
+TEST(BoundsItems, LeaveOutWhatIsFlat) {
     oracle::AnalyticScene scene;
     const std::uint32_t square = scene.add_square();
     scene.place(square, {});
     const auto tilted = [](double tangent) { return sun({tangent, 0.0, 1.0}); };
-    EXPECT_THAT(SheetItemsOf(scene).before(tilted(3.9)).large[shadow::SheetItems::triangles], IsEmpty());
-    EXPECT_THAT(SheetItemsOf(scene).before(tilted(6.0)).large[shadow::SheetItems::triangles], SizeIs(2));
+    EXPECT_THAT(SheetItemsOf(scene).before(tilted(3.9)).large[shadow::BoundsItems::triangles], IsEmpty());
+    EXPECT_THAT(SheetItemsOf(scene).before(tilted(6.0)).large[shadow::BoundsItems::triangles], SizeIs(2));
     // By the ray that is met most obliquely: at the square's corner, of 1.6 m from its middle at most.
-    EXPECT_THAT(SheetItemsOf(scene).before(lamp({0.0, 0.0, 2.0})).large[shadow::SheetItems::triangles], IsEmpty());
-    EXPECT_THAT(SheetItemsOf(scene).before(lamp({2.0, 0.0, 0.2})).large[shadow::SheetItems::triangles], SizeIs(2));
+    EXPECT_THAT(SheetItemsOf(scene).before(lamp({0.0, 0.0, 2.0})).large[shadow::BoundsItems::triangles], IsEmpty());
+    EXPECT_THAT(SheetItemsOf(scene).before(lamp({2.0, 0.0, 0.2})).large[shadow::BoundsItems::triangles], SizeIs(2));
     // What float places coarsely is drawn however flat it is.
     scene.snapshot.instances[0].basis *= 1e6;
-    EXPECT_THAT(SheetItemsOf(scene).before(tilted(0.5)).large[shadow::SheetItems::triangles], SizeIs(2));
+    EXPECT_THAT(SheetItemsOf(scene).before(tilted(0.5)).large[shadow::BoundsItems::triangles], SizeIs(2));
 }
 
-TEST(SheetItems, LeaveOutWhatLiesBesideTheMap) {
+TEST(BoundsItems, LeaveOutWhatLiesBesideTheMap) {
     oracle::AnalyticScene scene;
     const std::uint32_t cube = scene.add_cube();
     scene.place(cube, {1.0, 0.0, 0.0});
@@ -210,16 +210,16 @@ TEST(SheetItems, LeaveOutWhatLiesBesideTheMap) {
         return shadow::perspective_view({}, math::basis_from_back(back), shadow::TangentRectangle{}, {0.1, 50.0},
                                         kMap_px);
     };
-    EXPECT_THAT(items.before(seen_toward({-1.0, 0.01, 0.02})).large[shadow::SheetItems::contours], Not(IsEmpty()));
+    EXPECT_THAT(items.before(seen_toward({-1.0, 0.01, 0.02})).large[shadow::BoundsItems::contours], Not(IsEmpty()));
     for (const glm::dvec3& away : {glm::dvec3(1.0, 0.0, 0.0), {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}, {0.0, 0.0, 1.0}}) {
         scene.snapshot.instances[0].translation_ws_m = {3.0, 0.0, 0.0};
-        const shadow::SheetItems beside = items.before(seen_toward(away));
-        EXPECT_THAT(beside.large[shadow::SheetItems::contours], IsEmpty());
-        EXPECT_THAT(beside.large[shadow::SheetItems::triangles], IsEmpty());
+        const shadow::BoundsItems beside = items.before(seen_toward(away));
+        EXPECT_THAT(beside.large[shadow::BoundsItems::contours], IsEmpty());
+        EXPECT_THAT(beside.large[shadow::BoundsItems::triangles], IsEmpty());
     }
 }
 
-TEST(SheetItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
+TEST(BoundsItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
     std::mt19937_64 random(print_seed());
     std::uniform_real_distribution<double> share(-1.0, 1.0);
     std::size_t small = 0, large = 0;
@@ -232,17 +232,17 @@ TEST(SheetItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
         const glm::dvec3 at(share(random), share(random), share(random) + 1.5);
         const shadow::ShadowView view = i % 2 == 0 ? sun(at) : lamp(at);
         SheetItemsOf items(scene);
-        const shadow::SheetItems quads = items.before(view), points = items.before(view, shadow::most_point_px());
+        const shadow::BoundsItems quads = items.before(view), points = items.before(view, shadow::most_point_px());
         const auto& vertices = scene.library.meshes[cube].vertices;
         const InstanceItem& item = scene.snapshot.instances[0];
         for (const auto kind :
-             {shadow::SheetItems::triangles, shadow::SheetItems::contours, shadow::SheetItems::masked}) {
-            std::vector<shadow::SheetItem> all = points.large[kind];
+             {shadow::BoundsItems::triangles, shadow::BoundsItems::contours, shadow::BoundsItems::masked}) {
+            std::vector<shadow::BoundsItem> all = points.large[kind];
             all.insert(all.end(), points.small[kind].begin(), points.small[kind].end());
             EXPECT_THAT(all, ::testing::UnorderedElementsAreArray(quads.large[kind]));
             EXPECT_THAT(quads.small[kind], IsEmpty());
             large += points.large[kind].size();
-            for (const shadow::SheetItem& one : points.small[kind]) {
+            for (const shadow::BoundsItem& one : points.small[kind]) {
                 ++small;
                 glm::dvec2 low(1e9), high(-1e9);
                 for (const std::uint32_t v : {one.a, one.b, one.c}) {
@@ -262,23 +262,23 @@ TEST(SheetItems, AreSmallWhereAPointOfTheLargestSizeCoversThemAndNoneIsLost) {
     EXPECT_GT(large, 50u);
 }
 
-TEST(SheetItems, AreLargeOnADeviceWithoutPointsOfTheirSize) {
+TEST(BoundsItems, AreLargeOnADeviceWithoutPointsOfTheirSize) {
     oracle::AnalyticScene scene;
     scene.place(scene.add_cube(), {}, glm::dmat3(0.01));
     SheetItemsOf items(scene);
-    EXPECT_THAT(items.before(sun({0.3, 1.0, 0.2}), shadow::most_point_px()).small[shadow::SheetItems::contours],
+    EXPECT_THAT(items.before(sun({0.3, 1.0, 0.2}), shadow::most_point_px()).small[shadow::BoundsItems::contours],
                 SizeIs(6));
-    EXPECT_THAT(items.before(sun({0.3, 1.0, 0.2}), shadow::most_point_px() - 1).large[shadow::SheetItems::contours],
+    EXPECT_THAT(items.before(sun({0.3, 1.0, 0.2}), shadow::most_point_px() - 1).large[shadow::BoundsItems::contours],
                 SizeIs(6));
 }
 
-TEST(SheetItems, LeaveOutNoNeedleHoweverFlat) {
+TEST(BoundsItems, LeaveOutNoNeedleHoweverFlat) {
     // A rasteriser may give a triangle that is narrower than its own snapping any depth at all.
     const auto drawn = [](float altitude, double scale) {
         oracle::AnalyticScene scene;
         const std::uint32_t mesh = scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {0.5f, altitude, 0}}, {0, 1, 2});
         scene.place(mesh, {}, glm::dmat3(scale));
-        return SheetItemsOf(scene).before(sun({0.0, 0.0, 1.0})).large[shadow::SheetItems::triangles].size();
+        return SheetItemsOf(scene).before(sun({0.0, 0.0, 1.0})).large[shadow::BoundsItems::triangles].size();
     };
     constexpr double kTexel_m = 4.0 / kMap_px;
     EXPECT_EQ(drawn(static_cast<float>(0.01 * kTexel_m), 1.0), 1u);
@@ -287,7 +287,7 @@ TEST(SheetItems, LeaveOutNoNeedleHoweverFlat) {
     EXPECT_EQ(drawn(1e-8f, 1.0), 1u);
 }
 
-TEST(SheetItems, HaveTrianglesOfMasksApartAndEndSheetsAtThem) {
+TEST(BoundsItems, HaveTrianglesOfMasksApartAndEndSheetsAtThem) {
     oracle::AnalyticScene scene;
     scene.library.materials.emplace_back().alpha_mode = assets::AlphaMode::mask;
     scene.library.materials.emplace_back().alpha_mode = assets::AlphaMode::blend;
@@ -295,9 +295,9 @@ TEST(SheetItems, HaveTrianglesOfMasksApartAndEndSheetsAtThem) {
         scene.add_mesh({{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}, {2, 0, 0}}, {0, 2, 1, 0, 3, 2, 1, 2, 4});
     scene.library.meshes[mesh].submeshes = {{0, 3, 0}, {3, 3, 1}, {6, 3, 2}};
     scene.place(mesh, {});
-    const shadow::SheetItems items = SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2}));
-    EXPECT_THAT(items.large[shadow::SheetItems::contours], SizeIs(3));  // of the opaque triangle alone
-    EXPECT_THAT(items.large[shadow::SheetItems::masked], SizeIs(1));
+    const shadow::BoundsItems items = SheetItemsOf(scene).before(sun({0.3, 1.0, 0.2}));
+    EXPECT_THAT(items.large[shadow::BoundsItems::contours], SizeIs(3));  // of the opaque triangle alone
+    EXPECT_THAT(items.large[shadow::BoundsItems::masked], SizeIs(1));
 }
 
 /// A number of shaders/shadow/filters/exact/error_margins.glsl, or of another file there, as it stands there, with margins.

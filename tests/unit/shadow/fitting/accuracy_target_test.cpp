@@ -13,32 +13,32 @@ namespace gnomon::shadow {
 namespace {
 
 TEST(ContractSize, IsTheLeastMultipleThatKeepsTheWord) {
-    EXPECT_EQ(contract_size_px(1024, false, 2.0, 1.0, 4096), 1024u) << "exactly kept";
-    EXPECT_EQ(contract_size_px(1024, false, 3.0, 1.0, 4096), 2048u) << "twice the error of its texels";
-    EXPECT_EQ(contract_size_px(1024, false, 2.1, 1.0, 4096), 1280u);
-    EXPECT_EQ(contract_size_px(1024, false, 2.0, 4.0, 4096), 256u);
-    EXPECT_EQ(contract_size_px(1024, false, 5.0, 1.0, 2560), 2560u) << "no more than it may have";
+    EXPECT_EQ(target_size_px(1024, false, 2.0, 1.0, 4096), 1024u) << "exactly kept";
+    EXPECT_EQ(target_size_px(1024, false, 3.0, 1.0, 4096), 2048u) << "twice the error of its texels";
+    EXPECT_EQ(target_size_px(1024, false, 2.1, 1.0, 4096), 1280u);
+    EXPECT_EQ(target_size_px(1024, false, 2.0, 4.0, 4096), 256u);
+    EXPECT_EQ(target_size_px(1024, false, 5.0, 1.0, 2560), 2560u) << "no more than it may have";
 }
 
 TEST(ContractSize, IsHeldWhileItIsLessThanTwiceWhatIsNeeded) {
-    EXPECT_EQ(contract_size_px(1024, true, 1.51, 1.0, 4096), 1024u);
-    EXPECT_EQ(contract_size_px(1024, false, 1.51, 1.0, 4096), 768u) << "nothing to hold";
-    EXPECT_EQ(contract_size_px(1024, true, 1.50, 1.0, 4096), 512u);
-    EXPECT_EQ(contract_size_px(1024, true, 1.51, 1.0, 768), 768u) << "but not above what it may be";
+    EXPECT_EQ(target_size_px(1024, true, 1.51, 1.0, 4096), 1024u);
+    EXPECT_EQ(target_size_px(1024, false, 1.51, 1.0, 4096), 768u) << "nothing to hold";
+    EXPECT_EQ(target_size_px(1024, true, 1.50, 1.0, 4096), 512u);
+    EXPECT_EQ(target_size_px(1024, true, 1.51, 1.0, 768), 768u) << "but not above what it may be";
 }
 
 TEST(ContractSize, IsTotal) {
     constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(contract_size_px(1024, false, kInf, 1.0, 4096), 4096u);
-    EXPECT_EQ(contract_size_px(1024, false, kNan, 1.0, 4096), 4096u);
-    EXPECT_EQ(contract_size_px(1024, false, 0.0, 1.0, 4096), 256u) << "nothing is seen";
-    EXPECT_EQ(contract_size_px(1024, false, 3.0, 1e-30, 4096), 4096u);
-    EXPECT_EQ(contract_size_px(1024, false, 3.0, 1e30, 4096), 256u);
-    EXPECT_EQ(contract_size_px(100, false, 3.0, 1.0, 100), 100u) << "a device's limit";
+    EXPECT_EQ(target_size_px(1024, false, kInf, 1.0, 4096), 4096u);
+    EXPECT_EQ(target_size_px(1024, false, kNan, 1.0, 4096), 4096u);
+    EXPECT_EQ(target_size_px(1024, false, 0.0, 1.0, 4096), 256u) << "nothing is seen";
+    EXPECT_EQ(target_size_px(1024, false, 3.0, 1e-30, 4096), 4096u);
+    EXPECT_EQ(target_size_px(1024, false, 3.0, 1e30, 4096), 256u);
+    EXPECT_EQ(target_size_px(100, false, 3.0, 1.0, 100), 100u) << "a device's limit";
     LightShadow shadow;
     for (const float absurd : {0.0f, -1.0f, std::numeric_limits<float>::quiet_NaN()}) {
         shadow.max_error_px = absurd;
-        EXPECT_EQ(wished_error_px(shadow), 1.0);
+        EXPECT_EQ(target_error_px(shadow), 1.0);
     }
 }
 
@@ -74,7 +74,7 @@ TEST_P(Contract, IsKeptByThePredictionOrTheMapIsAsLargeAsItMayBe) {
             EXPECT_LE(demand.map.resolution_px, finer + kLeastMap_px) << "asking for less gave more";
             finer = demand.map.resolution_px;
             smaller += demand.map.resolution_px < demand.limits.max_px ? 1 : 0;
-            if (!keeps_contract(predicted_px(frame), wish_px)) {
+            if (!meets_target(predicted_px(frame), wish_px)) {
                 EXPECT_EQ(demand.map.resolution_px, demand.limits.max_px) << wish_px;
                 continue;
             }
@@ -82,7 +82,7 @@ TEST_P(Contract, IsKeptByThePredictionOrTheMapIsAsLargeAsItMayBe) {
             // A step less would not do; two, where the border's share is another then.
             if (demand.map.resolution_px > 2 * kLeastMap_px) {
                 s.lights[0].shadow.resolution_px = demand.map.resolution_px - 2 * kLeastMap_px;
-                EXPECT_FALSE(keeps_contract(predicted_px(fitted(s)), wish_px)) << wish_px;
+                EXPECT_FALSE(meets_target(predicted_px(fitted(s)), wish_px)) << wish_px;
                 s.lights[0].shadow.resolution_px = 0;
             }
         }
@@ -150,10 +150,10 @@ TEST_P(Contract, GivesUpTexelsASecondAfterTheyWereNeeded) {
             const ShadowFrame after = fitted(s, held);
             EXPECT_LE(after.fitted.lights[0].request.map.resolution_px, before);  // half is tried, and may be too small
             given_up += after.fitted.lights[0].request.map.resolution_px < before ? 1 : 0;
-            EXPECT_TRUE(keeps_contract(predicted_px(after), 8.0));
+            EXPECT_TRUE(meets_target(predicted_px(after), 8.0));
             s.lights[0].shadow.max_error_px = 1.0f;
             const ShadowFrame again = fitted(s, after.next_history);
-            EXPECT_TRUE(keeps_contract(predicted_px(again), 1.0) ||
+            EXPECT_TRUE(meets_target(predicted_px(again), 1.0) ||
                         again.fitted.lights[0].request.map.resolution_px == again.fitted.lights[0].request.limits.max_px)
                 << "more are given at once: scene " << i << ", " << again.fitted.lights[0].request.map.resolution_px << " of "
                 << again.fitted.lights[0].request.limits.max_px << " px, " << predicted_px(again) << " px off";
@@ -185,7 +185,7 @@ TEST_P(Contract, ComesToRest) {
                 // A size may be tried for so long, and another one be kept as long after it.
                 for (std::uint32_t f = 0; f < 3 * kSpareFrames; ++f) held = fitted(s, held).next_history;
                 EXPECT_TRUE(fitted(s, held).next_history == held) << i;
-                tried_in_vain += held.lights[0].size.spare_frames > kSpareFrames ? 1 : 0;
+                tried_in_vain += held.lights[0].size.downsize_frames > kSpareFrames ? 1 : 0;
             }
         }
     }

@@ -14,7 +14,7 @@ namespace {
 std::uint32_t chosen(std::vector<double> predicted_px, std::vector<std::uint64_t> texels, std::uint32_t held = 0) {
     std::vector<CascadeTrial> trials;
     for (std::uint32_t i = 0; i < texels.size(); ++i) trials.push_back({1u << i, predicted_px[i], texels[i]});
-    return contract_cascades(trials, held, 1.0);
+    return choose_cascades(trials, held, 1.0);
 }
 
 TEST(ContractCascades, AreTheFewestThatKeepTheWordWithNoMoreTexels) {
@@ -103,8 +103,8 @@ TEST_F(CountedCascades, AreFewWhereAllThatIsSeenIsAsFarAndNeverCostMoreTexelsOrT
             s.lights[0].shadow.cascades = 4;
             const ShadowFrame four = fitted(s);
             EXPECT_LE(texels(chosen), texels(four)) << far_m;
-            if (keeps_contract(predicted_px(four), wish_px)) {
-                EXPECT_TRUE(keeps_contract(predicted_px(chosen), wish_px)) << far_m;
+            if (meets_target(predicted_px(four), wish_px)) {
+                EXPECT_TRUE(meets_target(predicted_px(chosen), wish_px)) << far_m;
             }
             fewer += chosen.fitted.lights[0].request.map.view_count < 4 ? 1 : 0;
             EXPECT_EQ(fitted(s).next_history.lights[0].count.cascades, 0u) << "a number that is given is no choice";
@@ -164,8 +164,8 @@ TEST_F(CountedCascades, AreMoreAtOnceWhereTheWordWouldBeBroken) {
     frame = fitted(s, frame.next_history);
     SceneSnapshot four = s;
     four.lights[0].shadow.cascades = 4;
-    if (keeps_contract(predicted_px(fitted(four)), 4.0)) {
-        EXPECT_TRUE(keeps_contract(predicted_px(frame), 4.0));
+    if (meets_target(predicted_px(fitted(four)), 4.0)) {
+        EXPECT_TRUE(meets_target(predicted_px(frame), 4.0));
     } else {
         EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, 4u);
     }

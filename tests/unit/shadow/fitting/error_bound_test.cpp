@@ -137,8 +137,8 @@ TEST(ToldApart, IsTheWayThatTwoStepsOfTheFormatTake) {
     ShadowView flat;
     flat.depth.near_m = 3.0;
     flat.depth.far_m = 23.0;
-    EXPECT_EQ(told_apart_m(flat, DepthFormat::d32f, {}), 0.0);
-    EXPECT_DOUBLE_EQ(told_apart_m(flat, DepthFormat::d16, {}), 2.0 * 20.0 / 65535.0);
+    EXPECT_EQ(min_resolvable_gap_m(flat, DepthFormat::d32f, {}), 0.0);
+    EXPECT_DOUBLE_EQ(min_resolvable_gap_m(flat, DepthFormat::d16, {}), 2.0 * 20.0 / 65535.0);
 
     ShadowView lamp;
     lamp.projection = ViewProjection::perspective;
@@ -147,10 +147,10 @@ TEST(ToldApart, IsTheWayThatTwoStepsOfTheFormatTake) {
     for (const double z_m : {0.5, 5.0, 500.0}) {
         const glm::dvec3 p = lamp.pose.anchor_ws_m + glm::dvec3(0.4 * z_m, -0.3 * z_m, -z_m);
         const double way = glm::length(p - lamp.pose.anchor_ws_m);
-        const double caster_z_m = z_m * (1.0 - told_apart_m(lamp, DepthFormat::d16, p) / way);
+        const double caster_z_m = z_m * (1.0 - min_resolvable_gap_m(lamp, DepthFormat::d16, p) / way);
         EXPECT_GT(caster_z_m, 0.0) << "it is before the light";
         EXPECT_NEAR(lamp.depth.beta / caster_z_m - lamp.depth.beta / z_m, 2.0 / 65535.0, 1e-15) << z_m;
-        EXPECT_EQ(told_apart_m(lamp, DepthFormat::d32f, p), 0.0);
+        EXPECT_EQ(min_resolvable_gap_m(lamp, DepthFormat::d32f, p), 0.0);
     }
 }
 

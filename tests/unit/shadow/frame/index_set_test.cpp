@@ -10,15 +10,15 @@
 namespace gnomon::shadow {
 namespace {
 
-std::vector<std::uint32_t> in(const Marks& marks) {
+std::vector<std::uint32_t> in(const IndexSet& marks) {
     std::vector<std::uint32_t> found;
     marks.for_each([&](std::uint32_t i) { found.push_back(i); });
     return found;
 }
 
-TEST(Marks, GiveBackWhatWasAddedOnceAndInOrder) {
+TEST(IndexSet, GiveBackWhatWasAddedOnceAndInOrder) {
     std::mt19937_64 random(print_seed());
-    Marks marks;
+    IndexSet marks;
     for (int round = 0; round < 300; ++round) {
         const std::uint32_t count = std::uniform_int_distribution<std::uint32_t>(1, 10000)(random);
         marks.clear(count);
@@ -33,8 +33,8 @@ TEST(Marks, GiveBackWhatWasAddedOnceAndInOrder) {
     }
 }
 
-TEST(Marks, AreGoneOnceClearedWhateverTheNewCount) {
-    Marks marks;
+TEST(IndexSet, AreGoneOnceClearedWhateverTheNewCount) {
+    IndexSet marks;
     EXPECT_THAT(in(marks), ::testing::IsEmpty());
     for (const std::size_t count : {5000u, 4096u, 64u, 1u, 0u, 100000u, 4097u}) {
         marks.clear(count);

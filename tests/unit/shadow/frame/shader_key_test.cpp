@@ -44,11 +44,11 @@ Names names_of(const std::vector<std::string>& defines) {
     return names;
 }
 
-ProgramRow shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", "shadow/filters/pcf/hard.glsl"}; }
+ShaderKey shadowed_row() { return {"LIGHT_SPOT", "shadow/lookup/kinds/spot.glsl", "shadow/filters/pcf/hard.glsl"}; }
 
 /// Of a row, everything that may be so.
-ProgramRow full_row() {
-    ProgramRow row = shadowed_row();
+ShaderKey full_row() {
+    ShaderKey row = shadowed_row();
     auto& [kind_define, kind_file, filter_file, reach, fades, depths, manual_bias, triangles, sheets, moments, rays,
            masks, footprint] = row;  // all members: another one does not compile
     for (bool* flag : {&fades, &depths, &manual_bias, &triangles, &sheets, &moments, &rays, &masks, &footprint})
@@ -66,30 +66,30 @@ std::string shader_code() {
     return std::regex_replace(code, std::regex("//[^\\n]*"), "");
 }
 
-TEST(ProgramRow, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
+TEST(ShaderKey, EachOfItsFlagsChangesADefineAndNoneComesOrGoes) {
     const std::vector<std::string> least = program_defines(shadowed_row());
-    for (bool ProgramRow::*flag : {&ProgramRow::fades, &ProgramRow::depths, &ProgramRow::manual_bias,
-                                   &ProgramRow::triangles, &ProgramRow::sheets, &ProgramRow::moments, &ProgramRow::rays,
-                                   &ProgramRow::ray_masks, &ProgramRow::footprint}) {
-        ProgramRow row = shadowed_row();
+    for (bool ShaderKey::*flag : {&ShaderKey::fades, &ShaderKey::depths, &ShaderKey::manual_bias,
+                                   &ShaderKey::triangles, &ShaderKey::sheets, &ShaderKey::moments, &ShaderKey::rays,
+                                   &ShaderKey::ray_masks, &ShaderKey::footprint}) {
+        ShaderKey row = shadowed_row();
         row.*flag = true;
         EXPECT_NE(program_defines(row), least);
         EXPECT_EQ(names_of(program_defines(row)), names_of(least));
     }
-    EXPECT_EQ(names_of(program_defines(ProgramRow{"LIGHT_POINT", {}, {}})), names_of(least));
+    EXPECT_EQ(names_of(program_defines(ShaderKey{"LIGHT_POINT", {}, {}})), names_of(least));
 }
 
-TEST(ProgramRow, TheKindIsTheOnlyOneThatIsSet) {
-    EXPECT_THAT(program_defines(ProgramRow{"LIGHT_POINT", {}, {}}),
+TEST(ShaderKey, TheKindIsTheOnlyOneThatIsSet) {
+    EXPECT_THAT(program_defines(ShaderKey{"LIGHT_POINT", {}, {}}),
                 ::testing::IsSupersetOf({"LIGHT_DIRECTIONAL 0", "LIGHT_SPOT 0", "LIGHT_POINT 1"}));
 }
 
-TEST(ProgramRow, EveryFileThatADefineNamesIsThere) {
+TEST(ShaderKey, EveryFileThatADefineNamesIsThere) {
     std::size_t files = 0;
     for (const bool rays : {false, true})
-        for (bool ProgramRow::*reading : {&ProgramRow::fades, &ProgramRow::depths, &ProgramRow::triangles,
-                                          &ProgramRow::moments, &ProgramRow::footprint, &ProgramRow::ray_masks}) {
-            ProgramRow row = shadowed_row();
+        for (bool ShaderKey::*reading : {&ShaderKey::fades, &ShaderKey::depths, &ShaderKey::triangles,
+                                          &ShaderKey::moments, &ShaderKey::footprint, &ShaderKey::ray_masks}) {
+            ShaderKey row = shadowed_row();
             row.rays = rays;
             row.*reading = true;
             for (const std::string& define : program_defines(row))
@@ -105,7 +105,7 @@ TEST(ProgramRow, EveryFileThatADefineNamesIsThere) {
 
 /// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,
 /// and what tests of the bias take away.
-TEST(ProgramRow, NoShaderAsksForAnythingThatNobodyDefines) {
+TEST(ShaderKey, NoShaderAsksForAnythingThatNobodyDefines) {
     const std::string code = shader_code();
     const Names asked = found(code, "\\b(SHADOW_[A-Z_]+|RAY_MASKS)\\b");
     const Names own = found(code, "#\\s*define\\s+(SHADOW_\\w*)");
@@ -119,7 +119,7 @@ TEST(ProgramRow, NoShaderAsksForAnythingThatNobodyDefines) {
         }
 }
 
-TEST(ProgramRow, TheGuideNamesEveryDefine) {
+TEST(ShaderKey, TheGuideNamesEveryDefine) {
     const std::string guide = text_of(test::source_folder() / kGuide);
     const Names table = found(guide, "\n\\| `[^|]*`?(SHADOW\\w*|RAY_MASKS)` \\|");
     Names wanted;
@@ -129,7 +129,7 @@ TEST(ProgramRow, TheGuideNamesEveryDefine) {
 }
 
 /// Nobody spells them once more: who does leaves the next one out.
-TEST(ProgramRow, NoOtherCodeSpellsThem) {
+TEST(ShaderKey, NoOtherCodeSpellsThem) {
     const std::filesystem::path root = test::source_folder();
     EXPECT_FALSE(spelt_in(text_of(root / "systems/shadow/frame/shader_key.cpp")).empty()) << "what is looked for is found";
     const Names passes{"SHADOW_SHOWN"};
@@ -147,10 +147,10 @@ TEST(ProgramRow, NoOtherCodeSpellsThem) {
     EXPECT_GT(files, 100u);
 }
 
-TEST(ProgramRow, NamesItsFilesAndTheCameraWhereTheyReadIt) {
-    EXPECT_EQ(row_glsl(ProgramRow{"LIGHT_POINT", "shadow/lookup/kinds/point.glsl", {}}), "");
+TEST(ShaderKey, NamesItsFilesAndTheCameraWhereTheyReadIt) {
+    EXPECT_EQ(row_glsl(ShaderKey{"LIGHT_POINT", "shadow/lookup/kinds/point.glsl", {}}), "");
     EXPECT_EQ(row_glsl(shadowed_row()), "#include \"shadow/lookup/kinds/spot.glsl\"\n#include \"shadow/filters/pcf/hard.glsl\"\n");
-    ProgramRow prefiltered = shadowed_row();
+    ShaderKey prefiltered = shadowed_row();
     prefiltered.moments = true;
     EXPECT_EQ(row_glsl(prefiltered),
               row_glsl(shadowed_row()) + "#include \"shadow/filters/prefiltered/without_bleeding.glsl\"\n");

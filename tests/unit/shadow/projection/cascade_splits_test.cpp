@@ -17,34 +17,34 @@ namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
-CascadeEnds ends_of(const ShadowTuning::Cascades& tuning, std::uint32_t count, DepthSpan whole,
+CascadeSplitDistances ends_of(const ShadowTuning::Cascades& tuning, std::uint32_t count, DepthSpan whole,
                     std::vector<DepthSpan> receivers = {}, bool perspective = true) {
-    return cascade_ends(tuning, count, whole, perspective, receivers);
+    return cascade_split_distances(tuning, count, whole, perspective, receivers);
 }
 
 TEST(Splits, UniformOnesAreEquallyLong) {
-    const CascadeEnds ends = ends_of({.splits = CascadeSplits::uniform}, 4, {2.0, 10.0});
+    const CascadeSplitDistances ends = ends_of({.splits = CascadeSplits::uniform}, 4, {2.0, 10.0});
     for (int i = 0; i <= 4; ++i) EXPECT_DOUBLE_EQ(ends[i], 2.0 + 2.0 * i);
 }
 
 TEST(Splits, LogarithmicOnesHaveEqualRatios) {
-    const CascadeEnds ends = ends_of({.splits = CascadeSplits::logarithmic}, 3, {1.0, 64.0});
+    const CascadeSplitDistances ends = ends_of({.splits = CascadeSplits::logarithmic}, 3, {1.0, 64.0});
     for (int i = 0; i <= 3; ++i) EXPECT_NEAR(ends[i], std::pow(4.0, i), 1e-12 * ends[i]);
 }
 
 TEST(Splits, LambdaGoesFromUniformToLogarithmic) {
     const DepthSpan whole{1.0, 100.0};
-    const CascadeEnds uniform = ends_of({.splits = CascadeSplits::uniform}, 4, whole);
-    const CascadeEnds logarithmic = ends_of({.splits = CascadeSplits::logarithmic}, 4, whole);
+    const CascadeSplitDistances uniform = ends_of({.splits = CascadeSplits::uniform}, 4, whole);
+    const CascadeSplitDistances logarithmic = ends_of({.splits = CascadeSplits::logarithmic}, 4, whole);
     EXPECT_EQ(ends_of({.split_lambda = 0.0f}, 4, whole), uniform);
     EXPECT_EQ(ends_of({.split_lambda = 1.0f}, 4, whole), logarithmic);
-    const CascadeEnds half = ends_of({.split_lambda = 0.5f}, 4, whole);
+    const CascadeSplitDistances half = ends_of({.split_lambda = 0.5f}, 4, whole);
     for (int i = 1; i < 4; ++i) EXPECT_NEAR(half[i], 0.5 * (uniform[i] + logarithmic[i]), 1e-12);
 }
 
 TEST(Splits, AFlatViewKnowsNoLogarithm) {
     const DepthSpan whole{1.0, 100.0};
-    const CascadeEnds uniform = ends_of({.splits = CascadeSplits::uniform}, 4, whole);
+    const CascadeSplitDistances uniform = ends_of({.splits = CascadeSplits::uniform}, 4, whole);
     for (const auto splits : {CascadeSplits::practical, CascadeSplits::logarithmic})
         EXPECT_EQ(ends_of({.splits = splits}, 4, whole, {}, false), uniform);
 }
@@ -52,7 +52,7 @@ TEST(Splits, AFlatViewKnowsNoLogarithm) {
 TEST(Splits, ManualOnesAreTakenAndBoundedByWhatIsSeen) {
     const ShadowTuning::Cascades tuning{.splits = CascadeSplits::manual, .split_m = {5.0f, 15.0f, 400.0f}};
     EXPECT_EQ(cascade_count({.tuning = {.cascades = tuning}}, 2), 4u);
-    const CascadeEnds ends = ends_of(tuning, 4, {1.0, 100.0});
+    const CascadeSplitDistances ends = ends_of(tuning, 4, {1.0, 100.0});
     EXPECT_EQ(ends[1], 5.0);
     EXPECT_EQ(ends[2], 15.0);
     EXPECT_EQ(ends[3], 100.0);
@@ -61,19 +61,19 @@ TEST(Splits, ManualOnesAreTakenAndBoundedByWhatIsSeen) {
 
 TEST(Splits, SeenOnesSpendNothingOnAGap) {
     // Things from 1 to 4 m, then nothing, then from 100 to 400 m: equal logarithms, so two cascades each.
-    const CascadeEnds ends = ends_of({.splits = CascadeSplits::seen, .split_lambda = 1.0f}, 4, {1.0, 400.0},
+    const CascadeSplitDistances ends = ends_of({.splits = CascadeSplits::seen, .split_lambda = 1.0f}, 4, {1.0, 400.0},
                                      {{100.0, 200.0}, {1.0, 3.0}, {150.0, 400.0}, {2.0, 4.0}});
     EXPECT_NEAR(ends[1], 2.0, 1e-9);
     EXPECT_NEAR(ends[2], 4.0, 1e-9);
     EXPECT_NEAR(ends[3], 200.0, 1e-6);
-    const CascadeEnds blind = ends_of({.splits = CascadeSplits::logarithmic}, 4, {1.0, 400.0});
+    const CascadeSplitDistances blind = ends_of({.splits = CascadeSplits::logarithmic}, 4, {1.0, 400.0});
     EXPECT_GT(blind[2], 10.0) << "which the others do";
 }
 
 TEST(Splits, OneThatIsSeenEverywhereChangesNothing) {
     const DepthSpan whole{1.0, 100.0};
-    const CascadeEnds practical = ends_of({}, 4, whole);
-    const CascadeEnds seen = ends_of({.splits = CascadeSplits::seen}, 4, whole, {{-5.0, 60.0}, {20.0, 1000.0}});
+    const CascadeSplitDistances practical = ends_of({}, 4, whole);
+    const CascadeSplitDistances seen = ends_of({.splits = CascadeSplits::seen}, 4, whole, {{-5.0, 60.0}, {20.0, 1000.0}});
     for (int i = 0; i <= 4; ++i) EXPECT_NEAR(seen[i], practical[i], 1e-9 * practical[i]);
 }
 
@@ -114,7 +114,7 @@ TEST(Splits, EndsNeverFallAndStartAndEndWithTheWholeWhateverIsAsked) {
         }
         const std::uint32_t count =
             cascade_count({.tuning = {.cascades = tuning}}, 1 + static_cast<std::uint32_t>(round) % 8);
-        const CascadeEnds ends = cascade_ends(tuning, count, whole, round % 3 != 0, receivers);
+        const CascadeSplitDistances ends = cascade_split_distances(tuning, count, whole, round % 3 != 0, receivers);
         EXPECT_EQ(ends[0], whole.lowest);
         EXPECT_EQ(ends[count], whole.highest);
         for (std::uint32_t i = 0; i < count; ++i) EXPECT_LE(ends[i], ends[i + 1]) << "round " << round;

@@ -58,7 +58,7 @@ double off_texel(const ShadowView& view, const LightItem& light, const glm::dvec
     return off_m / (z_m * glm::length(glm::dvec2(view.plane.texel_u, view.plane.texel_v)));
 }
 
-TEST(LampAim, HoldsAllThatIsSeenAndLittleMore) {
+TEST(FarLampAim, HoldsAllThatIsSeenAndLittleMore) {
     const std::uint64_t seed = print_seed();
     RandomScene random(seed);
     int fits = 0;
@@ -90,7 +90,7 @@ TEST(LampAim, HoldsAllThatIsSeenAndLittleMore) {
     EXPECT_GT(fits, 20);
 }
 
-TEST(LampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
+TEST(FarLampAim, FloatsPlaceAPointInItsTexelHoweverFarTheLampIs) {
     constexpr double kMostOff_texel = 1.0 / 16.0;
     RandomScene random(print_seed());
     double worst_about_lamp = 0.0;
@@ -139,7 +139,7 @@ SceneSnapshot yard(double distance_m) {
     return scene;
 }
 
-TEST(LampAim, LeavesALampThatLightsMuchOfWhatItSeesItsOwnMaps) {
+TEST(FarLampAim, LeavesALampThatLightsMuchOfWhatItSeesItsOwnMaps) {
     for (const double distance_m : {3.0, 20.0, 60.0}) {
         SceneSnapshot scene = yard(distance_m);
         for (const LightKind kind : kLamps) {
@@ -153,12 +153,12 @@ TEST(LampAim, LeavesALampThatLightsMuchOfWhatItSeesItsOwnMaps) {
     }
 }
 
-TEST(LampAim, StaysWhileTheCameraTurnsAndWalksALittle) {
+TEST(FarLampAim, StaysWhileTheCameraTurnsAndWalksALittle) {
     SceneSnapshot scene = yard(5e3);
     History held;
     ShadowFrame frame = fitted(scene, held);
     ASSERT_TRUE(aimed_view(frame));
-    const LampAim aim = frame.fitted.lights[0].request.projection.aim;
+    const FarLampAim aim = frame.fitted.lights[0].request.projection.aim;
     int changes = 0;
     for (int i = 0; i < 200; ++i) {
         held = frame.next_history;
@@ -175,7 +175,7 @@ TEST(LampAim, StaysWhileTheCameraTurnsAndWalksALittle) {
     EXPECT_EQ(fitted(scene, frame.next_history).fitted.views[0].clip_from_anchor, frame.fitted.views[0].clip_from_anchor);
 }
 
-TEST(LampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
+TEST(FarLampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
     SceneSnapshot scene = yard(100.0);
     History held;
     const auto aims_at = [&](double distance_m) {
@@ -193,7 +193,7 @@ TEST(LampAim, DoesNotComeAndGoWithALampThatSwaysWhereItBegins) {
     EXPECT_FALSE(aims_at(0.95 * begins_m));
 }
 
-TEST(LampAim, LeavesOutWhatTheConeAndTheRangeLeaveDark) {
+TEST(FarLampAim, LeavesOutWhatTheConeAndTheRangeLeaveDark) {
     constexpr double kFar_m = 2e4;
     SceneSnapshot scene = yard(kFar_m);
     InstanceItem beside;

@@ -50,10 +50,10 @@ TEST(Projection, TheEyeStandsAsFarFromTheMiddleAsIsAsked) {
     const std::vector<glm::dvec3> seen = {{-3.0, 0.0, -4.0}, {3.0, 0.0, 4.0}, {1.0, 2.0, 0.0}};
     ShadowTuning::Projection tuning;
     tuning.eye_distance_m = 25.0f;
-    EXPECT_LT(glm::distance(sun_eye(basis, seen, tuning).position_ws_m, {0.0, 26.0, 0.0}), 1e-12);
+    EXPECT_LT(glm::distance(sun_viewpoint(basis, seen, tuning).position_ws_m, {0.0, 26.0, 0.0}), 1e-12);
     tuning.eye_distance_m = 0.0f;
     tuning.eye_angle_rad = 1.0471975512f;  // 60 degrees: twice the radius
-    EXPECT_NEAR(sun_eye(basis, seen, tuning).distance_m, 2.0 * std::sqrt(9.0 + 1.0 + 16.0), 1e-6);
+    EXPECT_NEAR(sun_viewpoint(basis, seen, tuning).distance_m, 2.0 * std::sqrt(9.0 + 1.0 + 16.0), 1e-6);
 }
 
 TEST(Projection, WhatIsNoEyeIsNotTakenForOne) {
@@ -109,7 +109,7 @@ TEST_P(ProjectionOfKind, AGivenRangeIsThatOfEveryView) {
             EXPECT_NEAR(view.depth.far_m - view.depth.near_m, 28.0, 1e-9);
             glm::dvec3 from = scene.lights[0].position_ws_m;
             if (GetParam() == LightKind::directional)
-                from = sun_eye(math::basis_from_back(scene.lights[0].rotation_ws[2]), frame.sets.receiver_points_ws, tuning)
+                from = sun_viewpoint(math::basis_from_back(scene.lights[0].rotation_ws[2]), frame.sets.receiver_points_ws, tuning)
                            .position_ws_m;
             const glm::dvec4 start = clip_of(view, from - 2.0 * view.pose.axis_back),
                              end = clip_of(view, from - 30.0 * view.pose.axis_back);

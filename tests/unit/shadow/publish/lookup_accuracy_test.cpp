@@ -47,9 +47,9 @@ struct Case {
 };
 
 TEST(LookupAccuracy, OfOneTapIsWhatAFitForOneTapSays) {
-    const double plain_px = Case(kPlainFilter).view().error.edge_px;
+    const double plain_px = Case(kCheapestFilter).view().error.edge_px;
     for (const FilterRow& row : filter_table())
-        EXPECT_DOUBLE_EQ(Case(row.id).by(kPlainFilter).predicted_error_px, plain_px) << row.name;
+        EXPECT_DOUBLE_EQ(Case(row.id).by(kCheapestFilter).predicted_error_px, plain_px) << row.name;
     EXPECT_DOUBLE_EQ(plain_px, kExtent_px + 1.0);
 }
 
@@ -57,19 +57,19 @@ TEST(LookupAccuracy, OfItsOwnFilterIsWhatItsFitSays) {
     const Case wide(ShadowFilter::hardware_2x2);
     EXPECT_DOUBLE_EQ(wide.by(wide.decision.request.map.filter).predicted_error_px, 1.5 * kExtent_px + 1.0);
     EXPECT_FALSE(wide.by(wide.decision.request.map.filter).keeps_max_error) << "of one pixel";
-    EXPECT_TRUE(wide.by(kPlainFilter).keeps_max_error);
+    EXPECT_TRUE(wide.by(kCheapestFilter).keeps_max_error);
 }
 
 TEST(LookupAccuracy, GrowsWithTexelsThatAreMissingAndWithCastersThatMoved) {
     Case c(ShadowFilter::exact);
     c.map.size_px = 256;
-    EXPECT_DOUBLE_EQ(c.by(kPlainFilter).predicted_error_px, 2.0 * kExtent_px + 1.0);
-    EXPECT_FALSE(c.by(kPlainFilter).keeps_max_error);
+    EXPECT_DOUBLE_EQ(c.by(kCheapestFilter).predicted_error_px, 2.0 * kExtent_px + 1.0);
+    EXPECT_FALSE(c.by(kCheapestFilter).keeps_max_error);
     c.map.size_px = 512;
     c.plan.stale.error_px = 0.25;
-    EXPECT_DOUBLE_EQ(c.by(kPlainFilter).predicted_error_px, kExtent_px + 1.25);
+    EXPECT_DOUBLE_EQ(c.by(kCheapestFilter).predicted_error_px, kExtent_px + 1.25);
     c.decision.refresh_frames = 2;
-    EXPECT_FALSE(c.by(kPlainFilter).keeps_max_error) << "it may wait longer";
+    EXPECT_FALSE(c.by(kCheapestFilter).keeps_max_error) << "it may wait longer";
 }
 
 TEST(LookupAccuracy, OfWhatIsNotLookedUpIsNothing) {
@@ -77,14 +77,14 @@ TEST(LookupAccuracy, OfWhatIsNotLookedUpIsNothing) {
     lit.view().lit = true;
     none.map.texture = {};
     unseen.view().error.edge_px = unseen.view().error.extent_px = 0.0;
-    for (const Case& c : {lit, none, unseen}) EXPECT_EQ(c.by(kPlainFilter).predicted_error_px, 0.0);
-    EXPECT_FALSE(lit.by(kPlainFilter).keeps_max_error);
+    for (const Case& c : {lit, none, unseen}) EXPECT_EQ(c.by(kCheapestFilter).predicted_error_px, 0.0);
+    EXPECT_FALSE(lit.by(kCheapestFilter).keeps_max_error);
 }
 
 TEST(LookupAccuracy, OfMapsThatWereLostIsNothing) {
     Case lost(ShadowFilter::triangles);
     lost.status.lose_maps(Reason::depth_program_failed, false);
-    EXPECT_EQ(lost.by(kPlainFilter).predicted_error_px, 0.0);
+    EXPECT_EQ(lost.by(kCheapestFilter).predicted_error_px, 0.0);
     EXPECT_EQ(lost.published(false), ShadowFilter::automatic);
 }
 
@@ -92,9 +92,9 @@ TEST(LookupAccuracy, IsOfTheFilterThatIsPublished) {
     const Case exact(ShadowFilter::exact), moments(ShadowFilter::vsm), usual(ShadowFilter::triangles);
     EXPECT_EQ(exact.published(true), ShadowFilter::exact);
     EXPECT_EQ(exact.without_map().published(true), ShadowFilter::exact) << "rays do without a map";
-    EXPECT_EQ(exact.published(false), kPlainFilter);
+    EXPECT_EQ(exact.published(false), kCheapestFilter);
     EXPECT_EQ(exact.without_map().published(false), ShadowFilter::automatic);
-    EXPECT_EQ(moments.published(true), kPlainFilter) << "no moments were made";
+    EXPECT_EQ(moments.published(true), kCheapestFilter) << "no moments were made";
     EXPECT_EQ(usual.published(false), ShadowFilter::triangles);
     EXPECT_EQ(usual.without_map().published(false), ShadowFilter::automatic);
 }

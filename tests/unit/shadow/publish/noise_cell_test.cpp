@@ -12,7 +12,7 @@ namespace {
 constexpr double kCells = 16777216.0;
 
 /// shaders/shadow/filters/disk/noise_seed.glsl, with its floats.
-glm::uvec3 cell_of_point(const SeedCell& camera, const glm::vec3& position_ca, float cell_m) {
+glm::uvec3 cell_of_point(const NoiseCell& camera, const glm::vec3& position_ca, float cell_m) {
     const glm::vec3 axes[3] = {{-0.6666666667f, 0.1333333333f, 0.7333333333f},
                                {0.6666666667f, -0.3333333333f, 0.6666666667f},
                                {0.3333333333f, 0.9333333333f, 0.1333333333f}};
@@ -43,7 +43,7 @@ double share_that_crawls(const glm::dvec3& origin, const glm::dvec3& step, doubl
     return static_cast<double>(moved) / kPoints;
 }
 
-TEST(SeedCell, APointKeepsItsCellWhileTheCameraWalks) {
+TEST(NoiseCell, APointKeepsItsCellWhileTheCameraWalks) {
     // Rounding: 1e-6 m of 10 m, thrice, against cells of 0.02 m.
     constexpr double kRounded = 1e-3;
     for (const glm::dvec3& origin : {glm::dvec3(0.0), glm::dvec3(1.0e5, -3.0e3, 2.0e5), glm::dvec3(1.0e8, 0.0, -1.0e8)})
@@ -52,8 +52,8 @@ TEST(SeedCell, APointKeepsItsCellWhileTheCameraWalks) {
                 EXPECT_LE(share_that_crawls(origin, step, ground_m), origin.x > 1e7 ? 10.0 * kRounded : kRounded) << origin.x << " " << step.x << " " << ground_m;
 }
 
-TEST(SeedCell, NeighboursHaveOtherCellsAndEachLiesWithinItsOwn) {
-    const SeedCell here = seed_cell({5.0, 6.0, 7.0}, 0.02), there = seed_cell({5.03, 6.0, 7.0}, 0.02);
+TEST(NoiseCell, NeighboursHaveOtherCellsAndEachLiesWithinItsOwn) {
+    const NoiseCell here = seed_cell({5.0, 6.0, 7.0}, 0.02), there = seed_cell({5.03, 6.0, 7.0}, 0.02);
     EXPECT_NE(here.cell, there.cell);
     for (int i = 0; i < 3; ++i) {
         EXPECT_GE(here.place[i], 0.0);
@@ -61,9 +61,9 @@ TEST(SeedCell, NeighboursHaveOtherCellsAndEachLiesWithinItsOwn) {
     }
 }
 
-TEST(SeedCell, FarAwayTheLatticeWrapsInsteadOfOverflowing) {
+TEST(NoiseCell, FarAwayTheLatticeWrapsInsteadOfOverflowing) {
     for (const double far_m : {-1.0e5, 1.0e8, -1.0e11, 1.0e11}) {
-        const SeedCell at = seed_cell({far_m, far_m, -far_m}, 1e-3);
+        const NoiseCell at = seed_cell({far_m, far_m, -far_m}, 1e-3);
         for (int i = 0; i < 3; ++i) {
             EXPECT_GE(at.cell[i], 0) << far_m;
             EXPECT_LT(at.cell[i], static_cast<int>(kCells)) << far_m;

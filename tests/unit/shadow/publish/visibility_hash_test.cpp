@@ -75,7 +75,7 @@ TEST_F(LookupSignature, IsNoneWhereNothingIsToBeKept) {
     EXPECT_EQ(without([&] { scene.version = 0; }), 0u) << "nobody counts its changes";
     EXPECT_EQ(without([&] { frame.updates[1].hold = Hold::by_turn; }), 0u) << "casters as they were";
     // What is kept while a map changes too much to be drawn goes with the first frame that draws it.
-    EXPECT_EQ(without([&] { frame.updates[0].left_to_rays = true; }), 0u);
+    EXPECT_EQ(without([&] { frame.updates[0].skipped_for_rays = true; }), 0u);
 }
 
 }  // namespace

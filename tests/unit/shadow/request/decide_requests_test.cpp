@@ -137,7 +137,7 @@ TEST_F(DemandTest, AWideConeGetsFiveFacesInsteadOfOneView) {
     scene.lights[1].outer_cone_rad = 1.5;
     EXPECT_EQ(decide()[1].note, Reason::none);
     EXPECT_EQ(demands[1].map.view_count, 5u);
-    EXPECT_EQ(demands[1].projection.faces_eighths, 8);
+    EXPECT_EQ(demands[1].projection.cube_blend_eighths, 8);
 }
 
 TEST_F(DemandTest, WithoutCamerasItStaysTotal) {

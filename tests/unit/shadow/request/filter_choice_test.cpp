@@ -16,24 +16,24 @@ namespace {
 constexpr double px(double of_texels_px) { return of_texels_px + 1.0; }
 
 TEST(FilterChoice, IsTheUsualOneAsLongAsItsMapsKeepTheWord) {
-    EXPECT_EQ(chosen_filter({}, px(2.0), 2.0), kUsualFilter);
-    EXPECT_EQ(chosen_filter({}, px(2.01), 2.0), kKeepingFilter);
-    EXPECT_EQ(chosen_filter({kUsualFilter, 2.0}, px(2.0), 2.0), kUsualFilter);
-    EXPECT_EQ(chosen_filter({kUsualFilter, 2.0}, px(2.01), 2.0), kKeepingFilter);
-    EXPECT_EQ(chosen_filter({}, std::numeric_limits<double>::quiet_NaN(), 2.0), kKeepingFilter);
-    EXPECT_EQ(chosen_filter({}, std::numeric_limits<double>::infinity(), 1e9), kKeepingFilter);
+    EXPECT_EQ(chosen_filter({}, px(2.0), 2.0), kDefaultFilter);
+    EXPECT_EQ(chosen_filter({}, px(2.01), 2.0), kExactFilter);
+    EXPECT_EQ(chosen_filter({kDefaultFilter, 2.0}, px(2.0), 2.0), kDefaultFilter);
+    EXPECT_EQ(chosen_filter({kDefaultFilter, 2.0}, px(2.01), 2.0), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, std::numeric_limits<double>::quiet_NaN(), 2.0), kExactFilter);
+    EXPECT_EQ(chosen_filter({}, std::numeric_limits<double>::infinity(), 1e9), kExactFilter);
 }
 
 TEST(FilterChoice, ComesBackOnceTheUsualOneErrsByLessThanItMay) {
-    const HeldFilter keeping{kKeepingFilter, 2.0};
-    EXPECT_EQ(chosen_filter(keeping, px(1.42), 2.0), kKeepingFilter);
-    EXPECT_EQ(chosen_filter(keeping, px(1.41), 2.0), kUsualFilter);
-    EXPECT_EQ(chosen_filter(keeping, px(2.9), 3.0), kUsualFilter) << "another word: nothing is held of it";
+    const FilterHistory keeping{kExactFilter, 2.0};
+    EXPECT_EQ(chosen_filter(keeping, px(1.42), 2.0), kExactFilter);
+    EXPECT_EQ(chosen_filter(keeping, px(1.41), 2.0), kDefaultFilter);
+    EXPECT_EQ(chosen_filter(keeping, px(2.9), 3.0), kDefaultFilter) << "another word: nothing is held of it";
 }
 
 TEST(FilterChoice, IsTriedAgainASecondAfterWhatIsSeenChangedAndNotBefore) {
-    HeldFilter held = held_keeping({}, 9.0, false, 1.0, 2.0);
-    EXPECT_EQ(held.filter, kKeepingFilter);
+    FilterHistory held = held_keeping({}, 9.0, false, 1.0, 2.0);
+    EXPECT_EQ(held.filter, kExactFilter);
     EXPECT_EQ(held.frames, kFilterFrames);
     for (std::uint32_t frame = kFilterFrames; frame > 1; --frame) {
         EXPECT_FALSE(is_trial_due(held, 2.0)) << frame;
@@ -49,7 +49,7 @@ TEST(FilterChoice, IsTriedAgainASecondAfterWhatIsSeenChangedAndNotBefore) {
 }
 
 TEST(FilterChoice, ComesBackOnlyAfterEveryFrameOfHalfASecondPassed) {
-    HeldFilter held{kKeepingFilter, 2.0, 9.0, 1.0, 1, 0};
+    FilterHistory held{kExactFilter, 2.0, 9.0, 1.0, 1, 0};
     for (std::uint32_t pass = 1; pass < kFilterPasses; ++pass) {
         EXPECT_TRUE(is_trial_due(held, 2.0));
         EXPECT_FALSE(comes_back(held, 2.0)) << pass;
@@ -89,11 +89,11 @@ TEST(FilterChoice, IsTheContractsOnlyWhereNothingElseIsNamed) {
     EXPECT_FALSE(leaves(sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::perspective; }));
     EXPECT_FALSE(leaves(sun, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; }));
     EXPECT_TRUE(leaves(lamp, [](ShadowTuning& t) { t.cascades.fit = ShadowFit::stable; })) << "of suns alone";
-    const HeldFilter keeping{kKeepingFilter, 2.0};
-    EXPECT_EQ(filter_to_fit(lamp, nullptr), kUsualFilter);
-    EXPECT_EQ(filter_to_fit(lamp, &keeping), kKeepingFilter);
+    const FilterHistory keeping{kExactFilter, 2.0};
+    EXPECT_EQ(filter_to_fit(lamp, nullptr), kDefaultFilter);
+    EXPECT_EQ(filter_to_fit(lamp, &keeping), kExactFilter);
     lamp.shadow.max_error_px = 0.0f;
-    EXPECT_EQ(filter_to_fit(lamp, &keeping), kUsualFilter);
+    EXPECT_EQ(filter_to_fit(lamp, &keeping), kDefaultFilter);
     lamp.shadow.filter = ShadowFilter::pcss;
     EXPECT_EQ(filter_to_fit(lamp, &keeping), ShadowFilter::pcss);
 }
@@ -113,8 +113,8 @@ protected:
         return worst;
     }
     static bool is_named_kept(SceneSnapshot s) {
-        s.lights[0].shadow.filter = kUsualFilter;
-        return keeps_contract(looked_up_px(fitted(s)), wished_error_px(s.lights[0].shadow));
+        s.lights[0].shadow.filter = kDefaultFilter;
+        return meets_target(looked_up_px(fitted(s)), target_error_px(s.lights[0].shadow));
     }
 };
 
@@ -127,18 +127,18 @@ TEST_P(FittedFilter, IsTheKeepingOneExactlyWhereTheUsualOnesMapsDoNotKeepTheWord
             const ShadowFrame frame = fitted(s);
             if (frame.fitted.views.empty()) continue;
             const bool kept = is_named_kept(s);
-            if (filter(frame) == kUsualFilter) {
+            if (filter(frame) == kDefaultFilter) {
                 ++usual;
-                EXPECT_TRUE(keeps_contract(looked_up_px(frame), wish_px)) << "no other is needed";
+                EXPECT_TRUE(meets_target(looked_up_px(frame), wish_px)) << "no other is needed";
                 more_cascades += kept ? 0 : 1;
                 EXPECT_EQ(frame.fitted.lights[0].default_filter_error_px, 0.0);
                 continue;
             }
             ++keeping;
-            EXPECT_EQ(filter(frame), kKeepingFilter);
+            EXPECT_EQ(filter(frame), kExactFilter);
             EXPECT_FALSE(kept);
             EXPECT_TRUE(frame.fitted.lights[0].request.rays.used);
-            EXPECT_FALSE(keeps_contract(frame.fitted.lights[0].default_filter_error_px, wish_px)) << "the number behind it";
+            EXPECT_FALSE(meets_target(frame.fitted.lights[0].default_filter_error_px, wish_px)) << "the number behind it";
         }
     std::cout << usual << " have the usual filter, " << more_cascades << " of them by another number of cascades, "
               << keeping << " the keeping one\n";
@@ -152,12 +152,12 @@ TEST_P(FittedFilter, IsTheUsualOneAsItEverWasWhereNothingIsSaid) {
     for (int i = 0; i < 60; ++i) {
         SceneSnapshot s = scene(random, 0.0f);
         const ShadowFrame frame = fitted(s);
-        s.lights[0].shadow.filter = kUsualFilter;
+        s.lights[0].shadow.filter = kDefaultFilter;
         const ShadowFrame named = fitted(s);
-        EXPECT_EQ(filter(frame), kUsualFilter);
+        EXPECT_EQ(filter(frame), kDefaultFilter);
         EXPECT_EQ(frame.fitted.lights[0].request.map.resolution_px, named.fitted.lights[0].request.map.resolution_px);
         EXPECT_EQ(frame.next_history, named.next_history);
-        broken += keeps_contract(looked_up_px(frame), 1.0) ? 0 : 1;
+        broken += meets_target(looked_up_px(frame), 1.0) ? 0 : 1;
     }
     EXPECT_GT(broken, 10) << "another filter would have been chosen, had a pixel been said";
 }
@@ -182,7 +182,7 @@ TEST_P(FittedFilter, HardlyChangesWhileTheCameraSways) {
         EXPECT_LE(of_scene, 3) << "there, once back, and there for good";
         twice_there += of_scene == 3 ? 1 : 0;
         changes += of_scene;
-        keeping += last == kKeepingFilter ? 1 : 0;
+        keeping += last == kExactFilter ? 1 : 0;
     }
     EXPECT_LE(twice_there, 1) << "there, and at most once back";
     std::cout << changes << " changes, " << keeping << " end with the keeping one\n";
@@ -200,19 +200,19 @@ TEST_P(FittedFilter, ChangesAtOnceForTheWordAndComesBackASecondAfterItWasNeeded)
         const ShadowFrame far = fitted(s);
         stand(1.0);
         const ShadowFrame near = fitted(s, far.next_history);
-        if (far.fitted.views.empty() || near.fitted.views.empty() || filter(far) != kUsualFilter || filter(near) != kKeepingFilter)
+        if (far.fitted.views.empty() || near.fitted.views.empty() || filter(far) != kDefaultFilter || filter(near) != kExactFilter)
             continue;
         ++there;
         History held = near.next_history;
         stand(30.0);
         for (std::uint32_t f = 1; f < kFilterFrames + kFilterPasses - 1; ++f) {
             const ShadowFrame frame = fitted(s, held);
-            ASSERT_EQ(filter(frame), kKeepingFilter) << f;
+            ASSERT_EQ(filter(frame), kExactFilter) << f;
             held = frame.next_history;
         }
         const ShadowFrame again = fitted(s, held);
-        back += filter(again) == kUsualFilter ? 1 : 0;
-        EXPECT_EQ(filter(again) == kUsualFilter, keeps_contract(looked_up_px(far), 1.0 / kFilterPatience));
+        back += filter(again) == kDefaultFilter ? 1 : 0;
+        EXPECT_EQ(filter(again) == kDefaultFilter, meets_target(looked_up_px(far), 1.0 / kFilterHysteresis));
     }
     EXPECT_GT(there, 5);
     EXPECT_GT(back, 5);
@@ -234,10 +234,10 @@ TEST_P(FittedFilter, WaitsForTheNextFrameWithinABudget) {
     int waited = 0;
     for (int i = 0; i < 40; ++i) {
         const SceneSnapshot s = scene(random, 0.5f);
-        if (const ShadowFrame now = fitted(s); now.fitted.views.empty() || filter(now) != kKeepingFilter) continue;
+        if (const ShadowFrame now = fitted(s); now.fitted.views.empty() || filter(now) != kExactFilter) continue;
         const ShadowFrame first = fitted(s, {}, true);
-        EXPECT_EQ(filter(first), kUsualFilter);
-        EXPECT_EQ(filter(fitted(s, first.next_history, true)), kKeepingFilter);
+        EXPECT_EQ(filter(first), kDefaultFilter);
+        EXPECT_EQ(filter(fitted(s, first.next_history, true)), kExactFilter);
         ++waited;
     }
     EXPECT_GT(waited, 10);

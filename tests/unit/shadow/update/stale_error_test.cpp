@@ -158,7 +158,7 @@ class StaleViews : public ::testing::Test {
 protected:
     void SetUp() override {
         view.error.metre_px = 4.0;
-        view.still_casters = 1;
+        view.static_casters = 1;
         for (std::uint32_t i = 0; i < 3; ++i) {
             InstanceItem item = item_at({glm::dvec3(-1.0), glm::dvec3(1.0)}, {glm::dmat3(1.0), glm::dvec3(5.0 * i)}, 1);
             item.gpu_slot = i;

@@ -37,15 +37,15 @@ ConsumerItem camera(CameraProjection projection = CameraProjection::perspective)
 constexpr DepthSpan kWhole{0.125, 1024.0};
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-CascadeEnds ends_of(const SampledDepths& depths, std::uint32_t count, const ConsumerItem& consumer = camera(),
+CascadeSplitDistances ends_of(const SampledDepths& depths, std::uint32_t count, const ConsumerItem& consumer = camera(),
                     double width_m = kInfinity) {
-    CascadeEnds ends{};
-    EXPECT_TRUE(sampled_ends({depths, consumer, count, kWhole, width_m}, ends));
+    CascadeSplitDistances ends{};
+    EXPECT_TRUE(sampled_splits({depths, consumer, count, kWhole, width_m}, ends));
     return ends;
 }
 
 TEST(SampledDepths, CascadesEndBehindWherePixelsLie) {
-    const CascadeEnds ends = ends_of(pixels_at({1.0, 4.0, 500.0}), 3);
+    const CascadeSplitDistances ends = ends_of(pixels_at({1.0, 4.0, 500.0}), 3);
     EXPECT_EQ(ends[0], kWhole.lowest) << "the first begins at the near plane, whatever was counted";
     EXPECT_DOUBLE_EQ(ends[1], std::exp2(0.25));
     EXPECT_DOUBLE_EQ(ends[2], 4.0 * std::exp2(0.25));
@@ -63,8 +63,8 @@ TEST(SampledDepths, NothingIsSpentBehindTheLastPixelButTheLastCascade) {
     EXPECT_DOUBLE_EQ(ends_of(pixels_at({2.0, 4.5}), 2)[1], 4.0 * std::exp2(0.25));
 }
 
-/// What sampled_ends() promises to make least, straight from the words.
-double suffered(const SampledSplit& split, const CascadeEnds& ends) {
+/// What sampled_splits() promises to make least, straight from the words.
+double suffered(const SampledSplit& split, const CascadeSplitDistances& ends) {
     const bool perspective = split.consumer.projection == CameraProjection::perspective;
     const double half = perspective ? std::tan(0.5 * split.consumer.fov_y_rad) : split.consumer.half_height_m;
     const double diagonal = 2.0 * half * std::sqrt(1.0 + 1280.0 * 1280.0 / (720.0 * 720.0));
@@ -94,15 +94,15 @@ TEST(SampledDepths, NoOtherEndsAreBetter) {
         const std::uint32_t count = 1 + below(kMaxCascades);
         const ConsumerItem consumer = camera(flat ? CameraProjection::orthographic : CameraProjection::perspective);
         const SampledSplit split{depths, consumer, count, kWhole, round % 3 == 0 ? kInfinity : 10.0};
-        CascadeEnds best{};
-        ASSERT_TRUE(sampled_ends(split, best));
+        CascadeSplitDistances best{};
+        ASSERT_TRUE(sampled_splits(split, best));
         const double least = suffered(split, best);
         for (std::uint32_t i = 0; i < count; ++i) EXPECT_LE(best[i], best[i + 1]);
         for (int other = 0; other < 50; ++other) {
             std::vector<std::uint32_t> bins(count - 1);
             for (std::uint32_t& bin : bins) bin = 84 + below(52);
             std::sort(bins.begin(), bins.end());
-            CascadeEnds ends = best;
+            CascadeSplitDistances ends = best;
             for (std::uint32_t i = 1; i < count; ++i)
                 ends[i] = std::exp2(0.25 * (static_cast<int>(bins[i - 1]) + kFirstDepthStep));
             EXPECT_GE(suffered(split, ends), least * (1.0 - 1e-9)) << "round " << round;
@@ -111,29 +111,29 @@ TEST(SampledDepths, NoOtherEndsAreBetter) {
 }
 
 TEST(SampledDepths, OnesThatSayNothingAreNotUsed) {
-    CascadeEnds ends{};
+    CascadeSplitDistances ends{};
     const ConsumerItem here = camera();
     ConsumerItem other = here, nobody = here;
     other.entity = kOther;
     nobody.entity = ecs::kNull;
     const SampledDepths depths = pixels_at({8.0}), none, sky{.camera = kCamera};
-    EXPECT_TRUE(sampled_ends({depths, here, 4, kWhole, kInfinity}, ends));
-    EXPECT_FALSE(sampled_ends({depths, other, 4, kWhole, kInfinity}, ends));
-    EXPECT_FALSE(sampled_ends({none, here, 4, kWhole, kInfinity}, ends));
-    EXPECT_FALSE(sampled_ends({none, nobody, 4, kWhole, kInfinity}, ends))
+    EXPECT_TRUE(sampled_splits({depths, here, 4, kWhole, kInfinity}, ends));
+    EXPECT_FALSE(sampled_splits({depths, other, 4, kWhole, kInfinity}, ends));
+    EXPECT_FALSE(sampled_splits({none, here, 4, kWhole, kInfinity}, ends));
+    EXPECT_FALSE(sampled_splits({none, nobody, 4, kWhole, kInfinity}, ends))
         << "no camera's pixels are not those of none";
-    EXPECT_FALSE(sampled_ends({sky, here, 4, kWhole, kInfinity}, ends));
-    EXPECT_FALSE(sampled_ends({depths, here, 4, {10.0, 20.0}, kInfinity}, ends)) << "no pixel lies where receivers do";
-    EXPECT_FALSE(sampled_ends({depths, here, 4, {1.0, kInfinity}, kInfinity}, ends));
+    EXPECT_FALSE(sampled_splits({sky, here, 4, kWhole, kInfinity}, ends));
+    EXPECT_FALSE(sampled_splits({depths, here, 4, {10.0, 20.0}, kInfinity}, ends)) << "no pixel lies where receivers do";
+    EXPECT_FALSE(sampled_splits({depths, here, 4, {1.0, kInfinity}, kInfinity}, ends));
 }
 
 TEST(SampledDepths, HeldEndsStayUntilOthersAreATenthBetter) {
     const ConsumerItem here = camera();
-    HeldEnds held, next;
-    CascadeEnds first{}, second{};
-    const auto fit = [&](const SampledDepths& depths, CascadeEnds& ends) {
+    SampledSplitHistory held, next;
+    CascadeSplitDistances first{}, second{};
+    const auto fit = [&](const SampledDepths& depths, CascadeSplitDistances& ends) {
         held = next;
-        EXPECT_TRUE(held_sampled_ends({depths, here, 4, kWhole, kInfinity}, held, next, ends));
+        EXPECT_TRUE(held_sampled_splits({depths, here, 4, kWhole, kInfinity}, held, next, ends));
     };
     fit(pixels_at({1.0, 4.0, 16.0}), first);
     EXPECT_EQ(first, ends_of(pixels_at({1.0, 4.0, 16.0}), 4)) << "nothing is held yet";
@@ -150,11 +150,11 @@ TEST(SampledDepths, AbsurdHeldEndsNeitherFallNorLeaveTheWhole) {
     const ConsumerItem here = camera();
     const SampledDepths depths = pixels_at({1.0, 4.0, 16.0});
     constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-    for (const CascadeEnds& absurd : {CascadeEnds{9.0, 8.0, 7.0, 6.0}, CascadeEnds{kNan, kNan, kNan, kNan},
-                                      CascadeEnds{-5.0, 1e300, -1e300, 0.0}}) {
-        HeldEnds next;
-        CascadeEnds ends{};
-        ASSERT_TRUE(held_sampled_ends({depths, here, 3, kWhole, kInfinity}, {3, absurd}, next, ends));
+    for (const CascadeSplitDistances& absurd : {CascadeSplitDistances{9.0, 8.0, 7.0, 6.0}, CascadeSplitDistances{kNan, kNan, kNan, kNan},
+                                      CascadeSplitDistances{-5.0, 1e300, -1e300, 0.0}}) {
+        SampledSplitHistory next;
+        CascadeSplitDistances ends{};
+        ASSERT_TRUE(held_sampled_splits({depths, here, 3, kWhole, kInfinity}, {3, absurd}, next, ends));
         EXPECT_EQ(ends[0], kWhole.lowest);
         EXPECT_EQ(ends[3], kWhole.highest);
         for (std::uint32_t i = 0; i < 3; ++i) EXPECT_LE(ends[i], ends[i + 1]);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kCount = 3;
 constexpr double kBlend = 0.2;
-const CascadeEnds kHere{1.0, 3.0, 8.0, 20.0}, kThere{0.5, 2.0, 12.0, 40.0};
+const CascadeSplitDistances kHere{1.0, 3.0, 8.0, 20.0}, kThere{0.5, 2.0, 12.0, 40.0};
 
 ConsumerItem camera() {
     ConsumerItem c;
@@ -24,7 +24,7 @@ ConsumerItem camera() {
 }
 
 /// How much of what a point at `distance_m` shows is the next cascade's: the shader's share, summed over borders.
-double passed(const CascadeEnds& ends_m, double distance_m) {
+double passed(const CascadeSplitDistances& ends_m, double distance_m) {
     double sum = 0.0;
     for (std::uint32_t i = 1; i < kCount; ++i) {
         const double from_m = fade_start(ends_m, i, kBlend);
@@ -33,28 +33,28 @@ double passed(const CascadeEnds& ends_m, double distance_m) {
     return sum;
 }
 
-HeldSplits held_at(const CascadeEnds& ends_m) {
-    HeldSplits held;
+SplitHistory held_at(const CascadeSplitDistances& ends_m) {
+    SplitHistory held;
     glide(ends_m, kCount, kBlend, camera(), {}, held);
     return held;
 }
 
-TEST(GlidingEnds, WithoutAPastTheyAreWhereTheyShouldBe) {
-    HeldSplits next;
-    const GlidingEnds ends = glide(kHere, kCount, kBlend, camera(), {}, next);
+TEST(SplitTransition, WithoutAPastTheyAreWhereTheyShouldBe) {
+    SplitHistory next;
+    const SplitTransition ends = glide(kHere, kCount, kBlend, camera(), {}, next);
     EXPECT_EQ(ends.at_m, kHere);
     EXPECT_EQ(ends.from_m, kHere);
     EXPECT_EQ(next.at_m, kHere);
 }
 
-TEST(GlidingEnds, TheyReachTheOtherPlaceSoSlowlyThatNoPointPassesByMoreThanAnEighthPerFrame) {
-    HeldSplits held = held_at(kHere);
-    CascadeEnds last = kHere;
+TEST(SplitTransition, TheyReachTheOtherPlaceSoSlowlyThatNoPointPassesByMoreThanAnEighthPerFrame) {
+    SplitHistory held = held_at(kHere);
+    CascadeSplitDistances last = kHere;
     int frames = 0;
     for (; last != kThere; ++frames) {
         ASSERT_LT(frames, 120) << "two seconds";
-        HeldSplits next = held;
-        const GlidingEnds ends = glide(kThere, kCount, kBlend, camera(), held, next);
+        SplitHistory next = held;
+        const SplitTransition ends = glide(kThere, kCount, kBlend, camera(), held, next);
         for (double d = 0.4; d < 45.0; d += 0.01)
             ASSERT_LE(std::abs(passed(ends.at_m, d) - passed(last, d)), kMostFade) << "frame " << frames << " at " << d;
         for (std::uint32_t i = 0; i <= kCount; ++i) {
@@ -66,35 +66,35 @@ TEST(GlidingEnds, TheyReachTheOtherPlaceSoSlowlyThatNoPointPassesByMoreThanAnEig
         held = next;
     }
     EXPECT_GT(frames, 8) << "they leap";
-    HeldSplits next = held;
+    SplitHistory next = held;
     EXPECT_EQ(glide(kThere, kCount, kBlend, camera(), held, next).from_m, kThere) << "maps need no longer hold both";
 }
 
-TEST(GlidingEnds, ACameraThatCarriesPointsThroughABandLeavesThemLess) {
-    const auto way_of = [](double step_m) {
+TEST(SplitTransition, ACameraThatCarriesPointsThroughABandLeavesThemLess) {
+    const auto variant_of = [](double step_m) {
         ConsumerItem moved = camera();
         moved.position_ws_m += glm::dvec3(0.0, 0.0, -step_m);
-        HeldSplits next;
-        const GlidingEnds ends = glide(kThere, kCount, kBlend, moved, held_at(kHere), next);
+        SplitHistory next;
+        const SplitTransition ends = glide(kThere, kCount, kBlend, moved, held_at(kHere), next);
         return std::abs(ends.at_m[1] - kHere[1]);
     };
     // The first band is 0.3 m long at the end of the way.
-    EXPECT_GT(way_of(0.0), 0.0);
-    EXPECT_LT(way_of(0.3 * 0.1), 0.6 * way_of(0.0));
-    EXPECT_GT(way_of(0.3 * 0.5), 0.0) << "or a hasty camera keeps them for ever";
-    EXPECT_EQ(way_of(10.0), 1.0) << "a cut leaves nothing to be seen passing";
+    EXPECT_GT(variant_of(0.0), 0.0);
+    EXPECT_LT(variant_of(0.3 * 0.1), 0.6 * variant_of(0.0));
+    EXPECT_GT(variant_of(0.3 * 0.5), 0.0) << "or a hasty camera keeps them for ever";
+    EXPECT_EQ(variant_of(10.0), 1.0) << "a cut leaves nothing to be seen passing";
     ConsumerItem turned = camera();
     turned.rotation_ws = math::basis_from_back({1.0, 0.0, 0.0});
-    HeldSplits next;
+    SplitHistory next;
     EXPECT_EQ(glide(kThere, kCount, kBlend, turned, held_at(kHere), next).at_m, kThere) << "nor does a turn away";
 }
 
-TEST(GlidingEnds, WithoutABandWithAnotherCountOrAfterNonsenseTheyLeap) {
-    HeldSplits next;
+TEST(SplitTransition, WithoutABandWithAnotherCountOrAfterNonsenseTheyLeap) {
+    SplitHistory next;
     EXPECT_EQ(glide(kThere, kCount, 0.0, camera(), held_at(kHere), next).at_m, kThere);
     EXPECT_EQ(glide(kThere, kCount - 1, kBlend, camera(), held_at(kHere), next).at_m, kThere);
     for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0}) {
-        HeldSplits held = held_at(kHere);
+        SplitHistory held = held_at(kHere);
         held.at_m[2] = bad;
         EXPECT_EQ(glide(kThere, kCount, kBlend, camera(), held, next).at_m, kThere) << bad;
     }

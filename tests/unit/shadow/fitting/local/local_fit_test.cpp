@@ -192,7 +192,7 @@ TEST(LocalFit, AnyHistoryIsSafe) {
         const SceneSnapshot scene = random.scene(round % 2 == 0 ? LightKind::spot : LightKind::point);
         History wrong = fitted(scene).next_history;
         if (wrong.lights.empty()) continue;
-        for (HeldView& view : wrong.lights[0].views) {
+        for (ViewFitHistory& view : wrong.lights[0].views) {
             view.used = true;
             view.near_step = static_cast<int>(random.number(-40.0, 40.0));
             view.far_step = static_cast<int>(random.number(-40.0, 40.0));
@@ -255,26 +255,26 @@ TEST(LocalFit, NothingBetweenLightAndReceiversIsNoViewAndSaysSo) {
     EXPECT_EQ(frame.statuses[0].skipped(), Reason::no_caster);
 }
 
-TEST(ConeFade, FacesComeAt122DegreesAndGoAt117AnEighthPerFrame) {
-    ConeFade fade = next_cone_fade(50.0 * kDegree, {});
-    EXPECT_EQ(fade.faces_eighths, 0);
-    EXPECT_EQ(next_cone_fade(61.0 * kDegree, fade).faces_eighths, 0) << "within the hysteresis";
+TEST(SpotCubeTransition, FacesComeAt122DegreesAndGoAt117AnEighthPerFrame) {
+    SpotCubeTransition fade = next_spot_cube_transition(50.0 * kDegree, {});
+    EXPECT_EQ(fade.cube_blend_eighths, 0);
+    EXPECT_EQ(next_spot_cube_transition(61.0 * kDegree, fade).cube_blend_eighths, 0) << "within the hysteresis";
     int frames = 0;
-    while (fade.faces_eighths < 8 && frames < 20) {
-        const int before = fade.faces_eighths;
-        fade = next_cone_fade(61.5 * kDegree, fade);
-        EXPECT_EQ(fade.faces_eighths, before + 1);
+    while (fade.cube_blend_eighths < 8 && frames < 20) {
+        const int before = fade.cube_blend_eighths;
+        fade = next_spot_cube_transition(61.5 * kDegree, fade);
+        EXPECT_EQ(fade.cube_blend_eighths, before + 1);
         ++frames;
     }
     EXPECT_EQ(frames, 8);
-    EXPECT_EQ(next_cone_fade(59.0 * kDegree, fade).faces_eighths, 8);
-    EXPECT_EQ(next_cone_fade(58.5 * kDegree, fade).faces_eighths, 7);
-    EXPECT_EQ(next_cone_fade(61.0 * kDegree, {}).faces_eighths, 8) << "a new light does not fade";
-    EXPECT_EQ(next_cone_fade(85.0 * kDegree, ConeFade{true, false, 0}).faces_eighths, 8)
+    EXPECT_EQ(next_spot_cube_transition(59.0 * kDegree, fade).cube_blend_eighths, 8);
+    EXPECT_EQ(next_spot_cube_transition(58.5 * kDegree, fade).cube_blend_eighths, 7);
+    EXPECT_EQ(next_spot_cube_transition(61.0 * kDegree, {}).cube_blend_eighths, 8) << "a new light does not fade";
+    EXPECT_EQ(next_spot_cube_transition(85.0 * kDegree, SpotCubeTransition{true, false, 0}).cube_blend_eighths, 8)
         << "no single view could hold it";
 }
 
-TEST(ConeFade, WhileItFadesBothKindsOfViewsAreThereAndLayersAreFixed) {
+TEST(SpotCubeTransition, WhileItFadesBothKindsOfViewsAreThereAndLayersAreFixed) {
     SceneSnapshot s = floor_and_posts(LightKind::spot, 55.0 * kDegree);
     ShadowFrame frame = fitted(s);
     ASSERT_EQ(frame.fitted.views.size(), 1u);
@@ -282,7 +282,7 @@ TEST(ConeFade, WhileItFadesBothKindsOfViewsAreThereAndLayersAreFixed) {
     s.lights[0].outer_cone_rad = 65.0 * kDegree;
     for (int i = 1; i < 8; ++i) {
         frame = fitted(s, History(frame.next_history));
-        EXPECT_EQ(frame.fitted.lights[0].request.projection.faces_eighths, i);
+        EXPECT_EQ(frame.fitted.lights[0].request.projection.cube_blend_eighths, i);
         EXPECT_EQ(frame.fitted.lights[0].request.map.view_count, kConeFaces + 1);
         ASSERT_GE(frame.fitted.views.size(), 2u);
         EXPECT_EQ(frame.fitted.views.front().layer, 0u);
