@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kTurn_rad = 6.283185307179586;
 constexpr double kPan_rad = kTurn_rad / 6.0;  // over the whole path, half to each side
-// DepthVariant of the walk, as a share of the distance to what is seen: in the courtyard about as far as 300 frames of
+// Way of the walk, as a share of the distance to what is seen: in the courtyard about as far as 300 frames of
 // walking.
 constexpr double kWalkShare = 0.5;
 constexpr double kZoom = 2.0;  // the last frame's picture shows half as much each way

@@ -173,7 +173,7 @@ void TransformSystem::evaluate_with_ancestors(ecs::Registry& registry, std::uint
     for (; !path_.empty(); path_.pop_back()) evaluate(registry, nodes_[path_.back()]);
 }
 
-/// IndexSet a cycle. `member` is on the path, and its descendants lead back to it: the path from it to the end is the
+/// Marks a cycle. `member` is on the path, and its descendants lead back to it: the path from it to the end is the
 /// cycle.
 void TransformSystem::condemn_cycle(std::uint32_t member) {
     for (auto it = std::find(path_.begin(), path_.end(), member); it != path_.end(); ++it) {

@@ -45,7 +45,7 @@ std::vector<FittedCase> shown_cases() {
     return cases;
 }
 
-/// IndexSet pixels within kEdgeBandPx of a place where the truth changes.
+/// Marks pixels within kEdgeBandPx of a place where the truth changes.
 void mark_edges(const glm::uvec2& size_px, const oracle::LightTruth& truth, std::vector<std::uint8_t>& marks) {
     const auto width = static_cast<int>(size_px.x), height = static_cast<int>(size_px.y);
     const auto reach = static_cast<int>(oracle::kEdgeBandPx);

@@ -59,7 +59,7 @@ public:
     }
 
 private:
-    /// IndexSet the casters between the light and scratch_.polygon, which has the coordinates of `receiver_hull`.
+    /// Marks the casters between the light and scratch_.polygon, which has the coordinates of `receiver_hull`.
     void mark_casters(const ReceiverHull& receiver_hull, double reach_m) {
         if (scratch_.polygon.empty()) return;
         const auto seen =
@@ -99,7 +99,7 @@ private:
         return reach_m;
     }
 
-    /// IndexSet the casters of a cascade: between the light and the receiver hull within the map's rectangle.
+    /// Marks the casters of a cascade: between the light and the receiver hull within the map's rectangle.
     void look_along() {
         ReceiverHull receiver_hull = sets_.hulls().front();
         const bool warps = view_.plane.warp != glm::dvec2(0.0);
@@ -138,7 +138,7 @@ private:
         mark_casters(receiver_hull, reach_m);
     }
 
-    /// IndexSet the casters of a spot's view, a cube face or a sun's view from an eye.
+    /// Marks the casters of a spot's view, a cube face or a sun's view from an eye.
     void look_through() {
         const LightFrustum opening = frustum_of(view_);
         ReceiverHull receiver_hull;

@@ -87,7 +87,7 @@ void add_guard_lamp(const Kit& kit) {
     kit.place("guard_mast", mast, kit.materials.iron, head_m);
     const std::uint32_t head = kit.mover(
         "guard_head", head_m, {{"kind", "swing"}, {"axis", {0, 1, 0}}, {"amplitude", 0.38}, {"period_s", 16.0}});
-    // The housing is a tube behind and around the lamp, open toward -Z, narrower than the receiver_hull nowhere.
+    // The housing is a tube behind and around the lamp, open toward -Z, narrower than the light's cone nowhere.
     const std::array<glm::dvec2, 6> housing{glm::dvec2(0.0, -0.3), {0.16, -0.3},  {0.24, 0.05},
                                             {0.225, 0.05},         {0.14, -0.27}, {0.0, -0.27}};
     const glm::dquat aim = facing(target_m - head_m);

@@ -119,7 +119,7 @@ TEST(SourceFit, IsLeftOutForFiltersThatDoNotAsk) {
     EXPECT_GT(counts.pairs, 300);
     EXPECT_GT(counts.flattened, 0) << "what stands before the depth range is flattened onto it";
     EXPECT_GT(counts.outside, 0);
-    // Not every seed has a caster beside a lamp's receiver_hull: the same ones in every run.
+    // Not every seed has a caster beside a lamp's receiver hull: the same ones in every run.
     Counts lamp;
     for (std::uint64_t seed = 1; seed <= 20 && lamp.outside == 0; ++seed) {
         RandomScene fixed(seed);
