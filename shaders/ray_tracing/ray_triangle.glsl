@@ -1,4 +1,4 @@
-// What floats can say about a ray and a triangle, as judge() in engine/rays/occlusion.cpp does. What they cannot is left to
+// What floats can say about a ray and a triangle, as judge() in engine/rays/trace.cpp does. What they cannot is left to
 // ray_tracing/ray_triangle_f64.glsl.
 #include "common/float_rounding.glsl"
 
