@@ -1,8 +1,7 @@
 #include "engine/math/bounds_tree.h"
 
-#include <algorithm>
 #include <bit>
-#include <numeric>
+#include <span>
 
 namespace gnomon::math {
 namespace {
@@ -26,81 +25,45 @@ double growth(double extent_now, double extent_built) {
 
 }  // namespace
 
-void BoundsTree::build_from_scratch() {
-    const auto count = static_cast<std::uint32_t>(scratch_.size());
-    items_.resize(count);
-    std::iota(items_.begin(), items_.end(), 0u);
-    boxes_.resize(count);
-    slot_of_.resize(count);
-    leaf_of_.resize(count);
+void BoundsTree::build_nodes() {
     nodes_.clear();
-    built_extent_.clear();
     moved_.clear();
-    if (count == 0) return;
-    make_node(0, count, kNone);
-    for (const Node& node : nodes_) built_extent_.push_back(extent(node.box));
-    growth_ = static_cast<double>(nodes_.size());
-}
-
-/// Splits at the middle item along the longest side of the box of all centres. Equal centres are ordered by item
-/// number. The order is then unique, and does not depend on how nth_element arranges the halves.
-void BoundsTree::make_node(std::uint32_t first_slot, std::uint32_t end_slot, std::uint32_t parent) {
-    const auto index = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back({{}, first_slot, end_slot, 0, parent});
-    const auto begin = items_.begin() + first_slot, end = items_.begin() + end_slot;
-    if (end_slot - first_slot <= kLeafSlots) {
-        std::sort(begin, end);
-        for (std::uint32_t s = first_slot; s < end_slot; ++s) {
-            boxes_[s] = scratch_[items_[s]];
-            slot_of_[items_[s]] = s;
-            leaf_of_[s] = index;
+    const auto twice_centre = [](const Aabb& box) { return is_empty(box) ? glm::dvec3(0.0) : box.min + box.max; };
+    append_nodes(nodes_, std::span(items_), [&](std::span<BvhItem<Aabb>> items, const Aabb&, int) {
+        return items.size() <= kLeafSlots ? 0 : halve(items, twice_centre);
+    });
+    slot_of_.resize(items_.size());
+    leaf_of_.resize(items_.size());
+    parent_.resize(nodes_.size());
+    built_extent_.resize(nodes_.size());
+    for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
+        const Node& node = nodes_[n];
+        built_extent_[n] = extent(node.box());
+        if (n == 0) parent_[n] = kNone;
+        if (node.leaf == 0) parent_[n + 1] = parent_[nodes_[n + 1].skip] = n;
+        for (std::uint32_t s = node.first_slot(); s < node.first_slot() + node.slots(); ++s) {
+            slot_of_[items_[s].item] = s;
+            leaf_of_[s] = n;
         }
-        nodes_[index].next = index + 1;
-    } else {
-        Aabb centres;
-        for (auto i = begin; i != end; ++i)
-            if (!is_empty(scratch_[*i])) centres = extended(centres, centre(scratch_[*i]));
-        const int axis = longest_side(is_empty(centres) ? glm::dvec3(0.0) : centres.max - centres.min);
-        const auto key = [&](std::uint32_t item) {
-            const Aabb& box = scratch_[item];
-            return is_empty(box) ? std::numeric_limits<double>::infinity() : box.min[axis] + box.max[axis];
-        };
-        const std::uint32_t middle = first_slot + (end_slot - first_slot) / 2;
-        std::nth_element(begin, items_.begin() + middle, end, [&](std::uint32_t a, std::uint32_t b) {
-            const double key_a = key(a), key_b = key(b);
-            return key_a < key_b || (key_a == key_b && a < b);
-        });
-        make_node(first_slot, middle, index);
-        make_node(middle, end_slot, index);
-        nodes_[index].next = static_cast<std::uint32_t>(nodes_.size());
     }
-    nodes_[index].box = box_around(index);
-}
-
-Aabb BoundsTree::box_around(std::uint32_t n) const {
-    const Node& node = nodes_[n];
-    Aabb box;
-    if (node.next == n + 1) {
-        for (std::uint32_t s = node.first_slot; s < node.end_slot; ++s) box = merged(box, boxes_[s]);
-        return box;
-    }
-    return merged(nodes_[n + 1].box, nodes_[nodes_[n + 1].next].box);
+    growth_ = static_cast<double>(nodes_.size());
 }
 
 /// Updates a node's box. Returns true if it changed.
 bool BoundsTree::refit_node(std::uint32_t n) {
-    const Aabb box = box_around(n);
-    Node& node = nodes_[n];
-    if (box == node.box) return false;
-    growth_ += growth(extent(box), built_extent_[n]) - growth(extent(node.box), built_extent_[n]);
-    node.box = box;
+    const Aabb box = refitted_box(nodes_, n, [&](std::uint32_t slot) -> const Aabb& { return items_[slot].box; });
+    const Aabb before = nodes_[n].box();
+    if (box == before) return false;
+    growth_ += growth(extent(box), built_extent_[n]) - growth(extent(before), built_extent_[n]);
+    nodes_[n].min = box.min;
+    nodes_[n].max = box.max;
     return true;
 }
 
 void BoundsTree::move(std::uint32_t item, const Aabb& box) {
     const std::uint32_t slot = slot_of_[item];
-    if (boxes_[slot] == box) return;
-    boxes_[slot] = box;
+    if (items_[slot].box == box) return;
+    items_[slot].box = kept(box);
     moved_.push_back(slot);
 }
 
@@ -108,15 +71,12 @@ void BoundsTree::refit() {
     if (moved_.empty()) return;
     if (moved_.size() * std::bit_width(nodes_.size()) < nodes_.size()) {
         for (const std::uint32_t slot : moved_)
-            for (std::uint32_t n = leaf_of_[slot]; n != kNone && refit_node(n);) n = nodes_[n].parent;
+            for (std::uint32_t n = leaf_of_[slot]; n != kNone && refit_node(n);) n = parent_[n];
     } else {
         for (auto n = static_cast<std::uint32_t>(nodes_.size()); n-- > 0;) refit_node(n);
     }
     moved_.clear();
-    if (growth_ <= kLooseGrowth * static_cast<double>(nodes_.size())) return;
-    scratch_.resize(items_.size());
-    for (std::uint32_t s = 0; s < items_.size(); ++s) scratch_[items_[s]] = boxes_[s];
-    build_from_scratch();
+    if (growth_ > kLooseGrowth * static_cast<double>(nodes_.size())) build_nodes();
 }
 
 }  // namespace gnomon::math

@@ -1,10 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "engine/math/aabb.h"
+#include "engine/math/bvh.h"
 #include "engine/math/frustum.h"
-#include "engine/math/lowest_in_tree.h"
 
 namespace gnomon::math {
 
@@ -17,9 +17,9 @@ public:
     /// empty box are never found.
     template <class BoxOf>
     void build(std::uint32_t count, BoxOf&& box_of) {
-        scratch_.clear();
-        for (std::uint32_t i = 0; i < count; ++i) scratch_.push_back(box_of(i));
-        build_from_scratch();
+        items_.clear();
+        for (std::uint32_t i = 0; i < count; ++i) items_.push_back({kept(box_of(i)), i});
+        build_nodes();
     }
 
     /// Replaces the box of item i < size(). Takes effect with refit().
@@ -30,7 +30,7 @@ public:
 
     std::size_t size() const { return items_.size(); }
     /// Returns the box around all items; empty without any.
-    Aabb box() const { return nodes_.empty() ? Aabb{} : nodes_.front().box; }
+    Aabb box() const { return nodes_.empty() ? Aabb{} : nodes_.front().box(); }
 
     /// Calls visit(item) for each item with a box that is not `outside`, in no particular order. classify(box) ->
     /// Overlap must be consistent: parts of an `outside` box are outside, parts of an `inside` box inside.
@@ -38,16 +38,15 @@ public:
     void visit(Classify&& classify, Visit&& visit) const {
         for (std::uint32_t n = 0; n < nodes_.size();) {
             const Node& node = nodes_[n];
-            const Overlap overlap = classify(node.box);
-            const bool leaf = node.next == n + 1;
+            const Overlap overlap = classify(node.box());
             if (overlap == Overlap::inside) {
-                for (std::uint32_t s = node.first_slot; s < node.end_slot; ++s)
-                    if (!is_empty(boxes_[s])) visit(items_[s]);
-            } else if (overlap == Overlap::partial && leaf) {
-                for (std::uint32_t s = node.first_slot; s < node.end_slot; ++s)
-                    if (classify(boxes_[s]) != Overlap::outside) visit(items_[s]);
+                for (std::uint32_t s = first_slot(n), end = end_slot(n); s < end; ++s)
+                    if (!is_empty(items_[s].box)) visit(items_[s].item);
+            } else if (overlap == Overlap::partial) {
+                for (std::uint32_t s = node.first_slot(); s < node.first_slot() + node.slots(); ++s)
+                    if (classify(items_[s].box) != Overlap::outside) visit(items_[s].item);
             }
-            n = overlap == Overlap::partial ? n + 1 : node.next;
+            n = overlap == Overlap::partial ? n + 1 : node.skip;
         }
     }
 
@@ -57,37 +56,38 @@ public:
     double lowest(Rank&& rank, Value&& value) const {
         constexpr double kNone = std::numeric_limits<double>::infinity();
         if (nodes_.empty()) return kNone;
-        const auto rank_of = [&](std::uint32_t n) { return rank(nodes_[n].box); };
-        const auto children = [&](std::uint32_t n) {
-            const bool leaf = nodes_[n].next == n + 1;
-            return leaf ? std::nullopt : std::optional(std::pair(n + 1, nodes_[n + 1].next));
-        };
-        return lowest_in_tree(kNone, rank_of, children, [&](std::uint32_t leaf, double lowest) {
-            for (std::uint32_t s = nodes_[leaf].first_slot; s < nodes_[leaf].end_slot; ++s)
-                if (rank(boxes_[s]) < lowest) lowest = value(items_[s], lowest);
+        const auto rank_of = [&](const Node& node) { return rank(node.box()); };
+        return lowest_in_tree(nodes_, kNone, rank_of, [&](const Node& leaf, double lowest) {
+            for (std::uint32_t s = leaf.first_slot(); s < leaf.first_slot() + leaf.slots(); ++s)
+                if (rank(items_[s].box) < lowest) lowest = value(items_[s].item, lowest);
             return lowest;
         });
     }
 
 private:
-    /// Node in preorder, first child first. `next` is the first node after its subtree.
-    struct Node {
-        Aabb box;
-        std::uint32_t first_slot, end_slot, next, parent;
-    };
-    void build_from_scratch();
-    void make_node(std::uint32_t first_slot, std::uint32_t end_slot, std::uint32_t parent);
-    Aabb box_around(std::uint32_t node) const;
+    using Node = BvhNode<Aabb>;
+
+    /// Returns the box as the tree keeps it: without NaN.
+    static Aabb kept(const Aabb& box) { return is_empty(box) ? Aabb{} : box; }
+    void build_nodes();
     bool refit_node(std::uint32_t node);
+    /// Finds the range of slots below a node, which has no gaps. The last node of a subtree is a leaf.
+    std::uint32_t first_slot(std::uint32_t node) const {
+        while (nodes_[node].leaf == 0) ++node;
+        return nodes_[node].first_slot();
+    }
+    std::uint32_t end_slot(std::uint32_t node) const {
+        const Node& last = nodes_[nodes_[node].skip - 1];
+        return last.first_slot() + last.slots();
+    }
 
     std::vector<Node> nodes_;
-    std::vector<std::uint32_t> items_;    // items in the order of the leaves, by slot
-    std::vector<Aabb> boxes_;             // by slot
+    std::vector<BvhItem<Aabb>> items_;    // by slot
     std::vector<std::uint32_t> slot_of_;  // by item
     std::vector<std::uint32_t> leaf_of_;  // leaf node by slot
+    std::vector<std::uint32_t> parent_;   // by node
     std::vector<double> built_extent_;    // by node
     std::vector<std::uint32_t> moved_;    // slots since the last refit
-    std::vector<Aabb> scratch_;           // by item, used while building
     double growth_ = 0.0;                 // sum over all nodes of extent relative to the built one
 };
 

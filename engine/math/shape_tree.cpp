@@ -4,9 +4,6 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <optional>
-
-#include "engine/math/lowest_in_tree.h"
 
 namespace gnomon::math {
 namespace {
@@ -30,12 +27,13 @@ double rounding_in(const Aabb& box, const Ramp& ramp) {
 struct Highest {
     glm::dvec3 gradient{0.0};
     double offset = 0.0;
-    glm::ivec3 end{0};
+    glm::bvec3 end{false};  // true: at the box's max
 
     Highest() = default;
     Highest(const glm::dvec3& g, double at_zero) : gradient(g), offset(at_zero), end(g.x > 0.0, g.y > 0.0, g.z > 0.0) {}
-    double in(const glm::vec3 (&ends)[2]) const {
-        const glm::dvec3 corner(ends[end.x].x, ends[end.y].y, ends[end.z].z);
+    double in(const BvhNode<FloatBox>& node) const {
+        const glm::dvec3 corner(end.x ? node.max.x : node.min.x, end.y ? node.max.y : node.min.y,
+                                end.z ? node.max.z : node.min.z);
         return glm::dot(gradient, corner) + offset;
     }
 };
@@ -52,14 +50,14 @@ public:
             planes_[count_++] = {plane.normal, plane.offset + rounding(plane.normal, plane.offset)};
         }
     }
-    double operator()(const glm::vec3 (&ends)[2]) const {
+    double operator()(const BvhNode<FloatBox>& node) const {
         for (int axis = 0; axis < 3; ++axis)
-            if (static_cast<double>(ends[0][axis]) > region_.max[axis] ||
-                static_cast<double>(ends[1][axis]) < region_.min[axis])
+            if (static_cast<double>(node.min[axis]) > region_.max[axis] ||
+                static_cast<double>(node.max[axis]) < region_.min[axis])
                 return kInfinity;
         for (std::size_t i = 0; i < count_; ++i)
-            if (planes_[i].in(ends) < 0.0) return kInfinity;
-        return -fall_.in(ends);
+            if (planes_[i].in(node) < 0.0) return kInfinity;
+        return -fall_.in(node);
     }
     /// Restricts the search to values below `lowest`, and thus to a smaller region inside the planes. Near the apex of
     /// a pyramid that excludes far more than testing the planes one by one.
@@ -89,10 +87,12 @@ private:
     std::size_t count_ = 0;
 };
 
-float extent(const glm::vec3& low, const glm::vec3& high) {
-    const glm::vec3 size = high - low;
+float extent(const FloatBox& box) {
+    const glm::vec3 size = box.max - box.min;
     return size.x + size.y + size.z;
 }
+
+Aabb in_double(const FloatBox& box) { return {glm::dvec3(box.min), glm::dvec3(box.max)}; }
 
 }  // namespace
 
@@ -113,51 +113,28 @@ double lowest_in(const Aabb& box, const Ramp& ramp, std::span<const Plane> plane
     return lowest;
 }
 
-ShapeTree::ShapeTree(std::vector<Box> parts) {
-    if (parts.empty()) return;
-    nodes_.emplace_back();
-    make_node(0, parts);
-    nodes_.shrink_to_fit();
-}
-
-/// Splits at the middle part along the longest side of the box of all centres.
-void ShapeTree::make_node(std::uint32_t node, std::span<Box> parts) {
-    Box all, centres;  // twice the centres
-    for (const Box& part : parts) {
-        all = {glm::min(all.min, part.min), glm::max(all.max, part.max)};
-        centres = {glm::min(centres.min, part.min + part.max), glm::max(centres.max, part.min + part.max)};
-    }
-    nodes_[node] = {{all.min, all.max}, 0};
-    const bool close = extent(all.min, all.max) <= kLeafShare * extent(nodes_[0].ends[0], nodes_[0].ends[1]);
-    if (parts.size() <= (close ? kLeafParts : 1)) return;
-    const int axis = longest_side(glm::dvec3(centres.max - centres.min));
-    const auto middle = static_cast<std::ptrdiff_t>(parts.size() / 2);
-    std::nth_element(parts.begin(), parts.begin() + middle, parts.end(), [axis](const Box& a, const Box& b) {
-        return a.min[axis] + a.max[axis] < b.min[axis] + b.max[axis];
+ShapeTree::ShapeTree(std::span<const FloatBox> parts) {
+    std::vector<BvhItem<FloatBox>> items;  // without numbers, because leaves store their box alone
+    items.reserve(parts.size());
+    for (const FloatBox& part : parts) items.push_back({part});
+    float size = 0.0f;
+    append_nodes(nodes_, std::span(items), [&](std::span<BvhItem<FloatBox>> some, const FloatBox& box, int depth) {
+        if (depth == 0) size = extent(box);
+        const bool close = extent(box) <= kLeafShare * size;
+        if (some.size() <= (close ? kLeafParts : 1)) return std::size_t{0};
+        return halve(some, [](const FloatBox& part) { return part.min + part.max; });
     });
-    const auto children = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.resize(nodes_.size() + 2);
-    nodes_[node].children = children;
-    make_node(children, parts.first(parts.size() / 2));
-    make_node(children + 1, parts.subspan(parts.size() / 2));
+    nodes_.shrink_to_fit();
 }
 
 double ShapeTree::lowest(const Ramp& ramp, std::span<const Plane> planes, double no_more_than,
                          std::vector<glm::dvec3>& scratch) const {
     if (empty() || planes.size() >= kMaxClipPlanes) return no_more_than;
-    const auto box_of = [&](std::uint32_t n) {
-        return Aabb{glm::dvec3(nodes_[n].ends[0]), glm::dvec3(nodes_[n].ends[1])};
-    };
-    Ranking ranking(box_of(0), ramp, planes);
-    const auto rank = [&](std::uint32_t n) { return ranking(nodes_[n].ends); };
-    const auto children = [&](std::uint32_t n) {
-        const std::uint32_t first = nodes_[n].children;
-        return first == 0 ? std::nullopt : std::optional(std::pair(first, first + 1));
-    };
-    return lowest_in_tree(no_more_than, rank, children, [&](std::uint32_t leaf, double lowest) {
-        ranking.narrow(lowest, scratch);
+    Ranking rank(in_double(nodes_[0].box()), ramp, planes);
+    return lowest_in_tree(nodes_, no_more_than, rank, [&](const Node& leaf, double lowest) {
+        rank.narrow(lowest, scratch);
         if (!(rank(leaf) < lowest)) return lowest;
-        return lowest_in(box_of(leaf), ramp, planes, lowest, scratch);
+        return lowest_in(in_double(leaf.box()), ramp, planes, lowest, scratch);
     });
 }
 

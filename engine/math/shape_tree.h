@@ -1,12 +1,10 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <glm/vec3.hpp>
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "engine/math/aabb.h"
+#include "engine/math/bvh.h"
 #include "engine/math/frustum.h"
 
 namespace gnomon::math {
@@ -29,18 +27,12 @@ double lowest_in(const Aabb& box, const Ramp& ramp, std::span<const Plane> plane
 double lowest_corner(const Aabb& box, const Ramp& ramp, std::span<const Plane> planes);
 
 /// Binary tree over boxes around the parts of a rigid shape, such as a mesh's triangles. A leaf has up to eight parts
-/// that lie close together, and stores only their common box. 7 to 56 bytes per part.
+/// that lie close together, and stores only their common box. 8 to 64 bytes per part.
 class ShapeTree {
 public:
-    /// Box in float, like vertices.
-    struct Box {
-        glm::vec3 min{std::numeric_limits<float>::infinity()};
-        glm::vec3 max{-std::numeric_limits<float>::infinity()};
-    };
-
     ShapeTree() = default;
     /// Builds the tree over finite boxes. O(n log n). Equal input gives an equal tree.
-    explicit ShapeTree(std::vector<Box> parts);
+    explicit ShapeTree(std::span<const FloatBox> parts);
 
     /// Computes the lowest lowest_in() over all leaves. Branch and bound: the cost is that of the leaves near the
     /// answer.
@@ -51,11 +43,7 @@ public:
     std::size_t bytes() const { return nodes_.size() * sizeof(Node); }
 
 private:
-    struct Node {
-        glm::vec3 ends[2];           // min and max of its box
-        std::uint32_t children = 0;  // first of two siblings; 0: a leaf
-    };
-    void make_node(std::uint32_t node, std::span<Box> parts);
+    using Node = BvhNode<FloatBox>;
 
     std::vector<Node> nodes_;
 };

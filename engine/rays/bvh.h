@@ -1,39 +1,29 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
-#include "engine/math/shape_tree.h"
+#include "engine/math/bvh.h"
 
-/// Bounding volume hierarchy as two plain arrays, the same on the CPU and in a storage buffer.
+/// Trees that rays walk, split by the surface area heuristic; the same on the CPU and in a storage buffer.
 namespace gnomon::rays {
 
-using Box = math::ShapeTree::Box;
+using Box = math::FloatBox;
 
 /// Maximum depth of a tree: 64 uneven cuts, then halves of at most 2^28 items.
 inline constexpr std::size_t kMostDepth = 64 + 28;
 
 inline bool is_empty(const Box& box) { return !(box.min.x <= box.max.x); }
 
-/// Node of a tree; 32 bytes, in a shader two vec4 with an unsigned in each w. Nodes lie in preorder, first child first,
-/// so that a walk needs no stack. After node n a walk visits n + 1 if it hits the box, otherwise nodes[n].skip. It ends
-/// at the number of nodes. A leaf has skip n + 1.
-struct BvhNode {
-    glm::vec3 min{0.0f};
-    std::uint32_t skip = 0;  // first node after the subtree
-    glm::vec3 max{0.0f};
-    std::uint32_t leaf = 0;  // first slot * 16 + number of slots (1 to 15); 0: no leaf
-
-    std::uint32_t first_slot() const { return leaf >> 4; }
-    std::uint32_t slots() const { return leaf & 15u; }
-};
+/// Node of a tree; 32 bytes, in a shader two vec4 with an unsigned in each w.
+using BvhNode = math::BvhNode<Box>;
 static_assert(sizeof(BvhNode) == 32);
 
 /// Expected cost of a ray that hits the root, by the surface area heuristic: boxes hit, and triangles tested.
 struct BvhCost {
     double nodes = 0.0, triangles = 0.0;
+    double steps() const { return nodes + triangles; }
 };
 
 struct Bvh {

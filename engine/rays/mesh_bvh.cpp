@@ -20,8 +20,6 @@ std::vector<Box> boxes_of(std::span<const BvhTriangle> triangles) {
     return boxes;
 }
 
-double steps(const BvhCost& cost) { return cost.nodes + cost.triangles; }
-
 }  // namespace
 
 MeshBvh::MeshBvh(const assets::Mesh& mesh, std::span<const assets::Vertex> vertices,
@@ -59,14 +57,14 @@ void MeshBvh::build() {
     for (const std::uint32_t item : bvh.items) by_slot.push_back(triangles_[item]);
     triangles_ = std::move(by_slot);
     nodes_ = std::move(bvh.nodes);
-    built_cost_ = steps(cost());
+    built_cost_ = cost().steps();
     ++builds_;
 }
 
 void MeshBvh::move(const assets::Mesh& mesh, std::span<const assets::Vertex> vertices) {
     place(mesh, vertices);
     refit_bvh(nodes_, boxes_of(triangles_));
-    if (steps(cost()) > kLooseGrowth * built_cost_) build();
+    if (cost().steps() > kLooseGrowth * built_cost_) build();
 }
 
 }  // namespace gnomon::rays

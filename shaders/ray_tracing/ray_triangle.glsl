@@ -1,4 +1,4 @@
-// Verdict of floats on a ray and a triangle, as by judge() in engine/rays/occlusion.cpp. What they leave open is left
+// Verdict of floats on a ray and a triangle, as by judge() in engine/rays/trace.cpp. What they leave open is left
 // to ray_tracing/ray_triangle_f64.glsl.
 #include "common/float_rounding.glsl"
 

@@ -68,15 +68,13 @@ double half_area_m2(const math::Aabb& box) {
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-double steps(const rays::BvhCost& cost) { return cost.nodes + cost.triangles; }
-
 }  // namespace
 
 void InstanceTree::update(const SceneSnapshot& scene, std::span<const MeshTreePlace> meshes, bool same) {
     if (!same) list(scene, meshes);
     place(scene, meshes);
     if (same) rays::refit_bvh(nodes_, boxes_);
-    if (!same || steps(rays::cost_of(nodes_)) > kLooseGrowth * built_cost_) {
+    if (!same || rays::cost_of(nodes_).steps() > kLooseGrowth * built_cost_) {
         set_anchor(scene);
         place(scene, meshes);
         build();
@@ -174,7 +172,7 @@ void InstanceTree::build() {
     by_slot(parts_);
     by_slot(records_);
     by_slot(boxes_);
-    built_cost_ = steps(rays::cost_of(nodes_));
+    built_cost_ = rays::cost_of(nodes_).steps();
     ++builds_;
 }
 

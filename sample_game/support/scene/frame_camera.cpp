@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/rays/exact_triangle.h"
 #include "systems/extract/drawable_basis.h"
 
 namespace gnomon::game {
@@ -23,27 +24,24 @@ struct Hit {
     bool front = false;  // the face is turned toward the ray's origin, or seen from both sides
 };
 
-/// Updates the nearest hit of a ray with `mesh`, in the mesh's own space (Moeller and Trumbore 1997).
+/// Updates the nearest hit of a ray with `mesh`, in the mesh's own space.
 void cast_at_mesh(const assets::Mesh& mesh, const assets::SceneData& scene, const glm::dvec3& origin,
                   const glm::dvec3& direction, Hit& nearest) {
+    const auto corner = [&](std::uint32_t index) {
+        return glm::dvec3(mesh.vertices[mesh.indices[index]].position_ms) - origin;
+    };
     for (const assets::Submesh& part : mesh.submeshes) {
         const bool two_sided = scene.materials[part.material].double_sided;
         for (std::uint32_t i = part.first_index; i + 2 < part.first_index + part.index_count; i += 3) {
-            const glm::dvec3 a(mesh.vertices[mesh.indices[i]].position_ms);
-            const glm::dvec3 e1 = glm::dvec3(mesh.vertices[mesh.indices[i + 1]].position_ms) - a;
-            const glm::dvec3 e2 = glm::dvec3(mesh.vertices[mesh.indices[i + 2]].position_ms) - a;
-            const glm::dvec3 p = glm::cross(direction, e2);
-            const double det = glm::dot(e1, p);
-            if (det == 0.0) continue;
-            const glm::dvec3 s = origin - a, q = glm::cross(s, e1);
-            const double u = glm::dot(s, p) / det, v = glm::dot(direction, q) / det, t = glm::dot(e2, q) / det;
-            if (!(u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < nearest.distance)) continue;
-            nearest = {t, two_sided || det > 0.0};
+            const rays::ExactTriangle triangle{corner(i), corner(i + 1), corner(i + 2)};
+            rays::ExactHit hit;
+            if (!rays::meets(direction, triangle, hit) || !(hit.t > 0.0 && hit.t < nearest.distance)) continue;
+            nearest = {hit.t, two_sided || rays::begins_before(triangle)};
         }
     }
 }
 
-/// Some hundred rays over the plain triangle list: no tree is worth its building.
+/// Casts rays against the plain triangle list. Three dozen of them cost less than building a tree.
 class RayCaster {
 public:
     RayCaster(const assets::SceneData& scene, const std::vector<WorldTransform>& poses)

@@ -1,4 +1,4 @@
-#include "engine/rays/nearest.h"
+#include "engine/rays/trace.h"
 
 #include <gtest/gtest.h>
 
@@ -18,11 +18,11 @@ using test::Soup;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
 
 /// Remembers the nearest, counts the questions.
-class Nearest final : public NearestTest {
+class Nearest final : public ExactTest {
 public:
     Nearest(const RayPacket& rays, const Frame& frame) : rays_(rays), frame_(frame) { best.fill(kNothing); }
 
-    bool is_nearer(std::size_t ray, const BvhTriangle& triangle, double& t) override {
+    bool hits(std::size_t ray, const BvhTriangle& triangle, double& t) override {
         ++asked;
         const auto placed = [&](const glm::vec3& p) {
             return frame_.basis * glm::dvec3(p) + (frame_.origin_ws_m - rays_.from[ray]);
@@ -80,7 +80,7 @@ PerLane<double> walked(const Case& scene, bool told, std::size_t& asked) {
     cut_to(tree.box(), in_frame(scene.rays, scene.rays.lanes(), scene.frame), scene.rays.lanes(), segments);
     Nearest nearest(scene.rays, scene.frame);
     if (!told) nearest.keep_quiet();
-    ask_nearest(tree, segments, nearest);
+    nearest_hits(tree, segments, nearest);
     asked += nearest.asked;
     return nearest.best;
 }
@@ -90,7 +90,7 @@ PerLane<double> tried_one_by_one(const Case& scene) {
     Nearest nearest(scene.rays, scene.frame);
     double t = 0.0;
     for (std::size_t ray = 0; ray < scene.rays.count; ++ray)
-        for (const BvhTriangle& triangle : tree.triangles()) (void)nearest.is_nearer(ray, triangle, t);
+        for (const BvhTriangle& triangle : tree.triangles()) (void)nearest.hits(ray, triangle, t);
     return nearest.best;
 }
 

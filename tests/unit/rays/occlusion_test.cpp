@@ -1,4 +1,4 @@
-#include "engine/rays/occlusion.h"
+#include "engine/rays/trace.h"
 
 #include <gtest/gtest.h>
 
@@ -134,7 +134,7 @@ TEST(Occlusion, FloatIsNeverSureOfWhatDoubleDenies) {
 
 struct BruteForce final : ExactTest {
     explicit BruteForce(const Case& the_case) : scene(the_case) {}
-    bool blocks(std::size_t ray, const BvhTriangle& triangle) override {
+    bool hits(std::size_t ray, const BvhTriangle& triangle, double&) override {
         ++asked;
         return exactly_meets(scene, ray, triangle);
     }

@@ -1,11 +1,8 @@
 #pragma once
-#include <cstdint>
-#include <span>
-
 #include "engine/rays/mesh_bvh.h"
 #include "engine/rays/ray_packet.h"
 
-/// Occlusion of many rays: a walk through a mesh's tree.
+/// Hits of many rays with the triangles of a mesh: walks through its tree.
 namespace gnomon::rays {
 
 /// Returns the lanes with segments near the box. Conservative: includes every segment that hits it.
@@ -18,10 +15,12 @@ struct Verdict {
 };
 Verdict judge(const SegmentPacket& segments, const BvhTriangle& triangle);
 
-/// Decides the cases that float leaves open, and alpha masks.
+/// Decides in double what float leaves open, and alpha masks.
 class ExactTest {
 public:
-    virtual bool blocks(std::size_t ray, const BvhTriangle& triangle) = 0;
+    /// Returns true if the ray's hit with the triangle counts. For nearest_hits() that is one nearer than all before;
+    /// `t` is then its place.
+    virtual bool hits(std::size_t ray, const BvhTriangle& triangle, double& t) = 0;
 
 protected:
     ~ExactTest() = default;
@@ -30,5 +29,9 @@ protected:
 /// Returns the rays of the packet that a triangle blocks, a bit each, and drops their lanes from `segments`. The result
 /// equals that of calling `exact` for every triangle.
 Lanes blocked_rays(const MeshBvh& tree, SegmentPacket& segments, ExactTest& exact);
+
+/// Calls `exact` for every triangle that may be the nearest of a ray in the packet. Each nearer hit shortens its
+/// segment. Equally near triangles are all tested.
+void nearest_hits(const MeshBvh& tree, SegmentPacket& segments, ExactTest& exact);
 
 }  // namespace gnomon::rays
