@@ -27,16 +27,18 @@ set(GNOMON_ENGINE_HEADERS
   engine/gl/shader_source.h
   engine/math/aabb.h
   engine/math/bounds_tree.h
+  engine/math/bvh.h
   engine/math/cone.h
   engine/math/convex_polygon.h
   engine/math/frustum.h
-  engine/math/lowest_in_tree.h
   engine/math/projection.h
   engine/math/shape_tree.h
   engine/platform/context.h
   engine/rays/bvh.h
+  engine/rays/exact_triangle.h
   engine/rays/mesh_bvh.h
-  engine/rays/ray_packet.h)
+  engine/rays/ray_packet.h
+  engine/rays/trace.h)
 list(TRANSFORM GNOMON_ENGINE_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
 target_sources(gnomon_engine PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_ENGINE_HEADERS})
 target_sources(gnomon_shaders PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
