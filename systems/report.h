@@ -105,6 +105,17 @@ struct FilterReport {
     std::optional<double> usual_error_px;           // error of the default filter's maps, in that case
 };
 
+/// Maps of a light, and the work on them in this frame.
+struct LightCounts {
+    std::uint32_t views = 0;        // rendered or reused
+    std::uint32_t views_drawn = 0;  // drawn in this frame
+    std::uint64_t texels = 0;       // size of its map
+    std::uint64_t bytes = 0;        // its memory, kept visibility included
+    std::uint32_t draws = 0, clears = 0;
+    std::uint64_t triangles = 0;
+};
+
+/// Result of the shadow stages for one light.
 struct LightReport {
     ecs::Entity entity;
     std::string name;
@@ -113,12 +124,7 @@ struct LightReport {
     Reason reason = Reason::none;
     double predicted_error_px = 0.0;  // worst shadow-edge error over its views
     bool keeps_max_error = false;     // meets LightShadow::max_error_px, apart from the picture's own pixel
-    std::uint32_t views = 0;          // rendered or reused
-    std::uint32_t views_drawn = 0;    // drawn in this frame
-    std::uint64_t texels = 0;         // texels of the map
-    std::uint64_t bytes = 0;          // total memory of the light
-    std::uint32_t draws = 0, clears = 0;
-    std::uint64_t triangles = 0;
+    LightCounts counts;
     double cpu_us = 0.0;           // time of the shadow stages for this light alone
     std::optional<double> gpu_us;  // shadow and lighting pass, from the newest measured frame; empty: not measured
     Why why;

@@ -48,21 +48,24 @@ std::optional<Error> read_lights(Stage& stage, Accuracy& accuracy, std::vector<s
     return std::nullopt;
 }
 
-void judge_edges(const oracle::ReferenceTracer& tracer, const oracle::PrimaryHits& hits, const SceneSnapshot& snapshot,
-                 const EdgeBounds& bounds, std::uint32_t index, const AccuracyOptions& options, LightAccuracy& light) {
+void judge_edges(const TracedPicture& picture, const EdgeBounds& bounds, const AccuracyOptions& options,
+                 LightAccuracy& light) {
+    const std::uint32_t index = picture.light;
+    const oracle::PrimaryHits& hits = picture.hits;
+    const auto exceptions = [&](const oracle::TexelAt& texel_at) {
+        return oracle::edge_exceptions(picture.tracer, hits, picture.scene.consumers.front(),
+                                       picture.scene.lights[index], picture.truth, light.metrics.edge, texel_at);
+    };
     const auto texel_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
         return bounds.at(index, point, normal, options.telling);
     };
-    light.exceptions = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
-                                               light.truth, light.metrics.edge, texel_at);
+    light.exceptions = exceptions(texel_at);
     const auto promised_at = [&](const glm::dvec3& point, const glm::dvec3& normal) {
         return bounds.promised(index, point, normal, options.wished);
     };
-    if (light.report.keeps_max_error)
-        light.contract = oracle::edge_exceptions(tracer, hits, snapshot.consumers.front(), snapshot.lights[index],
-                                                 light.truth, light.metrics.edge, promised_at);
+    if (light.report.keeps_max_error) light.contract = exceptions(promised_at);
     for (std::size_t i = 0; i < hits.count(); ++i) {
-        if (light.truth.scored[i] == 0) continue;
+        if (picture.truth.scored[i] == 0) continue;
         const glm::dvec3 &point = hits.position_rel_m[i], &normal = hits.normal_ws[i];
         const double stated_px = bounds.stated_px(index, point, normal);
         light.beyond_stated += stated_px > 0.0 && texel_at(point, normal).error_px > stated_px * (1.0 + kRounding);
@@ -108,9 +111,9 @@ void trace_truth(Stage& stage, const AccuracyOptions& options, const std::vector
         if (is_left_out(light.report)) continue;
         light.metrics = oracle::compare(
             {accuracy.size_px, light.measured, light.truth.visibility, light.truth.scored, light.truth.ambiguous});
-        judge_edges(tracer, hits, snapshot, bounds, indices[k], options, light);
-        light.far =
-            errors_beyond_texels({tracer, hits, creases, snapshot, indices[k], light.truth}, bounds, light.measured);
+        const TracedPicture picture{tracer, hits, creases, snapshot, indices[k], light.truth};
+        judge_edges(picture, bounds, options, light);
+        light.far = errors_beyond_texels(picture, bounds, light.measured);
         if (shadow::filter_row(snapshot.lights[indices[k]].shadow.filter).width != shadow::FilterWidth::source)
             light.promised = promised_errors(light);
     }

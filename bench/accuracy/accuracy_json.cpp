@@ -73,9 +73,9 @@ Json to_json(const LightAccuracy& light) {
     for (const auto& error : errors.items())
         json[error.key()] = is_left_out(light.report) ? Json(nullptr) : error.value();
     json["predicted_error_px"] = light.report.predicted_error_px;
-    json["views"] = light.report.views;
-    json["texels"] = light.report.texels;
-    json["bytes"] = light.report.bytes;
+    json["views"] = light.report.counts.views;
+    json["texels"] = light.report.counts.texels;
+    json["bytes"] = light.report.counts.bytes;
     json["redrawn_differs_px"] = light.redrawn_differs;
     json["soft"] = light.soft ? to_json(*light.soft) : Json(nullptr);
     json["gpu_us"] = to_json(light.gpu_us);

@@ -25,8 +25,8 @@ void append_light(const LightAccuracy& light, std::string& text) {
         percent(m.acne), percent(m.leak), far.false_shadow, far.false_light, far.crease_shadow, far.crease_light,
         m.edge.mean_px, m.edge.p95_px, m.edge.max_px, m.edge.lost, m.ambiguous, m.uncovered, m.coverage_mismatch,
         light.report.predicted_error_px);
-    text += formatted(" %10llu %8.2f", static_cast<unsigned long long>(light.report.texels),
-                      static_cast<double>(light.report.bytes) / kBytesPerMb);
+    text += formatted(" %10llu %8.2f", static_cast<unsigned long long>(light.report.counts.texels),
+                      static_cast<double>(light.report.counts.bytes) / kBytesPerMb);
     if (light.gpu_us.count == 0)
         text += formatted(" %24s", "not measured");
     else

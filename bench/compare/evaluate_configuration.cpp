@@ -103,9 +103,9 @@ void take_report(const LightItem& light, const LightReport& report, std::uint32_
     const ShadowFilter filter = chosen ? report.filter.filter : light.shadow.filter;
     figures.taps = shadow::filter_row(filter).taps(light.tuning.kernel,
                                                    shadow::light_kind_row(light.kind).texture == gl::TextureKind::cube);
-    figures.views = report.views;
-    figures.texels = static_cast<double>(report.texels);
-    figures.bytes = static_cast<double>(report.bytes);
+    figures.views = report.counts.views;
+    figures.texels = static_cast<double>(report.counts.texels);
+    figures.bytes = static_cast<double>(report.counts.bytes);
     figures.draws = draws;
     figures.predicted_px = report.predicted_error_px;
 }
@@ -120,7 +120,7 @@ std::optional<Error> judge_lights(Stage& stage, const TracedTruths& truths, cons
         if (report.failure != gl::Failure::none)
             return Error{std::string("the frame failed: ") + gl::to_text(report.failure), "", "", "bench.frame"};
         for (std::size_t k = 0; k < draws.size(); ++k)
-            draws[k] = std::max(draws[k], report.lights[truths.lights[k].index].draws);
+            draws[k] = std::max(draws[k], report.lights[truths.lights[k].index].counts.draws);
     }
     std::vector<float> measured;
     for (std::size_t k = 0; k < truths.lights.size(); ++k) {

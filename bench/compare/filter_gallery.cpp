@@ -105,7 +105,7 @@ constexpr float kHalf = 0.5f;
 
 std::string table_line(const FilterVariant& variant, const LightAccuracy& light, const TapCount& taps) {
     const bool cube = shadow::light_kind_row(light.report.kind).texture == gl::TextureKind::cube;
-    const double texels = static_cast<double>(light.report.texels) / std::max(1u, light.report.views);
+    const double texels = static_cast<double>(light.report.counts.texels) / std::max(1u, light.report.counts.views);
     const auto edge_px = static_cast<std::uint32_t>(std::sqrt(texels));
     LightItem item;
     item.kind = light.report.kind;

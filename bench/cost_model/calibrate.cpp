@@ -80,8 +80,9 @@ public:
                      {.reuse = {.economy = false, .keep_visibility = false}});
             rows.push_back({{}, timed([](const FrameReport& report) { return report.shadow_gpu_us.value_or(0.0); })});
             for (const LightReport& light : stage_.frame().report().lights)
-                rows.back().units += glm::dvec4(light.views_drawn, light.draws, static_cast<double>(light.triangles),
-                                                static_cast<double>(light.texels));
+                rows.back().units +=
+                    glm::dvec4(light.counts.views_drawn, light.counts.draws,
+                               static_cast<double>(light.counts.triangles), static_cast<double>(light.counts.texels));
         }
         return solved<glm::dmat4>(rows, residual);
     }

@@ -49,6 +49,11 @@ struct WatchedLight {
     std::uint32_t stepped_layers = 0;     // bit per moved layer that changed by more than a shift
 };
 
+/// Half-open range of a light's points.
+struct PointRange {
+    std::size_t from = 0, to = 0;
+};
+
 /// One run along one path under one fit.
 class PathRun {
 public:
@@ -160,19 +165,19 @@ private:
         const auto chunks = static_cast<std::uint32_t>((count + kChunk - 1) / kChunk);
         std::vector<PathFlicker> parts(chunks);
         oracle::parallel_rows(chunks, 0, [&](std::uint32_t chunk) {
-            const std::size_t from = chunk * kChunk, to = std::min(count, from + kChunk);
-            look_at(light, camera, state, from, to, first, parts[chunk]);
+            const std::size_t from = chunk * kChunk;
+            look_at(light, camera, {from, std::min(count, from + kChunk)}, first, state, parts[chunk]);
         });
         const std::uint64_t before = row.flips;
         for (const PathFlicker& part : parts) add(part, row);
         row.flips_by_frame.push_back(static_cast<std::uint32_t>(row.flips - before));
     }
 
-    void look_at(const ExactLight& light, const ConsumerItem& camera, WatchedLight& state, std::size_t from,
-                 std::size_t to, bool first, PathFlicker& part) const {
+    void look_at(const ExactLight& light, const ConsumerItem& camera, PointRange points, bool first,
+                 WatchedLight& state, PathFlicker& part) const {
         std::vector<std::size_t> seen;
         std::vector<SurfacePoint> at;
-        for (std::size_t k = from; k < to; ++k) {
+        for (std::size_t k = points.from; k < points.to; ++k) {
             const SurfacePoint& point = points_[state.points[k]];
             const bool in = in_view(camera, point.position_ws_m);
             if (in) {

@@ -41,8 +41,8 @@ BlockTimes time_going(Stage& stage, Going going, std::uint32_t frames) {
 Block run_going(Stage& stage, Going going, std::uint32_t frames) {
     Block block{time_going(stage, going, frames)};
     for (const LightReport& light : stage.frame().report().lights) {
-        block.views_drawn += light.views_drawn;
-        block.bytes += light.bytes;
+        block.views_drawn += light.counts.views_drawn;
+        block.bytes += light.counts.bytes;
     }
     return block;
 }

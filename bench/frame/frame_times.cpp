@@ -78,8 +78,8 @@ FrameTimes measure_frame_times(Stage& stage, std::uint32_t rounds, std::uint32_t
         moving.add(run(true, true, true, on), &base);
     }
     for (const LightReport& light : stage.frame().report().lights) {
-        times.moving_views += light.views;
-        times.moving_views_drawn += light.views_drawn;
+        times.moving_views += light.counts.views;
+        times.moving_views_drawn += light.counts.views_drawn;
     }
     if (!stage.frame().snapshot().consumers.empty())
         times.size_px = stage.frame().snapshot().consumers.front().viewport_px;

@@ -102,11 +102,11 @@ private:
         figures.lights_given = figures.views = figures.views_drawn = figures.draws = figures.passes = 0;
         figures.bytes = 0;
         for (const LightReport& light : stage_.frame().report().lights) {
-            figures.lights_given += light.views > 0 ? 1 : 0;
-            figures.views += light.views;
-            figures.views_drawn += light.views_drawn;
-            figures.draws += light.draws;
-            figures.bytes += light.bytes;
+            figures.lights_given += light.counts.views > 0 ? 1 : 0;
+            figures.views += light.counts.views;
+            figures.views_drawn += light.counts.views_drawn;
+            figures.draws += light.counts.draws;
+            figures.bytes += light.counts.bytes;
         }
         for (const gl::Command& command : stage_.frame().commands().commands)
             figures.passes += std::holds_alternative<gl::BeginPass>(command) ? 1 : 0;

@@ -47,8 +47,8 @@ def beside_words(beside):
     tutorial = "the time of “%s” (%s), which draws its map in every frame" % (beside.tutorial.name,
                                                                              percent(beside.tutorial.error))
     if beside.kept is None:
-        return " With every map drawn anew the defaults take %.3g times %s." % (beside.drawn, tutorial)
-    return (" While nothing moves and maps are kept, the defaults take %.3g times %s. With every map drawn anew they "
+        return " With every map redrawn the defaults take %.3g times %s." % (beside.drawn, tutorial)
+    return (" While nothing moves and maps are kept, the defaults take %.3g times %s. With every map redrawn they "
             "take %.3g times that time." % (beside.kept, tutorial, beside.drawn))
 
 

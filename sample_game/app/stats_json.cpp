@@ -68,13 +68,13 @@ Json light_stats(const FrameReport& report, const LightReport& light) {
             {"predicted_error_px", light.predicted_error_px},
             {"keeps_max_error", light.keeps_max_error},
             {"filter", light.filter.filter == ShadowFilter::automatic ? Json(nullptr) : filter_stats(light.filter)},
-            {"views", light.views},
-            {"views_drawn", light.views_drawn},
-            {"texels", light.texels},
-            {"bytes", light.bytes},
-            {"draws", light.draws},
-            {"clears", light.clears},
-            {"triangles", light.triangles},
+            {"views", light.counts.views},
+            {"views_drawn", light.counts.views_drawn},
+            {"texels", light.counts.texels},
+            {"bytes", light.counts.bytes},
+            {"draws", light.counts.draws},
+            {"clears", light.counts.clears},
+            {"triangles", light.counts.triangles},
             {"cpu_us", light.cpu_us},
             {"gpu_us", or_null(light.gpu_us)},
             {"kept", light.kept.bytes > 0 ? kept_stats(light.kept) : Json(nullptr)},
@@ -88,11 +88,11 @@ Json frame_stats(const FrameReport& report, std::uint64_t index, double time_s) 
     std::uint64_t views = 0, draws = 0, clears = 0, triangles = 0, bytes = 0;
     Json lights = Json::array(), dropped = Json::array();
     for (const LightReport& light : report.lights) {
-        views += light.views_drawn;
-        draws += light.draws;
-        clears += light.clears;
-        triangles += light.triangles;
-        bytes += light.bytes;
+        views += light.counts.views_drawn;
+        draws += light.counts.draws;
+        clears += light.counts.clears;
+        triangles += light.counts.triangles;
+        bytes += light.counts.bytes;
         lights.push_back(light_stats(report, light));
     }
     for (const DroppedEntity& entity : report.dropped)

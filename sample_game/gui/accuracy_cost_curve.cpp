@@ -30,10 +30,10 @@ Sum sum_of(const FrameReport& report, const std::string& name) {
     for (const LightReport& light : report.lights) {
         if (light.state == LightState::skipped || (!name.empty() && light.name != name)) continue;
         sum.any = true;
-        sum.texels += light.texels;
-        sum.bytes += light.bytes;
+        sum.texels += light.counts.texels;
+        sum.bytes += light.counts.bytes;
         sum.predicted_px = std::max(sum.predicted_px, light.predicted_error_px);
-        sum.drew |= light.views_drawn > 0;
+        sum.drew |= light.counts.views_drawn > 0;
         sum.timed &= light.gpu_us.has_value();
         sum.gpu_us += light.gpu_us.value_or(0.0);
     }

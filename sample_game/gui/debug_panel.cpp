@@ -89,9 +89,9 @@ void draw_debug_choice(const GameWorld& world, const FrameReport& report, PanelS
         draw_light_choice(lights, state.debug);
         const auto row = std::find_if(report.lights.begin(), report.lights.end(),
                                       [&](const LightReport& light) { return light.name == state.debug.light; });
-        if (row != report.lights.end() && row->views > 1) {
+        if (row != report.lights.end() && row->counts.views > 1) {
             ImGui::SameLine();
-            draw_map_choice(row->views, state.debug);
+            draw_map_choice(row->counts.views, state.debug);
         }
     }
     ImGui::PopItemWidth();

@@ -163,9 +163,9 @@ void draw_report(const FrameReport& report) {
         text(to_text(light.state));
         text(reason_code(light.reason));
         text(filter_words(light.filter).c_str());
-        count(light.texels);
-        count(light.bytes / 1024);
-        count(light.draws);
+        count(light.counts.texels);
+        count(light.counts.bytes / 1024);
+        count(light.counts.draws);
         time_cell(light.cpu_us);
         time_cell(light.gpu_us);
         ImGui::TableNextColumn();

@@ -62,11 +62,11 @@ LightItem as_point(const LightItem& light) {
     return point;
 }
 
-void trace_rows(const SceneSnapshot& scene, const LightItem& light, const SeenSurfaces& seen, std::uint32_t first_row,
-                std::uint32_t rows, visibility::LightQueries& queries, LightTruth& truth) {
+void trace_rows(const SceneSnapshot& scene, const LightItem& light, const SeenSurfaces& seen, RowRange rows,
+                visibility::LightQueries& queries, LightTruth& truth) {
     const std::array middle{glm::dvec2(0.0)};
     const visibility::LightRays reach(light, middle);
-    const std::size_t first = std::size_t{first_row} * seen.size_px.x, end = first + std::size_t{rows} * seen.size_px.x;
+    const std::size_t width_px = seen.size_px.x, first = rows.first * width_px, end = first + rows.count * width_px;
     Questions here, around;
     for (std::size_t pixel = first; pixel < end; ++pixel) {
         if (seen.instance[pixel] == kNoSurface) continue;

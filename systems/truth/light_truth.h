@@ -23,9 +23,14 @@ struct LightTruth {
 /// Returns the light without its source's size: the reference for maps and metrics.
 LightItem as_point(const LightItem& light);
 
-/// Traces `rows` rows from `first_row` on. `light`: from as_point(). `queries` belongs to this thread; several threads
-/// may trace different rows. Sends a ray from the surface to the light, and four more from around it.
-void trace_rows(const SceneSnapshot& scene, const LightItem& light, const SeenSurfaces& seen, std::uint32_t first_row,
-                std::uint32_t rows, visibility::LightQueries& queries, LightTruth& truth);
+/// Half-open range of a picture's rows.
+struct RowRange {
+    std::uint32_t first = 0, count = 0;
+};
+
+/// Traces some rows. `light`: from as_point(). `queries` belongs to this thread; several threads may trace different
+/// rows. Sends a ray from the surface to the light, and four more from around it.
+void trace_rows(const SceneSnapshot& scene, const LightItem& light, const SeenSurfaces& seen, RowRange rows,
+                visibility::LightQueries& queries, LightTruth& truth);
 
 }  // namespace gnomon::truth

@@ -57,7 +57,7 @@ PictureTruth trace_picture(const SceneSnapshot& scene, const assets::MeshLibrary
         const LightItem light = as_point(scene.lights[traced.light]);
         share_rows(height, threads, kLighting, state, [&] {
             return [&, queries = visibility::LightQueries(trees)](std::uint32_t row, std::uint32_t rows) mutable {
-                trace_rows(scene, light, truth.seen, row, rows, queries, traced.truth);
+                trace_rows(scene, light, truth.seen, {row, rows}, queries, traced.truth);
             };
         });
     }

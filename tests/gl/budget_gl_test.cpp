@@ -29,7 +29,7 @@ protected:
     const LightReport& report(std::size_t light) { return frame().report().lights.at(light); }
     std::uint64_t bytes() {
         std::uint64_t sum = 0;
-        for (const LightReport& light : frame().report().lights) sum += light.bytes;
+        for (const LightReport& light : frame().report().lights) sum += light.counts.bytes;
         return sum;
     }
     struct Seen {
@@ -52,15 +52,15 @@ protected:
         const bench::EdgeBounds bounds(scene, device().info(), frame().fit_history());
         for (std::uint32_t i = 0; i < frame().report().lights.size(); ++i) {
             const LightReport& light = report(i);
-            if (light.views == 0) continue;
+            if (light.counts.views == 0) continue;
             // A map that shrank in this very frame is fitted for its size in the next one.
-            if (std::uint64_t{bounds.map_px(i)} * bounds.map_px(i) * light.view_count != light.texels) {
+            if (std::uint64_t{bounds.map_px(i)} * bounds.map_px(i) * light.view_count != light.counts.texels) {
                 ++seen.unsettled;
                 continue;
             }
             const oracle::LightTruth truth = tracer.trace_light(hits, scene.lights.at(i), true);
-            const oracle::Metrics metrics = oracle::compare(
-                {hits.size_px, visibility(i), truth.visibility, truth.scored, truth.ambiguous});
+            const oracle::Metrics metrics =
+                oracle::compare({hits.size_px, visibility(i), truth.visibility, truth.scored, truth.ambiguous});
             const double picture_px = 1.0;
             const auto beyond = [&](double error_px, double wished) {
                 return oracle::edge_exceptions(tracer, hits, camera, scene.lights.at(i), truth, metrics.edge,
@@ -85,12 +85,13 @@ protected:
     }
     static void print(const char* what, const Seen& seen) {
         std::cout << what << ": " << seen.kept << " times kept, " << seen.broken << " times not, " << seen.held
-                  << " maps waited, " << seen.unsettled << " not looked at; of " << seen.places << " places beyond what was said: sub_texel_caster "
-                  << seen.said.sub_texel_caster << ", truth_ambiguous " << seen.said.truth_ambiguous
-                  << ", unexplained " << seen.said.unexplained << " (of a tenth of it: " << seen.found_out << "); of "
-                  << seen.kept_places << " of lights that keep their word beyond it: sub_texel_caster "
-                  << seen.wish.sub_texel_caster << ", truth_ambiguous " << seen.wish.truth_ambiguous
-                  << ", unexplained " << seen.wish.unexplained << "\n";
+                  << " maps waited, " << seen.unsettled << " not looked at; of " << seen.places
+                  << " places beyond what was said: sub_texel_caster " << seen.said.sub_texel_caster
+                  << ", truth_ambiguous " << seen.said.truth_ambiguous << ", unexplained " << seen.said.unexplained
+                  << " (of a tenth of it: " << seen.found_out << "); of " << seen.kept_places
+                  << " of lights that keep their word beyond it: sub_texel_caster " << seen.wish.sub_texel_caster
+                  << ", truth_ambiguous " << seen.wish.truth_ambiguous << ", unexplained " << seen.wish.unexplained
+                  << "\n";
     }
     ecs::Entity mover;
 };

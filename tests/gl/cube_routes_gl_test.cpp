@@ -66,7 +66,7 @@ TEST_F(CubeRoutes, GiveTheSameBitsInEveryFace) {
                {0.0, 20.0, 0.0}, {0.0, -1.0, 0.0});  // sees all walls, so that every face is a view
     draw_and_keep();
     ASSERT_EQ(maps().size(), 3u);
-    for (const LightReport& light : frame().report().lights) EXPECT_EQ(light.views_drawn, 6u);
+    for (const LightReport& light : frame().report().lights) EXPECT_EQ(light.counts.views_drawn, 6u);
     EXPECT_EQ(passes_with("faces"), device().info().vertex_layer ? 2u : 1u);
     std::size_t drawn = 0;
     for (std::uint32_t layer = 0; layer < 6; ++layer) {
@@ -102,17 +102,17 @@ TEST_F(CubeRoutes, LeaveFacesAloneThatAreNotDrawn) {
     add_camera({.fov_y_rad = 0.9}, {0.8, 0.3, 0.4}, {1.0, 0.8, 0.1});  // a wall, the ceiling, and the edge between
     draw_and_keep();
     const auto& lights = frame().report().lights;
-    EXPECT_LT(lights[0].views_drawn, 6u);
-    EXPECT_GE(lights[0].views_drawn, 2u);
+    EXPECT_LT(lights[0].counts.views_drawn, 6u);
+    EXPECT_GE(lights[0].counts.views_drawn, 2u);
     for (std::uint32_t light = 0; light < 3; ++light) {
         SCOPED_TRACE(light);
-        EXPECT_EQ(lights[light].views_drawn, lights[0].views_drawn);
-        EXPECT_EQ(lights[light].clears, lights[0].clears);
-        EXPECT_EQ(lights[light].triangles, lights[0].triangles);
+        EXPECT_EQ(lights[light].counts.views_drawn, lights[0].counts.views_drawn);
+        EXPECT_EQ(lights[light].counts.clears, lights[0].counts.clears);
+        EXPECT_EQ(lights[light].counts.triangles, lights[0].counts.triangles);
         expect_true(0, kSome, light);
         EXPECT_EQ(visibility(light), visibility(0));
     }
-    EXPECT_LT(lights[2].draws, lights[0].draws) << "one draw per mesh serves every face";
+    EXPECT_LT(lights[2].counts.draws, lights[0].counts.draws) << "one draw per mesh serves every face";
 }
 
 }  // namespace

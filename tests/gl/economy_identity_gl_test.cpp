@@ -77,11 +77,11 @@ protected:
     }
     void count() {
         for (const LightReport& light : both->report(DepthVariant::kThrifty).lights) {
-            thrifty_views += light.views_drawn;
+            thrifty_views += light.counts.views_drawn;
             kept += light.kept.reason == Reason::visibility_kept ? 1 : 0;
         }
         for (const LightReport& light : both->report(DepthVariant::kLavish).lights) {
-            lavish_views += light.views_drawn;
+            lavish_views += light.counts.views_drawn;
             EXPECT_EQ(light.kept.bytes, 0u) << "economy=off keeps";
         }
     }
@@ -123,7 +123,7 @@ protected:
     ChangingWorld world{print_seed(), filters_of_run()};
     std::unique_ptr<BothWays> both;
     std::function<void(SceneSnapshot&)> mislead;
-    std::array<std::vector<Floats>, BothWays::kWays> visibilities;  // by consumer, then by light
+    std::array<std::vector<Floats>, BothWays::kWays> visibilities;                 // by consumer, then by light
     std::array<std::vector<std::vector<std::uint8_t>>, BothWays::kWays> pictures;  // by consumer
     std::uint64_t kept = 0;  // times that a light was read instead of looked up
     std::uint64_t thrifty_views = 0, lavish_views = 0, shadowed = 0, judged = 0, lost = 0;
@@ -139,8 +139,8 @@ TEST_F(EconomyIdentityGl, EveryLightsVisibilityIsThatOfEconomyOffToTheBit) {
     EXPECT_GT(kept, static_cast<std::uint64_t>(frames) / 4);
     EXPECT_GT(judged, static_cast<std::uint64_t>(frames) / 3);
     std::cout << 2 * frames << " frames: " << thrifty_views << " views drawn, " << lavish_views << " with economy off; "
-              << shadowed << " dark pixels alike; " << judged << " pixels of skipped lights traced; "
-              << kept << " times a light was read instead of looked up\n";
+              << shadowed << " dark pixels alike; " << judged << " pixels of skipped lights traced; " << kept
+              << " times a light was read instead of looked up\n";
 }
 
 TEST_F(EconomyIdentityGl, AMoveThatASignatureMissesWouldBeSeen) {

@@ -50,7 +50,7 @@ protected:
                         found.scored, found.wrong, found.ambiguous, found.other_surface);
             // Drawn, or of a map that is not worth it while things move.
             EXPECT_EQ(report.state, LightState::rendered) << reason_code(report.reason);
-            EXPECT_EQ(report.views_drawn > 0, report.reason != Reason::rays_cheaper);
+            EXPECT_EQ(report.counts.views_drawn > 0, report.reason != Reason::rays_cheaper);
             EXPECT_EQ(found.wrong, 0u) << "of " << found.scored;
             EXPECT_LE(static_cast<double>(found.ambiguous), kMostAmbiguous * scored);
             EXPECT_LE(static_cast<double>(found.other_surface), kMostOtherSurface * scored);

@@ -91,8 +91,8 @@ TEST_P(FarLamps, ThatStandStillHaveTheirMapsDrawnOnce) {
     build(4.0, 4);
     add_lamp(GetParam(), 1e5);
     for (int i = 0; i < 3; ++i) draw();
-    EXPECT_EQ(frame().report().lights.at(0).views, 1u);
-    EXPECT_EQ(frame().report().lights.at(0).views_drawn, 0u);
+    EXPECT_EQ(frame().report().lights.at(0).counts.views, 1u);
+    EXPECT_EQ(frame().report().lights.at(0).counts.views_drawn, 0u);
 }
 
 TEST_P(FarLamps, SayWhereFloatsTellNothingApart) {

@@ -42,12 +42,13 @@ protected:
         shadows->commit(snapshot, true);
     }
     void record_picture(const shadow::LightingInputs& handed, gl::CommandList& list) {
-        ASSERT_TRUE(lighting->record(handed, snapshot, *scene, {.exposure_ev = settings.exposure_ev, .most_rows = most_rows},
-                                     list, outcome));
+        ASSERT_TRUE(lighting->record(handed, snapshot, *scene,
+                                     {.exposure_ev = settings.exposure_ev, .most_rows = most_rows}, list, outcome));
     }
     const shadow::LightingInputs& inputs() const { return shadows->frame().inputs.front(); }
     std::vector<std::uint8_t> drawn_picture() {
-        return read<std::uint8_t>(lighting->picture_texture(), std::size_t{4} * settings.viewport_px.x * settings.viewport_px.y);
+        return read<std::uint8_t>(lighting->picture_texture(),
+                                  std::size_t{4} * settings.viewport_px.x * settings.viewport_px.y);
     }
 
     std::uint32_t most_rows = lighting::LightPrograms::kNoLimit;  // LightingSettings::most_rows

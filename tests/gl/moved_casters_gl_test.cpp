@@ -47,9 +47,9 @@ protected:
         for (int i = 0; i < kFrames; ++i) {
             step(i, change);
             result.visibility.push_back(visibility());
-            result.views += frame().report().lights.at(0).views;
-            result.drawn += frame().report().lights.at(0).views_drawn;
-            result.cleared += frame().report().lights.at(0).clears;
+            result.views += frame().report().lights.at(0).counts.views;
+            result.drawn += frame().report().lights.at(0).counts.views_drawn;
+            result.cleared += frame().report().lights.at(0).counts.clears;
         }
         return result;
     }

@@ -100,7 +100,7 @@ struct Child {
         if (!child.deliver()) quit(5, "a starved frame was not delivered");
     for (const LightReport& light : child.frame->report().lights)
         std::cerr << light.name << ": " << to_text(light.state) << ", " << reason_code(light.reason) << ", "
-                  << light.bytes / (1 << 20) << " MiB\n";
+                  << light.counts.bytes / (1 << 20) << " MiB\n";
     if (child.count(LightState::degraded) + child.count(LightState::skipped) != child.lights.size())
         quit(6, "a light lost its map in silence");
     for (const LightReport& light : child.frame->report().lights)

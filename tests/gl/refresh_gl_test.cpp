@@ -65,7 +65,7 @@ TEST_P(RefreshGl, ShowsEdgesWhereItIsSaidAndNoMoverThatDarkensItself) {
     for (int i = 1; i < kFrames; ++i) {
         step(i);
         SCOPED_TRACE("frame " + std::to_string(i));
-        const bool is_held = report().views_drawn == 0;
+        const bool is_held = report().counts.views_drawn == 0;
         held += is_held ? 1 : 0;
         const Judged judged = judge();
         const oracle::EdgeDisplacement& edge = judged.metrics.edge;
@@ -97,7 +97,7 @@ TEST_P(RefreshGl, IsOffByMoreThanItsTexelsExplainWhereMuchIsAllowed) {
     double worst_px = 0.0;
     for (int i = 1; i <= 3; ++i) {
         step(2 + 4 * i);
-        if (report().views_drawn > 0) continue;
+        if (report().counts.views_drawn > 0) continue;
         ++held;
         const double off_px = judge().metrics.edge.max_px;
         EXPECT_LE(off_px, report().predicted_error_px);
@@ -114,8 +114,8 @@ TEST_P(RefreshGl, MoversWouldDarkenThemselvesWithoutTheOffsetForWhatMoved) {
     BothWays both(device(), library);
     const auto visibility_of = [&](const shadow::LightingInputs& inputs) {
         gl::CommandList list;
-        FrameReport report;
-        EXPECT_TRUE(both.lighting(BothWays::kThrifty).record(inputs, both.scene(), both.gpu(), {}, list, report));
+        shadow::LightingOutcome outcome;
+        EXPECT_TRUE(both.lighting(BothWays::kThrifty).record(inputs, both.scene(), both.gpu(), {}, list, outcome));
         EXPECT_TRUE(both.lighting(BothWays::kThrifty).record_visibility(inputs, 0, both.gpu(), list));
         run(list);
         const glm::uvec2 size_px = settings.viewport_px;
@@ -132,7 +132,7 @@ TEST_P(RefreshGl, MoversWouldDarkenThemselvesWithoutTheOffsetForWhatMoved) {
             for (shadow::ViewRecord& view : bare.lights.at(0).record.views) view.numeric.y = 0.0f;
             without = visibility_of(bare);
         });
-        if (both.report(BothWays::kThrifty).lights.at(0).views_drawn > 0) continue;
+        if (both.report(BothWays::kThrifty).lights.at(0).counts.views_drawn > 0) continue;
         ++held;
         const auto darkened = [&](const std::vector<float>& seen) {
             std::size_t count = 0;

@@ -77,7 +77,8 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
     add_room(kHalf_m);
     // Something must cast, or no map exists: here the walls cast upon themselves.
     const auto walls = world.entities_with<MeshRef>();
-    for (const ecs::Entity wall : std::vector<ecs::Entity>(walls.begin(), walls.end())) world.emplace<ShadowCaster>(wall);
+    for (const ecs::Entity wall : std::vector<ecs::Entity>(walls.begin(), walls.end()))
+        world.emplace<ShadowCaster>(wall);
     constexpr std::uint32_t kCoarse_px = 64;
     const glm::dvec3 lamp(1.2, 0.9, -0.7);
     for (const shadow::FilterRow& filter : filters())
@@ -95,7 +96,7 @@ TEST_P(ShadowCubeAlong, AnEmptyRoomIsLitAcrossTheSeamsOfAVeryCoarseCube) {
             static_cast<double>(shadow::filter_settings(filters()[light], LightItem{}, kCoarse_px).widest_texel);
         const double widest_texel_m = 2.0 / kCoarse_px * glm::length(glm::abs(lamp) + kHalf_m);
         truth.margin_m = on_plane ? least_m : std::max(least_m, std::sqrt(2.0) * reach * widest_texel_m);
-        EXPECT_GE(frame().report().lights[light].views, 4u);  // as many as the camera sees walls in
+        EXPECT_GE(frame().report().lights[light].counts.views, 4u);  // as many as the camera sees walls in
         expect_true(0, 50 * kSome, light);
     }
 }

@@ -10,7 +10,9 @@ constexpr std::size_t kSome = 300;
 
 class ShadowLimits : public BoxTest {
 protected:
-    static Light point(float range_m = 0.0f) { return {.kind = LightKind::point, .intensity = 3000.0f, .range_m = range_m}; }
+    static Light point(float range_m = 0.0f) {
+        return {.kind = LightKind::point, .intensity = 3000.0f, .range_m = range_m};
+    }
     static Light spot(float outer_rad, float range_m = 0.0f) {
         return {.kind = LightKind::spot, .intensity = 3000.0f, .range_m = range_m, .outer_cone_rad = outer_rad};
     }
@@ -82,7 +84,7 @@ TEST_F(ShadowLimits, AConeOfAlmostAHalfSpaceCastsShadowsOutToItsRim) {
     draw();
     const LightReport& report = frame().report().lights.front();
     EXPECT_EQ(report.state, LightState::rendered);
-    EXPECT_EQ(report.views, 1u) << "both boxes stand to one side, and only there does anything cast";
+    EXPECT_EQ(report.counts.views, 1u) << "both boxes stand to one side, and only there does anything cast";
     expect_true(kSome, 10 * kSome);
 }
 
@@ -91,7 +93,8 @@ TEST_F(ShadowLimits, AConeThatOpensBeyondOneViewFadesToFacesAnEighthPerFrame) {
     truth.margin_m = 0.12;
     add_box({1.0, 0.2, -0.5}, {1.8, 0.6, 0.5});
     add_box({-0.6, 0.2, -1.2}, {0.1, 0.5, -0.7});
-    const ecs::Entity lamp = add_light(spot(1.0f), {0.0, 1.0, 0.0}, kDown, {.filter = ShadowFilter::hard, .resolution_px = 1024});
+    const ecs::Entity lamp =
+        add_light(spot(1.0f), {0.0, 1.0, 0.0}, kDown, {.filter = ShadowFilter::hard, .resolution_px = 1024});
     look_down(4.0);
     draw();
     world.patch<Light>(lamp, [](Light& light) { light.outer_cone_rad = 1.1f; });

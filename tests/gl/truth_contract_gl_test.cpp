@@ -32,7 +32,7 @@ protected:
     };
     static void expect_kept(const bench::Accuracy& accuracy, Kept& kept) {
         for (const bench::LightAccuracy& light : accuracy.lights) {
-            kept.broken += !light.report.keeps_max_error && light.report.views > 0;
+            kept.broken += !light.report.keeps_max_error && light.report.counts.views > 0;
             if (!light.report.keeps_max_error) continue;
             SCOPED_TRACE(accuracy.scene + ", " + light.report.name);
             EXPECT_EQ(light.contract.unexplained, 0u);
@@ -54,7 +54,7 @@ protected:
     static std::uint32_t map_px(const LightReport& light) {
         return light.view_count == 0
                    ? 0u
-                   : static_cast<std::uint32_t>(std::sqrt(static_cast<double>(light.texels / light.view_count)));
+                   : static_cast<std::uint32_t>(std::sqrt(static_cast<double>(light.counts.texels / light.view_count)));
     }
 };
 
@@ -87,7 +87,7 @@ TEST_F(TruthContract, IsKeptByEveryLightWhoseFilterIsTheContractsToChoose) {
             ASSERT_TRUE(stage);
             stage->run_frame();
             for (const LightReport& light : stage->frame().report().lights)
-                named.broken += !light.keeps_max_error && light.views > 0;
+                named.broken += !light.keeps_max_error && light.counts.views > 0;
             options.settings[1] = "filter=automatic";
             const bench::Accuracy accuracy = measure(options);
             expect_kept(accuracy, kept);

@@ -12,33 +12,34 @@
 /// Wrong pixels that no edge explains: where a bias proven for planes must not err.
 namespace gnomon::oracle {
 
-/// Per pixel, whether the surface ends or bends toward its right (kCreaseRight) and its upper neighbour (kCreaseUp):
-/// either of the two does not lie on the other's plane, to within kPlaneTolerance of the distance from the camera, or
-/// only one of them is a surface. Silhouettes, the edges of boxes, and those of each triangle of a curved mesh.
+/// Finds, per pixel, if the surface ends or bends toward its right (kCreaseRight) or its upper neighbour (kCreaseUp).
+/// It does if only one of the two pixels shows a surface, or if one lies off the other's plane.
+/// Off means more than kPlaneTolerance of the distance from the camera.
+/// Creases are silhouettes, the edges of boxes and the edges of each triangle of a curved mesh.
 std::vector<std::uint8_t> creases(const PrimaryHits& hits);
 inline constexpr std::uint8_t kCreaseRight = 1, kCreaseUp = 2;
-inline constexpr double kPlaneTolerance = 1.0e-6;  // as kJitter: positions are not told apart below
+inline constexpr double kPlaneTolerance = 1.0e-6;  // as kJitter: positions have no more precision
 
-/// Wrong pixels, scored and not ambiguous, farther from every true edge than max(kEdgeBandPx, allowed_px): those that
-/// are as far from every crease and from the picture's border, beyond which an edge may lie, and the others.
+/// Wrong pixels, scored and not ambiguous, farther from every true edge than max(kEdgeBandPx, allowed_px).
 struct FarErrors {
-    std::size_t false_shadow = 0, false_light = 0;
-    std::size_t crease_shadow = 0, crease_light = 0;
-    std::vector<std::size_t> each;  // pixels of the first two
+    std::size_t false_shadow = 0, false_light = 0;    // as far from creases and from the picture's border
+    std::size_t crease_shadow = 0, crease_light = 0;  // nearer to a crease or the border, where an edge may hide
+    std::vector<std::size_t> each;                    // indices of the pixels of the first two
 };
-/// Whether the light truly reaches the plane of a pixel's surface, so far from the pixel's centre.
+/// Returns true if the light truly reaches the plane of a pixel's surface, at an offset from the pixel's centre.
 using LitBetween = std::function<bool(std::size_t pixel, const glm::dvec2& offset_px)>;
 
-/// `creases` as above, `allowed_px` what half a texel and the filter's half-width measure on the screen, per pixel;
-/// both of the picture's size. `lit` is asked kBetween times per pixel's width around those that no edge between pixel
-/// centres explains: shadows and gaps may be narrower than a pixel. It is asked until kMostUnexplained remain
-/// unexplained: a bias that is wrong darkens thousands, and all that follow are counted.
+/// Counts wrong pixels that no edge explains. `creases` is as above; `allowed_px` is half a texel and the filter's
+/// half-width on the screen, per pixel. Both have the picture's size.
+/// Calls `lit` kBetween times per pixel's width around pixels that no edge between pixel centres explains.
+/// Shadows and gaps may be narrower than a pixel. After kMostUnexplained unexplained pixels all others count
+/// without a search: a wrong bias darkens thousands.
 FarErrors far_errors(const ComparedPictures& pictures, std::span<const std::uint8_t> creases,
                      std::span<const float> allowed_px, const LitBetween& lit);
 inline constexpr int kBetween = 16;
 inline constexpr std::size_t kMostUnexplained = 100;
 
-/// Asked of the tracer; all four must outlive the result.
+/// Makes a test that casts the tracer's rays; all four must outlive the result.
 LitBetween lit_between(const ReferenceTracer& tracer, const PrimaryHits& hits, const ConsumerItem& consumer,
                        const LightItem& light);
 

@@ -40,8 +40,7 @@ void casters_behind_cameras() {
         for (const auto* view : stages.views())
             for (std::uint32_t i = 0; i < view->casters.count; ++i)
                 casts |=
-                    stages.snapshot().instances[stages.frame().fitted.casters[view->casters.first + i]].entity ==
-                    box;
+                    stages.snapshot().instances[stages.frame().fitted.casters[view->casters.first + i]].entity == box;
         EXPECT_TRUE(casts);
     }
 }
@@ -69,7 +68,7 @@ void empty_sets() {
         for (const LightReport& light : stages.report().lights) {
             EXPECT_EQ(light.state, LightState::skipped);
             EXPECT_EQ(light.reason, reason) << reason_code(light.reason);
-            EXPECT_EQ(light.bytes, 0u);
+            EXPECT_EQ(light.counts.bytes, 0u);
         }
     };
     World without_casters;
@@ -202,7 +201,8 @@ void rolls_once() {
 glm::dvec2 corner_texels(const shadow::ShadowView& view) {
     const glm::dvec3 anchor = view.pose.anchor_ws_m;
     const glm::dvec2 at(glm::dot(anchor, view.pose.axis_u), glm::dot(anchor, view.pose.axis_v));
-    return (at + view.plane.centre_ls_m - view.plane.half_extent_m) / glm::dvec2(view.plane.texel_u, view.plane.texel_v);
+    return (at + view.plane.centre_ls_m - view.plane.half_extent_m) /
+           glm::dvec2(view.plane.texel_u, view.plane.texel_v);
 }
 void expect_snapped(World& w, ecs::Entity camera, const Transform& start, bool turning, double step) {
     Stages stages(w);

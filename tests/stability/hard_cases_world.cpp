@@ -157,7 +157,7 @@ std::vector<const shadow::ShadowView*> Stages::views(std::uint32_t light) const 
 
 std::size_t Stages::passes() const {
     std::size_t count = 0;
-    for (const LightReport& light : report_.lights) count += light.views_drawn;
+    for (const LightReport& light : report_.lights) count += light.counts.views_drawn;
     return count;
 }
 

@@ -87,7 +87,7 @@ TEST_F(BadEntities, AnInfiniteOrHugePlaceIsDroppedOrDrawnButNeverSpreads) {
          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 1e308, 1e30, 1e8}) {
         world.move(victim, {x, 1, 0});
         step();
-        EXPECT_GT(light("lamp").views, 0u) << x;
+        EXPECT_GT(light("lamp").counts.views, 0u) << x;
         EXPECT_TRUE(std::isfinite(light("lamp").predicted_error_px)) << x;
     }
 }
@@ -244,7 +244,7 @@ TEST_F(BadEntities, AFaultyTransformOfCameraOrLightIsDroppedAndReturns) {
         world.registry.emplace<Transform>(e, sane);
         step();
         EXPECT_THAT(dropped(), IsEmpty());
-        EXPECT_GT(light("lamp").views, 0u);
+        EXPECT_GT(light("lamp").counts.views, 0u);
     }
 }
 
@@ -309,7 +309,7 @@ TEST_F(OddWorlds, TwoHundredLightsEachHaveTheirMapAndTheirReport) {
     std::uint32_t views = 0;
     for (const LightReport& l : frame->report().lights) {
         EXPECT_EQ(l.state, LightState::rendered) << l.name;
-        views += l.views_drawn;
+        views += l.counts.views_drawn;
     }
     EXPECT_THAT(depth_passes(), SizeIs(views));
     step();

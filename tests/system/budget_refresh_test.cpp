@@ -138,11 +138,11 @@ TEST_F(BudgetSpread, HasNoMoreDrawnInAFrameThanItHasTimeForOnceItIsKnownHowFarTh
         EXPECT_LE(depth_passes().size(), std::size_t{kRoom + 1}) << "frame " << i;
         drawn += static_cast<int>(depth_passes().size());
         for (const LightReport& light : frame->report().lights) {
-            if (light.views == 0) continue;
-            if (light.views_drawn > 0) last_drawn[light.name] = i;
+            if (light.counts.views == 0) continue;
+            if (light.counts.views_drawn > 0) last_drawn[light.name] = i;
             held += light.why.stale_px > 0.0 ? 1 : 0;
             EXPECT_LE(i - last_drawn[light.name], 3) << light.name << " in frame " << i;
-            EXPECT_EQ(light.views_drawn == 0, light.why.stale_px > 0.0) << light.name;
+            EXPECT_EQ(light.counts.views_drawn == 0, light.why.stale_px > 0.0) << light.name;
         }
     }
     EXPECT_GT(drawn, 60 * kRoom / 2);

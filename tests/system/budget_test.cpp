@@ -233,7 +233,7 @@ TEST_F(Budgets, GiveBackWhenThereIsRoom) {
         EXPECT_FALSE(is_shed(light)) << light.name;
         if (!light.budget) continue;
         EXPECT_EQ(light.budget->harm, 0.0) << light.name;
-        EXPECT_EQ(light.bytes - light.kept.bytes, light.budget->wanted_bytes) << light.name;
+        EXPECT_EQ(light.counts.bytes - light.kept.bytes, light.budget->wanted_bytes) << light.name;
     }
     level->settings.shadow_budget = {};
     level->step();

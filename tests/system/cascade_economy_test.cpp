@@ -23,12 +23,12 @@ protected:
     /// Depth passes drawn over a walk, after the first frame.
     std::size_t drawn_on_a_walk(double step_m, int steps) {
         step();
-        EXPECT_GT(light("sun").views_drawn, 0u);
+        EXPECT_GT(light("sun").counts.views_drawn, 0u);
         std::size_t drawn = 0;
         for (int i = 0; i < steps; ++i) {
             walk(step_m);
             step();
-            drawn += light("sun").views_drawn;
+            drawn += light("sun").counts.views_drawn;
         }
         return drawn;
     }
@@ -42,15 +42,15 @@ TEST_F(CascadeEconomy, ASmallStepDrawsNothingInModesThatHold) {
         EXPECT_EQ(drawn_on_a_walk(1.0e-4, 1), 0u) << static_cast<int>(fit);
         EXPECT_EQ(light("sun").state, LightState::reused);
         EXPECT_STREQ(reason_code(light("sun").reason), "content_unchanged");
-        EXPECT_EQ(light("sun").draws, 0u);
-        EXPECT_GT(light("sun").views, 0u);
+        EXPECT_EQ(light("sun").counts.draws, 0u);
+        EXPECT_GT(light("sun").counts.views, 0u);
     }
 }
 
 TEST_F(CascadeEconomy, ATightFitDrawsAllOfThemAgain) {
     use(ShadowFit::tight);
     step();
-    const std::uint32_t views = light("sun").views_drawn;
+    const std::uint32_t views = light("sun").counts.views_drawn;
     // Along the view, so that every slice begins elsewhere.
     world.registry.patch<Transform>(stage.camera, [](Transform& t) { t.translation_m.z += 1.0e-4; });
     step();
@@ -76,7 +76,7 @@ TEST_F(CascadeEconomy, AMapThatIsHeldIsDrawnAgainWhenACasterMoves) {
         step();
         world.registry.patch<Transform>(stage.box, [](Transform& t) { t.translation_m.z += 0.01; });
         step();
-        EXPECT_GT(light("sun").views_drawn, 0u) << static_cast<int>(fit);
+        EXPECT_GT(light("sun").counts.views_drawn, 0u) << static_cast<int>(fit);
         step();
         EXPECT_THAT(depth_passes(), IsEmpty());
     }
@@ -96,9 +96,9 @@ TEST_F(CascadeEconomy, ACascadeThatNothingCanDarkenIsNeitherDrawnNorClearedNorLo
         EXPECT_EQ(view.why.casters, 0u);
     }
     ASSERT_GT(lit, 0u);
-    EXPECT_THAT(depth_passes(), SizeIs(light("sun").views));
-    EXPECT_EQ(light("sun").clears, light("sun").views);
-    EXPECT_LE(light("sun").views + lit, 4u);
+    EXPECT_THAT(depth_passes(), SizeIs(light("sun").counts.views));
+    EXPECT_EQ(light("sun").counts.clears, light("sun").counts.views);
+    EXPECT_LE(light("sun").counts.views + lit, 4u);
     world.add_mesh(kBox, {0, 1, -60}, true);
     step();
     EXPECT_GT(depth_passes().size(), 0u) << "and with something there it is drawn";

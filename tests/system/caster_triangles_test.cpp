@@ -59,12 +59,14 @@ protected:
 
 TEST_F(CasterTriangles, LightsOfEveryOtherRowMakeBindAndDrawNothingOfThem) {
     for (const shadow::FilterRow& row : shadow::filter_table())
-        if (row.storage == shadow::FilterStorage{} && !row.moments) add_light(LightKind::spot, std::string(row.name), row.id);
+        if (row.storage == shadow::FilterStorage{} && !row.moments)
+            add_light(LightKind::spot, std::string(row.name), row.id);
     step();
     EXPECT_THAT(triangle_labels(), IsEmpty());
     EXPECT_THAT(bindings().units, Not(Contains(AnyOf(5u, 9u))));
     EXPECT_THAT(program_labels(), Not(Contains(::testing::HasSubstr("triangles"))));
-    for (const LightReport& light : frame->report().lights) EXPECT_EQ(light.bytes, light.texels * kDepthBytes);
+    for (const LightReport& light : frame->report().lights)
+        EXPECT_EQ(light.counts.bytes, light.counts.texels * kDepthBytes);
 }
 
 TEST_F(CasterTriangles, AreOneBufferForAllLightsThatReadThem) {
@@ -77,7 +79,7 @@ TEST_F(CasterTriangles, AreOneBufferForAllLightsThatReadThem) {
     EXPECT_THAT(program_labels(), Each(::testing::HasSubstr("triangles")));
     for (const LightReport& light : frame->report().lights) {
         EXPECT_EQ(light.state, LightState::rendered) << light.name;
-        EXPECT_EQ(light.bytes, light.texels * (kDepthBytes + kTriangleBytes)) << light.name;
+        EXPECT_EQ(light.counts.bytes, light.counts.texels * (kDepthBytes + kTriangleBytes)) << light.name;
     }
     for (const Pass& pass : depth_passes())
         EXPECT_FALSE(pass.begin.clear_colour) << "what depth does not cover is not read";
@@ -93,7 +95,7 @@ TEST_F(CasterTriangles, OfALightThatReadsThemNoMoreAreFreed) {
     choose(lamp, ShadowFilter::hard);
     step();
     EXPECT_THAT(map_labels(device), SizeIs(2));
-    EXPECT_EQ(light("lamp").bytes, light("lamp").texels * kDepthBytes);
+    EXPECT_EQ(light("lamp").counts.bytes, light("lamp").counts.texels * kDepthBytes);
     EXPECT_EQ(light("lamp").state, LightState::rendered) << "what the old map held is gone";
     choose(lamp, ShadowFilter::triangles);
     step();

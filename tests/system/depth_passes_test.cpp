@@ -65,7 +65,7 @@ TEST_F(DepthPasses, EachViewOfEveryLightIsDrawnOnce) {
     std::sort(targets.begin(), targets.end());
     EXPECT_EQ(std::adjacent_find(targets.begin(), targets.end()), targets.end());
     std::uint32_t views = 0, views_drawn = 0, clears = 0;
-    for (const LightReport& l : frame->report().lights) views += l.views, views_drawn += l.views_drawn, clears += l.clears;
+    for (const LightReport& l : frame->report().lights) views += l.counts.views, views_drawn += l.counts.views_drawn, clears += l.counts.clears;
     EXPECT_EQ(views, targets.size());
     EXPECT_EQ(views_drawn, targets.size());
     EXPECT_EQ(clears, targets.size());
@@ -80,8 +80,8 @@ TEST_F(DepthPasses, OnlyCastersAreDrawn) {
     step();
     ASSERT_THAT(depth_passes(), SizeIs(1));
     EXPECT_THAT(drawn_slots(depth_passes()[0]), UnorderedElementsAre(slot_of(stage.box), slot_of(second)));
-    EXPECT_EQ(light("lamp").triangles, 2u * 12u);
-    EXPECT_EQ(light("lamp").draws, 1u) << "equal meshes are one draw";
+    EXPECT_EQ(light("lamp").counts.triangles, 2u * 12u);
+    EXPECT_EQ(light("lamp").counts.draws, 1u) << "equal meshes are one draw";
 }
 
 TEST_F(DepthPasses, TakingTheCasterAwayIsNoticed) {
@@ -114,7 +114,7 @@ TEST_F(DepthPasses, BlendedSurfacesLetLightThrough) {
     world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     step();
     EXPECT_THAT(drawn_slots(depth_passes().at(0)), Not(Contains(slot_of(glass))));
-    EXPECT_EQ(light("lamp").triangles, 12u);
+    EXPECT_EQ(light("lamp").counts.triangles, 12u);
 }
 
 TEST_F(DepthPasses, AStillSceneRedrawsNothing) {
@@ -127,8 +127,8 @@ TEST_F(DepthPasses, AStillSceneRedrawsNothing) {
         for (const LightReport& l : frame->report().lights) {
             EXPECT_EQ(l.state, LightState::reused) << l.name;
             EXPECT_STREQ(reason_code(l.reason), "content_unchanged");
-            EXPECT_GT(l.views, 0u);
-            EXPECT_EQ(l.views_drawn + l.draws + l.clears, 0u);
+            EXPECT_GT(l.counts.views, 0u);
+            EXPECT_EQ(l.counts.views_drawn + l.counts.draws + l.counts.clears, 0u);
         }
     }
 }
@@ -148,8 +148,8 @@ TEST_F(DepthPasses, WithoutEconomyEveryViewIsRedrawn) {
 TEST_F(DepthPasses, ALayeredCubeIsOnePassOnFacesThatAreClearedOneByOne) {
     const ecs::Entity lamp = world.add_light(LightKind::point, kLightPlace_m, "lamp");
     step();
-    const std::uint64_t triangles = light("lamp").triangles;
-    const std::uint32_t draws = light("lamp").draws;
+    const std::uint64_t triangles = light("lamp").counts.triangles;
+    const std::uint32_t draws = light("lamp").counts.draws;
     for (const CubeRoute route : {CubeRoute::layered_geometry, CubeRoute::six_passes}) {
         edit_light(world.registry, lamp, [&](ShadowTuning& t) {
             t.maps.cube_route = route;
@@ -157,10 +157,10 @@ TEST_F(DepthPasses, ALayeredCubeIsOnePassOnFacesThatAreClearedOneByOne) {
         });
         step();
         const bool layered = route == CubeRoute::layered_geometry;
-        EXPECT_EQ(light("lamp").views_drawn, 4u);
-        EXPECT_EQ(light("lamp").clears, 4u);
-        EXPECT_EQ(light("lamp").triangles, triangles);
-        EXPECT_LE(light("lamp").draws, draws) << "one draw per mesh serves every face";
+        EXPECT_EQ(light("lamp").counts.views_drawn, 4u);
+        EXPECT_EQ(light("lamp").counts.clears, 4u);
+        EXPECT_EQ(light("lamp").counts.triangles, triangles);
+        EXPECT_LE(light("lamp").counts.draws, draws) << "one draw per mesh serves every face";
         const std::vector<Pass> passes = depth_passes();
         EXPECT_THAT(passes, SizeIs(layered ? 4 + 1 : 4)) << "a layered clear would wipe the other faces";
         EXPECT_EQ(std::count_if(passes.begin(), passes.end(), [](const Pass& p) { return p.begin.clear_depth; }), 4);
@@ -213,8 +213,8 @@ TEST_F(DepthPasses, AFaceOfACubeWithoutAnyMovedCasterIsKept) {
     world.move(stage.box, {0.05, 1, 0});  // only below the lamp, between near and far as before
     step();
     EXPECT_THAT(drawn(), ElementsAre("shadow lamp 3"));
-    EXPECT_EQ(light("lamp").views, 5u) << "not overhead";
-    EXPECT_EQ(light("lamp").views_drawn, 1u);
+    EXPECT_EQ(light("lamp").counts.views, 5u) << "not overhead";
+    EXPECT_EQ(light("lamp").counts.views_drawn, 1u);
 }
 
 TEST_F(DepthPasses, AWalkingCameraRedrawsNoLocalLightWhoseReceiversItSeesWhole) {
@@ -239,8 +239,8 @@ TEST_F(DepthPasses, AWalkAmongReceiversRedrawsLocalLightsOnlyAtTheirFewSteps) {
     for (int i = 1; i <= kSteps; ++i) {
         world.move(stage.camera, {-2 + 0.02 * i, 2, 6 - 0.01 * i});
         step();
-        spot += light("spot").views_drawn > 0 ? 1 : 0;
-        point += light("point").views_drawn > 0 ? 1 : 0;
+        spot += light("spot").counts.views_drawn > 0 ? 1 : 0;
+        point += light("point").counts.views_drawn > 0 ? 1 : 0;
     }
     EXPECT_LE(spot, 4);
     EXPECT_LE(point, 4);

@@ -134,7 +134,7 @@ TEST_P(DeviceFailure, NoMapOfAnySizeLeavesTheLightLit) {
         step();
         expect_lit(Reason::map_allocation_failed);
         EXPECT_THAT(depth_passes(), IsEmpty());
-        EXPECT_EQ(report().bytes, 0u);
+        EXPECT_EQ(report().counts.bytes, 0u);
     }
     end_fault();
 }
@@ -146,11 +146,11 @@ TEST_P(DeviceFailure, TheLargestMapAloneFailingGivesASmallerOne) {
     step();
     EXPECT_EQ(report().state, LightState::degraded);
     EXPECT_STREQ(reason_code(report().reason), "map_shrunk");
-    EXPECT_GT(report().views_drawn, 0u);
+    EXPECT_GT(report().counts.views_drawn, 0u);
     for (const Pass& p : depth_passes()) EXPECT_EQ(p.begin.viewport.width, static_cast<std::int32_t>(kSize_px / 2));
     EXPECT_THAT(light_programs(), Contains(HasSubstr("filters")));
     end_fault();
-    EXPECT_EQ(report().texels % (kSize_px * kSize_px), 0u) << "of the wished size again";
+    EXPECT_EQ(report().counts.texels % (kSize_px * kSize_px), 0u) << "of the wished size again";
 }
 
 TEST_P(DeviceFailure, AnIncompleteTargetLeavesTheLightLitAndNothingBehind) {
@@ -206,7 +206,7 @@ TEST_P(DeviceFailure, AFilterThatDoesNotCompileLeavesOneTapOfTheSameMap) {
         EXPECT_EQ(report().state, LightState::degraded);
         EXPECT_STREQ(reason_code(report().reason), "filter_program_failed");
         EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/pcf/hard.glsl")));
-        EXPECT_GT(report().views, 0u);
+        EXPECT_GT(report().counts.views, 0u);
     }
     end_fault();
     EXPECT_THAT(light_programs(), ::testing::ElementsAre(HasSubstr("filters/pcf/hardware_2x2.glsl")));
@@ -323,7 +323,7 @@ TEST_P(DeviceFailure, ALargerMapThatCannotBeHadKeepsTheOneThereIs) {
     EXPECT_STREQ(reason_code(report().reason), "map_shrunk");
     EXPECT_THAT(light_programs(), Contains(HasSubstr("filters")));
     end_fault();
-    EXPECT_EQ(report().texels % (4 * kSize_px * kSize_px), 0u);
+    EXPECT_EQ(report().counts.texels % (4 * kSize_px * kSize_px), 0u);
 }
 
 TEST_P(DeviceFailure, APictureThatCannotBeAllocatedIsNoPictureAndReturns) {

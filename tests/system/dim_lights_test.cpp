@@ -51,7 +51,7 @@ TEST_F(DimLightsTest, OneThatRoundsAwayCostsNothing) {
     EXPECT_NEAR(light("dim").why.display_steps.value(), 0.1, 1.0e-5);
     EXPECT_THAT(depth_passes(), IsEmpty());
     EXPECT_THAT(map_labels(device), Not(Contains("shadow map dim")));
-    EXPECT_EQ(light("dim").bytes, 0u);
+    EXPECT_EQ(light("dim").counts.bytes, 0u);
 }
 
 TEST_F(DimLightsTest, ABrighterOneIsShadowed) {

@@ -56,14 +56,17 @@ protected:
         if (a.fitted.views.size() != b.fitted.views.size() || a.inputs.size() != b.inputs.size()) return false;
         for (std::size_t c = 0; c < a.inputs.size(); ++c)
             for (std::size_t i = 0; i < a.inputs[c].lights.size(); ++i) {
-                if (is_left_to_rays(a, static_cast<std::uint32_t>(i))) continue;  // which see what its map would; EconomyIdentityGl has both
+                if (is_left_to_rays(a, static_cast<std::uint32_t>(i)))
+                    continue;  // which see what its map would; EconomyIdentityGl has both
                 const shadow::LightingLight &x = a.inputs[c].lights[i], &y = b.inputs[c].lights[i];
                 if (!(x.row == y.row) || std::memcmp(&x.record, &y.record, sizeof x.record) != 0) return false;
             }
         for (std::size_t v = 0; v < a.maps.size(); ++v) {
             if (a.updates[v].skipped_for_rays) continue;
             // Neither drawn nor looked up: it may hold what it did before rays did without it.
-            if (a.fitted.views[v].lit && b.fitted.views[v].lit && a.fitted.lights[a.fitted.views[v].light].request.rays.used) continue;
+            if (a.fitted.views[v].lit && b.fitted.views[v].lit &&
+                a.fitted.lights[a.fitted.views[v].light].request.rays.used)
+                continue;
             if (contents[DepthVariant::kThrifty].of(a.maps[v].target, device) ==
                 contents[DepthVariant::kLavish].of(b.maps[v].target, device))
                 continue;
@@ -78,14 +81,14 @@ protected:
     }
     void count() {
         for (const LightReport& light : both->report(DepthVariant::kThrifty).lights) {
-            thrifty_views += light.views_drawn;
+            thrifty_views += light.counts.views_drawn;
             states.insert(light.state);
             reasons.insert(light.reason);
         }
         for (const LightReport& light : both->report(DepthVariant::kLavish).lights) {
-            lavish_views += light.views_drawn;
+            lavish_views += light.counts.views_drawn;
             if (light.state == LightState::skipped) continue;
-            EXPECT_EQ(light.views_drawn, light.views) << "economy=off saves";
+            EXPECT_EQ(light.counts.views_drawn, light.counts.views) << "economy=off saves";
         }
         consumers.insert(both->scene().consumers.size());
     }

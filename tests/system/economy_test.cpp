@@ -25,7 +25,8 @@ protected:
         std::size_t commands = 0, depth = 0;
         for (const gl::Command& command : frame->commands().commands) {
             const auto* group = std::get_if<gl::BeginGroup>(&command);
-            const bool begins = group && (group->label.text().starts_with("shadow ") || group->label.text().starts_with("moments "));
+            const bool begins =
+                group && (group->label.text().starts_with("shadow ") || group->label.text().starts_with("moments "));
             if (begins || (depth > 0 && group)) ++depth;
             if (depth > 0) ++commands;
             if (depth > 0 && std::get_if<gl::EndGroup>(&command)) --depth;
@@ -38,7 +39,7 @@ protected:
         EXPECT_EQ(shadow_commands(), 0u) << why;
         EXPECT_THAT(depth_passes(), IsEmpty()) << why;
         for (const LightReport& light : frame->report().lights) {
-            EXPECT_EQ(light.bytes, 0u) << why;
+            EXPECT_EQ(light.counts.bytes, 0u) << why;
             EXPECT_EQ(light.state, LightState::skipped) << why;
         }
     }
@@ -99,7 +100,7 @@ TEST_F(Economy, AStillSceneDrawsAndClearsNothingFromTheSecondFrameOnWhateverTheF
             EXPECT_EQ(shadow_commands(), 0u) << row.name << ", frame " << i + 2;
             EXPECT_THAT(depth_passes(), IsEmpty()) << row.name;
             for (const LightReport& light : frame->report().lights) {
-                EXPECT_EQ(light.draws + light.clears, 0u) << row.name;
+                EXPECT_EQ(light.counts.draws + light.counts.clears, 0u) << row.name;
                 EXPECT_EQ(light.state, LightState::reused) << row.name;
             }
         }

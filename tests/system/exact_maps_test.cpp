@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "systems/shadow/request/ray_limit.h"
 #include "systems/shadow/request/map_textures.h"
+#include "systems/shadow/request/ray_limit.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"
 
@@ -56,8 +56,8 @@ TEST_F(ExactMaps, AreDrawnNearestNextAndBounds) {
     add_light(LightKind::spot, "lamp");
     step();
     EXPECT_THAT(drawn(), ElementsAre("shadow map lamp", "shadow map lamp, second", "shadow map lamp, bounds"));
-    EXPECT_EQ(light("lamp").bytes, kSize_px * kSize_px * (kTexelBytes + kTriangleBytes));
-    EXPECT_EQ(light("lamp").texels, kSize_px * kSize_px);
+    EXPECT_EQ(light("lamp").counts.bytes, kSize_px * kSize_px * (kTexelBytes + kTriangleBytes));
+    EXPECT_EQ(light("lamp").counts.texels, kSize_px * kSize_px);
     EXPECT_EQ(light("lamp").state, LightState::rendered);
     EXPECT_EQ(light("lamp").predicted_error_px, 0.0);
     EXPECT_TRUE(light("lamp").keeps_max_error);
@@ -66,9 +66,9 @@ TEST_F(ExactMaps, AreDrawnNearestNextAndBounds) {
 TEST_F(ExactMaps, ShareOneLayerOfTrianglesAmongAllViews) {
     add_light(LightKind::point, "bulb");
     step();
-    EXPECT_EQ(light("bulb").bytes, kSize_px * kSize_px * (6 * kTexelBytes + kTriangleBytes));
-    ASSERT_GT(light("bulb").views_drawn, 1u);
-    EXPECT_EQ(drawn().size(), 3 * std::size_t{light("bulb").views_drawn});
+    EXPECT_EQ(light("bulb").counts.bytes, kSize_px * kSize_px * (6 * kTexelBytes + kTriangleBytes));
+    ASSERT_GT(light("bulb").counts.views_drawn, 1u);
+    EXPECT_EQ(drawn().size(), 3 * std::size_t{light("bulb").counts.views_drawn});
 }
 
 TEST_F(ExactMaps, OfAStillSceneAreKeptWhereverTheCameraStands) {
@@ -95,10 +95,10 @@ TEST_F(ExactMaps, AreDrawnAnewWhereACasterMovedEvenWhereOthersMayWait) {
 TEST_F(ExactMaps, AreOneOfASunUnlessItSaysOtherwise) {
     const ecs::Entity sun = add_light(LightKind::directional, "sun");
     step();
-    EXPECT_EQ(light("sun").texels, kSize_px * kSize_px);
+    EXPECT_EQ(light("sun").counts.texels, kSize_px * kSize_px);
     set(sun, [](LightShadow& s) { s.cascades = 3; });
     step();
-    EXPECT_EQ(light("sun").texels, 3 * kSize_px * kSize_px);
+    EXPECT_EQ(light("sun").counts.texels, 3 * kSize_px * kSize_px);
 }
 
 TEST_F(ExactMaps, AreNotMadeForASunSeenFromAnEye) {
@@ -109,15 +109,15 @@ TEST_F(ExactMaps, AreNotMadeForASunSeenFromAnEye) {
     });
     step();
     EXPECT_THAT(drawn(), IsEmpty());
-    EXPECT_EQ(light("sun").bytes, 0u);
+    EXPECT_EQ(light("sun").counts.bytes, 0u);
     EXPECT_EQ(light("sun").state, LightState::rendered);
     EXPECT_TRUE(light("sun").keeps_max_error) << "rays alone";
     EXPECT_THAT(map_labels(device, "ray "), Not(IsEmpty()));
 }
 
 TEST_F(ExactMaps, AreDoneWithoutWhereThereIsNoRoom) {
-    for (const char* what : {"shadow map lamp", "shadow map lamp, triangles", "shadow map lamp, second",
-                             "shadow map lamp, bounds"}) {
+    for (const char* what :
+         {"shadow map lamp", "shadow map lamp, triangles", "shadow map lamp, second", "shadow map lamp, bounds"}) {
         SCOPED_TRACE(what);
         device.fail_label(what, gl::Failure::out_of_memory);
         const ecs::Entity lamp = add_light(LightKind::spot, "lamp");

@@ -1,8 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "systems/shadow/request/ray_limit.h"
 #include "systems/shadow/request/occluder_pyramid.h"
+#include "systems/shadow/request/ray_limit.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"
 
@@ -51,7 +51,7 @@ TEST_F(ExactSoftMaps, HaveOneBufferMoreThatIsFilledWhenTheyAreDrawnAndKeptWhenNo
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp");
     step();
     EXPECT_EQ(light("lamp").state, LightState::rendered);
-    EXPECT_EQ(light("lamp").bytes, light("hard").bytes + shadow::pyramid_bytes(kSize_px, 1));
+    EXPECT_EQ(light("lamp").counts.bytes, light("hard").counts.bytes + shadow::pyramid_bytes(kSize_px, 1));
     EXPECT_EQ(dispatches(), others + kLevels);
     EXPECT_THAT(compiled_labels(device), Contains(HasSubstr("exact_soft")));
     step();
@@ -67,7 +67,7 @@ TEST_F(ExactSoftMaps, OfAPointAreThoseOfExact) {
     set(lamp, [](Light& l) { l.source_radius_m = 0.0f; });  // a sun's size is none of its own
     add_light(LightKind::spot, "hard", ShadowFilter::exact);
     step();
-    EXPECT_EQ(light("lamp").bytes, light("hard").bytes);
+    EXPECT_EQ(light("lamp").counts.bytes, light("hard").counts.bytes);
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("exact_soft"))));
     EXPECT_THAT(compiled_labels(device), Not(Contains(HasSubstr("sheet ends"))));
 }

@@ -56,7 +56,7 @@ protected:
             EXPECT_THAT(drawn(), IsEmpty());
             EXPECT_EQ(lamp().filter.filter, ShadowFilter::automatic);
             EXPECT_EQ(lamp().predicted_error_px, 0.0);
-            EXPECT_EQ(lamp().views + lamp().view_count, 0u);
+            EXPECT_EQ(lamp().counts.views + lamp().view_count, 0u);
             EXPECT_FALSE(lamp().keeps_max_error);
             return;
         }

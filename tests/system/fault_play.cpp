@@ -42,7 +42,8 @@ bool is_loss(Reason reason) {
 
 /// The filter by which the light's own passes of the picture look its shadow up; automatic: they do not. Where they are
 /// of two, the last.
-ShadowFilter drawn_filter(const std::vector<Pass>& passes, const std::string& light, const gl::RecordingDevice& device) {
+ShadowFilter drawn_filter(const std::vector<Pass>& passes, const std::string& light,
+                          const gl::RecordingDevice& device) {
     ShadowFilter drawn = ShadowFilter::automatic;
     for (const Pass& pass : passes) {
         if (pass.group != light || pass.is_depth) continue;
@@ -103,9 +104,9 @@ std::vector<FaultPlay::LightOutcome> FaultPlay::run_frame(Host& host, int index)
         const LightReport& light = reports[i];
         const ShadowFilter filter = host.frame->snapshot().lights[i].shadow.filter;
         const ShadowFilter drawn = drawn_filter(passes, light.name, *host.device);
-        lights.push_back({light.name, light.kind, light.state, light.reason, light.bytes,
-                          drawn != ShadowFilter::automatic, shadow::filter_row(filter).file, drawn,
-                          light.filter.filter, light.predicted_error_px, light.keeps_max_error});
+        lights.push_back({light.name, light.kind, light.state, light.reason, light.counts.bytes,
+                          drawn != ShadowFilter::automatic, shadow::filter_row(filter).file, drawn, light.filter.filter,
+                          light.predicted_error_px, light.keeps_max_error});
     }
     return lights;
 }

@@ -7,8 +7,8 @@
 #include "tests/system/frame_fixture.h"
 #include "tests/system/passes.h"
 
-// The filter that the accuracy contract chooses, frame by frame: what the report says of it, that it stays while a camera
-// sways, that it goes back when it is no longer needed, and that budgets come first.
+// The filter that the accuracy contract chooses, frame by frame: what the report says of it, that it stays while a
+// camera sways, that it goes back when it is no longer needed, and that budgets come first.
 namespace gnomon {
 namespace {
 
@@ -99,7 +99,7 @@ TEST_P(ChosenFilter, ComesToRest) {
     for (std::uint32_t f = 0; f < 2 * shadow::kFilterFrames; ++f) step_at(kNear_m);
     EXPECT_EQ(last, kKeeping);
     EXPECT_TRUE(frame->report().still);
-    EXPECT_EQ(light("lamp").views_drawn, 0u);
+    EXPECT_EQ(light("lamp").counts.views_drawn, 0u);
     EXPECT_EQ(light("lamp").filter.reason, Reason::map_too_coarse) << "still";
 }
 
@@ -130,12 +130,12 @@ TEST_P(ChosenFilter, IsOfferedToABudgetBeforeItIsUsed) {
 TEST_P(ChosenFilter, KeepsWithinABudgetOfBytes) {
     ask({.max_error_px = kFine_px});
     step_at(kNear_m);
-    const std::uint64_t all_bytes = light("lamp").bytes;
+    const std::uint64_t all_bytes = light("lamp").counts.bytes;
     settings.shadow_budget.bytes = all_bytes / 10;
     const int before = changes;
     for (int f = 0; f < 200; ++f) {
         step_at(kNear_m * (1.0 + 0.01 * std::sin(0.9 * f)));
-        EXPECT_LE(light("lamp").bytes, settings.shadow_budget.bytes) << f;
+        EXPECT_LE(light("lamp").counts.bytes, settings.shadow_budget.bytes) << f;
     }
     EXPECT_LE(changes, before + 1);
     settings.shadow_budget.bytes = 0;

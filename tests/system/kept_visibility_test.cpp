@@ -78,7 +78,7 @@ TEST_F(KeptVisibility, LightsAreLookedUpOnceMoreInTheSecondStillFrameAndThenRead
     for (const char* name : {"sun", "spot", "point"}) {
         ASSERT_TRUE(reads(name)) << name;
         EXPECT_EQ(program_of(name).rfind("kept light", 0), 0u) << program_of(name);
-        EXPECT_GT(light(name).bytes, light(name).kept.bytes) << "and its map";
+        EXPECT_GT(light(name).counts.bytes, light(name).kept.bytes) << "and its map";
     }
     EXPECT_EQ(light("sun").kept.bytes, 4u * settings.viewport_px.x * settings.viewport_px.y);
     EXPECT_THAT(textures(), SizeIs(3)) << "what filled them is gone";
@@ -227,11 +227,11 @@ TEST_F(KeptVisibility, ItsProgramsWaitForThoseThatLightsNeed) {
 TEST_F(KeptVisibility, TakesWhatABudgetLeavesAndIsGivenUpFirst) {
     settle();
     std::uint64_t maps = 0;
-    for (const LightReport& l : frame->report().lights) maps += l.bytes - l.kept.bytes;
+    for (const LightReport& l : frame->report().lights) maps += l.counts.bytes - l.kept.bytes;
     const std::uint64_t kept = texture_bytes();
     const auto held = [&] {
         std::uint64_t sum = 0;
-        for (const LightReport& l : frame->report().lights) sum += l.bytes;
+        for (const LightReport& l : frame->report().lights) sum += l.counts.bytes;
         return sum;
     };
     settings.shadow_budget.bytes = maps + kept / 2;
@@ -252,7 +252,7 @@ TEST_F(KeptVisibility, TakesWhatABudgetLeavesAndIsGivenUpFirst) {
         EXPECT_LE(held(), settings.shadow_budget.bytes) << i;
     }
     EXPECT_NE(light("spot").reason, Reason::budget_shrunk);
-    EXPECT_EQ(light("spot").texels, 512u * 512u);
+    EXPECT_EQ(light("spot").counts.texels, 512u * 512u);
     EXPECT_LT(texture_bytes(), kept);
 }
 
@@ -263,7 +263,7 @@ TEST_F(KeptVisibility, AMapThatTheDeviceHasNoRoomForGetsItsRoom) {
     device.fail_call(device.calls(), gl::Failure::out_of_memory);  // the first thing made is its new map
     step();
     EXPECT_EQ(light("spot").state, LightState::rendered);
-    EXPECT_EQ(light("spot").texels, 512u * 512u);
+    EXPECT_EQ(light("spot").counts.texels, 512u * 512u);
     EXPECT_THAT(textures(), SizeIs(2)) << "others found room again";
     EXPECT_FALSE(reads("sun")) << "what it had is gone";
 }

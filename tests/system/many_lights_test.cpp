@@ -109,10 +109,10 @@ TEST_F(ManyLights, HaveViewsAndPassesAsFarAsTheyAreSeenAndNoMore) {
     std::uint32_t views = 0, drawn = 0;
     for (const LightReport& light : report.lights) {
         ++reasons[light.reason];
-        views += light.views;
-        drawn += light.views_drawn;
-        EXPECT_EQ(light.views > 0, light.bytes > 0) << light.name;
-        EXPECT_EQ(light.views > 0, light.state == LightState::rendered) << light.name;
+        views += light.counts.views;
+        drawn += light.counts.views_drawn;
+        EXPECT_EQ(light.counts.views > 0, light.counts.bytes > 0) << light.name;
+        EXPECT_EQ(light.counts.views > 0, light.state == LightState::rendered) << light.name;
     }
     EXPECT_EQ(reasons[Reason::no_light_shadow], kLights - bench::kMostShadowedLights);
     EXPECT_EQ(reasons[Reason::none] + reasons[Reason::no_visible_receiver] + reasons[Reason::no_caster],
@@ -139,7 +139,7 @@ TEST_F(ManyLights, HaveViewsAndPassesAsFarAsTheyAreSeenAndNoMore) {
 TEST_F(ManyLights, HoldTheBytesTheySayAndUseAProgramPerRow) {
     const FrameReport& report = step();
     std::uint64_t said = 0, held = 0;
-    for (const LightReport& light : report.lights) said += light.bytes;
+    for (const LightReport& light : report.lights) said += light.counts.bytes;
     Names rows;
     for (const gl::ResourceCall& call : device.resource_calls()) {
         if (call.kind == gl::ResourceCall::Kind::create_texture && call.label.rfind("shadow map", 0) == 0)

@@ -60,7 +60,7 @@ protected:
             EXPECT_STREQ(reason_code(a.reason), reason_code(b.reason)) << b.name;
             EXPECT_STREQ(reason_code(a.kept.reason), reason_code(b.kept.reason)) << b.name;
             EXPECT_EQ(a.kept.bytes, b.kept.bytes) << b.name;
-            EXPECT_EQ(a.bytes, b.bytes) << b.name;
+            EXPECT_EQ(a.counts.bytes, b.counts.bytes) << b.name;
             EXPECT_EQ(a.why.saved_us, b.why.saved_us) << b.name;
             EXPECT_EQ(a.kept.saved_us, b.kept.saved_us) << b.name;
         }

@@ -62,7 +62,7 @@ protected:
     }
     std::uint64_t texels() const {
         std::uint64_t sum = 0;
-        for (const LightReport& light : frame->report().lights) sum += light.texels;
+        for (const LightReport& light : frame->report().lights) sum += light.counts.texels;
         return sum;
     }
     const std::vector<std::string> shadowed{"sun", "lantern", "guard_lamp"};
@@ -138,7 +138,7 @@ TEST_F(Panel, BoundsWhatShadowsTakeAndLetsGo) {
     step();
     EXPECT_LT(texels(), all);
     std::uint64_t taken = 0;
-    for (const LightReport& light : frame->report().lights) taken += light.bytes;
+    for (const LightReport& light : frame->report().lights) taken += light.counts.bytes;
     EXPECT_LE(taken, bytes);
     ASSERT_TRUE(hand->drag({"GPU, ms per frame"}, 0.5));
     EXPECT_GT(gui->panel.budget.gpu_ms, 0.0f);

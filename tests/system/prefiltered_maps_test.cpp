@@ -97,18 +97,18 @@ TEST_F(PrefilteredMaps, OfASoftFilterHaveMipmapsForAsLongAsTheSourceHasASize) {
     step();
     EXPECT_THAT(conversions(), SizeIs(2));
     EXPECT_EQ(mip_generations(), 0u);
-    const std::uint64_t plain = light("lamp").bytes;
+    const std::uint64_t plain = light("lamp").counts.bytes;
     choose(lamp, [](Light& l) { l.source_radius_m = 0.05f; });
     step();
     EXPECT_EQ(mip_generations(), 1u);
-    EXPECT_GT(light("lamp").bytes, plain);
+    EXPECT_GT(light("lamp").counts.bytes, plain);
     choose(lamp, [](Light& l) {
         l.source_radius_m = 0.0f;
         l.sun_radius_rad = 0.1f;  // not a spot's business
     });
     step();
     EXPECT_EQ(mip_generations(), 0u);
-    EXPECT_EQ(light("lamp").bytes, plain);
+    EXPECT_EQ(light("lamp").counts.bytes, plain);
 }
 
 TEST_F(PrefilteredMaps, AreMadeForNoLightOfAnotherRow) {
@@ -123,7 +123,7 @@ TEST_F(PrefilteredMaps, OfAStillLightAreKeptAndNothingIsConverted) {
     add_light(LightKind::directional, "sun", ShadowFilter::evsm4);
     add_light(LightKind::point, "bulb", ShadowFilter::moments);
     step();
-    EXPECT_THAT(conversions(), SizeIs(2 * (light("sun").views + light("bulb").views)));
+    EXPECT_THAT(conversions(), SizeIs(2 * (light("sun").counts.views + light("bulb").counts.views)));
     step();
     EXPECT_THAT(conversions(), IsEmpty());
     EXPECT_EQ(light("sun").state, LightState::reused);
@@ -147,7 +147,7 @@ TEST_F(PrefilteredMaps, AreMadeAnewWithoutTheirDepthsWhereOnlyTheyChange) {
 TEST_F(PrefilteredMaps, OfACubeAreMadeAnewWhereAFaceOrOneBesideItChanges) {
     const ecs::Entity bulb = add_light(LightKind::point, "bulb", ShadowFilter::vsm);
     step();
-    const std::uint32_t views = light("bulb").views;
+    const std::uint32_t views = light("bulb").counts.views;
     ASSERT_GE(views, 2u);
     world.move(stage.box, {0.3, 1.0, 0.0});
     step();
@@ -157,30 +157,30 @@ TEST_F(PrefilteredMaps, OfACubeAreMadeAnewWhereAFaceOrOneBesideItChanges) {
     EXPECT_LE(converted, views);
     choose(bulb, [](ShadowTuning& t) { t.kernel.size_texel = 1; });
     step();
-    EXPECT_THAT(conversions(), SizeIs(light("bulb").views)) << "nothing to blur: one pass each";
+    EXPECT_THAT(conversions(), SizeIs(light("bulb").counts.views)) << "nothing to blur: one pass each";
 }
 
 TEST_F(PrefilteredMaps, CountMomentsScratchAndMipmapsAmongTheLightsBytes) {
     const ecs::Entity lamp = add_light(LightKind::spot, "lamp", ShadowFilter::vsm);
     constexpr std::uint64_t kTexels = std::uint64_t{kSize_px} * kSize_px, kDepth = 4, kTwoFloats = 8, kTwoShorts = 4;
     step();
-    EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + 2 * kTwoFloats));
+    EXPECT_EQ(light("lamp").counts.bytes, kTexels * (kDepth + 2 * kTwoFloats));
     choose(lamp, [](ShadowTuning& t) { t.moments.bits = 16; });
     step();
-    EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + 2 * kTwoShorts));
+    EXPECT_EQ(light("lamp").counts.bytes, kTexels * (kDepth + 2 * kTwoShorts));
     choose(lamp, [](ShadowTuning& t) { t.kernel.size_texel = 1; });
     step();
-    EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + kTwoShorts));
+    EXPECT_EQ(light("lamp").counts.bytes, kTexels * (kDepth + kTwoShorts));
     EXPECT_EQ(mip_generations(), 0u);
     choose(lamp, [](ShadowTuning& t) { t.moments.levels = 2; });
     step();
-    EXPECT_EQ(light("lamp").bytes, kTexels * (kDepth + kTwoShorts) + kTexels / 4 * kTwoShorts);
+    EXPECT_EQ(light("lamp").counts.bytes, kTexels * (kDepth + kTwoShorts) + kTexels / 4 * kTwoShorts);
     EXPECT_EQ(mip_generations(), 1u);
     step();
     EXPECT_EQ(mip_generations(), 0u);
     choose(lamp, [](LightShadow& s) { s.filter = ShadowFilter::hard; });
     step();
-    EXPECT_EQ(light("lamp").bytes, kTexels * kDepth);
+    EXPECT_EQ(light("lamp").counts.bytes, kTexels * kDepth);
     EXPECT_THAT(map_labels(device), SizeIs(2)) << "depth and its target";
 }
 
@@ -188,7 +188,7 @@ TEST_F(PrefilteredMaps, OfTheSunHaveMipmapsMadeOnceForAllCascades) {
     const ecs::Entity sun = add_light(LightKind::directional, "sun", ShadowFilter::vsm);
     choose(sun, [](ShadowTuning& t) { t.moments.levels = 3; });
     step();
-    EXPECT_GT(light("sun").views_drawn, 1u);
+    EXPECT_GT(light("sun").counts.views_drawn, 1u);
     EXPECT_EQ(mip_generations(), 1u);
 }
 
@@ -199,7 +199,7 @@ TEST_F(PrefilteredMaps, ThatFindNoRoomAreTriedSmallerAndTheReportSaysSo) {
     step();
     EXPECT_EQ(light("lamp").state, LightState::skipped);
     EXPECT_EQ(light("lamp").reason, Reason::map_allocation_failed);
-    EXPECT_EQ(light("lamp").bytes, 0u);
+    EXPECT_EQ(light("lamp").counts.bytes, 0u);
     EXPECT_EQ(light("other").state, LightState::rendered);
     device.stop_failing();
     for (std::uint64_t i = 0; i < Retry::kFrames; ++i) step();

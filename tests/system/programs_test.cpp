@@ -43,8 +43,8 @@ TEST_F(Programs, NothingIsMadeTwice) {
     world.add_stage();
     for (int i = 0; i < 3; ++i) world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     for (int i = 0; i < 10; ++i) step();
-    EXPECT_THAT(made(), ElementsAre("depth opaque", "kept light LIGHT_SPOT ", kSpot2x2, "luminance", "surface", "tonemap",
-                                    "visibility LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl"));
+    EXPECT_THAT(made(), ElementsAre("depth opaque", "kept light LIGHT_SPOT ", kSpot2x2, "luminance", "surface",
+                                    "tonemap", "visibility LIGHT_SPOT shadow/filters/pcf/hardware_2x2.glsl"));
 }
 
 TEST_F(Programs, EachFilterInUseIsARow) {
@@ -89,7 +89,7 @@ TEST_F(Programs, AMeshOfBothMaterialsIsDrawnByBothPrograms) {
     EXPECT_EQ(pass.draws[0].index_count, 18u);
     EXPECT_EQ(pass.draws[1].index_count, 18u);
     EXPECT_EQ(pass.draws[1].first_index, pass.draws[0].first_index + 18);
-    EXPECT_EQ(light("lamp").triangles, 12u);
+    EXPECT_EQ(light("lamp").counts.triangles, 12u);
 }
 
 TEST_F(Programs, OnlyMaskedSubmeshesPayForDiscardingAndForTheirTexture) {
@@ -145,7 +145,7 @@ TEST_F(Programs, BeyondAFramesShareWaitAndTheirLightsAreLookedUpWithOneTap) {
         for (const LightReport& l : frame->report().lights) {
             if (l.reason != Reason::filter_program_waits) continue;
             EXPECT_EQ(l.state, LightState::degraded);
-            EXPECT_EQ(l.views, 1u);
+            EXPECT_EQ(l.counts.views, 1u);
             names.push_back(l.name);
         }
         return names;
@@ -193,7 +193,7 @@ TEST_F(Programs, ThatMakeMomentsAndDoNotCompileLeaveOneTapOfTheDepths) {
         step();
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_STREQ(reason_code(light("lamp").reason), "filter_program_failed");
-        EXPECT_EQ(light("lamp").views, 1u);
+        EXPECT_EQ(light("lamp").counts.views, 1u);
         EXPECT_THAT(made(), Contains("light LIGHT_SPOT shadow/filters/pcf/hard.glsl"));
         EXPECT_THAT(made(), Not(Contains("light LIGHT_SPOT shadow/filters/prefiltered/vsm.glsl")));
         const auto& all = frame->commands().commands;

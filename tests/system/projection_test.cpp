@@ -28,7 +28,7 @@ TEST_F(ProjectionReport, ASunInPerspectiveHasAMapOfOneLayerAndDrawsItOnce) {
     EXPECT_THAT(map_labels(device), SizeIs(1 + 1));
     EXPECT_THAT(depth_passes(), SizeIs(1));
     EXPECT_EQ(light("sun").state, LightState::rendered);
-    EXPECT_EQ(light("sun").views, 1u);
+    EXPECT_EQ(light("sun").counts.views, 1u);
     step();
     EXPECT_EQ(light("sun").state, LightState::reused);
     change(sun, [](ShadowTuning& t) { t.projection.kind = LightProjection::automatic; });
@@ -44,7 +44,7 @@ TEST_F(ProjectionReport, WhatAKindCannotDoIsReportedAndItsOwnIsDrawn) {
         step();
         EXPECT_EQ(light("lamp").state, LightState::degraded);
         EXPECT_STREQ(reason_code(light("lamp").reason), "projection_unsupported");
-        EXPECT_GT(light("lamp").draws, 0u);
+        EXPECT_GT(light("lamp").counts.draws, 0u);
         world.registry.destroy(lamp);
     }
 }
@@ -61,7 +61,7 @@ TEST_F(ProjectionReport, AnAbsurdEyeOrRangeIsReported) {
     });
     step();
     EXPECT_STREQ(reason_code(light("sun").reason), "range_invalid");
-    EXPECT_EQ(light("sun").views, 1u);
+    EXPECT_EQ(light("sun").counts.views, 1u);
 }
 
 }  // namespace

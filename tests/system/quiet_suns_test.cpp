@@ -3,7 +3,8 @@
 #include "systems/shadow/request/ray_limit.h"
 #include "tests/system/frame_fixture.h"
 
-// Suns of filter=exact whose casters stay while the camera walks: a map that is drawn once and asked for ever may be larger.
+// Suns of filter=exact whose casters stay while the camera walks: a map that is drawn once and asked for ever may be
+// larger.
 namespace gnomon {
 namespace {
 
@@ -15,7 +16,7 @@ protected:
         sun = world.add_light(LightKind::directional, kLightPlace_m, "sun");
         set([](LightShadow&) {});
         step();
-        moving_texels = light("sun").texels;
+        moving_texels = light("sun").counts.texels;
         ASSERT_GT(moving_texels, 0u);
     }
     template <class Change>
@@ -30,7 +31,7 @@ protected:
             x_m += 1e-4;
             world.move(stage.camera, {x_m, 4, 8});
             step();
-            drawn += light("sun").views_drawn;
+            drawn += light("sun").counts.views_drawn;
         }
         return drawn;
     }
@@ -44,9 +45,9 @@ protected:
 TEST_F(QuietSuns, GetALargerMapOnceWhileTheCameraWalks) {
     EXPECT_EQ(walk(shadow::kStaticSunFrames), 0u) << "not before";
     EXPECT_EQ(walk(1), 1u);
-    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, kLarger * moving_texels);
     EXPECT_EQ(walk(3 * shadow::kStaticSunFrames), 0u) << "and it stays";
-    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, kLarger * moving_texels);
 }
 
 TEST_F(QuietSuns, ThatAreDimmedInEveryFrameAreQuiet) {
@@ -55,7 +56,7 @@ TEST_F(QuietSuns, ThatAreDimmedInEveryFrameAreQuiet) {
         walk(1);
     }
     walk(1);
-    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, kLarger * moving_texels);
 }
 
 TEST_F(QuietSuns, StayQuietWhenSomethingElseComes) {
@@ -63,7 +64,7 @@ TEST_F(QuietSuns, StayQuietWhenSomethingElseComes) {
     world.add_light(LightKind::point, {0, 4, 0}, "another", false);
     world.add_mesh(kBox, {0, -50, 0}, false);
     walk(shadow::kStaticSunFrames / 2 + 1);
-    EXPECT_EQ(light("sun").texels, kLarger * moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, kLarger * moving_texels);
 }
 
 TEST_F(QuietSuns, AreNoneWhileTheyTurn) {
@@ -71,7 +72,7 @@ TEST_F(QuietSuns, AreNoneWhileTheyTurn) {
         world.registry.patch<Transform>(sun, [](Transform& t) { t.rotation.x += 1e-6; });
         walk(1);
     }
-    EXPECT_EQ(light("sun").texels, moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, moving_texels);
 }
 
 TEST_F(QuietSuns, GetTheSmallerOneAgainWithWhatHasToBeDrawnAnyway) {
@@ -79,20 +80,20 @@ TEST_F(QuietSuns, GetTheSmallerOneAgainWithWhatHasToBeDrawnAnyway) {
     for (int i = 1; i <= 3; ++i) {
         world.move(stage.box, {0.01 * i, 1, 0});
         step();
-        EXPECT_LE(light("sun").views_drawn, 1u);
+        EXPECT_LE(light("sun").counts.views_drawn, 1u);
         step();
     }
-    EXPECT_EQ(light("sun").texels, moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, moving_texels);
     EXPECT_LE(walk(shadow::kStaticSunFrames - 1), 1u);
-    EXPECT_EQ(light("sun").texels, moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, moving_texels);
 }
 
 TEST_F(QuietSuns, OfAStillPictureHaveNothingDrawn) {
     for (std::uint32_t i = 0; i < 3 * shadow::kStaticSunFrames; ++i) {
         step();
-        ASSERT_EQ(light("sun").views_drawn, 0u) << i;
+        ASSERT_EQ(light("sun").counts.views_drawn, 0u) << i;
     }
-    EXPECT_EQ(light("sun").texels, moving_texels) << "nobody asks";
+    EXPECT_EQ(light("sun").counts.texels, moving_texels) << "nobody asks";
     EXPECT_TRUE(frame->report().still);
 }
 
@@ -100,29 +101,29 @@ TEST_F(QuietSuns, KeepTheSizeThatIsAskedFor) {
     set([](LightShadow& s) { s.resolution_px = 256; });
     step();
     EXPECT_EQ(walk(2 * shadow::kStaticSunFrames), 0u);
-    EXPECT_EQ(light("sun").texels, 256u * 256u);
+    EXPECT_EQ(light("sun").counts.texels, 256u * 256u);
 }
 
 TEST_F(QuietSuns, AreNoneWhereAllIsDrawnInEveryFrame) {
     set([](ShadowTuning& t) { t.reuse.economy = false; });
     step();
     EXPECT_EQ(walk(2 * shadow::kStaticSunFrames), 2 * shadow::kStaticSunFrames);
-    EXPECT_EQ(light("sun").texels, moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, moving_texels);
 }
 
 TEST_F(QuietSuns, DoNotGrowWithinABudget) {
-    settings.shadow_budget.bytes = 2 * light("sun").bytes;  // there would be no room, and then room again
+    settings.shadow_budget.bytes = 2 * light("sun").counts.bytes;  // there would be no room, and then room again
     walk(1);
     EXPECT_EQ(walk(4 * shadow::kStaticSunFrames), 0u);
-    EXPECT_EQ(light("sun").texels, moving_texels);
+    EXPECT_EQ(light("sun").counts.texels, moving_texels);
 }
 
 TEST_F(QuietSuns, AreOnlyThoseThatAskByRays) {
     set([](LightShadow& s) { s.filter = ShadowFilter::triangles; });
     step();
-    const std::uint64_t texels = light("sun").texels;
+    const std::uint64_t texels = light("sun").counts.texels;
     EXPECT_EQ(walk(2 * shadow::kStaticSunFrames), 0u);
-    EXPECT_EQ(light("sun").texels, texels);
+    EXPECT_EQ(light("sun").counts.texels, texels);
 }
 
 }  // namespace

@@ -207,7 +207,7 @@ TEST_F(RayScene, WithoutRoomForItTheMapIsLookedUpOnceThenByTrianglesAndItIsTried
             EXPECT_EQ(light("lamp").reason, Reason::buffer_failed);
             EXPECT_EQ(light("lamp").filter.filter, ShadowFilter::triangles);
         }
-        EXPECT_EQ(light("lamp").views_drawn, 0u) << "nothing changes while there is no room";
+        EXPECT_EQ(light("lamp").counts.views_drawn, 0u) << "nothing changes while there is no room";
         device.stop_failing();
         for (std::uint64_t i = 2; i < Retry::kFrames; ++i) step();
         EXPECT_EQ(light("lamp").state, LightState::rendered);

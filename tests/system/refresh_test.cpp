@@ -34,7 +34,7 @@ protected:
         for (int i = 0; i < frames; ++i) {
             move_box(way_m);
             step();
-            if (light(name).views_drawn > 0) drawn.push_back(i);
+            if (light(name).counts.views_drawn > 0) drawn.push_back(i);
         }
         return drawn;
     }
@@ -60,7 +60,7 @@ TEST_F(Refresh, IsDoneInTheFrameInWhichTheBoundWouldBeExceededAndInNoOther) {
         allow(kAny_px);
         move_box(way_m);
         step();
-        ASSERT_EQ(light(name).views_drawn, 0u);
+        ASSERT_EQ(light(name).counts.views_drawn, 0u);
         std::vector<double> one_px;  // of one step, view by view
         for (const ViewReport& view : frame->report().views_of(light(name)))
             one_px.push_back(view.reason == Reason::refresh_held ? view.why.stale_px : 0.0);
@@ -118,7 +118,7 @@ TEST_F(Refresh, IsSaidWithWhatItCosts) {
         EXPECT_EQ(view("lamp").state, LightState::reused);
         EXPECT_GT(light("lamp").predicted_error_px, last_px);
         last_px = light("lamp").predicted_error_px;
-        EXPECT_EQ(light("lamp").draws + light("lamp").clears, 0u);
+        EXPECT_EQ(light("lamp").counts.draws + light("lamp").counts.clears, 0u);
     }
     EXPECT_LE(last_px, exact_px + 50.0);
     move_box({-0.005, 0.0, 0.0});
@@ -135,7 +135,7 @@ TEST_F(Refresh, EndsOnceWhatMovedStandsStill) {
         int drawn = 0;
         for (int i = 0; i < kRest + 5; ++i) {
             step();
-            drawn += static_cast<int>(light(name).views_drawn > 0);
+            drawn += static_cast<int>(light(name).counts.views_drawn > 0);
         }
         EXPECT_EQ(drawn, 1) << "it holds what is there now";
         EXPECT_STREQ(reason_code(light(name).reason), "content_unchanged");
@@ -153,7 +153,7 @@ TEST_F(Refresh, WaitsForNothingButMoves) {
     const auto expect_drawn = [&](const char* what) {
         move_box({0.001, 0.0, 0.0});
         step();
-        EXPECT_GT(light("lamp").views_drawn, 0u) << what;
+        EXPECT_GT(light("lamp").counts.views_drawn, 0u) << what;
         EXPECT_EQ(moves(3), 0u) << "after " << what;
     };
     world.move(other, {1.0, 1.1, 0.5});

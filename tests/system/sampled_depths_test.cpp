@@ -78,14 +78,14 @@ TEST_F(SampledDepthsTest, RedrawMapsOnceWhenTheyComeAndNeverAgainWhileNothingMov
         use(CascadeSplits::sampled, fit);
         step();
         EXPECT_FALSE(knows());
-        EXPECT_GT(light("sun").views_drawn, 0u);
+        EXPECT_GT(light("sun").counts.views_drawn, 0u);
         step();
         EXPECT_TRUE(knows());
-        EXPECT_GT(light("sun").views_drawn, 0u) << "other splits than those by bounds";
+        EXPECT_GT(light("sun").counts.views_drawn, 0u) << "other splits than those by bounds";
         const gl::CommandList second = frame->commands();
         for (int i = 0; i < 4; ++i) {
             step();
-            EXPECT_EQ(light("sun").views_drawn, 0u) << "frame " << i << ", fit " << static_cast<int>(fit);
+            EXPECT_EQ(light("sun").counts.views_drawn, 0u) << "frame " << i << ", fit " << static_cast<int>(fit);
             EXPECT_THAT(depth_passes(), IsEmpty());
         }
     }
@@ -132,7 +132,7 @@ TEST_F(SampledDepthsTest, ThatCannotBeReadLeaveSplitsToBoundsForThatFrameAndSayS
     EXPECT_FALSE(knows());
     EXPECT_EQ(light("sun").state, LightState::degraded);
     EXPECT_STREQ(reason_code(light("sun").reason), "depths_unread");
-    EXPECT_GT(light("sun").views, 0u);
+    EXPECT_GT(light("sun").counts.views, 0u);
     step();
     EXPECT_TRUE(knows());
     EXPECT_EQ(light("sun").reason, Reason::none);
@@ -147,7 +147,7 @@ TEST_F(SampledDepthsTest, WhoseProgramFailsAreTriedAgainAfterAWhile) {
         step();
         tries += static_cast<std::size_t>(
             std::count_if(device.resource_calls().begin(), device.resource_calls().end(), failed));
-        EXPECT_GT(light("sun").views, 0u);
+        EXPECT_GT(light("sun").counts.views, 0u);
         if (i > 0) {
             EXPECT_STREQ(reason_code(light("sun").reason), "depths_unread");
         }

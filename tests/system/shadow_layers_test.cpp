@@ -66,7 +66,7 @@ TEST_P(ShadowLayersTest, ALightWithoutAnyCasterOfItsLayersHasNoMap) {
     step();
     EXPECT_THAT(depth_passes(), IsEmpty());
     EXPECT_EQ(light("lamp").reason, Reason::no_caster);
-    EXPECT_EQ(light("lamp").bytes, 0u);
+    EXPECT_EQ(light("lamp").counts.bytes, 0u);
 }
 
 TEST_P(ShadowLayersTest, ALightWithoutAnyReceiverOfItsLayersHasNoMap) {

@@ -34,10 +34,10 @@ protected:
         EXPECT_THAT(depth_passes(), IsEmpty());
         EXPECT_EQ(light("lamp").state, LightState::skipped);
         EXPECT_STREQ(reason_code(light("lamp").reason), reason_code(why));
-        EXPECT_EQ(light("lamp").bytes, 0u);
-        EXPECT_EQ(light("lamp").views, 0u);
-        EXPECT_EQ(light("lamp").draws, 0u);
-        EXPECT_EQ(light("lamp").clears, 0u);
+        EXPECT_EQ(light("lamp").counts.bytes, 0u);
+        EXPECT_EQ(light("lamp").counts.views, 0u);
+        EXPECT_EQ(light("lamp").counts.draws, 0u);
+        EXPECT_EQ(light("lamp").counts.clears, 0u);
     }
     TestWorld::Stage stage;
 };
@@ -51,25 +51,26 @@ TEST_F(ShadowMaps, ASpotGetsOneMapOfOneLayer) {
     EXPECT_EQ(map.format, gl::Format::d32f);
     EXPECT_THAT(map_labels(device), SizeIs(2));  // the texture and its one target
     EXPECT_EQ(light("lamp").state, LightState::rendered);
-    EXPECT_EQ(light("lamp").texels, std::uint64_t{map.width} * map.height);
-    EXPECT_EQ(light("lamp").bytes, gl::byte_size(map));
+    EXPECT_EQ(light("lamp").counts.texels, std::uint64_t{map.width} * map.height);
+    EXPECT_EQ(light("lamp").counts.bytes, gl::byte_size(map));
     EXPECT_THAT(depth_passes(), SizeIs(1));
 }
 
 TEST_F(ShadowMaps, ADepthFormatIsTheLightsOwnAndChangesWithIt) {
     const ecs::Entity lamp = world.add_light(LightKind::spot, kLightPlace_m, "lamp");
     std::uint64_t bytes_d32f = 0;
-    for (const auto& row : {std::pair{DepthFormat::d32f, gl::Format::d32f}, std::pair{DepthFormat::d16, gl::Format::d16},
-                            std::pair{DepthFormat::d24, gl::Format::d24}}) {
+    for (const auto& row :
+         {std::pair{DepthFormat::d32f, gl::Format::d32f}, std::pair{DepthFormat::d16, gl::Format::d16},
+          std::pair{DepthFormat::d24, gl::Format::d24}}) {
         const DepthFormat wish = row.first;
         edit_light(world.registry, lamp, [&](ShadowTuning& t) { t.maps.depth_format = wish; });
         step();
         EXPECT_EQ(map_of("lamp").format, row.second);
         EXPECT_THAT(map_labels(device), SizeIs(2)) << "the map of another format is left";
         EXPECT_EQ(light("lamp").state, LightState::rendered);
-        if (wish == DepthFormat::d32f) bytes_d32f = light("lamp").bytes;
+        if (wish == DepthFormat::d32f) bytes_d32f = light("lamp").counts.bytes;
         if (wish == DepthFormat::d16) {
-            EXPECT_EQ(light("lamp").bytes * 2, bytes_d32f);
+            EXPECT_EQ(light("lamp").counts.bytes * 2, bytes_d32f);
         }
         step();
         EXPECT_EQ(light("lamp").state, LightState::reused);
@@ -82,8 +83,8 @@ TEST_F(ShadowMaps, APointGetsOneCube) {
     const gl::TextureDesc map = map_of("lamp");
     EXPECT_EQ(map.kind, gl::TextureKind::cube);
     EXPECT_THAT(map_labels(device), SizeIs(1 + 6));
-    EXPECT_EQ(light("lamp").texels, 6 * std::uint64_t{map.width} * map.height);
-    EXPECT_EQ(light("lamp").views, 4u) << "nothing is seen overhead nor on the camera's side";
+    EXPECT_EQ(light("lamp").counts.texels, 6 * std::uint64_t{map.width} * map.height);
+    EXPECT_EQ(light("lamp").counts.views, 4u) << "nothing is seen overhead nor on the camera's side";
 }
 
 TEST_F(ShadowMaps, ASunGetsOneArrayOfAsManyLayersAsItsCascades) {
@@ -99,8 +100,8 @@ TEST_F(ShadowMaps, ASunGetsOneArrayOfAsManyLayersAsItsCascades) {
     EXPECT_EQ(four.layers, 4u);
     EXPECT_EQ(four.width, one.width);
     EXPECT_THAT(map_labels(device), SizeIs(1 + 4));
-    EXPECT_LE(light("lamp").views, 4u);
-    EXPECT_GE(light("lamp").views, 1u);
+    EXPECT_LE(light("lamp").counts.views, 4u);
+    EXPECT_GE(light("lamp").counts.views, 1u);
 }
 
 TEST_F(ShadowMaps, ALightWithoutShadowCostsNothing) {
@@ -108,7 +109,8 @@ TEST_F(ShadowMaps, ALightWithoutShadowCostsNothing) {
     step();
     expect_no_shadow(Reason::no_light_shadow);
     for (const std::string& label : device.live_labels()) EXPECT_EQ(label.find("shadow"), std::string::npos) << label;
-    for (const std::string& label : device.live_labels()) EXPECT_EQ(label.find("depth opaque"), std::string::npos) << label;
+    for (const std::string& label : device.live_labels())
+        EXPECT_EQ(label.find("depth opaque"), std::string::npos) << label;
 }
 
 TEST_F(ShadowMaps, RemovingTheShadowFreesTheMapAndItsTargets) {
@@ -254,8 +256,8 @@ TEST_F(ShadowMaps, AWideConeIsServedByFacesAroundIt) {
     step();
     EXPECT_EQ(light("lamp").state, LightState::rendered);
     EXPECT_EQ(map_of("lamp").layers, 5u);
-    EXPECT_GE(light("lamp").views, 1u);
-    EXPECT_THAT(depth_passes(), SizeIs(light("lamp").views));
+    EXPECT_GE(light("lamp").counts.views, 1u);
+    EXPECT_THAT(depth_passes(), SizeIs(light("lamp").counts.views));
 }
 
 TEST_F(ShadowMaps, AConeThatOpensFadesFromOneMapToFacesAndKeepsNoneTooMany) {
@@ -285,7 +287,7 @@ TEST_F(ShadowMaps, SeveralLightsOfMixedKindsEachHaveTheirOwn) {
     EXPECT_THAT(map_labels(device), SizeIs((1 + 1) + (1 + 1) + (1 + 6) + (1 + 1)));
     EXPECT_EQ(light("plain point").reason, Reason::no_light_shadow);
     std::uint64_t bytes = 0;
-    for (const LightReport& l : frame->report().lights) bytes += l.bytes;
+    for (const LightReport& l : frame->report().lights) bytes += l.counts.bytes;
     std::uint64_t held = 0;
     for (const char* name : {"sun", "spot", "point", "other spot"}) held += gl::byte_size(map_of(name));
     EXPECT_EQ(bytes, held);

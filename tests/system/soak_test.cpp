@@ -35,7 +35,7 @@ protected:
     void step() {
         frame->run(world.registry(), {.viewport_px = {64, 64}, .exposure_ev = {}});
         if (frame->commands().commands.empty()) ++empty_frames;
-        for (const LightReport& light : frame->report().lights) drawn_views += light.views_drawn;
+        for (const LightReport& light : frame->report().lights) drawn_views += light.counts.views_drawn;
         if (++steps % kForgetEvery == 0) forget();
     }
     void forget() {

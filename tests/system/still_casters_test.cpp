@@ -91,12 +91,12 @@ TEST_F(StillCasters, OneMoverAmongTenThousandAndSixtyFourLightsIsDrawnOverACopyI
     std::uint32_t drawn = 0;
     for (const LightReport& l : frame->report().lights) {
         const bool touched = l.name == "above" || l.name == "beside";
-        EXPECT_EQ(l.views_drawn > 0, touched)
+        EXPECT_EQ(l.counts.views_drawn > 0, touched)
             << l.name << ": the corners of the cubes around others end before the mover";
-        EXPECT_EQ(l.clears, 0u) << l.name;
-        EXPECT_EQ(l.draws, l.views_drawn) << l.name;
-        EXPECT_EQ(l.triangles, 12u * l.views_drawn) << l.name;
-        drawn += l.views_drawn;
+        EXPECT_EQ(l.counts.clears, 0u) << l.name;
+        EXPECT_EQ(l.counts.draws, l.counts.views_drawn) << l.name;
+        EXPECT_EQ(l.counts.triangles, 12u * l.counts.views_drawn) << l.name;
+        drawn += l.counts.views_drawn;
     }
     EXPECT_EQ(drawn, groups.size());
     for (std::size_t at = 0; at < commands.size(); at += kPerView) {
@@ -141,27 +141,28 @@ INSTANTIATE_TEST_SUITE_P(Filters, OneSpot,
 
 TEST_P(OneSpot, GetsASecondStoreWhenItsMoverMovesAgainAndLosesItASecondAfterItRests) {
     for (int i = 0; i < 70; ++i) step();
-    const std::uint64_t alone = light("lamp").bytes;
+    const std::uint64_t alone = light("lamp").counts.bytes;
     EXPECT_FALSE(texture("shadow map lamp, still"));
     nudge(), step();
     EXPECT_EQ(copies(), 0u) << "it may move but once";
-    EXPECT_EQ(light("lamp").bytes, alone);
+    EXPECT_EQ(light("lamp").counts.bytes, alone);
     nudge(), step();
     const std::size_t textures = GetParam() == ShadowFilter::triangles ? 2 : 1;
     EXPECT_EQ(copies(), textures) << "what was drawn is kept";
-    EXPECT_EQ(light("lamp").clears, 1u);
-    EXPECT_EQ(light("lamp").views_drawn, 1u);
+    EXPECT_EQ(light("lamp").counts.clears, 1u);
+    EXPECT_EQ(light("lamp").counts.views_drawn, 1u);
     const std::uint64_t texel = GetParam() == ShadowFilter::triangles ? 12 : 4;
-    EXPECT_EQ(light("lamp").bytes, alone + texel * kMap_px * kMap_px);
+    EXPECT_EQ(light("lamp").counts.bytes, alone + texel * kMap_px * kMap_px);
     nudge(), step();
     EXPECT_EQ(copies(), textures);
-    EXPECT_EQ(light("lamp").clears, 0u);
-    EXPECT_EQ(light("lamp").triangles, 12u);
+    EXPECT_EQ(light("lamp").counts.clears, 0u);
+    EXPECT_EQ(light("lamp").counts.triangles, 12u);
     std::uint32_t drawn = 0;
-    for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames; ++i) step(), drawn += light("lamp").views_drawn;
+    for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames; ++i)
+        step(), drawn += light("lamp").counts.views_drawn;
     EXPECT_EQ(drawn, 1u) << "once more, when it counts as still";
     EXPECT_FALSE(texture("shadow map lamp, still"));
-    EXPECT_EQ(light("lamp").bytes, alone);
+    EXPECT_EQ(light("lamp").counts.bytes, alone);
 }
 
 TEST_P(OneSpot, DrawsAllWhereTheDeviceHasNoRoomAndSaysNothingOfIt) {
@@ -172,7 +173,7 @@ TEST_P(OneSpot, DrawsAllWhereTheDeviceHasNoRoomAndSaysNothingOfIt) {
         device.fail_label(failing == 0 ? ", still" : "still triangles", gl::Failure::out_of_memory);
         nudge(), step();
         EXPECT_EQ(copies(), 0u);
-        EXPECT_EQ(light("lamp").clears, 1u);
+        EXPECT_EQ(light("lamp").counts.clears, 1u);
         EXPECT_EQ(light("lamp").state, LightState::rendered);
         EXPECT_STREQ(reason_code(light("lamp").reason), "none");
         EXPECT_FALSE(texture("shadow map lamp, still"));
@@ -192,7 +193,7 @@ TEST_P(OneSpot, KeepsNothingApartWhereAllIsDrawnAnyway) {
         nudge(), step();
         ASSERT_EQ(copies(), 0u);
     }
-    EXPECT_EQ(light("lamp").clears, 1u);
+    EXPECT_EQ(light("lamp").counts.clears, 1u);
     EXPECT_FALSE(texture("shadow map lamp, still"));
 }
 

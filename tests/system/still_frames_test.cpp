@@ -33,8 +33,8 @@ TEST_F(StillFrames, ComeOnceFitsHoldWhatTheyHold) {
     EXPECT_THAT(depth_passes(), IsEmpty());
     EXPECT_EQ(light("sun").state, LightState::reused);
     EXPECT_STREQ(reason_code(light("sun").reason), "content_unchanged");
-    EXPECT_GT(light("sun").views, 0u);
-    EXPECT_GT(light("sun").bytes, 0u);
+    EXPECT_GT(light("sun").counts.views, 0u);
+    EXPECT_GT(light("sun").counts.bytes, 0u);
 }
 
 TEST_F(StillFrames, EndWithWhateverChanges) {
@@ -58,7 +58,7 @@ TEST_F(StillFrames, EndWithWhateverChanges) {
 TEST_F(StillFrames, NeverComeWhereALightAsksForAllToBeDrawn) {
     edit_light(world.registry, sun, [](ShadowTuning& t) { t.reuse.economy = false; });
     EXPECT_EQ(settle(), 0);
-    EXPECT_GT(light("sun").views_drawn, 0u);
+    EXPECT_GT(light("sun").counts.views_drawn, 0u);
 }
 
 TEST_F(StillFrames, FrozenCamerasCountAsTheCamerasThatTheyAre) {
@@ -89,7 +89,7 @@ TEST_F(StillFrames, TakeLightsOfAnyNumber) {
     system.report(scene, {}, report);
     system.commit(scene, true);
     for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
-        EXPECT_GT(report.lights[i].views, 0u);
+        EXPECT_GT(report.lights[i].counts.views, 0u);
         EXPECT_TRUE(system.maps().find(scene.lights[i].entity));
     }
     EXPECT_FALSE(system.maps().find({0x7fffffffu, 2}));
@@ -125,7 +125,7 @@ TEST_F(StillFrames, LookAtNoInstance) {
     EXPECT_THAT(list.commands, IsEmpty());
     for (std::size_t i = 0; i < before.lights.size(); ++i) {
         EXPECT_EQ(report.lights[i].state, LightState::reused);
-        EXPECT_EQ(report.lights[i].views, before.lights[i].views);
+        EXPECT_EQ(report.lights[i].counts.views, before.lights[i].counts.views);
         EXPECT_EQ(report.lights[i].predicted_error_px, before.lights[i].predicted_error_px);
     }
     ++scene.version;

@@ -51,7 +51,8 @@ TEST_F(WhyReport, ASpotsOnlyViewIsRenderedThenReused) {
 }
 
 TEST_F(WhyReport, EachFaceOfACubeSaysWhyItIsLeftOut) {
-    // Above the box: what is below it is seen and in the way; beside it nothing stands before the ground; above nothing.
+    // Above the box: what is below it is seen and in the way; beside it nothing stands before the ground; above
+    // nothing.
     add(LightKind::point, {0, 3, 0});
     step();
     ASSERT_THAT(views(), SizeIs(6));
@@ -65,7 +66,7 @@ TEST_F(WhyReport, EachFaceOfACubeSaysWhyItIsLeftOut) {
         EXPECT_EQ(view.why.bytes_saved, kLayer_bytes);
         without_receiver += view.reason == Reason::no_visible_receiver;
     }
-    EXPECT_EQ(rendered, light("lamp").views_drawn);
+    EXPECT_EQ(rendered, light("lamp").counts.views_drawn);
     EXPECT_GT(rendered, 0u);
     EXPECT_GT(without_receiver, 0u);
     EXPECT_EQ(light("lamp").why.bytes_saved, (6 - rendered) * kLayer_bytes);
@@ -88,11 +89,11 @@ TEST_F(WhyReport, AMapThatIsHeldForAWhileIsNotSavedYet) {
     step();
     world.registry.remove<ShadowCaster>(stage.box);
     step();
-    EXPECT_EQ(light("lamp").bytes, kLayer_bytes);
+    EXPECT_EQ(light("lamp").counts.bytes, kLayer_bytes);
     EXPECT_EQ(light("lamp").why.bytes_saved, 0u);
     EXPECT_TRUE(light("lamp").why.saved_us);
     for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames; ++i) step();
-    EXPECT_EQ(light("lamp").bytes, 0u);
+    EXPECT_EQ(light("lamp").counts.bytes, 0u);
     EXPECT_EQ(light("lamp").why.bytes_saved, kLayer_bytes);
 }
 
@@ -109,7 +110,7 @@ TEST_F(WhyReport, EveryFiltersBytesAreThoseThatTheMapWouldHold) {
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = row.id; });
         world.registry.emplace<ShadowCaster>(stage.box);
         step();
-        const std::uint64_t held = light("lamp").bytes;
+        const std::uint64_t held = light("lamp").counts.bytes;
         EXPECT_GT(held, 0u);
         world.registry.remove<ShadowCaster>(stage.box);
         for (std::uint64_t i = 0; i <= shadow::MapCache::kHoldFrames + 1; ++i) step();

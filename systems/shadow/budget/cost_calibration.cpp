@@ -9,8 +9,9 @@ namespace gnomon::shadow {
 namespace {
 
 double drawn_ns(const MapSettings& map, const LightReport& light) {
-    if (light.views_drawn == 0) return 0.0;
-    return drawing_ns(map, map_edge_px(map), light.views_drawn, static_cast<double>(light.triangles), light.draws);
+    if (light.counts.views_drawn == 0) return 0.0;
+    return drawing_ns(map, map_edge_px(map), light.counts.views_drawn, static_cast<double>(light.counts.triangles),
+                      light.counts.draws);
 }
 
 /// Returns the modelled time of lighting by one light as it was drawn, ns: with its own filter, its fallback, or kept

@@ -145,8 +145,8 @@ void BoundsPass::record_view(const PassInputs& in, const View& drawn, std::uint3
             list.add(gl::DrawPoints{first, count});
         else
             list.add(gl::DrawPulled{first * kQuadVertices, count * kQuadVertices});
-        ++report.draws;
-        report.triangles += (is_small(which) ? 1 : 2) * std::uint64_t{count};
+        ++report.counts.draws;
+        report.counts.triangles += (is_small(which) ? 1 : 2) * std::uint64_t{count};
     }
     list.add(gl::EndPass{});
     list.add(gl::EndTimer{shadow_timer(view.light)});

@@ -192,8 +192,8 @@ void DepthPass::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::P
         pipeline_ = state;
         list.add(
             gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(meshes.mesh).base_vertex, item, meshes.count});
-        ++report.draws;
-        report.triangles += std::uint64_t{run.index_count} / 3 * meshes.count;
+        ++report.counts.draws;
+        report.counts.triangles += std::uint64_t{run.index_count} / 3 * meshes.count;
     });
 }
 
@@ -297,8 +297,8 @@ void DepthPass::record(const PassInputs& in, const PassOutputs& out) {
         if (way.sheets) peel(in, pass, list, report);
         list.add(gl::EndTimer{shadow_timer(light)});
         list.add(gl::EndGroup{});
-        if (copy_use != StaticCopyUse::copy) report.clears += pass.views;
-        report.views_drawn += pass.views;
+        if (copy_use != StaticCopyUse::copy) report.counts.clears += pass.views;
+        report.counts.views_drawn += pass.views;
     }
 }
 

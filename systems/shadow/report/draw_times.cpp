@@ -12,8 +12,8 @@ void DrawTimes::submitted(std::uint64_t submission, const SceneSnapshot& scene, 
     const std::size_t lights = std::min(scene.lights.size(), report.lights.size());
     drawn_.reserve(kFrames * lights);  // at once: later frames allocate nothing
     for (std::uint32_t i = 0; i < lights; ++i)
-        if (report.lights[i].views_drawn > 0)
-            drawn_.push_back({frame_, submission, i, report.lights[i].views_drawn, scene.lights[i].entity});
+        if (report.lights[i].counts.views_drawn > 0)
+            drawn_.push_back({frame_, submission, i, report.lights[i].counts.views_drawn, scene.lights[i].entity});
 }
 
 void DrawTimes::learn(std::span<const gl::Timing> timings) {

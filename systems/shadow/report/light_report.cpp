@@ -61,7 +61,7 @@ void explain_views(const ReportInputs& in, const LightItem& light, std::uint32_t
             explain_view(in.drawn, v, view);
         }
         if (view.state == LightState::rendered) continue;
-        view.why.bytes_saved = out.bytes / count;
+        view.why.bytes_saved = out.counts.bytes / count;
         view.why.saved_us = view_us;
     }
 }
@@ -119,7 +119,7 @@ void explain_savings(const LightItem& light, const ShadowRequest& request, std::
     if (!light.has_shadow) return;
     if (out.state == LightState::skipped) {
         const std::uint64_t wanted = map_bytes(light, request);
-        out.why.bytes_saved = wanted - std::min(wanted, out.bytes);
+        out.why.bytes_saved = wanted - std::min(wanted, out.counts.bytes);
         if (view_us) out.why.saved_us = *view_us * request.map.view_count;
         return;
     }
@@ -140,8 +140,8 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     out.cpu_us = in.cpu_us[i];
     const CachedMap* history = in.maps.find(light.entity);
     if (history && history->texture) {
-        out.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
-        out.bytes = MapCache::bytes(*history);
+        out.counts.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
+        out.counts.bytes = MapCache::bytes(*history);
     }
     const ShadowFilter filter = published_filter(in.drawn, i, in.has_rays);
     LookupAccuracy shown{filter, 0.0, false};
@@ -149,7 +149,7 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     const IndexRange views = in.drawn.fitted.lights[i].views;
     for (std::size_t v = views.first; v < views.end(); ++v) {
         if (!in.drawn.has_map(v) || in.drawn.view(v).lit) continue;
-        ++out.views;
+        ++out.counts.views;
         lookup.held = lookup.held || in.drawn.updates[v].hold != Hold::none;
         out.why.stale_px = std::max(out.why.stale_px, in.drawn.updates[v].stale.error_px);
         add_view(light, in.drawn, v, shown);
@@ -158,7 +158,7 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     const bool trees_changed = report.rays.meshes_written > 0 || report.rays.instances_written;
     if (!exact) out.predicted_error_px = shown.predicted_error_px;
     lookup.lost = uses_rays && filter == ShadowFilter::automatic;
-    lookup.drawn = out.views_drawn > 0 || (exact && trees_changed);
+    lookup.drawn = out.counts.views_drawn > 0 || (exact && trees_changed);
     lookup.skipped_for_rays = is_left_to_rays(in.drawn, i);
     explain_state(status, decision, history, lookup, out);
     out.keeps_max_error = (exact && !status.is_skipped()) ||

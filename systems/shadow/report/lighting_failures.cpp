@@ -12,7 +12,7 @@ void add_unshadowed(const LookupFailure& failure, LightReport& report) {
     report.filter = {};
     report.predicted_error_px = report.why.stale_px = 0.0;
     report.keeps_max_error = false;
-    report.views = report.view_count = 0;
+    report.counts.views = report.view_count = 0;
 }
 
 /// Describes one tap of the light's map in the place of its own row.
@@ -51,7 +51,7 @@ void add_outcome(const LightingOutcome& outcome, FrameReport& report) {
     for (const CachedLookup& cached : outcome.cached) {
         LightReport& light = report.lights[cached.light];
         light.kept.bytes += cached.bytes;
-        light.bytes += cached.bytes;
+        light.counts.bytes += cached.bytes;
         if (!cached.reused) continue;
         light.kept.reason = Reason::visibility_kept;
         light.kept.saved_us = cached.saved_us;

@@ -88,9 +88,9 @@ TEST(ContractCurve, StepsAreThemselvesAgainAndStayWithinTheSlider) {
 }
 
 LightReport drawn(LightReport light, std::uint64_t texels) {
-    light.views_drawn = 1;
-    light.texels = texels;
-    light.bytes = 4 * texels;
+    light.counts.views_drawn = 1;
+    light.counts.texels = texels;
+    light.counts.bytes = 4 * texels;
     return light;
 }
 

@@ -18,8 +18,8 @@ protected:
         report.lights.resize(2);
     }
     void submit(std::uint64_t submission, std::uint32_t first_views, std::uint32_t second_views) {
-        report.lights[0].views_drawn = first_views;
-        report.lights[1].views_drawn = second_views;
+        report.lights[0].counts.views_drawn = first_views;
+        report.lights[1].counts.views_drawn = second_views;
         times.submitted(submission, scene, report);
     }
     void measured(std::uint32_t timer, std::uint64_t submission, double us) {
