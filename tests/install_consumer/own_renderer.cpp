@@ -51,7 +51,7 @@ SceneSnapshot stage_with(const std::vector<LightKind>& kinds, const LightShadow&
 }
 
 // [program]
-/// The fragment shader for one light: which kind and which filter is said by row.glsl and its defines.
+/// Returns the fragment shader for one light. row.glsl and its defines select the kind and the filter.
 Result<std::string> fragment_for(const shadow::ShaderKey& row, const char* main_text) {
     const std::string row_text = shadow::row_glsl(row);
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());

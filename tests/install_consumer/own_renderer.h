@@ -16,7 +16,7 @@
 gnomon::SceneSnapshot stage_with(const std::vector<gnomon::LightKind>& kinds, const gnomon::LightShadow& shadow,
                                  const gnomon::assets::MeshLibrary& library);
 
-/// `main_text` with all it includes, for one light: which kind and which filter is said by row.glsl and its defines.
+/// Returns `main_text` with all it includes, for one light. row.glsl and its defines select the kind and the filter.
 gnomon::Result<std::string> fragment_for(const gnomon::shadow::ShaderKey& row, const char* main_text);
 
 /// 0 if it does not compile or link; stderr says why.

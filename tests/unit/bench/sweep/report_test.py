@@ -132,7 +132,7 @@ class Findings(unittest.TestCase):
 
     def test_defaults_stand_beside_the_first_tutorial_of_the_light(self):
         data = made_up(("defaults", 0.0001, 1.0), ("taps", 0.05, 0.625, "tutorial"), ("cheaper", 0.08, 0.5, "tutorial"))
-        self.assertIn("With every map drawn anew the defaults take 1.6 times the time of “taps” (5 %)", said(data))
+        self.assertIn("With every map redrawn the defaults take 1.6 times the time of “taps” (5 %)", said(data))
         figures(data, 0)["kept_us"] = 30.0
         figures(data, 1).update(gpu_us=24.0, kept_us=20.0)
         self.assertEqual(Scene(data).beside_tutorial("sun").kept, 1.25, "the tutorial keeps nothing")
