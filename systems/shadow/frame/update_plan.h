@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "components/shadow_tuning.h"
 #include "components/light_shadow.h"
 #include "engine/gl/device.h"
 
