@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "components/shadow_tuning.h"
 #include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
 
 namespace gnomon::shadow {
