@@ -78,8 +78,9 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     timed_lights_.submitted(result.submission, report_);
     // Measured times differ from run to run.
     const bool learn_costs = settings.shadow_budget.gpu_ms > 0.0f && !settings.repeatable;
-    collect_timings(
-        after_submission({device_, snapshot_, gpu_scene_, *shadows_, lighting_.get()}, result, learn_costs, report_));
+    timed_lights_.tell(
+        after_submission({device_, snapshot_, gpu_scene_, *shadows_, lighting_.get()}, result, learn_costs, report_),
+        report_);
 }
 
 /// Returns the largest factor of the picture's radiance; empty: unknown, or not needed.
@@ -105,11 +106,6 @@ const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) 
     std::swap(snapshot_.consumers, *frozen_);
     std::swap(snapshot_.pictures, pictures_);
     return shadows;
-}
-
-/// Adds the timers' results to the report. A late device reports an earlier frame's times.
-void Frame::collect_timings(const std::vector<gl::Timing>& timings) {
-    if (!timings.empty()) timed_lights_.tell(timings, report_);
 }
 
 gl::TargetHandle Frame::picture_target() const {

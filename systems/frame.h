@@ -97,7 +97,6 @@ private:
     Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history, GpuScene scene);
     std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
-    void collect_timings(const std::vector<gl::Timing>& timings);
 
     gl::Device& device_;
     const assets::MeshLibrary& library_;

@@ -83,7 +83,7 @@ struct ViewReport {
 /// saw").
 struct KeptReport {
     Reason reason = Reason::none;    // visibility_kept: this frame read it, in at least one picture
-    std::uint64_t bytes = 0;         // over all pictures; part of LightReport::bytes
+    std::uint64_t bytes = 0;         // over all pictures; part of LightCounts::bytes
     std::optional<double> saved_us;  // lighting time saved on the GPU, by the last measurement of its lookup
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "systems/frame_timers.h"
 #include "systems/report.h"
 
 namespace gnomon {
@@ -22,7 +23,7 @@ public:
     /// ignored.
     void tell(std::span<const gl::Timing> timings, FrameReport& report) const;
 
-    static constexpr std::size_t kFrames = 8;  // more than drivers queue
+    static constexpr std::size_t kFrames = kTimedSubmissions;
 
 private:
     struct Submission {

@@ -42,7 +42,7 @@ Grid largest_grid(int count, const gl::Rect& area) {
 DepthTile tile_of(const shadow::ShadowView& view) {
     DepthTile tile;
     tile.place.w = static_cast<float>(view.layer);
-    const bool flat = view.projection == shadow::ViewProjection::orthographic;
+    const bool flat = shadow::is_parallel(view);
     tile.depth = glm::vec4(
         glm::dvec4(view.depth.near_m, view.depth.far_m, flat ? 0.0 : view.depth.alpha, flat ? 0.0 : view.depth.beta));
     if (view.projection == shadow::ViewProjection::cube_face) {

@@ -21,7 +21,7 @@ void add_light(const ViewInput& input, std::uint32_t light, LineDrawing& lines, 
         const Corners corners = corners_of(view);
         lines.add(corners, map_colour(view.layer));
         legend.add(range_text(view), map_colour(view.layer));
-        if (view.projection == shadow::ViewProjection::orthographic) continue;
+        if (shadow::is_parallel(view)) continue;
         for (std::size_t near = 4; near < corners.size(); ++near)
             lines.add(shadow::apex_ws_m(view), corners[near], map_colour(view.layer));
     }

@@ -59,7 +59,7 @@ std::string no_map(const shadow::ShadowFrame& frame, std::uint32_t light) {
 }
 
 std::string range_text(const shadow::ShadowView& view) {
-    const bool flat = view.projection == shadow::ViewProjection::orthographic;
+    const bool flat = shadow::is_parallel(view);
     const double near_m = flat ? 0.0 : view.depth.near_m,
                  far_m = flat ? view.depth.far_m - view.depth.near_m : view.depth.far_m;
     std::array<char, 64> range{};

@@ -28,7 +28,7 @@ inline const ConsumerItem& camera_of(const ViewInput& input) {
     return input.scene.consumers[input.frame.inputs.front().consumer];
 }
 
-/// Formats the reason why the light has no map: "no map: not_seen".
+/// Formats the reason why the light has no map: "no map: no_visible_receiver".
 std::string no_map(const shadow::ShadowFrame& frame, std::uint32_t light);
 
 /// Formats the depth range of a map: "map 2: 0.25 ... 15.5 m". An orthographic map has no eye, so that its depths count

@@ -264,7 +264,6 @@ GpuScene& GpuScene::operator=(GpuScene&& other) noexcept {
     colours_ = std::exchange(other.colours_, {});
     bent_ = std::move(other.bent_);
     triangle_records_ = std::move(other.triangle_records_);
-    bent_meshes_ = other.bent_meshes_;
     library_ = other.library_;
     any_unlit_ = other.any_unlit_;
     most_emissive_ = other.most_emissive_;
@@ -337,7 +336,6 @@ void GpuScene::upload(const Bent& bent, gl::CommandList& list) {
 }
 
 void GpuScene::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list) {
-    bent_meshes_ = 0;
     for (Bent& bent : bent_) {
         const PoseItem* pose = pose_of(snapshot, bent.mesh);
         const std::uint64_t wanted = pose ? pose->version : 0;
@@ -347,7 +345,6 @@ void GpuScene::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list
         else
             bent.vertices = library_->meshes[bent.mesh].vertices;
         bent.version = wanted;
-        ++bent_meshes_;
         upload(bent, list);
     }
 }

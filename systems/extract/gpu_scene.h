@@ -59,8 +59,6 @@ public:
     std::uint32_t capacity() const { return instance_capacity_; }
     /// Makes the next update() repeat the last upload. Call it after a failed submission.
     void forget_uploads();
-    /// Returns the number of meshes deformed by the last update().
-    std::uint32_t bent_meshes() const { return bent_meshes_; }
 
     /// Creates caster_triangles() and caster_masks() if missing. Call it in each frame with a light that reads them.
     /// Returns false without room on the device; retries after Retry::kFrames such frames.
@@ -143,7 +141,6 @@ private:
     std::vector<Bent> bent_;                        // all deformable meshes, sorted by mesh
     std::vector<CasterTriangle> triangle_records_;  // whole library, if it has deformable meshes and they are provided
     std::vector<glm::vec4> normal_scratch_;
-    std::uint32_t bent_meshes_ = 0;
     Retry triangles_retry_;
     std::uint64_t triangles_asked_ = 0;
     std::uint32_t instance_capacity_ = 0;

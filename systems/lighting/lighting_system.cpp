@@ -235,9 +235,21 @@ void LightingSystem::bind_surface_textures(gl::CommandList& list) const {
     list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, targets_.material, point_sampler_});
 }
 
+/// Looks up each light's program for blended surfaces. Notes the lights that fall back.
+void LightingSystem::plan_blended(const shadow::LightingInputs& inputs, shadow::LightingOutcome& outcome) {
+    for (const shadow::LightingLight& light : inputs.lights) {
+        LightProgram& used = blended_programs_.emplace_back();
+        if (light.screen.width <= 0) continue;
+        used = light_program(light, ShaderPass::blended);
+        if (used.lacks != Reason::none)
+            outcome.failures.push_back({light.light, used.lacks, used.unshadowed, true, light.plain.accuracy});
+    }
+}
+
 void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
                                     shadow::LightingOutcome& outcome) {
     if (blended_.empty() || !programs_.blended_base()) return;
+    blended_programs_.clear();
     list.add(gl::BeginGroup{"blended"});
     list.add(gl::BeginPass{targets_.light_target, viewport(), false, 0.0f, false, {}});
     for (const SurfaceDraw& draw : blended_) {
@@ -256,12 +268,10 @@ void LightingSystem::record_blended(const shadow::LightingInputs& inputs, const 
         const gl::DrawMeshes meshes{draw.first_index, draw.index_count, draw.base_vertex, draw.first_item,
                                     draw.item_count};
         list.add(meshes);
+        if (!unlit && blended_programs_.empty()) plan_blended(inputs, outcome);
         for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
             if (unlit || inputs.lights[i].screen.width <= 0) continue;
-            const LightProgram used = light_program(inputs.lights[i], ShaderPass::blended);
-            if (used.lacks != Reason::none)
-                outcome.failures.push_back(
-                    {inputs.lights[i].light, used.lacks, used.unshadowed, true, inputs.lights[i].plain.accuracy});
+            const LightProgram& used = blended_programs_[i];
             state.program = used.program;
             if (!state.program) continue;
             state.blend = gl::Blend::add;

@@ -152,6 +152,7 @@ private:
     void record_surfaces(const GpuScene& gpu, gl::CommandList& list);
     void record_lights(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                        gl::CommandList& list, shadow::LightingOutcome& outcome);
+    void plan_blended(const shadow::LightingInputs& inputs, shadow::LightingOutcome& outcome);
     void record_blended(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list,
                         shadow::LightingOutcome& outcome);
     void record_finish(gl::CommandList& list);
@@ -176,7 +177,8 @@ private:
     KeptVisibility kept_;
     LookupTimes lookup_times_;
     MidstFinder midst_;
-    std::vector<LightPass> passes_;  // last record(): one per light of its inputs
+    std::vector<LightPass> passes_;               // last record(): one per light of its inputs
+    std::vector<LightProgram> blended_programs_;  // last record(): one per light, for blended surfaces; may be empty
     GrowingBuffer items_, uniforms_;
     bool has_places_ = false;  // the last record() wrote exact positions of surfaces
     gl::SamplerHandle point_sampler_{}, mip_sampler_{};

@@ -6,6 +6,7 @@
 
 #include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "systems/frame_timers.h"
 
 namespace gnomon::lighting {
 
@@ -24,7 +25,7 @@ public:
     /// Returns the microseconds saved by reading, >= 0; empty: one of both was not measured.
     std::optional<double> saved_us(ecs::Entity light) const;
 
-    static constexpr std::size_t kFrames = 8;  // more than drivers queue
+    static constexpr std::size_t kFrames = kTimedSubmissions;
 
 private:
     struct Pass {

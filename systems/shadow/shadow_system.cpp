@@ -8,7 +8,7 @@
 #include "systems/shadow/exact/near_light_clearance.h"
 #include "systems/shadow/fitting/directional/sdsm_splits.h"
 #include "systems/shadow/fitting/fit_views.h"
-#include "systems/shadow/fitting/quiet_frames.h"
+#include "systems/shadow/fitting/static_frames.h"
 #include "systems/shadow/report/light_report.h"
 #include "systems/shadow/report/lighting_failures.h"
 #include "systems/shadow/request/decide_requests.h"
@@ -20,10 +20,10 @@ namespace gnomon::shadow {
 ShadowSystem::ShadowSystem(gl::Device& device, const History& fit_history)
     : device_(device),
       maps_(device),
-      recorder_(device),
-      sheets_(device),
-      ends_(device),
-      moments_(device),
+      depth_pass_(device),
+      bounds_pass_(device),
+      pyramid_pass_(device),
+      prefilter_pass_(device),
       rays_(device),
       history_(fit_history) {}
 
@@ -96,8 +96,8 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
     }
     if (!any) {
         rays_.release();
-        sheets_.release();
-        ends_.release();
+        bounds_pass_.release();
+        pyramid_pass_.release();
     }
     if (!used || updated || update_rays(scene, gpu, list)) return;
     rays_lack_ = true;
@@ -120,25 +120,24 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
     maps_.set_spare(settings.feedback.spare);
     maps_.begin_frame();
-    const bool others_move = motion_.update(scene);
-    const bool unchanged = still_.unchanged(scene, settings) && !others_move;
-    if (others_move) frame_.moving = motion_.moving();
-    most_rays_ = settings.budget.rays;
+    const bool others_move = dynamic_casters_.update(scene);
+    const bool unchanged = frame_reuse_.unchanged(scene, settings) && !others_move;
+    if (others_move) frame_.moving = dynamic_casters_.moving();
     BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
-    const bool budget_active = !budget_.is_moved_by(limits, cost_calibration_.factors());
-    stands_ = std::exchange(may_stand_, false) && unchanged && budget_active && maps_.stay();
-    if (stands_) {
+    const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
+    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && maps_.stay();
+    if (reused_) {
         keep_all(frame_.maps, frame_.updates);
     } else {
         budget_.begin(limits, cost_calibration_.factors());
         run_stages(scene, gpu, settings, {list, report, frame_.cpu_us});
     }
-    report.still = stands_;
+    report.still = reused_;
     report.rays = rays_.report();
-    report.rays.sheet_bytes = sheets_.bytes();
-    report.rays.sheet_host_bytes = sheets_.host_bytes();
-    if (stands_) report.rays.meshes_written = 0, report.rays.instances_written = false;
+    report.rays.sheet_bytes = bounds_pass_.bytes();
+    report.rays.sheet_host_bytes = bounds_pass_.host_bytes();
+    if (reused_) report.rays.meshes_written = 0, report.rays.instances_written = false;
     report.shadow_cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return frame_;
 }
@@ -160,7 +159,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
 
     const bool lacked = rays_lack_;
     rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
-    decide_requests(scene, {device_.info(), history_, settings.shadows, {most_rays_, rays_lack_}}, fallbacks_,
+    decide_requests(scene, {device_.info(), history_, settings.shadows, {settings.budget.rays, rays_lack_}}, fallbacks_,
                     f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) apply_last_limits(scene, history_, f.requests, f.limited);
@@ -176,7 +175,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     contribution_culling_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
     finish("culling");
 
-    const bool budget_active = budget_.is_active() || most_rays_ > 0 || rays_lack_;
+    const bool budget_active = budget_.is_active() || settings.budget.rays > 0 || rays_lack_;
     fit_views(scene,
               {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, budget_active},
               storage_, f.fitted, f.next_history, accounts);
@@ -199,20 +198,20 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     finish("update");
 
     const PassInputs passes{scene, gpu, views};
-    recorder_.prepare(passes, accounts);
-    sheets_.prepare(passes, accounts);
-    ends_.prepare(passes, accounts);
+    depth_pass_.prepare(passes, accounts);
+    bounds_pass_.prepare(passes, accounts);
+    pyramid_pass_.prepare(passes, accounts);
     measure_clearances(passes, f.clearances_m, f.cpu_us);
-    moments_.prepare(passes, accounts);
+    prefilter_pass_.prepare(passes, accounts);
     const bool masked = static_cast<bool>(gpu.caster_masks());
     publish_lights(scene, {views, f.lamps_ws_m, f.clearances_m, samplers_, rays_.buffers(), masked}, f.inputs,
                    f.cpu_us);
     finish("publish");
 
-    recorder_.record(passes, out);
-    sheets_.record(passes, out);
-    ends_.record(passes, out);
-    moments_.record(passes, out);
+    depth_pass_.record(passes, out);
+    bounds_pass_.record(passes, out);
+    pyramid_pass_.record(passes, out);
+    prefilter_pass_.record(passes, out);
     finish("passes");
 }
 
@@ -246,7 +245,7 @@ void ShadowSystem::commit(const SceneSnapshot& scene, bool executed) {
     const bool takes_turns = budget_.limits().ns != BudgetLimits::kNone;
     commit_maps(scene, drawn_views(frame_), {executed, takes_turns}, maps_);
     if (!executed) rays_.forget_uploads();
-    may_stand_ = executed && (stands_ || is_settled(scene));
+    may_reuse_ = executed && (reused_ || is_settled(scene));
     std::swap(history_, frame_.next_history);
 }
 

@@ -90,17 +90,16 @@ private:
 
     gl::Device& device_;
     MapCache maps_;
-    DepthPass recorder_;
-    BoundsPass sheets_;
-    OccluderPyramidPass ends_;
-    PrefilterPass moments_;
+    DepthPass depth_pass_;
+    BoundsPass bounds_pass_;
+    OccluderPyramidPass pyramid_pass_;
+    PrefilterPass prefilter_pass_;
     visibility::RayScene rays_;
     MapSamplers samplers_;
     DrawTimes draw_times_;
     ContributionCulling contribution_culling_;
     BudgetStage budget_;
     std::vector<std::optional<std::uint64_t>> waiting_bytes_;  // one per light
-    std::uint64_t most_rays_ = 0;
     RayFallbacks fallbacks_;
     bool rays_lack_ = false;
     CostCalibration cost_calibration_;
@@ -109,11 +108,11 @@ private:
     std::vector<DueView> due_;
     ShadowFrame frame_;
     History history_;
-    DynamicCasters motion_;
-    FrameReuse still_;
+    DynamicCasters dynamic_casters_;
+    FrameReuse frame_reuse_;
     StageWatch watch_;
-    bool stands_ = false;     // the last update() reused the frame before it
-    bool may_stand_ = false;  // the next update() may reuse the last frame
+    bool reused_ = false;     // the last update() reused the frame before it
+    bool may_reuse_ = false;  // the next update() may reuse the last frame
 };
 
 }  // namespace gnomon::shadow

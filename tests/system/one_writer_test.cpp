@@ -1,9 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <set>
+#include <span>
 #include <string>
 
 #include "engine/core/signature.h"
@@ -28,6 +31,26 @@ std::uint64_t hash(const std::vector<T>& items) {
     return s.value();
 }
 
+/// Hashes of what the fits write into the next history: all but the budget's part.
+std::uint64_t hash_of_fits(const shadow::History& history) {
+    Signature s;
+    const auto add = [&s](const auto& member) { s.add(std::as_bytes(std::span(&member, 1))); };
+    for (const shadow::LightFitHistory& light : history.lights) {
+        add(light.light);
+        add(light.splits);
+        add(light.views);
+        add(light.cone);
+        add(light.aim);
+        add(light.sampled_splits);
+        add(light.size);
+        add(light.count);
+        add(light.filter);
+        add(light.rays);
+    }
+    s.add(history.pictures);
+    return s.value();
+}
+
 /// Hashes of all columns that stand after `stage`, by the name of column and stage.
 using Columns = std::map<std::string, std::uint64_t>;
 
@@ -43,14 +66,15 @@ void add_columns(std::string_view stage, const shadow::ShadowFrame& f, Columns& 
         add("receivers", hash(f.sets.receiver_items));
         add("casters", hash(f.sets.caster_items));
         add("points", hash(f.sets.receiver_points_ws));
-        add("beams", hash(f.sets.hulls));
+        add("hulls", hash(f.sets.hulls));
         add("outlines", hash(f.sets.outlines));
     }
     if (stage == "fitting") {
         add("choices", hash(f.fitted.lights));
         add("views", hash(f.fitted.views));
         add("view casters", hash(f.fitted.casters));
-        add("resized beams", hash(f.fitted.resized_sets.hulls));
+        add("resized hulls", hash(f.fitted.resized_sets.hulls));
+        add("history", hash_of_fits(f.next_history));
     }
     if (stage == "budget") add("decisions", hash(f.decisions));
     if (stage == "maps") add("maps", hash(f.maps));
@@ -77,7 +101,7 @@ protected:
             if (meddle) meddle(stage, const_cast<shadow::ShadowFrame&>(frame));
         });
     }
-    /// Runs frames; returns how many columns were other at the end of their frame than after their stage.
+    /// Runs frames; returns how many columns differ at the end of their frame from what their stage left.
     int run(int frames) {
         int changed = 0;
         for (int i = 0; i < frames; ++i) {
@@ -93,7 +117,8 @@ protected:
             Columns last;
             for (const char* stage : kStages) add_columns(stage, frame, last);
             if (!report.still)
-                for (const auto& [name, value] : columns) changed += last.at(name) != value ? 1 : 0;
+                for (const auto& [name, value] : columns)
+                    if (last.at(name) != value) ++changed, changed_columns.insert(name);
             for (const shadow::FitChoice& light : frame.fitted.lights) {
                 most_fits = std::max(most_fits, light.fits);
                 EXPECT_LE(light.fits, shadow::kMaxFits);
@@ -120,6 +145,7 @@ protected:
     FrameReport report;
     Columns columns;
     std::map<std::string, int> stages;
+    std::set<std::string> changed_columns;
     std::uint32_t most_fits = 0;
     std::function<void(std::string_view, shadow::ShadowFrame&)> meddle;
 };
@@ -131,14 +157,33 @@ TEST_F(OneWriter, EachColumnIsAtTheEndAsItsStageLeftIt) {
     std::cout << "at most " << most_fits << " fits of a light in a frame\n";
 }
 
-TEST_F(OneWriter, ASecondWriterWouldBeSeen) {
-    for (const char* stage : {"culling", "fitting", "maps", "update"}) {
-        meddle = [stage](std::string_view now, shadow::ShadowFrame& frame) {
-            if (now != stage || frame.requests.empty()) return;
-            frame.requests[0].map.resolution_px += 1;
-            if (!frame.sets.hulls.empty()) frame.sets.hulls[0].far_m += 1.0;
+/// Writes one column after a later stage than its own.
+struct SecondWriter {
+    const char* column;
+    const char* stage;
+    void (*write)(shadow::ShadowFrame&);
+};
+constexpr SecondWriter kSecondWriters[] = {
+    {"requests", "culling", [](shadow::ShadowFrame& f) { f.requests.at(0).map.resolution_px += 1; }},
+    {"hulls", "fitting", [](shadow::ShadowFrame& f) { f.sets.hulls.at(0).far_m += 1.0; }},
+    {"sets", "publish", [](shadow::ShadowFrame& f) { f.sets.lights.at(0).casters.count += 1; }},
+    {"choices", "budget", [](shadow::ShadowFrame& f) { f.fitted.lights.at(0).fits += 1; }},
+    {"views", "budget", [](shadow::ShadowFrame& f) { f.fitted.views.at(0).error.edge_px += 1.0; }},
+    {"history", "budget", [](shadow::ShadowFrame& f) { f.next_history.lights.at(0).size.map_px += 1; }},
+    {"decisions", "publish", [](shadow::ShadowFrame& f) { f.decisions.at(0).request.map.resolution_px += 1; }},
+    {"maps", "publish", [](shadow::ShadowFrame& f) { f.maps.at(0).size_px += 1; }},
+    {"updates", "publish", [](shadow::ShadowFrame& f) { f.updates.at(0).waited_frames += 1; }},
+};
+
+TEST_F(OneWriter, ASecondWriterOfEachColumnWouldBeSeen) {
+    for (const SecondWriter& second : kSecondWriters) {
+        meddle = [&second](std::string_view now, shadow::ShadowFrame& frame) {
+            if (now == second.stage && !frame.fitted.views.empty() && !frame.sets.hulls.empty()) second.write(frame);
         };
-        EXPECT_GT(run(150), 0) << stage;
+        changed_columns.clear();
+        run(60);
+        EXPECT_TRUE(changed_columns.contains(second.column)) << second.column;
+        EXPECT_EQ(changed_columns.size(), 1u) << second.column;
     }
 }
 

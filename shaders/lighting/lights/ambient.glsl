@@ -1,5 +1,5 @@
 // Light from everywhere; never shadowed. It is brighter from above, as under a sky. C++ twin: AmbientRecord in
-// systems/lighting/lighting_system.h.
+// systems/lighting/ambient.h.
 #include "common/bindings.glsl"
 layout(std140, binding = kAmbientBlock) uniform AmbientBlock {
     vec4 sky;      // rgb: lux from above, times w; w: what the picture holds for a radiance of 1

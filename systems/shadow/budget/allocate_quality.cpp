@@ -245,14 +245,14 @@ BudgetUse take_away(std::span<const LightLoad> loads, const BudgetLimits& limits
 }
 
 BudgetUse settle_limits(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
-                        std::uint32_t& budget_cooldown, std::span<QualityLimits> grants, BudgetScratch& scratch) {
+                        std::uint32_t& frames_since_grants, std::span<QualityLimits> grants, BudgetScratch& scratch) {
     const BudgetUse use = use_of(loads, grants, factors);
     if (!holds(limits, use)) {
-        budget_cooldown = 0;
+        frames_since_grants = 0;
         return take_away(loads, limits, factors, grants, scratch);
     }
-    budget_cooldown = std::min(budget_cooldown + 1, kBudgetCooldown);
-    if (budget_cooldown < kBudgetCooldown) return use;
+    frames_since_grants = std::min(frames_since_grants + 1, kFramesToRegrant);
+    if (frames_since_grants < kFramesToRegrant) return use;
     bool any = false;
     for (std::size_t i = 0; i < loads.size() && !any; ++i) any = is_less(*loads[i].light, loads[i].wanted, grants[i]);
     if (!any) return use;
@@ -266,7 +266,7 @@ BudgetUse settle_limits(std::span<const LightLoad> loads, const BudgetLimits& li
     }
     if (!(gain > kLeastGain * loss)) return use;
     std::copy(scratch.fresh.begin(), scratch.fresh.end(), grants.begin());
-    budget_cooldown = 0;
+    frames_since_grants = 0;
     return fresh_use;
 }
 

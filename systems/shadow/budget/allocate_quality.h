@@ -52,17 +52,17 @@ BudgetUse take_away(std::span<const LightLoad> loads, const BudgetLimits& limits
 
 /// Frames without a change of any limit before quality is given back: a third of a second at 60 Hz. A new allocation,
 /// and its correction once the new maps' costs are measured, is then settled within a second.
-inline constexpr std::uint32_t kBudgetCooldown = 20;
+inline constexpr std::uint32_t kFramesToRegrant = 20;
 /// Share of a budget up to which quality is given back. The rest stays free, so that a small change does not take it
 /// away again.
 inline constexpr double kRoomAfter = 0.9;
 /// Ratio of gained to lost error cost that a new allocation needs, where one light gets more and another less.
 inline constexpr double kLeastGain = 1.25;
 
-/// Advances the limits by one frame. Takes away at once what does not fit. After kBudgetCooldown, computes the
-/// allocation again within kRoomAfter of the budget, and adopts it if it gains enough. `budget_cooldown`: frames since
-/// limits changed, at most kBudgetCooldown.
+/// Advances the limits by one frame. Takes away at once what does not fit. After kFramesToRegrant, computes the
+/// allocation again within kRoomAfter of the budget, and adopts it if it gains enough. `frames_since_grants`: since the
+/// limits changed, at most kFramesToRegrant.
 BudgetUse settle_limits(std::span<const LightLoad> loads, const BudgetLimits& limits, const CostFactors& factors,
-                        std::uint32_t& budget_cooldown, std::span<QualityLimits> grants, BudgetScratch& scratch);
+                        std::uint32_t& frames_since_grants, std::span<QualityLimits> grants, BudgetScratch& scratch);
 
 }  // namespace gnomon::shadow

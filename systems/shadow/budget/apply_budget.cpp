@@ -175,7 +175,7 @@ void BudgetStage::weigh(const SceneSnapshot& scene, const BudgetInputs& inputs) 
     };
     double brightest = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i)
-        if (std::isfinite(lux(i))) brightest = std::max(brightest, lux(i));
+        if (const double value = lux(i); std::isfinite(value)) brightest = std::max(brightest, value);
     for (std::size_t i = 0; i < loads_.size(); ++i) {
         const double share = lux(i) / brightest;
         loads_[i].weight *= share < 1.0 ? std::cbrt(share) : 1.0;
@@ -214,7 +214,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
                          std::vector<BudgetDecision>& decisions, const LightAccounts& accounts) {
     decisions.clear();
     for (const FitChoice& choice : inputs.fitted.lights) decisions.push_back({choice.request});
-    next.budget_cooldown = is_active() ? inputs.held.budget_cooldown : 0;
+    next.frames_since_grants = is_active() ? inputs.held.frames_since_grants : 0;
     outcomes_.clear();
     if (!is_active()) {
         loads_.clear();
@@ -224,7 +224,7 @@ void BudgetStage::decide(const SceneSnapshot& scene, const GpuScene& gpu, const 
     BudgetLimits limits = limits_;
     const std::uint64_t fixed_bytes = collect(scene, gpu, inputs, next, accounts.statuses);
     if (limits.bytes != BudgetLimits::kNone) limits.bytes -= std::min(limits.bytes, fixed_bytes);
-    settle_limits(loads_, limits, factors_, next.budget_cooldown, grants_, scratch_);
+    settle_limits(loads_, limits, factors_, next.frames_since_grants, grants_, scratch_);
     lookups_ns_ = 0.0;
     for (std::size_t i = 0; i < loads_.size(); ++i) {
         BudgetHistory& history = next.lights[held_[i]].budget;

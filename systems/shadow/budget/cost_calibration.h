@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/gl/device.h"
+#include "systems/frame_timers.h"
 #include "systems/report.h"
 #include "systems/shadow/budget/cost_model.h"
 #include "systems/shadow/frame/budget_decision.h"
@@ -24,7 +25,7 @@ public:
 
     const CostFactors& factors() const { return factors_; }
 
-    static constexpr std::size_t kFrames = 8;  // more than drivers queue
+    static constexpr std::size_t kFrames = kTimedSubmissions;
     /// Share of the remaining difference by which one frame moves a factor: half in the first frames, an eighth later.
     /// A frame changes it by a quarter at most, so that an outlier has little effect.
     static constexpr double kFirstGain = 1.0 / 2.0, kGain = 1.0 / 8.0, kMostStep = 0.25;

@@ -61,6 +61,10 @@ double rise_px(const LightLoad& load, const ShadowRequest& given, const QualityL
     return rise + 0.5 * (grant.refresh_frames - 1) * share_in_bounds(load.activity) * kMotion_px_per_frame;
 }
 
+double lookup_ns(const LightLoad& load, const ShadowRequest& given, const CostFactors& factors) {
+    return load.pixels * mean_fetches(*load.light, given, given.map.filter) * kFetch_ns * factors.lighting;
+}
+
 }  // namespace
 
 ShadowRequest granted(const LightItem& light, const ShadowRequest& wanted, const QualityLimits& grant) {
@@ -120,9 +124,7 @@ double drawing_ns(const MapSettings& map, std::uint32_t edge_px, double views, d
 }
 
 double lookup_ns(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors) {
-    if (grant.none) return 0.0;
-    const ShadowRequest given = granted(*load.light, load.wanted, grant);
-    return load.pixels * mean_fetches(*load.light, given, given.map.filter) * kFetch_ns * factors.lighting;
+    return grant.none ? 0.0 : lookup_ns(load, granted(*load.light, load.wanted, grant), factors);
 }
 
 double edge_error_cost(double rise_px) {
@@ -142,7 +144,7 @@ Cost cost_of(const LightLoad& load, const QualityLimits& grant, const CostFactor
         drawing_ns(given.map, given.map.resolution_px, load.views * share,
                    static_cast<double>(load.triangles) * casters, static_cast<double>(load.draws) * casters);
     const double ns = drawing * share_in_bounds(load.activity) / refresh_frames(*load.light, grant) * factors.drawing +
-                      lookup_ns(load, grant, factors);
+                      lookup_ns(load, given, factors);
     constexpr double kMost_ns = 1.0e15;  // eleven days, so that sums stay in range
     cost.ns = static_cast<std::uint64_t>(ns < kMost_ns ? std::max(ns, 0.0) : kMost_ns);
     if (is_less(*load.light, load.wanted, grant))

@@ -67,7 +67,7 @@ Cost cost_of(const LightLoad& load, const QualityLimits& grant, const CostFactor
 /// Returns the lookup part of the cost, ns.
 double lookup_ns(const LightLoad& load, const QualityLimits& grant, const CostFactors& factors);
 
-/// Returns the share of a light's weight that is lost when edges are `rise_px` less accurate, 0 to kMostByEdges.
+/// Returns the share of a light's weight that is lost when edges are `rise_px` less accurate, 0 to 1/2.
 double edge_error_cost(double rise_px);
 
 /// Returns the mean number of fetches per lookup with the filter.

@@ -52,7 +52,7 @@ public:
 
     void run() {
         scratch_.marks.clear(scene_.instances.size());
-        if (view_.projection == ViewProjection::orthographic)
+        if (is_parallel(view_))
             look_along();
         else
             look_through();

@@ -125,7 +125,7 @@ void BoundsGatherer::append(const GpuScene& gpu, const CasterTopology& surface, 
         return std::max({distance(0), distance(1), distance(2)});
     };
     const FacingTest test(item, view);
-    const FacetDepthRanges is_flat(surface, item, view, size_px);
+    const FlatFacetTest is_flat(surface, item, view, size_px);
     facing_.resize(surface.facets.size());
     for (const std::uint32_t t : surface.opaque) {
         const CasterTopology::Facet& facet = surface.facets[t];

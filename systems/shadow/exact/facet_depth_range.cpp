@@ -37,8 +37,8 @@ BoundsFloor bounds_floor(const ShadowView& view, std::uint32_t size_px) {
     return {departure, static_cast<float>(kDepartureFactor * departure + kFlatRounding), 0.0};
 }
 
-FacetDepthRanges::FacetDepthRanges(const CasterTopology& surface, const InstanceItem& item, const ShadowView& view,
-                                   std::uint32_t size_px)
+FlatFacetTest::FlatFacetTest(const CasterTopology& surface, const InstanceItem& item, const ShadowView& view,
+                             std::uint32_t size_px)
     : floor_(bounds_floor(view, size_px)),
       parallel_(is_parallel(view)),
       half_texel_(half_texel(view, size_px)),
@@ -62,7 +62,7 @@ FacetDepthRanges::FacetDepthRanges(const CasterTopology& surface, const Instance
     widest_ = 1.0 + glm::dot(widest, widest);
 }
 
-bool FacetDepthRanges::orthographic(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs) const {
+bool FlatFacetTest::orthographic(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs) const {
     const glm::dvec3 n = glm::abs(normal_vs);
     const double across = n.x * half_texel_.x + n.y * half_texel_.y;
     const double least_texels = least_stretch_ * least_cosine_ / (2.0 * std::max(half_texel_.x, half_texel_.y));
@@ -73,8 +73,8 @@ bool FacetDepthRanges::orthographic(const CasterTopology::Facet& facet, const gl
 /// Tests a facet in perspective. Over a plane, 1/z is n · (u, v, 1) over the light's height above it. `steepest`:
 /// change of 1/z over half a texel, as a share of its smallest value on the facet. Corners may be off by the same share
 /// of their distance, which is at least the height over |(u, v, 1)|.
-bool FacetDepthRanges::perspective(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs, double height,
-                                   double farthest_m) const {
+bool FlatFacetTest::perspective(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs, double height,
+                                double farthest_m) const {
     const double steepest = (std::abs(normal_vs.x) * half_texel_.x + std::abs(normal_vs.y) * half_texel_.y) *
                             farthest_m * (1.0 + kFacingUnits * kUnitRoundoff) / height;
     const double off = off_m_ * glm::length(normal_vs) * std::sqrt(widest_) / height;
@@ -85,8 +85,8 @@ bool FacetDepthRanges::perspective(const CasterTopology::Facet& facet, const glm
            static_cast<double>(facet.altitude_ms) * least_texels >= kLeastAltitude_texel;
 }
 
-bool FacetDepthRanges::operator()(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs, double height,
-                                  double error, double farthest_m) const {
+bool FlatFacetTest::operator()(const CasterTopology::Facet& facet, const glm::dvec3& normal_vs, double height,
+                               double error, double farthest_m) const {
     if (!possible_ || !(std::abs(height) > error)) return false;
     return parallel_ ? orthographic(facet, normal_vs)
                      : perspective(facet, normal_vs, std::abs(height) - error, farthest_m);

@@ -15,15 +15,15 @@ struct BoundsFloor {
     double departure = 0.0;  // orthographic: bound for such a plane, without margins
     float cleared = 0.0f;    // with margins: what the map of slope bounds is cleared to
     double share = 0.0;      // perspective: the bound as a share of depth minus alpha (ViewDepths), without margins;
-                             // bounds_floor() in shaders/shadow/filters/exact/classify.glsl has it with them
+                             // sheet_floor_share() in shaders/shadow/filters/exact/classify.glsl has it with them
 };
 BoundsFloor bounds_floor(const ShadowView& view, std::uint32_t size_px);
 
 /// Test for facets with a depth slope below that bound, whatever float's rounding does to their corners.
-class FacetDepthRanges {
+class FlatFacetTest {
 public:
-    FacetDepthRanges(const CasterTopology& surface, const InstanceItem& item, const ShadowView& view,
-                     std::uint32_t size_px);
+    FlatFacetTest(const CasterTopology& surface, const InstanceItem& item, const ShadowView& view,
+                  std::uint32_t size_px);
 
     /// Returns whether the facet need not be drawn. `normal_vs`: along the view's axes, of any length. `height`: height
     /// of the light above the facet's plane times that length (perspective), off by at most `error`. `farthest_m`:

@@ -30,7 +30,7 @@ glm::ivec4 place_of(const PyramidLevel& level, std::uint32_t before) {
 }
 
 double size_of(const FilterSettings& filter, const ShadowView& view) {
-    const bool parallel = view.projection == ViewProjection::orthographic;
+    const bool parallel = is_parallel(view);
     return static_cast<double>(parallel ? filter.sun_radius_tan : filter.source_radius_m);
 }
 
@@ -85,7 +85,7 @@ void OccluderPyramidPass::append_records(const DrawnViews& drawn, std::size_t v)
     // A map that was shrunk has larger texels than the fit planned.
     const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(size_px);
     const double texel_u = view.plane.texel_u * stretch, texel_v = view.plane.texel_v * stretch;
-    const bool parallel = view.projection == ViewProjection::orthographic;
+    const bool parallel = is_parallel(view);
     PyramidRecord record;
     if (view.projection == ViewProjection::cube_face) {
         const CubeFace& face = cube_face(view.layer);

@@ -27,8 +27,6 @@ double depth_from_light(const ShadowView& view, const glm::dvec3& p_ws) {
     return glm::dot(apex_ws_m(view) - p_ws, view.pose.axis_back);
 }
 
-bool orthographic(const ShadowView& view) { return view.projection == ViewProjection::orthographic; }
-
 /// Returns the displacement on screen of a small displacement at p, pixels.
 glm::dvec2 on_screen(const ConsumerItem& consumer, const glm::dvec3& p_ws, const glm::dvec3& displacement_m) {
     const double footprint = pixel_footprint(consumer);
@@ -56,7 +54,7 @@ glm::dvec2 across(const ShadowView& view, const glm::dvec3& p_ws) {
 /// for all places between such points.
 double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
     const glm::dvec2 texel(view.plane.texel_u, view.plane.texel_v);
-    if (!orthographic(view)) return glm::length(texel) * depth_from_light(view, p_ws);
+    if (!is_parallel(view)) return glm::length(texel) * depth_from_light(view, p_ws);
     const double steepness = glm::length(view.plane.warp);
     if (!(steepness > 0.0)) return glm::length(texel);
     const glm::dvec2 aside(-view.plane.warp.y / steepness, view.plane.warp.x / steepness);
@@ -66,7 +64,7 @@ double texel_at(const ShadowView& view, const glm::dvec3& p_ws) {
 }
 
 bool within(const ShadowView& view, const glm::dvec3& p_ws) {
-    if (orthographic(view)) return true;
+    if (is_parallel(view)) return true;
     const glm::dvec3 p = p_ws - apex_ws_m(view);
     const double z_m = depth_from_light(view, p_ws);
     const glm::dvec2 at(glm::dot(p, view.pose.axis_u), glm::dot(p, view.pose.axis_v));
@@ -75,44 +73,7 @@ bool within(const ShadowView& view, const glm::dvec3& p_ws) {
            glm::all(glm::lessThanEqual(at, (view.plane.tan_high + slack) * z_m));
 }
 
-}  // namespace
-
-TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
-    const auto side = [&](const glm::dvec2& texel) {
-        const glm::dvec2 step = orthographic(view) ? unwarped_step(view.plane.warp, across(view, p_ws), texel)
-                                                   : texel * depth_from_light(view, p_ws);
-        return view.pose.axis_u * step.x + view.pose.axis_v * step.y;
-    };
-    return {side({view.plane.texel_u, 0.0}), side({0.0, view.plane.texel_v})};
-}
-
-double min_resolvable_gap_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
-    constexpr double kSteps = 2.0;
-    const double depth = kSteps * depth_format_row(format).step;
-    if (orthographic(view)) return depth * (view.depth.far_m - view.depth.near_m);
-    // alpha + beta / z: z becomes z / (1 + part), by the same share of the whole distance as the ray.
-    const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth.beta);
-    return glm::length(p_ws - apex_ws_m(view)) * part / (1.0 + part);
-}
-
-double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
-                       const glm::dvec3& normal) {
-    const double z_m = orthographic(view) ? 1.0 : depth_from_light(view, p_ws);
-    const glm::dvec3 ray = orthographic(view) ? -view.pose.axis_back : (p_ws - apex_ws_m(view)) / z_m;
-    const double facing = glm::dot(ray, normal);
-    if (!(z_m > 0.0) || facing == 0.0 || (is_perspective(consumer) && !(depth_from(consumer, p_ws) > 0.0)))
-        return kInfinity;
-    const auto extent = [&](const glm::dvec3& across_m) {
-        return glm::length(on_screen(consumer, p_ws, across_m - ray * (glm::dot(across_m, normal) / facing)));
-    };
-    const TexelSides sides = texel_sides(view, p_ws);
-    return std::max(extent(sides.u_m + sides.v_m), extent(sides.u_m - sides.v_m));
-}
-
-double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
-    return edge_error_px(view.error.extent_px * slope_factor(cosine), reach_texel);
-}
-
+/// Computes the bound over all receivers of a view, as state_error(). All 0 if nothing is in front of the camera.
 ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
                         double reach_texel) {
     ViewError error;
@@ -129,6 +90,44 @@ ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, st
     }
     if (error.texel_m > 0.0) error.edge_px = edge_error_px(error.extent_px, reach_texel);
     return error;
+}
+
+}  // namespace
+
+TexelSides texel_sides(const ShadowView& view, const glm::dvec3& p_ws) {
+    const auto side = [&](const glm::dvec2& texel) {
+        const glm::dvec2 step = is_parallel(view) ? unwarped_step(view.plane.warp, across(view, p_ws), texel)
+                                                  : texel * depth_from_light(view, p_ws);
+        return view.pose.axis_u * step.x + view.pose.axis_v * step.y;
+    };
+    return {side({view.plane.texel_u, 0.0}), side({0.0, view.plane.texel_v})};
+}
+
+double min_resolvable_gap_m(const ShadowView& view, DepthFormat format, const glm::dvec3& p_ws) {
+    constexpr double kSteps = 2.0;
+    const double depth = kSteps * depth_format_row(format).step;
+    if (is_parallel(view)) return depth * (view.depth.far_m - view.depth.near_m);
+    // alpha + beta / z: z becomes z / (1 + part), by the same share of the whole distance as the ray.
+    const double part = depth * depth_from_light(view, p_ws) / std::abs(view.depth.beta);
+    return glm::length(p_ws - apex_ws_m(view)) * part / (1.0 + part);
+}
+
+double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, const glm::dvec3& p_ws,
+                       const glm::dvec3& normal) {
+    const double z_m = is_parallel(view) ? 1.0 : depth_from_light(view, p_ws);
+    const glm::dvec3 ray = is_parallel(view) ? -view.pose.axis_back : (p_ws - apex_ws_m(view)) / z_m;
+    const double facing = glm::dot(ray, normal);
+    if (!(z_m > 0.0) || facing == 0.0 || (is_perspective(consumer) && !(depth_from(consumer, p_ws) > 0.0)))
+        return kInfinity;
+    const auto extent = [&](const glm::dvec3& across_m) {
+        return glm::length(on_screen(consumer, p_ws, across_m - ray * (glm::dot(across_m, normal) / facing)));
+    };
+    const TexelSides sides = texel_sides(view, p_ws);
+    return std::max(extent(sides.u_m + sides.v_m), extent(sides.u_m - sides.v_m));
+}
+
+double stated_error_px(const ShadowView& view, double cosine, double reach_texel) {
+    return edge_error_px(view.error.extent_px * slope_factor(cosine), reach_texel);
 }
 
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,

@@ -49,12 +49,8 @@ double texel_extent_px(const ShadowView& view, const ConsumerItem& consumer, con
 /// receiver point that the view serves has a larger edge_error_px.
 double stated_error_px(const ShadowView& view, double cosine, double reach_texel);
 
-/// Computes the bound over all receivers of a view. `points_ws`: corners of convex parts of what is seen of them;
-/// points outside a perspective view do not count. All 0 if nothing is in front of the camera.
-ViewError predict_error(const ShadowView& view, const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws,
-                        double reach_texel);
-
-/// Raises the error that the view states (ViewError) to that bound.
+/// Raises the error that the view states (ViewError) to the bound over all its receivers. `points_ws`: corners of
+/// convex parts of what is seen of them; points outside a perspective view do not count.
 void state_error(const ConsumerItem& consumer, std::span<const glm::dvec3> points_ws, double reach_texel,
                  ShadowView& view);
 

@@ -24,7 +24,7 @@ namespace {
 /// Returns the shorter edge of the smallest texel across the light, metres.
 double finest_texel_m(const ShadowView& view) {
     const double texel = std::min(view.plane.texel_u, view.plane.texel_v);
-    return view.projection == ViewProjection::orthographic ? texel : texel * view.depth.near_m;
+    return is_parallel(view) ? texel : texel * view.depth.near_m;
 }
 
 /// States the view's errors for the camera that sees its texels largest. A warped map is left out: it serves its own
@@ -58,7 +58,7 @@ double floats_tell_m(const ShadowView& view) {
 /// sun.
 double depth_step_m(const ShadowView& view, DepthFormat format) {
     const double step = depth_format_row(format).step;
-    if (view.projection == ViewProjection::orthographic) return step * (view.depth.far_m - view.depth.near_m);
+    if (is_parallel(view)) return step * (view.depth.far_m - view.depth.near_m);
     return std::max(step * view.depth.far_m * view.depth.far_m / std::abs(view.depth.beta),  // d(alpha + beta / z)
                     floats_tell_m(view));
 }
@@ -160,7 +160,7 @@ void LightFit::forget_views() { out_.views.resize(first_view_); }
 
 bool LightFit::fit_and_count(const LightFitHistory& held, bool recount, LightFitHistory& next) {
     if (!fit_size(held, next)) return false;
-    if (is_count_due(held, next) || (recount && !views().empty())) return choose_count(held, next);
+    if (count_moves(held, next) || (recount && !views().empty())) return choose_count(held, next);
     return true;
 }
 
@@ -214,8 +214,9 @@ bool LightFit::fit_size(const LightFitHistory& held, LightFitHistory& next) {
 
 bool LightFit::has_met_target() const { return meets_target(predicted_px(views()), target_error_px(light_.shadow)); }
 
-/// Returns whether the search for another number of cascades is due.
-bool LightFit::is_count_due(const LightFitHistory& held, LightFitHistory& next) const {
+/// Counts the moves of the views since their number was last chosen. Returns true if a search for another number of
+/// cascades is due.
+bool LightFit::count_moves(const LightFitHistory& held, LightFitHistory& next) const {
     const ShadowRequest& request = out_.lights[index_].request;
     const std::uint32_t most = request.limits.max_views, usual = held.count.cascades > 0 ? held.count.cascades : most;
     if (most == 0) next.count.cascades = next.count.moves = 0;

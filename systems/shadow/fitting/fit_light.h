@@ -19,7 +19,7 @@ struct FitInputs {
     const SampledDepths& sampled_depths;     // depths of an earlier picture; optional
     const History& held;                     // fit history that the frame before left; empty: none
     std::span<const std::uint64_t> moving;   // as DynamicCasters::moving()
-    bool budget_active = false;              // a budget is active: another filter applies from the next frame on
+    bool budget_active = false;              // a budget is active, or rays lack memory: another filter is for later
 };
 
 /// Reused storage of the fits and of their searches; empty of meaning between frames.
@@ -65,7 +65,7 @@ private:
     bool fit_once(const LightFitHistory& held, LightFitHistory& next);
     bool fit_size(const LightFitHistory& held, LightFitHistory& next);
     bool has_met_target() const;
-    bool is_count_due(const LightFitHistory& held, LightFitHistory& next) const;
+    bool count_moves(const LightFitHistory& held, LightFitHistory& next) const;
     bool choose_count(const LightFitHistory& held, LightFitHistory& next);
     bool fit_count(std::uint32_t count, const ShadowRequest& usual, const LightFitHistory& held, LightFitHistory& next);
     void select_sets_again();

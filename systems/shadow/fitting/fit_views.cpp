@@ -22,7 +22,6 @@ public:
           held_(held),
           choice_(out.lights[light]),
           fit_(scene, inputs, light, storage, out),
-          fresh_(without_fits(held)),
           target_px_(target_error_px(light_.shadow)) {}
 
     /// Fits the light. Returns why it has no views; Reason::none: it has some.
@@ -30,7 +29,7 @@ public:
         next.filter = leaves_filter(light_) ? held_.filter : FilterHistory{};
         const ShadowFilter filter = choice_.request.map.filter;
         if (!leaves_filter(light_) || (filter != kDefaultFilter && filter != kExactFilter)) return fit(held_, next);
-        return filter == kDefaultFilter ? run_usual(next) : run_keeping(next);
+        return filter == kDefaultFilter ? run_usual(next) : run_exact(next);
     }
 
 private:
@@ -43,8 +42,9 @@ private:
     }
     /// Fits without history, since that belongs to another filter's maps.
     Reason fit_anew(ShadowFilter filter, LightFitHistory& next) {
-        fit_.request_anew(request_with(scene_, choice_.request.limits.device_px, &fresh_, index_, filter));
-        return fit(fresh_, next);
+        const LightFitHistory fresh = without_fits(held_);
+        fit_.request_anew(request_with(scene_, choice_.request.limits.device_px, &fresh, index_, filter));
+        return fit(fresh, next);
     }
     /// Returns the largest error of all views that are looked up, pixels.
     double worst_px() const {
@@ -74,11 +74,11 @@ private:
             return Reason::none;
         }
         const Reason kept = fit_anew(kExactFilter, next);
-        keep(usual_px, false, next);
+        note_exact(usual_px, false, next);
         return kept;
     }
 
-    Reason run_keeping(LightFitHistory& next) {
+    Reason run_exact(LightFitHistory& next) {
         double usual_px = held_.filter.usual_px;
         bool passed = false;
         if (is_trial_due(held_.filter, target_px_)) {
@@ -94,12 +94,12 @@ private:
         }
         const Reason reason = fit(held_, next);
         choice_.default_filter_error_px = usual_px;
-        if (next.filter.filter == kExactFilter) keep(usual_px, passed, next);
+        if (next.filter.filter == kExactFilter) note_exact(usual_px, passed, next);
         return reason;
     }
 
-    void keep(double usual_px, bool passed, LightFitHistory& next) {
-        next.filter = held_keeping(held_.filter, usual_px, passed, worst_px(), target_px_);
+    void note_exact(double usual_px, bool passed, LightFitHistory& next) {
+        next.filter = exact_history(held_.filter, usual_px, passed, worst_px(), target_px_);
         choice_.default_filter_error_px = usual_px;
     }
 
@@ -110,7 +110,6 @@ private:
     const LightFitHistory& held_;
     FitChoice& choice_;
     LightFit fit_;
-    LightFitHistory fresh_;
     double target_px_;
 };
 

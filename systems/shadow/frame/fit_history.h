@@ -5,10 +5,12 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "components/light_shadow.h"
 #include "engine/ecs/entity.h"
+#include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/cascade_ends.h"
 #include "systems/shadow/frame/quality_limits.h"
 #include "systems/shadow/frame/view_limits.h"
@@ -146,9 +148,9 @@ inline constexpr float kStaticSunEdges = 2.0f;
 inline bool is_static(const LightFitHistory& held) { return held.rays.static_frames >= kStaticSunFrames; }
 
 struct History {
-    std::vector<LightFitHistory> lights;  // in the order of the frame's lights
-    std::uint64_t pictures = 0;           // hash of the poses of the last frame's cameras
-    std::uint32_t budget_cooldown = 0;    // frames since grants changed (settle_limits); 0 without a budget
+    std::vector<LightFitHistory> lights;    // in the order of the frame's lights
+    std::uint64_t pictures = 0;             // hash of the poses of the last frame's cameras
+    std::uint32_t frames_since_grants = 0;  // frames since grants changed (settle_limits); 0 without a budget
     bool operator==(const History&) const = default;
 };
 
@@ -158,6 +160,19 @@ inline const LightFitHistory* find(const History& history, ecs::Entity light, st
     for (const LightFitHistory& held : history.lights)
         if (held.light == light) return &held;
     return nullptr;
+}
+
+/// Finds the entry of each light, in their order; null where a light has none. Searches only while lights came, went or
+/// changed their order since the history was written.
+inline void find_histories(std::span<const LightItem> lights, const History& history,
+                           std::vector<const LightFitHistory*>& found) {
+    found.assign(lights.size(), nullptr);
+    std::size_t matched = 0;
+    for (std::size_t i = 0; i < lights.size() && matched < history.lights.size(); ++i)
+        if (history.lights[matched].light == lights[i].entity) found[i] = &history.lights[matched++];
+    if (matched == history.lights.size()) return;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (!found[i]) found[i] = find(history, lights[i].entity, matched);
 }
 
 }  // namespace gnomon::shadow

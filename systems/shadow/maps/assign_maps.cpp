@@ -55,19 +55,19 @@ void MapCache::assign(const SceneSnapshot& scene, const FittedViews& fitted, std
         if (accounts.statuses[view.light].is_skipped()) continue;
         const LightTimer time(accounts.cpu_us, view.light);
         const LightItem& light = scene.lights[view.light];
-        const CachedMap& history = entry(light.entity);
-        if (!history.texture) continue;  // rays replace the map
+        const CachedMap& cached = entry(light.entity);
+        if (!cached.texture) continue;  // rays replace the map
         MapAssignment& map = maps[v];
-        map.texture = history.texture;
-        map.target = history.layers.targets[view.layer];
-        map.triangles = history.triangles;
-        if (history.storage.conservative_bounds)
-            map.sheets = {history.sheets.second, history.sheets.second_targets[view.layer], history.sheets.bounds,
-                          history.sheets.bounds_targets[view.layer], history.sheets.ends};
-        if (history.moments.texture)
-            map.prefiltered = {history.moments.texture, history.moments.targets[view.layer], history.moments.scratch,
-                               history.moments.scratch_target};
-        map.size_px = history.desc.width;
+        map.texture = cached.texture;
+        map.target = cached.layers.targets[view.layer];
+        map.triangles = cached.triangles;
+        if (cached.storage.conservative_bounds)
+            map.sheets = {cached.sheets.second, cached.sheets.second_targets[view.layer], cached.sheets.bounds,
+                          cached.sheets.bounds_targets[view.layer], cached.sheets.ends};
+        if (cached.moments.texture)
+            map.prefiltered = {cached.moments.texture, cached.moments.targets[view.layer], cached.moments.scratch,
+                               cached.moments.scratch_target};
+        map.size_px = cached.desc.width;
         map.content = content_signature(view, map.size_px, scene, fitted.casters_of(view), light.shadow.caster_faces);
         if (map.sheets.ends)
             map.content.all = with_source(map.content.all, decisions[view.light].request.map.filtering);

@@ -34,25 +34,25 @@ gl::TargetDesc target_of(const CachedMap& map, std::int32_t layer) {
 }
 
 MapCache::~MapCache() {
-    for (CachedMap& history : lights_) release(history);
+    for (CachedMap& cached : lights_) release(cached);
 }
 
 const CachedMap* MapCache::find(ecs::Entity light) const {
     const auto place = places_.find(light.index);
     if (place == places_.end() || place->second >= lights_.size()) return nullptr;
-    const CachedMap& history = lights_[place->second];
-    return history.entity == light ? &history : nullptr;
+    const CachedMap& cached = lights_[place->second];
+    return cached.entity == light ? &cached : nullptr;
 }
 
-std::uint64_t MapCache::bytes(const CachedMap& history) {
-    if (!history.texture) return 0;
-    const std::uint64_t still = history.still.texture ? static_copy_bytes(history) : 0;
-    return map_bytes(history.desc, history.storage, history.moments.desc, history.moments.scratch_desc) + still;
+std::uint64_t MapCache::bytes(const CachedMap& cached) {
+    if (!cached.texture) return 0;
+    const std::uint64_t still = cached.still.texture ? static_copy_bytes(cached) : 0;
+    return map_bytes(cached.desc, cached.storage, cached.moments.desc, cached.moments.scratch_desc) + still;
 }
 
 std::uint64_t MapCache::bytes() const {
     std::uint64_t sum = 0;
-    for (const CachedMap& history : lights_) sum += bytes(history);
+    for (const CachedMap& cached : lights_) sum += bytes(cached);
     return sum;
 }
 
@@ -66,7 +66,7 @@ void MapCache::waiting_bytes(const SceneSnapshot& scene, std::vector<std::option
 }
 
 CachedMap& MapCache::entry(ecs::Entity light) {
-    if (const CachedMap* history = find(light)) return lights_[static_cast<std::size_t>(history - lights_.data())];
+    if (const CachedMap* cached = find(light)) return lights_[static_cast<std::size_t>(cached - lights_.data())];
     lights_.emplace_back();
     lights_.back().entity = light;
     note_places(lights_.size() - 1);
@@ -80,26 +80,26 @@ void MapCache::note_places(std::size_t first) {
         places_.insert_or_assign(lights_[i].entity.index, static_cast<std::uint32_t>(i));
 }
 
-void MapCache::release(CachedMap& history) {
-    for (const gl::TargetHandle target : history.layers.targets) device_.destroy(target);
-    device_.destroy(history.whole);
-    device_.destroy(history.texture);
-    device_.destroy(history.triangles);
-    release_sheets(history.sheets);
-    for (const gl::TargetHandle target : history.moments.targets) device_.destroy(target);
-    device_.destroy(history.moments.scratch_target);
-    device_.destroy(history.moments.texture);
-    release_static_copy(history.still);
-    history.still = {};
-    device_.destroy(history.moments.scratch);
-    history.moments = {};
-    history.whole = {};
-    history.layers.targets.clear();
-    history.layers.content.clear();
-    history.layers.placements.clear();
-    history.layers.shown.clear();
-    history.waits = false;
-    history.texture = history.triangles = {};
+void MapCache::release(CachedMap& cached) {
+    for (const gl::TargetHandle target : cached.layers.targets) device_.destroy(target);
+    device_.destroy(cached.whole);
+    device_.destroy(cached.texture);
+    device_.destroy(cached.triangles);
+    release_sheets(cached.sheets);
+    for (const gl::TargetHandle target : cached.moments.targets) device_.destroy(target);
+    device_.destroy(cached.moments.scratch_target);
+    device_.destroy(cached.moments.texture);
+    release_static_copy(cached.still);
+    cached.still = {};
+    device_.destroy(cached.moments.scratch);
+    cached.moments = {};
+    cached.whole = {};
+    cached.layers.targets.clear();
+    cached.layers.content.clear();
+    cached.layers.placements.clear();
+    cached.layers.shown.clear();
+    cached.waits = false;
+    cached.texture = cached.triangles = {};
 }
 
 bool MapCache::make_targets(CachedMap& map) const {
@@ -167,7 +167,7 @@ void MapCache::release_sheets(BoundsTextures& sheets) const {
     sheets = {};
 }
 
-Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& history) {
+Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& cached) {
     CachedMap made;
     made.desc = desc;
     made.storage = filter_row(request.map.filter).storage;
@@ -186,74 +186,74 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
         return reason;
     }
     // The new map exists; only now is the old one freed.
-    release(history);
-    history.desc = desc;
-    history.texture = made.texture;
-    history.storage = made.storage;
-    history.triangles = made.triangles;
-    history.sheets = std::move(made.sheets);
-    history.moments = std::move(made.moments);
-    history.layers.targets = std::move(made.layers.targets);
-    history.layers.content.assign(history.layers.targets.size(), 0);
-    history.layers.placements.assign(history.layers.targets.size(), 0);
+    release(cached);
+    cached.desc = desc;
+    cached.texture = made.texture;
+    cached.storage = made.storage;
+    cached.triangles = made.triangles;
+    cached.sheets = std::move(made.sheets);
+    cached.moments = std::move(made.moments);
+    cached.layers.targets = std::move(made.layers.targets);
+    cached.layers.content.assign(cached.layers.targets.size(), 0);
+    cached.layers.placements.assign(cached.layers.targets.size(), 0);
     return Reason::none;
 }
 
-bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& history) {
+bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached) {
     gl::TextureDesc desc = map_desc(light, request);
     const FilterStorage& storage = filter_row(request.map.filter).storage;
-    const gl::TextureDesc& held = history.desc;
-    if (history.texture &&
+    const gl::TextureDesc& held = cached.desc;
+    if (cached.texture &&
         !(held.kind == desc.kind && held.layers == desc.layers && held.format == desc.format &&
-          history.storage == storage && is_same_store(history.moments, moments_of(held, request.map)))) {
+          cached.storage == storage && is_same_store(cached.moments, moments_of(held, request.map)))) {
         // The light needs a map of another kind. The old map has no use, nor has the record of a failure.
-        release(history);
-        history.allocation.wanted_px = 0;
-        history.allocation.failure = Reason::none;
+        release(cached);
+        cached.allocation.wanted_px = 0;
+        cached.allocation.failure = Reason::none;
     }
-    const bool fits = history.texture && history.allocation.wanted_px == desc.width;
-    if (fits && (history.allocation.failure == Reason::none || frame_ < history.allocation.retry_frame)) return true;
-    if (history.allocation.failure != Reason::none && frame_ < history.allocation.retry_frame &&
-        history.allocation.wanted_px == desc.width)
-        return static_cast<bool>(history.texture);
+    const bool fits = cached.texture && cached.allocation.wanted_px == desc.width;
+    if (fits && (cached.allocation.failure == Reason::none || frame_ < cached.allocation.retry_frame)) return true;
+    if (cached.allocation.failure != Reason::none && frame_ < cached.allocation.retry_frame &&
+        cached.allocation.wanted_px == desc.width)
+        return static_cast<bool>(cached.texture);
     const std::uint32_t edge_px = desc.width;
     desc.label = "shadow map " + light.name;
-    history.allocation.wanted_px = edge_px;
-    history.allocation.failure = Reason::none;
+    cached.allocation.wanted_px = edge_px;
+    cached.allocation.failure = Reason::none;
     for (std::uint32_t halving = 0; halving <= kHalvings; ++halving) {
         desc.width = desc.height = std::max(edge_px >> halving, 1u);
-        if (halving > 0 && fits && history.texture && desc.width <= history.desc.width) break;  // no larger
+        if (halving > 0 && fits && cached.texture && desc.width <= cached.desc.width) break;  // no larger
         const PrefilterDescs moments = moments_of(desc, request.map);
-        const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &history);
-        Reason reason = has_room ? try_create(desc, request, history) : Reason::map_allocation_failed;
+        const bool has_room = make_room(map_bytes(desc, storage, moments.texture, moments.scratch), &cached);
+        Reason reason = has_room ? try_create(desc, request, cached) : Reason::map_allocation_failed;
         if (has_room && reason == Reason::map_allocation_failed && spare_ && spare_->bytes() > 0) {
             spare_->release();
             device_.finish();  // only then does the driver return what was freed
-            reason = try_create(desc, request, history);
+            reason = try_create(desc, request, cached);
         }
         refused_ = refused_ || (has_room && reason == Reason::map_allocation_failed);
         if (reason == Reason::none) {
-            if (halving > 0) history.allocation.failure = Reason::map_shrunk;
+            if (halving > 0) cached.allocation.failure = Reason::map_shrunk;
             break;
         }
-        history.allocation.failure = reason;
+        cached.allocation.failure = reason;
         if (reason == Reason::target_incomplete) break;  // a smaller one would fail alike
     }
-    if (history.allocation.failure != Reason::none) history.allocation.retry_frame = frame_ + kRetryFrames;
-    if (history.allocation.failure != Reason::none && history.texture) history.allocation.failure = Reason::map_shrunk;
-    return static_cast<bool>(history.texture);
+    if (cached.allocation.failure != Reason::none) cached.allocation.retry_frame = frame_ + kRetryFrames;
+    if (cached.allocation.failure != Reason::none && cached.texture) cached.allocation.failure = Reason::map_shrunk;
+    return static_cast<bool>(cached.texture);
 }
 
 bool MapCache::stay() {
-    for (const CachedMap& history : lights_) {
-        const bool wanted = history.last_wanted_frame + 1 == frame_;
-        if (wanted && history.allocation.failure != Reason::none && frame_ >= history.allocation.retry_frame)
+    for (const CachedMap& cached : lights_) {
+        const bool wanted = cached.last_wanted_frame + 1 == frame_;
+        if (wanted && cached.allocation.failure != Reason::none && frame_ >= cached.allocation.retry_frame)
             return false;
-        if (!wanted && history.texture && frame_ - history.last_wanted_frame > kHoldFrames) return false;
-        if (is_copy_idle(history) || (wanted && history.waits)) return false;
+        if (!wanted && cached.texture && frame_ - cached.last_wanted_frame > kHoldFrames) return false;
+        if (is_copy_idle(cached) || (wanted && cached.waits)) return false;
     }
-    for (CachedMap& history : lights_)
-        if (history.last_wanted_frame + 1 == frame_) history.last_wanted_frame = frame_;
+    for (CachedMap& cached : lights_)
+        if (cached.last_wanted_frame + 1 == frame_) cached.last_wanted_frame = frame_;
     return true;
 }
 
@@ -272,11 +272,11 @@ bool MapCache::make_room(std::uint64_t bytes_more, CachedMap* replaced) {
     for (std::uint64_t held = bytes(); held > limit_ || bytes_more > limit_ - held; held = bytes()) {
         CachedMap* unseen = nullptr;
         CachedMap* apart = nullptr;
-        for (CachedMap& history : lights_) {
-            const bool is_seen = history.last_wanted_frame == frame_;
-            if (history.texture && !is_seen && (!unseen || history.last_wanted_frame < unseen->last_wanted_frame))
-                unseen = &history;
-            if (history.still.texture) apart = &history;
+        for (CachedMap& cached : lights_) {
+            const bool is_seen = cached.last_wanted_frame == frame_;
+            if (cached.texture && !is_seen && (!unseen || cached.last_wanted_frame < unseen->last_wanted_frame))
+                unseen = &cached;
+            if (cached.still.texture) apart = &cached;
         }
         if (unseen)
             release(*unseen);
@@ -295,9 +295,9 @@ bool MapCache::make_room(std::uint64_t bytes_more, CachedMap* replaced) {
 void MapCache::keep_or_release(ecs::Entity light, Reason skip) {
     const CachedMap* held = find(light);
     if (!held) return;
-    CachedMap& history = entry(light);
-    history.kept_frame = frame_;
-    if (skip == Reason::over_budget || frame_ - history.last_wanted_frame > kHoldFrames) release(history);
+    CachedMap& cached = entry(light);
+    cached.kept_frame = frame_;
+    if (skip == Reason::over_budget || frame_ - cached.last_wanted_frame > kHoldFrames) release(cached);
 }
 
 void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
@@ -309,13 +309,13 @@ void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
         if (decisions[i].request.skip != Reason::none) continue;
         if (accounts.statuses[i].is_skipped()) keep_or_release(scene.lights[i].entity, accounts.statuses[i].skipped());
         if (!wants_map(i)) continue;
-        CachedMap& history = entry(scene.lights[i].entity);
-        history.kept_frame = history.last_wanted_frame = frame_;
-        history.waits = false;
+        CachedMap& cached = entry(scene.lights[i].entity);
+        cached.kept_frame = cached.last_wanted_frame = frame_;
+        cached.waits = false;
     }
-    const auto is_gone = [&](CachedMap& history) {
-        if (history.kept_frame == frame_) return false;
-        release(history);
+    const auto is_gone = [&](CachedMap& cached) {
+        if (cached.kept_frame == frame_) return false;
+        release(cached);
         return true;
     };
     if (std::erase_if(lights_, is_gone) > 0) note_places(0);
@@ -327,11 +327,11 @@ void MapCache::provide_maps(const SceneSnapshot& scene, std::span<const BudgetDe
             if (!wants_map(i)) continue;
             const LightTimer time(accounts.cpu_us, i);
             const ShadowRequest& request = decisions[i].request;
-            CachedMap& history = entry(scene.lights[i].entity);
-            const bool first = !limited || map_bytes(scene.lights[i], request) < bytes(history);
+            CachedMap& cached = entry(scene.lights[i].entity);
+            const bool first = !limited || map_bytes(scene.lights[i], request) < bytes(cached);
             if (first != (round == 0)) continue;
-            if (ensure_map(scene.lights[i], request, history)) continue;
-            accounts.statuses[i].lose_maps(history.allocation.failure, request.rays.used);
+            if (ensure_map(scene.lights[i], request, cached)) continue;
+            accounts.statuses[i].lose_maps(cached.allocation.failure, request.rays.used);
         }
     if (!std::exchange(refused_, false)) return;
     available_ = bytes();

@@ -10,6 +10,7 @@
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
+#include "systems/retry.h"
 #include "systems/shadow/frame/budget_decision.h"
 #include "systems/shadow/frame/light_accounts.h"
 #include "systems/shadow/frame/map_assignment.h"
@@ -28,7 +29,7 @@ struct PrefilterTextures {
     gl::TextureHandle texture{}, scratch{};
     std::vector<gl::TargetHandle> targets;  // one per layer
     gl::TargetHandle scratch_target{};
-    std::vector<std::uint64_t> content;  // per layer, as CachedMap::content
+    std::vector<std::uint64_t> content;  // per layer, as MapLayers::content
 };
 
 /// Conservative map beside a depth map of FilterStorage::conservative_bounds (BoundsDescs). CachedMap::triangles has
@@ -135,24 +136,24 @@ public:
     /// else empty.
     void waiting_bytes(const SceneSnapshot& scene, std::vector<std::optional<std::uint64_t>>& bytes_of) const;
     std::uint64_t bytes() const;
-    static std::uint64_t bytes(const CachedMap& history);
+    static std::uint64_t bytes(const CachedMap& cached);
 
-    static constexpr std::uint64_t kHoldFrames = 60;   // one second at 60 Hz: looking away and back costs nothing
-    static constexpr std::uint64_t kRetryFrames = 30;  // shadows return within a second after memory does
-    static constexpr std::uint32_t kHalvings = 4;      // down to a sixteenth of the edge; below, a shadow shows nothing
+    static constexpr std::uint64_t kHoldFrames = 60;  // one second at 60 Hz: looking away and back costs nothing
+    static constexpr std::uint64_t kRetryFrames = Retry::kFrames;
+    static constexpr std::uint32_t kHalvings = 4;  // down to a sixteenth of the edge; below, a shadow shows nothing
 
 private:
     void note_places(std::size_t first);
-    void release(CachedMap& history);
+    void release(CachedMap& cached);
     bool yield_spare(std::uint64_t bytes_more) const;
     bool make_room(std::uint64_t bytes_more, CachedMap* replaced);
     void keep_or_release(ecs::Entity light, Reason skip);
     void provide_maps(const SceneSnapshot& scene, std::span<const BudgetDecision> decisions,
                       const LightAccounts& accounts);
-    bool ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& history);
+    bool ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached);
     void release_static_copy(StaticCopy& still) const;
     bool is_copy_idle(const CachedMap& map) const;
-    Reason try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& history);
+    Reason try_create(const gl::TextureDesc& desc, const ShadowRequest& request, CachedMap& cached);
     bool make_targets(CachedMap& map) const;
     Reason make_moments(const ShadowRequest& request, CachedMap& map) const;
     Reason make_sheets(CachedMap& map) const;

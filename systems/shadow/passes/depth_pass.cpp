@@ -134,10 +134,11 @@ void DepthPass::prepare(const PassInputs& in, const LightAccounts& accounts) {
         const std::uint32_t light = in.drawn.view(v).light;
         const LightTimer time(accounts.cpu_us, light);
         const auto casters = drawn_casters(in.drawn, v);
-        // Without a layered program, each view gets its own pass. The maps are the same.
-        if (is_layered(in, v) && ready(in, variant_of(in, v), casters) == Reason::depth_program_failed)
-            separate_.push_back(light);
-        const Reason reason = ready(in, variant_of(in, v), casters);
+        Reason reason = ready(in, variant_of(in, v), casters);
+        if (reason == Reason::depth_program_failed && is_layered(in, v)) {
+            separate_.push_back(light);  // without a layered program, each view gets its own pass, to the same maps
+            reason = ready(in, variant_of(in, v), casters);
+        }
         if (reason != Reason::none) {
             accounts.statuses[light].lose_maps(reason, in.drawn.lights[light].request.rays.used);
             continue;
@@ -166,8 +167,7 @@ gl::PipelineState DepthPass::opaque_state(const GpuScene& gpu, const ShadowView&
     gl::PipelineState state = depth_state(programs_[which(variant_, false)]);
     if (variant_.sheets) return state;
     const CasterFaces faces = light.shadow.caster_faces;
-    const bool outside =
-        view.projection == ViewProjection::orthographic || math::distance(item.bounds_ws, apex_ws_m(view)) > 0.0;
+    const bool outside = is_parallel(view) || math::distance(item.bounds_ws, apex_ws_m(view)) > 0.0;
     if (faces == CasterFaces::both || !outside || item.folded || !gpu.mesh(item.mesh).solid) return state;
     state.cull = faces == CasterFaces::back ? gl::CullMode::front : gl::CullMode::back;
     state.front_is_clockwise = item.mirrored;

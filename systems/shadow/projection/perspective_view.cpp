@@ -17,8 +17,6 @@ TangentRectangle with_border(const TangentRectangle& rectangle, double size_px, 
     return {rectangle.low - border, rectangle.high + border};
 }
 
-namespace {}  // namespace
-
 ShadowView perspective_view(const glm::dvec3& apex_ws_m, const glm::dmat3& rotation_ws,
                             const TangentRectangle& rectangle, const PerspectiveRange& range, double size_px,
                             double anchored_m) {

@@ -38,7 +38,7 @@ constexpr double kProductRounding = 10.0 * kUnitRoundoff, kConstantRounding = 8.
 /// Returns the error of depth that is not proportional to it (bias/automatic.glsl adds the proportional part).
 /// `reach_m`: distance of receivers from the anchor, if that is not the light.
 double projection_rounding(const ShadowView& view, double reach_m) {
-    if (view.projection == ViewProjection::orthographic) return kOrthographicRounding;
+    if (is_parallel(view)) return kOrthographicRounding;
     if (view.pose.apex_m == 0.0) return kAlphaRounding * std::abs(view.depth.alpha);
     const double terms_m =
         kProductRounding * reach_m + kConstantRounding * std::abs(view.depth.far_m - view.pose.apex_m);
@@ -61,7 +61,7 @@ ViewRecord view_record(const DrawnViews& drawn, std::size_t v, const ConsumerIte
     const ShadowRequest& request = drawn.request_of(v);
     // A map that was shrunk has larger texels than the fit planned.
     const double stretch = static_cast<double>(request.map.resolution_px) / static_cast<double>(drawn.maps[v].size_px);
-    const bool orthographic = view.projection == ViewProjection::orthographic;
+    const bool orthographic = is_parallel(view);
     ViewRecord record;
     record.map_from_anchor = view.map_from_anchor;
     record.axis_u = with_w(view.pose.axis_u, view.plane.texel_u * stretch);
@@ -165,8 +165,7 @@ float source_size(LightKind kind, const FilterSettings& filter) {
 /// Returns the size of the source for one view. A sun seen from an eye gets a disk there, metres, as wide as the sky's
 /// from the middle of the view's depth.
 float source_size(LightKind kind, const FilterSettings& filter, const ShadowView& view) {
-    if (!light_facts(kind).parallel || view.projection == ViewProjection::orthographic)
-        return source_size(kind, filter);
+    if (!light_facts(kind).parallel || is_parallel(view)) return source_size(kind, filter);
     return filter.sun_radius_tan * static_cast<float>(0.5 * (view.depth.near_m + view.depth.far_m));
 }
 

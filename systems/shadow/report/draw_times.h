@@ -6,6 +6,7 @@
 
 #include "engine/gl/device.h"
 #include "systems/extract/snapshot.h"
+#include "systems/frame_timers.h"
 #include "systems/report.h"
 
 namespace gnomon::shadow {
@@ -21,7 +22,7 @@ public:
     /// Returns the microseconds per view; empty: never measured.
     std::optional<double> view_us(ecs::Entity light) const;
 
-    static constexpr std::size_t kFrames = 8;  // more than drivers queue
+    static constexpr std::size_t kFrames = kTimedSubmissions;
 
 private:
     /// A light that drew anything in a frame.

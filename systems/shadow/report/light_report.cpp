@@ -74,7 +74,7 @@ struct LookupState {
     bool skipped_for_rays = false;
 };
 
-void explain_state(const LightStatus& status, const BudgetDecision& decision, const CachedMap* history,
+void explain_state(const LightStatus& status, const BudgetDecision& decision, const CachedMap* cached,
                    const LookupState& lookup, LightReport& out) {
     out.reason = status.skipped();
     if (status.is_skipped()) {
@@ -82,9 +82,9 @@ void explain_state(const LightStatus& status, const BudgetDecision& decision, co
     } else if (lookup.lost) {
         out.state = LightState::skipped;
         out.reason = status.degraded();
-    } else if (history && history->allocation.failure != Reason::none) {
+    } else if (cached && cached->allocation.failure != Reason::none) {
         out.state = LightState::degraded;
-        out.reason = history->allocation.failure;
+        out.reason = cached->allocation.failure;
     } else if (decision.over_budget) {
         out.state = LightState::degraded;
         out.reason = Reason::budget_shrunk;
@@ -138,10 +138,10 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     out.name = light.name;
     out.kind = light.kind;
     out.cpu_us = in.cpu_us[i];
-    const CachedMap* history = in.maps.find(light.entity);
-    if (history && history->texture) {
-        out.counts.texels = std::uint64_t{history->desc.width} * history->desc.height * gl::layer_count(history->desc);
-        out.counts.bytes = MapCache::bytes(*history);
+    const CachedMap* cached = in.maps.find(light.entity);
+    if (cached && cached->texture) {
+        out.counts.texels = std::uint64_t{cached->desc.width} * cached->desc.height * gl::layer_count(cached->desc);
+        out.counts.bytes = MapCache::bytes(*cached);
     }
     const ShadowFilter filter = published_filter(in.drawn, i, in.has_rays);
     LookupAccuracy shown{filter, 0.0, false};
@@ -160,9 +160,9 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     lookup.lost = uses_rays && filter == ShadowFilter::automatic;
     lookup.drawn = out.counts.views_drawn > 0 || (exact && trees_changed);
     lookup.skipped_for_rays = is_left_to_rays(in.drawn, i);
-    explain_state(status, decision, history, lookup, out);
+    explain_state(status, decision, cached, lookup, out);
     out.keeps_max_error = (exact && !status.is_skipped()) ||
-                          (shown.keeps_max_error && !exact && history->allocation.failure == Reason::none);
+                          (shown.keeps_max_error && !exact && cached->allocation.failure == Reason::none);
     const LightSetsView sets = in.drawn.fitted.sets_of(in.sets, i);
     out.why.receivers = sets.ranges.receivers.count;
     out.why.casters = sets.ranges.casters.count;

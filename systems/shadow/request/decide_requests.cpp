@@ -107,12 +107,12 @@ float texels_per_pixel(const LightItem& light, const LightFitHistory* held, cons
     const FilterRow& row = filter_row(request.map.filter);
     if (!row.rays) return row.texels_per_pixel;
     if (map_texture(light, request) == gl::TextureKind::cube) return row.texels_per_pixel * kOfAFace;
-    const bool waits = held && light_facts(light.kind).parallel && is_static(*held);
-    return row.texels_per_pixel * (waits ? kStaticSunEdges : 1.0f);
+    const bool static_sun = held && light_facts(light.kind).parallel && is_static(*held);
+    return row.texels_per_pixel * (static_sun ? kStaticSunEdges : 1.0f);
 }
 
 /// Returns the target that determines the size of maps. 0 for a filter with rays, which is exact at any size.
-float wished_resolution_px(const LightItem& light, const ShadowRequest& request) {
+float size_target_px(const LightItem& light, const ShadowRequest& request) {
     return filter_row(request.map.filter).rays ? 0.0f : light.shadow.max_error_px;
 }
 
@@ -124,7 +124,7 @@ void decide_resolution(const LightItem& light, glm::uvec2 viewport_px, std::uint
     const std::uint32_t asked_px = light.shadow.resolution_px;
     request.limits.max_px = asked_px > 0 ? std::clamp(asked_px, std::min(kLeastRequested_px, limit_px), limit_px)
                                          : automatic_resolution(viewport_px, texels_per_pixel(light, held, request),
-                                                                wished_resolution_px(light, request), limit_px);
+                                                                size_target_px(light, request), limit_px);
     if (asked_px > 0 && request.limits.max_px != asked_px) request.note = Reason::resolution_clamped;
     set_resolution(light, request.limits.max_px, request);
     if (held_px > 0 && held_px < request.limits.max_px && adapts_to_target(light, request))
@@ -197,14 +197,6 @@ void set_most(const LightItem& light, std::uint32_t most_px, std::uint32_t held_
     set_resolution(light, held_px > 0 ? std::min(held_px, most_px) : most_px, request);
 }
 
-ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held, std::uint32_t i,
-                         ShadowFilter filter) {
-    const LightItem& light = scene.lights[i];
-    const bool cube = light_kind_row(light.kind).texture == gl::TextureKind::cube;
-    return request_with(scene, cube ? device.max_cube_px : device.max_texture_px, find(held, light.entity, i), i,
-                        filter);
-}
-
 ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const LightFitHistory* held_light,
                            std::uint32_t i, ShadowFilter filter) {
     filter = without_size(scene.lights[i], filter);
@@ -238,11 +230,12 @@ ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, c
 }
 
 bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        const LightItem& light = scene.lights[i];
-        const LightFitHistory* last = find(held, light.entity, i);
+    std::size_t guess = 0;
+    for (const LightItem& light : scene.lights) {
+        if (wanted(light, shadows) != Reason::none) continue;
+        const LightFitHistory* last = find(held, light.entity, guess++);
         const ShadowFilter filter = without_size(light, filter_to_fit(light, last ? &last->filter : nullptr));
-        if (wanted(light, shadows) == Reason::none && filter_row(filter).rays) return true;
+        if (filter_row(filter).rays) return true;
     }
     return false;
 }
@@ -250,18 +243,23 @@ bool wants_rays(const SceneSnapshot& scene, const History& held, bool shadows) {
 void decide_requests(const SceneSnapshot& scene, const RequestInputs& inputs, RayFallbacks& fallbacks,
                      std::vector<ShadowRequest>& requests) {
     requests.clear();
+    find_histories(scene.lights, inputs.held, fallbacks.held);
+    const auto request = [&](std::uint32_t i, ShadowFilter filter) {
+        const bool cube = light_kind_row(scene.lights[i].kind).texture == gl::TextureKind::cube;
+        const std::uint32_t limit_px = cube ? inputs.device.max_cube_px : inputs.device.max_texture_px;
+        return request_with(scene, limit_px, fallbacks.held[i], i, filter);
+    };
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         const LightItem& light = scene.lights[i];
-        const LightFitHistory* last = find(inputs.held, light.entity, i);
-        const ShadowFilter filter = filter_to_fit(light, last ? &last->filter : nullptr);
-        requests.push_back(request_of(scene, inputs.device, inputs.held, i, filter));
+        const LightFitHistory* last = fallbacks.held[i];
+        requests.push_back(request(i, filter_to_fit(light, last ? &last->filter : nullptr)));
         requests.back().skip = wanted(light, inputs.shadows);
     }
-    choose_fallbacks(scene, inputs.held, inputs.rays, requests, fallbacks);
+    choose_fallbacks(scene, inputs.rays, requests, fallbacks);
     for (std::uint32_t i = 0; i < requests.size(); ++i) {
         if (fallbacks.reasons[i] == Reason::none) continue;
         const ShadowFilter filter = filter_row(requests[i].map.filter).rays->without_rays;
-        requests[i] = request_of(scene, inputs.device, inputs.held, i, filter);
+        requests[i] = request(i, filter);
         requests[i].rays.fell_back = true;
         requests[i].note = fallbacks.reasons[i];
     }

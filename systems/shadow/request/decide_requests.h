@@ -20,12 +20,8 @@ void set_resolution(const LightItem& light, std::uint32_t size_px, ShadowRequest
 /// Sets a sun's number of cascades, and the fade between them; one cascade has none.
 void set_cascades(const ShadowTuning::Cascades& tuning, std::uint32_t count, ShadowRequest& request);
 
-/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `held`: history of all
-/// lights.
-ShadowRequest request_of(const SceneSnapshot& scene, const gl::DeviceInfo& device, const History& held,
-                         std::uint32_t light, ShadowFilter filter);
-
-/// Decides such a request within the device's limit on a map's edge. `held`: the light's history, null if it has none.
+/// Decides the request of a light with the given filter. Does not decide whether it is skipped. `limit_px`: the
+/// device's limit on a map's edge. `held`: the light's history, null if it has none.
 ShadowRequest request_with(const SceneSnapshot& scene, std::uint32_t limit_px, const LightFitHistory* held,
                            std::uint32_t light, ShadowFilter filter);
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Returns true if the stored choice was made for this target. Compares bit for bit, because the setting was stored
 /// unchanged.
-bool is_of_word(const FilterHistory& held, double target_px) {
+bool is_for_target(const FilterHistory& held, double target_px) {
     return held.target_px <= target_px && held.target_px >= target_px;
 }
 
@@ -31,25 +31,25 @@ bool leaves_filter(const LightItem& light) {
 
 ShadowFilter filter_to_fit(const LightItem& light, const FilterHistory* held) {
     if (light.shadow.filter != ShadowFilter::automatic) return light.shadow.filter;
-    const bool keeping = held && held->filter == kExactFilter && leaves_filter(light);
-    return keeping ? kExactFilter : kDefaultFilter;
+    const bool exact = held && held->filter == kExactFilter && leaves_filter(light);
+    return exact ? kExactFilter : kDefaultFilter;
 }
 
 ShadowFilter chosen_filter(const FilterHistory& held, double usual_px, double target_px) {
-    const bool comes_back = held.filter == kExactFilter && is_of_word(held, target_px);
+    const bool comes_back = held.filter == kExactFilter && is_for_target(held, target_px);
     const double most_px = comes_back ? target_px / kFilterHysteresis : target_px;
     return meets_target(usual_px, most_px) ? kDefaultFilter : kExactFilter;
 }
 
 bool is_trial_due(const FilterHistory& held, double target_px) {
-    return !is_of_word(held, target_px) || held.frames == 1 || held.passed > 0;
+    return !is_for_target(held, target_px) || held.frames == 1 || held.passed > 0;
 }
 
 bool comes_back(const FilterHistory& held, double target_px) {
-    return !is_of_word(held, target_px) || held.passed + 1 >= kFilterPasses;
+    return !is_for_target(held, target_px) || held.passed + 1 >= kFilterPasses;
 }
 
-FilterHistory held_keeping(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px) {
+FilterHistory exact_history(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px) {
     FilterHistory next{kExactFilter, target_px, usual_px, seen_px, 0, 0};
     if (passed)
         next.passed = held.passed + 1;

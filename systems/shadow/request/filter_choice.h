@@ -52,6 +52,6 @@ bool comes_back(const FilterHistory& held, double target_px);
 
 /// Computes the history of a light with kExactFilter after a frame. `seen_px`: error of its maps. `usual_px`: error
 /// of the default filter's maps at the last trial. `passed`: a trial in this frame met the target.
-FilterHistory held_keeping(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px);
+FilterHistory exact_history(const FilterHistory& held, double usual_px, bool passed, double seen_px, double target_px);
 
 }  // namespace gnomon::shadow

@@ -29,8 +29,7 @@ std::uint64_t pyramid_bytes(std::uint32_t size_px, std::uint32_t views) {
 
 double steepest(const ShadowView& view, double texel_u, double texel_v, double source_size) {
     const double texel = std::min(texel_u, texel_v);
-    if (view.projection == ViewProjection::orthographic)
-        return texel / (source_size * (view.depth.far_m - view.depth.near_m));
+    if (is_parallel(view)) return texel / (source_size * (view.depth.far_m - view.depth.near_m));
     return texel * view.depth.beta / (source_size * kMostStretch);
 }
 

@@ -28,11 +28,11 @@ constexpr float kMostFootprint_texel = 16.0f;
 
 /// Sets the footprint and the part of E that it adds. At the coarsest level the sampler blends texels up to 1.5 of that
 /// level's away; E already includes one of the finest. Anisotropy moves the taps along the footprint, by half of it.
-void set_footprint(PrefilterSettings& request) {
-    const auto coarsest_texel = static_cast<float>(1u << (request.levels - 1));
-    request.footprint_texel = std::min(coarsest_texel * static_cast<float>(request.anisotropy), kMostFootprint_texel);
-    request.reach_texel = request.levels > 1 ? 1.5f * coarsest_texel - 1.0f : 0.0f;
-    if (request.anisotropy > 1) request.reach_texel += 0.5f * request.footprint_texel;
+void set_footprint(PrefilterSettings& result) {
+    const auto coarsest_texel = static_cast<float>(1u << (result.levels - 1));
+    result.footprint_texel = std::min(coarsest_texel * static_cast<float>(result.anisotropy), kMostFootprint_texel);
+    result.reach_texel = result.levels > 1 ? 1.5f * coarsest_texel - 1.0f : 0.0f;
+    if (result.anisotropy > 1) result.reach_texel += 0.5f * result.footprint_texel;
 }
 
 /// Returns the mipmap levels that the widest penumbra needs; 1 without FilterWidth::source or without a source's size.
@@ -52,31 +52,31 @@ std::uint32_t widest_penumbra_levels(float radius_texel) {
 }
 
 PrefilterSettings prefilter_settings(const FilterRow& row, const LightItem& light, std::uint32_t resolution_px) {
-    PrefilterSettings request;
-    if (!row.moments) return request;
+    PrefilterSettings result;
+    if (!row.moments) return result;
     const ShadowTuning::Moments& tuning = light.tuning.moments;
     const bool half = tuning.bits <= 16;
     const MomentStore& store = half ? row.moments->bits_16 : row.moments->bits_32;
-    request.cut = tuning.bits != 16 && tuning.bits != 32;
-    request.format = store.format;
+    result.cut = tuning.bits != 16 && tuning.bits != 32;
+    result.format = store.format;
     const float negative = row.moments->usual_negative_exponent;
-    request.settings = {
-        exponent(tuning.exponent, store.usual_exponent, store.most_exponent, request.cut),
-        negative > 0.0f ? exponent(tuning.negative_exponent, negative, store.most_exponent, request.cut) : 0.0f,
+    result.settings = {
+        exponent(tuning.exponent, store.usual_exponent, store.most_exponent, result.cut),
+        negative > 0.0f ? exponent(tuning.negative_exponent, negative, store.most_exponent, result.cut) : 0.0f,
         store.least, half ? 1.0f : 0.0f};
     const bool share = tuning.bleeding >= 0.0f && tuning.bleeding <= kMostMomentBleeding;
-    request.bleeding = share ? tuning.bleeding : ShadowTuning::Moments{}.bleeding;
-    request.levels = std::clamp(tuning.levels, 1u, kMostMomentLevels);
-    request.anisotropy = std::clamp(tuning.anisotropy, 1u, kMostMomentAnisotropy);
-    set_footprint(request);
+    result.bleeding = share ? tuning.bleeding : ShadowTuning::Moments{}.bleeding;
+    result.levels = std::clamp(tuning.levels, 1u, kMostMomentLevels);
+    result.anisotropy = std::clamp(tuning.anisotropy, 1u, kMostMomentAnisotropy);
+    set_footprint(result);
     const auto most_texel = static_cast<float>(resolution_px / kEdgesPerSpread);
-    while (request.reach_texel > most_texel && request.levels + request.anisotropy > 2) {
-        (request.levels > 1 ? request.levels : request.anisotropy) -= 1;
-        set_footprint(request);
+    while (result.reach_texel > most_texel && result.levels + result.anisotropy > 2) {
+        (result.levels > 1 ? result.levels : result.anisotropy) -= 1;
+        set_footprint(result);
     }
-    request.cut = request.cut || !share || request.levels != tuning.levels || request.anisotropy != tuning.anisotropy;
-    request.levels = std::max(request.levels, penumbra_levels(row, light, resolution_px));
-    return request;
+    result.cut = result.cut || !share || result.levels != tuning.levels || result.anisotropy != tuning.anisotropy;
+    result.levels = std::max(result.levels, penumbra_levels(row, light, resolution_px));
+    return result;
 }
 
 std::array<float, kMomentWeights> blur_weights(std::uint32_t size) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "systems/extract/light_facts.h"
 #include "systems/shadow/projection/screen_bounds.h"
-#include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::shadow {
@@ -20,7 +20,7 @@ double rays_of(const SceneSnapshot& scene, const LightItem& light, const ShadowR
 }
 
 /// Returns the importance of a light's shadow to the picture: pixels times illuminance at the nearest camera.
-double meaning(const SceneSnapshot& scene, const LightItem& light) {
+double importance_of(const SceneSnapshot& scene, const LightItem& light) {
     double nearest_m2 = std::numeric_limits<double>::infinity();
     for (const ConsumerItem& consumer : scene.consumers) {
         const glm::dvec3 way_m = light.position_ws_m - consumer.position_ws_m;
@@ -48,8 +48,8 @@ double lookup_pixels(const SceneSnapshot& scene, const LightItem& light) {
     return pixels;
 }
 
-void choose_fallbacks(const SceneSnapshot& scene, const History& held, const RayLimit& limit,
-                      std::span<const ShadowRequest> requests, RayFallbacks& out) {
+void choose_fallbacks(const SceneSnapshot& scene, const RayLimit& limit, std::span<const ShadowRequest> requests,
+                      RayFallbacks& out) {
     out.reasons.assign(requests.size(), Reason::none);
     if (limit.lacks_memory) {
         for (std::size_t i = 0; i < requests.size(); ++i)
@@ -59,20 +59,19 @@ void choose_fallbacks(const SceneSnapshot& scene, const History& held, const Ray
     if (limit.rays == 0) return;
     out.lights.clear();
     for (std::uint32_t i = 0; i < requests.size(); ++i)
-        if (uses_rays(requests[i])) out.lights.push_back({meaning(scene, scene.lights[i]), i});
+        if (uses_rays(requests[i])) out.lights.push_back({importance_of(scene, scene.lights[i]), i});
     // A stable sort would allocate.
     std::sort(out.lights.begin(), out.lights.end(), [](const RayLight& a, const RayLight& b) {
         return a.importance != b.importance ? a.importance > b.importance : a.light < b.light;
     });
     double left = static_cast<double>(limit.rays);
-    for (const RayLight& asker : out.lights) {
-        const LightItem& light = scene.lights[asker.light];
-        const LightFitHistory* last = find(held, light.entity, asker.light);
-        const double rays = rays_of(scene, light, requests[asker.light]);
+    for (const RayLight& candidate : out.lights) {
+        const LightFitHistory* last = out.held[candidate.light];
+        const double rays = rays_of(scene, scene.lights[candidate.light], requests[candidate.light]);
         if (rays * (last && last->rays.fell_back ? kBackAgain : 1.0) <= left)
             left -= rays;
         else
-            out.reasons[asker.light] = Reason::ray_budget;
+            out.reasons[candidate.light] = Reason::ray_budget;
     }
 }
 

@@ -34,14 +34,15 @@ struct RayLight {
 
 /// Reasons why lights fell back to another filter. Reason::none: the light has its own filter.
 struct RayFallbacks {
-    std::vector<Reason> reasons;   // one per light
-    std::vector<RayLight> lights;  // scratch
+    std::vector<Reason> reasons;               // one per light
+    std::vector<RayLight> lights;              // scratch
+    std::vector<const LightFitHistory*> held;  // scratch, one per light: its history, or null
 };
 
 /// Chooses the lights that fall back to RayRow::without_rays, so that the others use no more rays than the limit. Rays
-/// are granted by falling importance. A light that fell back returns when there is room for a quarter more than its
-/// rays.
-void choose_fallbacks(const SceneSnapshot& scene, const History& held, const RayLimit& limit,
-                      std::span<const ShadowRequest> requests, RayFallbacks& out);
+/// are granted by falling importance. A light that fell back (`out.held`) returns when there is room for a quarter more
+/// than its rays.
+void choose_fallbacks(const SceneSnapshot& scene, const RayLimit& limit, std::span<const ShadowRequest> requests,
+                      RayFallbacks& out);
 
 }  // namespace gnomon::shadow

@@ -8,15 +8,14 @@ namespace {
 
 /// Records the casters that a layer just drawn shows, if its map may be kept when they move.
 void note_shown(const SceneSnapshot& scene, const DrawnViews& drawn, std::size_t v, bool takes_turns,
-                CachedMap& history) {
+                CachedMap& cached) {
     const ShadowView& view = drawn.view(v);
     if (!may_be_held(scene.lights[view.light]) && !takes_turns) {
-        history.layers.shown.clear();
+        cached.layers.shown.clear();
         return;
     }
-    history.layers.shown.resize(history.layers.targets.size());
-    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still,
-             history.layers.shown[view.layer]);
+    cached.layers.shown.resize(cached.layers.targets.size());
+    remember(scene, drawn.fitted.moving_casters_of(view), drawn.maps[v].content.still, cached.layers.shown[view.layer]);
 }
 
 }  // namespace
@@ -27,17 +26,17 @@ void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const Fram
         const std::uint32_t layer = drawn.view(v).layer;
         const UpdatePlan& plan = drawn.updates[v];
         const ContentSignature& wanted = drawn.maps[v].content;
-        CachedMap& history = maps.entry(scene.lights[drawn.view(v).light].entity);
+        CachedMap& cached = maps.entry(scene.lights[drawn.view(v).light].entity);
         if (!plan.reuse) {
-            history.layers.content[layer] = end.executed ? plan.content : 0;
-            history.layers.placements[layer] = wanted.placement;
-            note_shown(scene, drawn, v, end.takes_turns, history);
+            cached.layers.content[layer] = end.executed ? plan.content : 0;
+            cached.layers.placements[layer] = wanted.placement;
+            note_shown(scene, drawn, v, end.takes_turns, cached);
         }
-        if (layer < history.layers.shown.size())
-            history.layers.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
-        if (plan.copy_use == StaticCopyUse::fill) history.still.layers[layer].content = end.executed ? wanted.still : 0;
+        if (layer < cached.layers.shown.size())
+            cached.layers.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
+        if (plan.copy_use == StaticCopyUse::fill) cached.still.layers[layer].content = end.executed ? wanted.still : 0;
         if (plan.convert && drawn.has_prefiltered(v))
-            history.moments.content[layer] = end.executed ? plan.moment_content : 0;
+            cached.moments.content[layer] = end.executed ? plan.moment_content : 0;
     }
 }
 

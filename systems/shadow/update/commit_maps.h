@@ -11,7 +11,7 @@ struct FrameEnd {
     bool takes_turns = false;  // a budget may defer views, so that the casters they show are recorded
 };
 
-/// Records in the store what the frame drew. Call it after the frame was submitted.
+/// Records in the map cache what the frame drew. Call it after the frame was submitted.
 void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const FrameEnd& end, MapCache& maps);
 
 }  // namespace gnomon::shadow

@@ -65,15 +65,15 @@ bool may_be_held(const LightItem& light) {
 }
 
 Staleness staleness_if_held(const SceneSnapshot& scene, const UpdateInputs& inputs, std::size_t v,
-                            const CachedMap& history, std::uint64_t shown_content) {
+                            const CachedMap& cached, std::uint64_t shown_content) {
     const ShadowView& view = inputs.fitted.views[v];
     const MapAssignment& map = inputs.maps[v];
     const bool certain = static_cast<bool>(map.sheets.second);  // a stale conservative map would classify wrongly
-    const bool shows_it = shown_content != 0 && history.layers.placements[view.layer] == map.content.placement;
+    const bool shows_it = shown_content != 0 && cached.layers.placements[view.layer] == map.content.placement;
     if (certain || !scene.lights[view.light].tuning.reuse.economy || !shows_it ||
-        view.layer >= history.layers.shown.size())
+        view.layer >= cached.layers.shown.size())
         return kUnknownStaleness;
-    return staleness(scene, view, history.layers.shown[view.layer], map.content.still, inputs.fitted.casters_of(view));
+    return staleness(scene, view, cached.layers.shown[view.layer], map.content.still, inputs.fitted.casters_of(view));
 }
 
 void keep_stale_maps(const SceneSnapshot& scene, const UpdateInputs& inputs, std::uint64_t frame,

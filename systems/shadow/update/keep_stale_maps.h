@@ -12,10 +12,10 @@ namespace gnomon::shadow {
 /// offset does not cover a moved caster, which would darken itself.
 bool may_be_held(const LightItem& light);
 
-/// Returns the staleness of view `v` if its layer were kept. `history`: the store's entry of its light. Infinite if the
-/// movement of casters since the layer was drawn is unknown, or if the view itself moved.
+/// Returns the staleness of view `v` if its layer were kept. `cached`: the map cache's entry of its light. Infinite if
+/// the movement of casters since the layer was drawn is unknown, or if the view itself moved.
 Staleness staleness_if_held(const SceneSnapshot& scene, const UpdateInputs& inputs, std::size_t v,
-                            const CachedMap& history, std::uint64_t shown_content);
+                            const CachedMap& cached, std::uint64_t shown_content);
 
 /// Keeps layers that are not up to date, where the light's error limit or a turn allows it.
 void keep_stale_maps(const SceneSnapshot& scene, const UpdateInputs& inputs, std::uint64_t frame,

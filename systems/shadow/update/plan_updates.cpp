@@ -21,15 +21,14 @@ void compare_layers(const SceneSnapshot& scene, const UpdateInputs& inputs, cons
         if (!map.texture) continue;
         const ShadowView& view = inputs.fitted.views[v];
         const LightItem& light = scene.lights[view.light];
-        const CachedMap& history = *maps.find(light.entity);
+        const CachedMap& cached = *maps.find(light.entity);
         UpdatePlan& plan = plans[v];
         plan.content = map.content.all;
-        plan.reuse = view.lit || (light.tuning.reuse.economy && history.layers.content[view.layer] == plan.content);
+        plan.reuse = view.lit || (light.tuning.reuse.economy && cached.layers.content[view.layer] == plan.content);
         if (plan.reuse) continue;
-        plan.shown_content = history.layers.content[view.layer];
-        plan.if_held = staleness_if_held(scene, inputs, v, history, plan.shown_content);
-        if (view.layer < history.layers.shown.size())
-            plan.waited_frames = history.layers.shown[view.layer].waited_frames;
+        plan.shown_content = cached.layers.content[view.layer];
+        plan.if_held = staleness_if_held(scene, inputs, v, cached, plan.shown_content);
+        if (view.layer < cached.layers.shown.size()) plan.waited_frames = cached.layers.shown[view.layer].waited_frames;
     }
 }
 

@@ -10,7 +10,7 @@
 namespace gnomon::shadow {
 
 /// Plans for each view with a map whether it is drawn, partly copied, kept, or replaced by rays; one entry per view.
-/// Records in the store what lights need. `due` is overwritten.
+/// Records in the map cache what lights need. `due` is overwritten.
 void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateInputs& inputs, MapCache& maps,
                   std::vector<DueView>& due, std::vector<UpdatePlan>& plans);
 

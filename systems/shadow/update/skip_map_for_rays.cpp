@@ -45,10 +45,10 @@ void skip_maps_for_rays(const SceneSnapshot& scene, const GpuScene& gpu, const U
         const ShadowRequest& request = inputs.decisions[i].request;
         if (range.count == 0 || !request.rays.used || !light.tuning.reuse.economy || !inputs.maps[range.first].texture)
             continue;
-        CachedMap& history = maps.entry(light.entity);
+        CachedMap& cached = maps.entry(light.entity);
         const std::uint64_t content = content_of(plans, range);
-        const bool moves = history.wanted_content != 0 && history.wanted_content != content;
-        history.wanted_content = content;
+        const bool moves = cached.wanted_content != 0 && cached.wanted_content != content;
+        cached.wanted_content = content;
         if (!moves || !are_rays_cheaper(lookup_pixels(scene, light), rays_per_pixel(request.map),
                                         load_of(scene, gpu, inputs, plans, range)))
             continue;

@@ -82,7 +82,7 @@ CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const 
     if (bends.since != then.bends_since) return {kInfinity, kInfinity};
     const double bent_m = (bends.bent_m - then.bent_m) * longest(now.basis);
     const BoxShift shift = box_shift(view, then, now, bent_m);
-    if (view.projection == ViewProjection::orthographic) return {shift.any_m, shift.across_m};
+    if (is_parallel(view)) return {shift.any_m, shift.across_m};
     // x1/z1 - x0/z0 = ((x1 - x0) - (x0/z0)(z1 - z0)) / z1, and the same with 0 and 1 swapped. The form with a tangent
     // inside the map applies. If neither place is inside, neither is visible.
     const double distance_m = std::min(least_distance_m(view, then.bounds_ws), least_distance_m(view, now.bounds_ws));
@@ -104,7 +104,7 @@ Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const Sh
         if (!(shift.any_m < kInfinity && shift.across < kInfinity)) return kUnknownStaleness;
         most = {std::max(most.any_m, shift.any_m), std::max(most.across, shift.across)};
     }
-    const bool orthographic = view.projection == ViewProjection::orthographic;
+    const bool orthographic = is_parallel(view);
     // In a perspective view, tangents convert to pixels by the texel's own size in tangents.
     const double across_px =
         orthographic ? view.error.metre_px

@@ -11,7 +11,7 @@ namespace gnomon::shadow {
 /// View that is due in this frame.
 struct DueView {
     static constexpr double kMustNotWait = std::numeric_limits<double>::infinity();
-    std::size_t view = 0;   // index into ShadowFrame::views
+    std::size_t view = 0;   // index into FittedViews::views
     double ns = 0.0;        // time of drawing it
     double harm = 0.0;      // error cost of keeping it as it is for now, or kMustNotWait
     std::uint64_t key = 0;  // hash of the view itself, independent of its place in a list: decides between equals

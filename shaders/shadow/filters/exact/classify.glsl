@@ -10,7 +10,7 @@ const float kMostFloorShare = 0.5;    // largest share for which a texel bounds 
 const int kCertainlyLit = 0, kCertainlyDark = 1, kUncertain = 2;
 
 // Returns by how much facets that are not drawn may depart from a depth, as a share of that depth less the far end's:
-// FlatFacets. A sun's map is cleared to it.
+// FlatFacetTest. A sun's map is cleared to it.
 float sheet_floor_share(SheetPlace place) {
     if (kIsSun) return 0.0;
     // Along a walk 1/z changes by no more than this share of itself in half a texel.

@@ -15,7 +15,7 @@ const float kDepartureFactor = 1.13;
 const float kProjectedUnits = 4.0;    // rounding of a row of the projection, 2^-24
 const float kMostMoved_texel = 0.05;  // most that rounding moves a place across the map
 const float kStoredUnits = 8.0;       // rounding of a depth as it is interpolated, stored and compared, 2^-24
-const float kFloorTangent = 4.0;      // tangent between normal and light, up to which no facet is drawn (SheetFloor)
+const float kFloorTangent = 4.0;      // tangent between normal and light, up to which no facet is drawn (BoundsFloor)
 const float kUnknownDeparture = 1e6;
 
 mat4 absolute(mat4 m) { return mat4(abs(m[0]), abs(m[1]), abs(m[2]), abs(m[3])); }

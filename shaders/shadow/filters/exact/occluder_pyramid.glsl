@@ -4,7 +4,7 @@
 const int kEndsAcross = 4;   // squares of a level along a side of a square of the next
 const float kUnknownNear = 2.0;   // before all that depth can be
 
-// Returns by what share of its depth a facet that is not drawn may depart: FlatFacets. `texel_tan`: side of a texel; 0:
+// Returns by what share of its depth a facet that is not drawn may depart: FlatFacetTest. `texel_tan`: side of a texel; 0:
 // parallel light, with a map that is cleared to that.
 float floor_share(float texel_tan) {
     float share = 0.5 * kFloorTangent * texel_tan;

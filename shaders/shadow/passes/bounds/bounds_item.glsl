@@ -1,18 +1,18 @@
 // Items that passes over sheets pull: a triangle or an edge, as it is projected, and how far rounding may have taken
-// it. C++ twin: SheetItem in systems/shadow/exact/bounds_items.h.
+// it. C++ twin: BoundsItem in systems/shadow/exact/bounds_items.h.
 #include "common/bindings.glsl"
 #include "common/position_error.glsl"
 #include "shadow/passes/depth/depth_view_block.glsl"
 #include "shadow/filters/exact/error_margins.glsl"
-struct SheetItem {
+struct BoundsItem {
     uint instance, a, b, c;   // vertices of the common buffer
 };
 layout(binding = kBoundsItemUnit) uniform usamplerBuffer sheet_items;
 layout(binding = kBoundsVertexUnit) uniform usamplerBuffer scene_vertices;   // two texels each, position first
 
-SheetItem sheet_item(int place) {
+BoundsItem bounds_item(int place) {
     uvec4 item = texelFetch(sheet_items, place);
-    return SheetItem(item.x, item.y, item.z, item.w);
+    return BoundsItem(item.x, item.y, item.z, item.w);
 }
 
 struct Corner {

@@ -90,7 +90,7 @@ vec4 covering(Corner a, Corner b, Corner c, vec2 corner) {
 }
 
 void main() {
-    SheetItem item = sheet_item(gl_VertexID / kVertices);
+    BoundsItem item = bounds_item(gl_VertexID / kVertices);
     InstanceRecord instance = instance_record(item.instance);
     Corner a = corner_of(instance, item.a), b = corner_of(instance, item.b), c = corner_of(instance, item.c);
     gl_Position = nowhere();

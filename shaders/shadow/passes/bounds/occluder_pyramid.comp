@@ -3,7 +3,7 @@
 #include "common/bindings.glsl"
 #include "shadow/filters/exact/occluder_pyramid.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-// C++ twin: EndsRecord in systems/shadow/exact/occluder_pyramid_pass.h.
+// C++ twin: PyramidRecord in systems/shadow/exact/occluder_pyramid_pass.h.
 layout(std140, binding = kPyramidBlock) uniform EndsBlock {
     vec4 axis_u, axis_v, axis_back;   // axes of a cube's face, as in face_axes()
     ivec4 from;                       // x: where the level below begins; y: its side; z: layer of the map

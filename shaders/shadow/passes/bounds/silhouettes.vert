@@ -36,7 +36,7 @@ vec4 covering(vec2 p, vec2 q, float half_side, vec2 corner) {
 }
 
 void main() {
-    SheetItem item = sheet_item(gl_VertexID / kVertices);
+    BoundsItem item = bounds_item(gl_VertexID / kVertices);
     InstanceRecord instance = instance_record(item.instance);
     Corner a = corner_of(instance, item.a), b = corner_of(instance, item.b);
     vec4 rounded = kProjectedUnits * kUnitRoundoff * max(abs(a.place), abs(b.place));   // by where it is clipped

@@ -123,7 +123,7 @@ bool sampled_splits(const SampledSplit& split, CascadeSplitDistances& ends_m) {
 
 bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& held, SampledSplitHistory& next,
                          CascadeSplitDistances& ends_m) {
-    constexpr double kSizeHysteresis = 1.1;
+    constexpr double kCostHysteresis = 1.1;
     if (!knows(split)) return false;
     const Counted bins = counted(split);
     if (bins.empty()) return false;
@@ -133,7 +133,7 @@ bool held_sampled_splits(const SampledSplit& split, const SampledSplitHistory& h
         stay[0] = split.whole.lowest;
         for (std::uint32_t i = 1; i < split.count; ++i) stay[i] = std::clamp(stay[i], stay[i - 1], split.whole.highest);
         stay[split.count] = split.whole.highest;
-        if (cost_of(bins, split.count, stay) <= kSizeHysteresis * cost_of(bins, split.count, ends_m)) ends_m = stay;
+        if (cost_of(bins, split.count, stay) <= kCostHysteresis * cost_of(bins, split.count, ends_m)) ends_m = stay;
     }
     next = {split.count, ends_m};
     return true;

@@ -260,7 +260,7 @@ TEST(Budget, GivesBackWhatThereIsRoomFor) {
         settle_limits(loads, limits, {}, calm, grants, scratch);
         ++frames;
     }
-    EXPECT_EQ(frames, kBudgetCooldown) << "not before, lest it be taken away again at once";
+    EXPECT_EQ(frames, kFramesToRegrant) << "not before, lest it be taken away again at once";
 }
 
 TEST(Budget, HoldsWithAbsurdNumbers) {

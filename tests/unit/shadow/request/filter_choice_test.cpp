@@ -32,19 +32,19 @@ TEST(FilterChoice, ComesBackOnceTheUsualOneErrsByLessThanItMay) {
 }
 
 TEST(FilterChoice, IsTriedAgainASecondAfterWhatIsSeenChangedAndNotBefore) {
-    FilterHistory held = held_keeping({}, 9.0, false, 1.0, 2.0);
+    FilterHistory held = exact_history({}, 9.0, false, 1.0, 2.0);
     EXPECT_EQ(held.filter, kExactFilter);
     EXPECT_EQ(held.frames, kFilterFrames);
     for (std::uint32_t frame = kFilterFrames; frame > 1; --frame) {
         EXPECT_FALSE(is_trial_due(held, 2.0)) << frame;
-        held = held_keeping(held, 9.0, false, 1.0 + frame, 2.0);
+        held = exact_history(held, 9.0, false, 1.0 + frame, 2.0);
     }
     EXPECT_TRUE(is_trial_due(held, 2.0));
-    held = held_keeping(held, 8.0, false, held.seen_px, 2.0);
+    held = exact_history(held, 8.0, false, held.seen_px, 2.0);
     EXPECT_EQ(held.frames, 0u) << "all is as it was: at rest";
     EXPECT_FALSE(is_trial_due(held, 2.0));
-    EXPECT_EQ(held_keeping(held, 8.0, false, held.seen_px, 2.0), held);
-    EXPECT_EQ(held_keeping(held, 8.0, false, held.seen_px + 1.0, 2.0).frames, kFilterFrames);
+    EXPECT_EQ(exact_history(held, 8.0, false, held.seen_px, 2.0), held);
+    EXPECT_EQ(exact_history(held, 8.0, false, held.seen_px + 1.0, 2.0).frames, kFilterFrames);
     EXPECT_TRUE(is_trial_due(held, 2.5)) << "another word";
 }
 
@@ -54,10 +54,10 @@ TEST(FilterChoice, ComesBackOnlyAfterEveryFrameOfHalfASecondPassed) {
         EXPECT_TRUE(is_trial_due(held, 2.0));
         EXPECT_FALSE(comes_back(held, 2.0)) << pass;
         EXPECT_TRUE(comes_back(held, 2.5)) << "another word: at once";
-        held = held_keeping(held, 1.0, true, 1.0, 2.0);
+        held = exact_history(held, 1.0, true, 1.0, 2.0);
     }
     EXPECT_TRUE(comes_back(held, 2.0));
-    held = held_keeping(held, 9.0, false, 1.0, 2.0);
+    held = exact_history(held, 9.0, false, 1.0, 2.0);
     EXPECT_EQ(held.passed, 0u);
     EXPECT_EQ(held.frames, kFilterFrames) << "one that fails ends it";
     EXPECT_FALSE(is_trial_due(held, 2.0));

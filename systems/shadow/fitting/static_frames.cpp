@@ -1,4 +1,4 @@
-#include "systems/shadow/fitting/quiet_frames.h"
+#include "systems/shadow/fitting/static_frames.h"
 
 #include <algorithm>
 
@@ -28,7 +28,10 @@ void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, 
     next.pictures = any ? pictures_of(scene) : 0;
     if (!any) return;
     const bool moved = held.pictures != next.pictures;
+    std::size_t entries = 0;  // next.lights has those lights that the request did not skip
     for (std::uint32_t i = 0; i < fitted.lights.size(); ++i) {
+        if (fitted.lights[i].request.skip != Reason::none) continue;
+        LightFitHistory& entry = next.lights[entries++];
         const LightItem& light = scene.lights[i];
         const auto views = fitted.views_of(i);
         if (views.empty() || !fitted.lights[i].request.rays.used) continue;
@@ -39,13 +42,9 @@ void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, 
                 casters.add(std::uint64_t{scene.instances[c].gpu_slot});
                 casters.add(scene.instances[c].version);
             }
-        for (LightFitHistory& entry : next.lights) {
-            if (entry.light != light.entity) continue;
-            const bool same = entry.rays.casters == casters.value() && light.tuning.reuse.economy && !budget_active;
-            entry.rays.casters = casters.value();
-            entry.rays.static_frames =
-                same ? std::min(entry.rays.static_frames + (moved ? 1 : 0), kStaticSunFrames) : 0;
-        }
+        const bool same = entry.rays.casters == casters.value() && light.tuning.reuse.economy && !budget_active;
+        entry.rays.casters = casters.value();
+        entry.rays.static_frames = same ? std::min(entry.rays.static_frames + (moved ? 1 : 0), kStaticSunFrames) : 0;
     }
 }
 
