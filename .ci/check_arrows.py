@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 MAX_LINES = 400
-PARTS = ("components", "engine", "shaders", "systems", "sample_game", "bench", "tests")
+PARTS = ("include", "components", "engine", "shaders", "systems", "sample_game", "bench", "tests")
 CODE = {".h", ".cpp"}
 COUNTED = CODE | {".glsl", ".vert", ".frag", ".geom", ".comp", ".py", ".cmake", ".sh"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -20,10 +20,11 @@ REGISTRY = "engine/ecs/registry.h"
 
 # First matching prefix decides: what a file there may include of the project's own files.
 ALLOWED = (
+    ("include/", ("gnomon/", "components/", "engine/core/")),
     ("components/", ("components/", "engine/ecs/entity.h")),
     ("engine/", ("engine/",)),
     ("shaders/", ("shaders/", "engine/")),
-    ("systems/", ("systems/", "components/", "engine/", "shaders/bindings.h", "shaders/embedded.h")),
+    ("systems/", ("systems/", "gnomon/", "components/", "engine/", "shaders/bindings.h", "shaders/embedded.h")),
     ("sample_game/", ("sample_game/", "systems/", "components/", "engine/", "shaders/")),
     ("bench/", ("",)),
     ("tests/", ("",)),
@@ -50,13 +51,18 @@ def is_standard(name):
     return "." not in name and "/" not in name
 
 
+def file_of(name):
+    """The file, from the project's root, that an include names."""
+    return "include/" + name if name.startswith("gnomon/") else MADE.get(name, name)
+
+
 def included(text):
     return [(mark == "<", name) for mark, name in INCLUDE.findall(text)]
 
 
 def breaches_of_include(path, name, root):
     """Reasons why the file at `path` may not include the project's own `name`."""
-    if not (root / MADE.get(name, name)).is_file():
+    if not (root / file_of(name)).is_file():
         return [f"includes {name}, which is no path from the project's root"]
     found = []
     allowed = next(prefixes for part, prefixes in ALLOWED if path.startswith(part))
@@ -113,7 +119,7 @@ def check(root):
             breaches.append(f"has {lines} lines, {MAX_LINES} are the limit")
         if file.suffix in CODE:
             own = [name for angled, name in included(text) if not angled]
-            includes[path] = own
+            includes[path] = [file_of(name) for name in own]
             for name in own if not path.startswith(STRANGER) else ():
                 breaches += breaches_of_include(path, name, root) + breaches_of_order(path, name)
             for angled, name in included(text):

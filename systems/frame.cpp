@@ -93,7 +93,7 @@ std::optional<double> Frame::most_exposure(const FrameSettings& settings) {
 /// Updates the shadows. While fits are frozen, the stages see the frozen cameras as the scene's consumers.
 const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) {
     const auto update = [&]() -> const shadow::ShadowFrame& {
-        return shadows_->update(snapshot_, gpu_scene_, {settings.shadows, settings.shadow_budget, feedback_}, commands_,
+        return shadows_->update(snapshot_, gpu_scene_, {settings.shadows, settings.shadow_budget, feedback_, settings.rays}, commands_,
                                 report_);
     };
     if (!settings.freeze_fits) frozen_.reset();

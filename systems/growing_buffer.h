@@ -1,9 +1,13 @@
 #pragma once
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "engine/gl/device.h"
 
@@ -52,6 +56,14 @@ private:
 /// Rounds up to the device's uniform-offset alignment.
 inline std::uint32_t aligned(std::size_t bytes, std::uint32_t alignment) {
     return static_cast<std::uint32_t>((bytes + alignment - 1) / alignment * alignment);
+}
+
+/// Writes a record into `bytes` at `offset`, and enlarges them where needed.
+template <class Record>
+void put_record(std::vector<std::byte>& bytes, std::uint32_t offset, const Record& record) {
+    static_assert(std::is_trivially_copyable_v<Record>);
+    if (bytes.size() < offset + sizeof record) bytes.resize(offset + sizeof record);
+    std::memcpy(bytes.data() + offset, &record, sizeof record);
 }
 
 }  // namespace gnomon

@@ -46,6 +46,8 @@ const char* reason_code(Reason reason) {
             return "over_budget";
         case Reason::ray_budget:
             return "ray_budget";
+        case Reason::rays_off:
+            return "rays_off";
         case Reason::rays_cheaper:
             return "rays_cheaper";
         case Reason::budget_shrunk:
@@ -92,6 +94,86 @@ const char* reason_code(Reason reason) {
             break;
     }
     return "unknown";
+}
+
+const char* reason_text(Reason reason) {
+    switch (reason) {
+        case Reason::none:
+            return "The shadow is as requested.";
+        case Reason::no_light_shadow:
+            return "The light was given no shadow settings.";
+        case Reason::shadows_off:
+            return "Shadows are switched off for this light, or for the frame.";
+        case Reason::light_off:
+            return "The light has no intensity or no colour.";
+        case Reason::no_visible_receiver:
+            return "No surface that a view sees is within the light's range.";
+        case Reason::no_caster:
+            return "No caster can darken anything that a view sees.";
+        case Reason::below_display_step:
+            return "The light is too dim to change any pixel by half a step of the display.";
+        case Reason::content_unchanged:
+            return "Nothing that the map shows has changed: an earlier frame's map is valid.";
+        case Reason::refresh_held:
+            return "The map shows casters at an earlier place, within the error allowed or deferred by the budget.";
+        case Reason::map_too_coarse:
+            return "No map of the default filter meets max_error_px, so that another filter was chosen.";
+        case Reason::visibility_kept:
+            return "Visibility per pixel of an earlier frame is valid and was read.";
+        case Reason::resolution_clamped:
+            return "The requested map is larger than the device allows: the largest possible one is used.";
+        case Reason::over_budget:
+            return "The budget went to more visible lights: raise the budget, or use fewer lights.";
+        case Reason::budget_shrunk:
+            return "The budget left a smaller or plainer map than requested.";
+        case Reason::ray_budget:
+            return "The budget has no rays left for this light: it has a filtered map instead.";
+        case Reason::rays_off:
+            return "Rays are switched off, or the picture has no exact surfaces: the light has a filtered map instead.";
+        case Reason::rays_cheaper:
+            return "The light moves, and rays for all its pixels cost less than its map.";
+        case Reason::map_shrunk:
+            return "The device had no memory for the requested map: a smaller one is used.";
+        case Reason::map_allocation_failed:
+            return "The device has no memory for the map; the light is repeated half a second later.";
+        case Reason::target_incomplete:
+            return "The device cannot draw into the map's format.";
+        case Reason::depth_program_failed:
+            return "The program that draws depth maps does not compile on this device.";
+        case Reason::lighting_program_failed:
+            return "No program that looks the light up compiles on this device.";
+        case Reason::filter_program_failed:
+            return "The filter's program does not compile: the map is looked up with one tap.";
+        case Reason::filter_program_waits:
+            return "The filter's program is not compiled yet: the map is looked up with one tap.";
+        case Reason::buffer_failed:
+            return "The device has no memory for a buffer that the light needs.";
+        case Reason::sampler_failed:
+            return "The device could not make a sampler.";
+        case Reason::fit_degenerate:
+            return "Casters and receivers leave no volume that could be drawn.";
+        case Reason::projection_unsupported:
+            return "This kind of light has no such projection: its own is used.";
+        case Reason::eye_invalid:
+            return "The sun's eye is no valid place: the sun stays orthographic.";
+        case Reason::range_invalid:
+            return "near_m and far_m are no valid range: the fitted range is used.";
+        case Reason::cascades_clamped:
+            return "More cascades were requested than a light can have.";
+        case Reason::warp_unsupported:
+            return "Warp needs a tight sun with one view and a fitted depth range: none is used.";
+        case Reason::splits_invalid:
+            return "The cascades' splits are invalid: the default ones are used.";
+        case Reason::depths_unread:
+            return "The picture's depths were unavailable: splits follow the receivers' bounds.";
+        case Reason::filter_cut:
+            return "A setting of the filter is invalid, or beyond what its map allows: it was cut.";
+        case Reason::depth_coarse:
+            return "The depth format's steps are wider than the map's texels: d32f is finer.";
+        case Reason::count:
+            break;
+    }
+    return "Unknown reason.";
 }
 
 const char* reason_code(DropReason reason) {

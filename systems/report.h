@@ -9,55 +9,11 @@
 #include "components/light_shadow.h"
 #include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "gnomon/reason.h"
 #include "systems/extract/snapshot.h"
 
 /// Work of a frame for each light, and the reasons. Every stage writes it, none reads it.
 namespace gnomon {
-
-enum class LightState : std::uint8_t { rendered, reused, degraded, skipped };
-const char* to_text(LightState state);
-
-/// Stable codes; their texts are part of the command-line interface.
-enum class Reason : std::uint8_t {
-    none,
-    no_light_shadow,      // the light has no LightShadow component
-    shadows_off,          // LightShadow::enabled is false
-    light_off,            // no intensity
-    no_visible_receiver,  // no visible surface is within the light's range
-    no_caster,            // nothing can darken a visible surface
-    below_display_step,   // lit everywhere: it and similar lights change no pixel by more than half a step
-    content_unchanged,    // the map of an earlier frame is still valid
-    refresh_held,         // shows casters at an earlier place: within refresh_error_px, or deferred by a budget
-    /// The default filter's maps exceed max_error_px: the light has a filter that meets it (FilterReport).
-    map_too_coarse,
-    visibility_kept,     // visibility per pixel from an earlier frame is still valid (KeptReport)
-    resolution_clamped,  // the device's limit is below the requested size
-    over_budget,         // dropped by FrameSettings::shadow_budget in favour of more visible lights
-    budget_shrunk,       // reduced by the budget
-    ray_budget,          // the budget has no rays left for an exact light: it has a filtered map instead
-    rays_cheaper,        // moving exact light: rays for all its pixels cost less than its map
-    map_shrunk,          // the requested size could not be allocated, a smaller one could
-    map_allocation_failed,
-    target_incomplete,
-    depth_program_failed,
-    lighting_program_failed,
-    filter_program_failed,  // the filter's program does not compile: the map is looked up with one tap
-    filter_program_waits,   // not compiled yet (FrameSettings::programs_per_frame): one tap for now
-    buffer_failed,
-    sampler_failed,
-    fit_degenerate,          // no finite volume to render
-    projection_unsupported,  // this kind of light has no such projection: its own is used
-    eye_invalid,             // a sun's eye distance or angle is invalid: it stays orthographic
-    range_invalid,           // near_m and far_m are no valid range: the fitted one is used
-    cascades_clamped,        // more cascades than a light can have
-    warp_unsupported,  // warp is invalid, or set for other than a tight sun with one camera and a fitted depth range
-    splits_invalid,    // split_m, split_lambda or cascade_blend is invalid: the default is used
-    depths_unread,     // the picture's depths were unavailable: splits use the receivers' bounds
-    filter_cut,        // a setting of the filter is invalid, or beyond what its map allows
-    depth_coarse,      // steps of the depth format are wider than the map's texels at receivers
-    count
-};
-const char* reason_code(Reason reason);
 
 /// Numbers behind the result of a light or one of its views.
 struct Why {

@@ -33,6 +33,7 @@ enum class Format : std::uint8_t {
     d24_s8,  // depth alone is drawn, compared and transferred; stencil is left as it is
     d32f_s8
 };
+inline constexpr Format kLastFormat = Format::d32f_s8;
 /// fixed: contents given at creation, never changed by lists. updated: written by lists. read_back: written by
 /// CopyBuffer only, for read_buffer.
 enum class BufferUse : std::uint8_t { fixed, updated, read_back };

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/core/result.h"
@@ -34,6 +35,9 @@ unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 /// - Where no sampler is bound, reads are exact whatever its parameters are (nearest, clamped, no comparison).
 /// - Its swizzle and its depth-stencil mode apply.
 TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc);
+/// Describes any texture of the context that is not multisampled, for import_texture(). Empty: there is none of that
+/// name, or of another kind or format than a TextureDesc can have.
+std::optional<TextureDesc> describe_texture(const Device& gl45_device, unsigned gl_name);
 /// Does the same for a buffer of at least desc.size bytes. `updated` needs storage that glBufferSubData may change;
 /// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "engine/gl/device_gl45.h"
 #include "engine/gl/gl45_objects.h"
 
 namespace gnomon::gl {
@@ -90,6 +91,22 @@ Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc) {
     const Failure failure = take_gl_error();
     if (!fits || failure != Failure::none) return {{}, fits ? failure : Failure::invalid_value};
     return {{name, desc, static_cast<GLenum>(target), true}};
+}
+
+std::optional<TextureDesc> describe_texture(const Device&, unsigned name) {
+    drop_gl_errors();
+    GLint target = GL_NONE;
+    if (glIsTexture(name) == GL_TRUE) glGetTextureParameteriv(name, GL_TEXTURE_TARGET, &target);
+    for (const TextureKind kind : {TextureKind::flat, TextureKind::array, TextureKind::cube}) {
+        if (static_cast<GLenum>(target) != gl_kind(kind)) continue;
+        for (std::uint8_t format = 0; format <= static_cast<std::uint8_t>(kLastFormat); ++format) {
+            if (!has_format(name, static_cast<Format>(format))) continue;
+            const auto size = [&](GLenum which) { return static_cast<std::uint32_t>(level_value(name, which)); };
+            return TextureDesc{{}, kind, static_cast<Format>(format), size(GL_TEXTURE_WIDTH), size(GL_TEXTURE_HEIGHT),
+                               kind == TextureKind::array ? size(GL_TEXTURE_DEPTH) : 1};
+        }
+    }
+    return std::nullopt;
 }
 
 Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc) {

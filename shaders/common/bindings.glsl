@@ -9,6 +9,7 @@ const int kAmbientBlock = 3;
 const int kExposureBlock = 4;
 const int kShownScaleBlock = 5;
 const int kKeptBlock = 6;
+const int kImportBlock = 7;
 const int kDepthViewBlock = 0;    // passes that draw maps: they and the next two passes have no camera
 const int kPrefilterBlock = 0;
 const int kPyramidBlock = 0;
@@ -62,6 +63,10 @@ const int kMeteredPictureUnit = 1;
 const int kPictureUnit = 0;
 const int kLuminanceUnit = 1;
 const int kPictureDepthUnit = 2;
+
+// Texture units of another renderer's picture.
+const int kImportedDepthUnit = 0;
+const int kImportedNormalUnit = 1;
 
 // Texture units of debug views.
 const int kFlatMapsUnit = 0;

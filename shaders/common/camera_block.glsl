@@ -8,4 +8,6 @@ layout(std140, binding = kCameraBlock) uniform CameraBlock {
     vec4 up;                 // xyz: axis; w: the same in y
     vec4 back;               // xyz: axis; w: 1 for orthographic
     vec4 unproject;          // x, y: see view_distance(); zw: size of the viewport, pixels
+    vec4 lens;               // xy: where the view's axis leaves the middle, in half extents. zw: error of imported depths
+                             // beyond that of rebuilding (lighting/gbuffer/gbuffer_read.glsl). 0 for own pictures
 } camera;

@@ -8,7 +8,9 @@ struct PixelLine {
 
 // Returns a pixel's device coordinates. They are rounded once, by a share of themselves, near the picture's middle as
 // well: what is divided is a whole number.
-vec2 pixel_ndc(ivec2 pixel) { return (2.0 * vec2(pixel) + 1.0 - camera.unproject.zw) / camera.unproject.zw; }
+vec2 pixel_ndc(ivec2 pixel) {
+    return (2.0 * vec2(pixel) + 1.0 - camera.unproject.zw) / camera.unproject.zw + camera.lens.xy;
+}
 
 PixelLine pixel_line(ivec2 pixel) {
     vec2 ndc = pixel_ndc(pixel);

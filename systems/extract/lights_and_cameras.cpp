@@ -9,22 +9,12 @@
 #include "systems/extract/camera_view.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"
+#include "systems/extract/usable_light.h"
 
 namespace gnomon {
 namespace {
 
 using Effect = LightsAndCameras::Effect;
-
-bool usable(const Light& light) {
-    const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
-                         light.range_m >= 0.0f && light.colour.r >= 0.0f && light.colour.g >= 0.0f &&
-                         light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
-    // Shaders multiply both in float: an infinite product becomes NaN where no light arrives.
-    if (!numbers || !std::isfinite(light.intensity * (light.colour.r + light.colour.g + light.colour.b))) return false;
-    return !light_facts(light.kind).cone ||
-           (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
-            light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);
-}
 
 bool usable(const Camera& camera) {
     if (!(camera.near_m < camera.far_m)) return false;
@@ -99,7 +89,7 @@ Effect touch_light(const ecs::Registry& registry, ecs::Entity entity, const Worl
                    SceneSnapshot& snapshot) {
     LightItem* item = find(snapshot.lights, entity);
     const Light* light = registry.get<Light>(entity);
-    const bool wanted = light && world && usable(*light);
+    const bool wanted = light && world && is_usable(*light);
     if (wanted != (item != nullptr)) return Effect::listing;
     return item && put_light(registry, *light, *world, snapshot.version, *item) ? Effect::changed : Effect::none;
 }
@@ -140,7 +130,7 @@ void LightsAndCameras::list(const ecs::Registry& registry, glm::uvec2 viewport_p
     snapshot.consumers.clear();
     unusable_.clear();
     registry.each<Light, WorldTransform>([&](ecs::Entity e, const Light& light, const WorldTransform&) {
-        if (usable(light))
+        if (is_usable(light))
             snapshot.lights.emplace_back().entity = e;
         else
             unusable_.push_back({e, name_of(registry, e), DropReason::absurd_light});

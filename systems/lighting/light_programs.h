@@ -67,6 +67,8 @@ public:
     /// Returns the programs for unlit surfaces; {0} if they cannot be made: the ones above then draw them.
     gl::ProgramHandle unlit_surface(bool places);
     gl::ProgramHandle unlit_blended();
+    /// Returns the program that writes another renderer's surfaces as light passes read them.
+    gl::ProgramHandle import_surfaces();
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
     gl::Failure failure() const { return failure_; }  // last program made
@@ -97,7 +99,7 @@ private:
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
-    Entry unlit_surface_, unlit_surface_places_, unlit_blended_;
+    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_;
     bool some_unlit_ = false;
     bool coloured_ = false;
     std::uint64_t frame_ = 0;

@@ -1,7 +1,6 @@
 #include "systems/lighting/lighting_system.h"
 
 #include <algorithm>
-#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <tuple>
@@ -14,11 +13,6 @@
 
 namespace gnomon::lighting {
 namespace {
-
-void put(std::vector<std::byte>& bytes, std::uint32_t offset, const void* record, std::size_t size) {
-    if (bytes.size() < offset + size) bytes.resize(offset + size);
-    std::memcpy(bytes.data() + offset, record, size);
-}
 
 /// Bounds the distance from a place to anything in a box. Drawing in this order hides much of the rest before it is
 /// shaded. Small and near objects come first, grounds and walls, which reach far, last.
@@ -160,19 +154,19 @@ void LightingSystem::upload(const shadow::LightingInputs& inputs, const SceneSna
     if (gpu.any_unlit()) exposure.without_surfaces = range.per_radiance / range.per_unlit;
     if (settings.exposure_ev) exposure.scale = exposure_scale(*settings.exposure_ev);
     uniform_scratch_.clear();
-    put(uniform_scratch_, 0, &inputs.camera, sizeof inputs.camera);
-    put(uniform_scratch_, ambient_offset_, &ambient, sizeof ambient);
-    put(uniform_scratch_, exposure_offset_, &exposure, sizeof exposure);
+    put_record(uniform_scratch_, 0, inputs.camera);
+    put_record(uniform_scratch_, ambient_offset_, ambient);
+    put_record(uniform_scratch_, exposure_offset_, exposure);
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i) {
         const std::uint32_t offset = lights_offset_ + i * light_stride_;
-        put(uniform_scratch_, offset, &inputs.lights[i].record, sizeof(shadow::LightRecord));
+        put_record(uniform_scratch_, offset, inputs.lights[i].record);
         const glm::vec4 radiance = in_picture(inputs.lights[i].record.radiance, range.per_radiance);
-        put(uniform_scratch_, offset + offsetof(shadow::LightRecord, radiance), &radiance, sizeof radiance);
+        put_record(uniform_scratch_, offset + offsetof(shadow::LightRecord, radiance), radiance);
     }
     for (std::uint32_t i = 0; i < passes_.size(); ++i) {
         const gl::Rect& area = passes_[i].kept.area;
         const KeptRecord record{{area.x, area.y, area.width, area.height}};
-        if (passes_[i].reads) put(uniform_scratch_, kept_offset_ + i * kept_stride_, &record, sizeof record);
+        if (passes_[i].reads) put_record(uniform_scratch_, kept_offset_ + i * kept_stride_, record);
     }
     list.update(items_.handle(), 0, std::span<const DrawItem>(draw_items_));
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(uniform_scratch_));

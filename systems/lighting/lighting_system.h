@@ -13,7 +13,7 @@
 #include "systems/lighting/depth_sampler.h"
 #include "systems/lighting/exposure_meter.h"
 #include "systems/lighting/kept_visibility.h"
-#include "systems/lighting/light_programs.h"
+#include "systems/lighting/light_lookup.h"
 #include "systems/lighting/lighting_targets.h"
 #include "systems/lighting/lookup_times.h"
 #include "systems/lighting/picture_range.h"
@@ -113,19 +113,6 @@ private:
         double distance_m;  // from the camera, for sorting: to the nearest instance's far end; blended: to its centre
     };
 
-    /// Program of a light, and its inputs.
-    struct LightProgram {
-        gl::ProgramHandle program{};
-        gl::TextureHandle map{}, triangles{};
-        gl::SamplerHandle sampler{};
-        visibility::RayBuffers rays{};
-        gl::TextureHandle second{}, bounds{};                  // for maps of sheets
-        gl::BufferHandle ends{};                               // for area lights on such maps
-        gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` traces the rays itself
-        gl::ProgramHandle decided_program{};  // draws all but slow pixels, which remain for `program`; {0}: none
-        Reason lacks = Reason::none;          // reason why it is not the light's own row
-        bool unshadowed = false;
-    };
     /// Pass of one light over the picture.
     struct LightPass {
         LightProgram own;

@@ -21,20 +21,13 @@ void LightingSystem::bind_light(const LightProgram& light, std::uint32_t index, 
                                 gl::CommandList& list) const {
     list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + index * light_stride_,
                               sizeof(shadow::LightRecord)});
-    if (light.map) list.add(gl::BindTexture{bindings::kShadowMapUnit, light.map, light.sampler});
-    if (light.second) list.add(gl::BindTexture{bindings::kSecondDepthUnit, light.second, {}});
-    if (light.bounds) list.add(gl::BindTexture{bindings::kBoundsUnit, light.bounds, {}});
-    if (light.ends) list.add(gl::BindStorage{bindings::kPyramidBuffer, light.ends});
+    bind_maps(light, list);
     if (light.rays.nodes) bind_rays(light.rays, gpu, list);
-    if (!light.triangles) return;
-    list.add(gl::BindTexture{bindings::kShownTriangleUnit, light.triangles, {}});
-    list.add(gl::BindTexels{bindings::kCasterTriangleUnit, gpu.caster_triangles()});
-    list.add(gl::BindTexels{bindings::kInstanceUnit, gpu.instances()});
-    if (gpu.caster_masks()) list.add(gl::BindStorage{bindings::kMaskBuffer, gpu.caster_masks()});
+    bind_triangles(light, gpu, list);
 }
 
 /// Chooses the program: the light's own row, otherwise one tap of its map, otherwise the light without shadow.
-LightingSystem::LightProgram LightingSystem::light_program(const shadow::LightingLight& light, ShaderPass output) {
+LightProgram LightingSystem::light_program(const shadow::LightingLight& light, ShaderPass output) {
     const shadow::FallbackLookup& plain = light.plain;
     const bool has_plain = !plain.row.filter_file.empty() && !(plain.row == light.row);
     // An explicitly requested visibility is never deferred.
@@ -61,13 +54,9 @@ LightingSystem::LightProgram LightingSystem::light_program(const shadow::Lightin
         if (used.program && (!lists || (used.verdicts_program && used.rays_program))) return used;
         lacks = waits ? Reason::filter_program_waits : Reason::filter_program_failed;
     }
-    const gl::ProgramHandle one_tap = has_plain ? programs_.row(plain.row, output) : gl::ProgramHandle{};
-    if (one_tap) return {.program = one_tap, .map = plain.map, .sampler = plain.sampler, .lacks = lacks};
-    shadow::ShaderKey unshadowed = light.row;
-    unshadowed.filter_file = {};
-    unshadowed.sheets = false;
-    if (has_surfaces) lacks = Reason::lighting_program_failed;
-    return {.program = programs_.row(unshadowed, output), .lacks = lacks, .unshadowed = true};
+    LightProgram used = fallback_program(programs_, light, output, lacks);
+    if (used.unshadowed && has_surfaces) used.lacks = Reason::lighting_program_failed;
+    return used;
 }
 
 /// Records the passes before a light with a map of sheets: verdicts, and rays for undecided pixels, in that area.

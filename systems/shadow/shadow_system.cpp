@@ -159,8 +159,11 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
 
     const bool lacked = rays_lack_;
     rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
-    decide_requests(scene, {device_.info(), history_, settings.shadows, {settings.budget.rays, rays_lack_}}, fallbacks_,
-                    f.requests);
+    decide_requests(
+        scene,
+        {device_.info(), history_, settings.shadows,
+         {.rays = settings.budget.rays, .off = !settings.rays, .lacks_memory = rays_lack_}},
+        fallbacks_, f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) apply_last_limits(scene, history_, f.requests, f.limited);
     const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;
@@ -175,7 +178,7 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
     contribution_culling_.leave_out(scene, gpu, f.sets, settings.feedback.exposure, f.statuses);
     finish("culling");
 
-    const bool budget_active = budget_.is_active() || settings.budget.rays > 0 || rays_lack_;
+    const bool budget_active = budget_.is_active() || settings.budget.rays > 0 || !settings.rays || rays_lack_;
     fit_views(scene,
               {requests, f.sets, f.lamps_ws_m, settings.feedback.sampled_depths, history_, f.moving, budget_active},
               storage_, f.fitted, f.next_history, accounts);

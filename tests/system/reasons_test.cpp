@@ -148,6 +148,8 @@ std::map<Reason, ReasonScenes::Scene> ReasonScenes::scenes() {
         {Reason::ray_budget,
          {LightKind::spot, [](LightShadow& s) { s.filter = ShadowFilter::exact; },
           [this] { settings.shadow_budget.rays = 1; }}},
+        {Reason::rays_off,
+         {LightKind::spot, [](LightShadow& s) { s.filter = ShadowFilter::exact; }, [this] { settings.rays = false; }}},
         {Reason::rays_cheaper,
          {LightKind::spot,
           [](LightShadow& s) { s.filter = ShadowFilter::exact, s.resolution_px = 2048; },

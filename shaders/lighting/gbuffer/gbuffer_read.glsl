@@ -38,7 +38,8 @@ float surface_error_m(vec3 position_ca) {
     float pixel = 2.0 * camera.up.w / camera.unproject.w;
     float pixel_m = orthographic ? pixel : pixel * distance_m;
     float depth_m = orthographic ? kFlatRebuiltRelative * camera.unproject.y : 0.0;
-    return kRebuiltRelative * distance_m + depth_m + pixel_m * (kHalfDiagonal * kRasterSnap_texel);
+    float imported_m = orthographic ? camera.lens.z : (camera.lens.z + camera.lens.w * distance_m) * distance_m;
+    return kRebuiltRelative * distance_m + depth_m + pixel_m * (kHalfDiagonal * kRasterSnap_texel) + imported_m;
 }
 
 Surface read_surface(ivec2 pixel) {

@@ -48,8 +48,9 @@ struct CameraRecord {
     glm::vec4 anchor_high{0.0f}, anchor_low{0.0f};
     glm::vec4 right{0.0f}, up{0.0f}, back{0.0f};
     glm::vec4 unproject{0.0f};
+    glm::vec4 lens{0.0f};
 };
-static_assert(sizeof(CameraRecord) == 160);
+static_assert(sizeof(CameraRecord) == 176);
 
 /// Accuracy of a lookup, for the light's report.
 struct LookupAccuracy {

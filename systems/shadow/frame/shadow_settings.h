@@ -22,6 +22,7 @@ struct ShadowSettings {
     bool shadows = true;  // false: every light counts as disabled
     ShadowBudget budget = {};
     LightingFeedback feedback = {};
+    bool rays = true;  // false: no light uses rays, which need exact surfaces in every picture (Reason::rays_off)
 };
 
 }  // namespace gnomon::shadow

@@ -51,9 +51,9 @@ double lookup_pixels(const SceneSnapshot& scene, const LightItem& light) {
 void choose_fallbacks(const SceneSnapshot& scene, const RayLimit& limit, std::span<const ShadowRequest> requests,
                       RayFallbacks& out) {
     out.reasons.assign(requests.size(), Reason::none);
-    if (limit.lacks_memory) {
+    if (limit.off || limit.lacks_memory) {
         for (std::size_t i = 0; i < requests.size(); ++i)
-            if (uses_rays(requests[i])) out.reasons[i] = Reason::buffer_failed;
+            if (uses_rays(requests[i])) out.reasons[i] = limit.off ? Reason::rays_off : Reason::buffer_failed;
         return;
     }
     if (limit.rays == 0) return;

@@ -23,6 +23,7 @@ double rays_per_pixel(const MapSettings& map);
 /// Limits on the rays of all lights in one frame.
 struct RayLimit {
     std::uint64_t rays = 0;     // predicted rays of all lights; 0: no limit
+    bool off = false;           // no light uses rays
     bool lacks_memory = false;  // the device has no memory for the ray-tracing structures
 };
 

@@ -16,6 +16,7 @@ bool keep(T& last, const T& now) {
 bool FrameReuse::unchanged(const SceneSnapshot& scene, const ShadowSettings& settings) {
     bool same = keep(version_, scene.version) && scene.version != 0;
     same &= keep(shadows_, settings.shadows);
+    same &= keep(rays_, settings.rays);
     same &= keep(budget_, settings.budget);
     same &= keep(consumers_, scene.consumers);
     same &= keep(pictures_, scene.pictures);

@@ -18,7 +18,7 @@ public:
 
 private:
     std::uint64_t version_ = 0;
-    bool shadows_ = false;
+    bool shadows_ = false, rays_ = false;
     ShadowBudget budget_;
     std::vector<ConsumerItem> consumers_, pictures_;
     SampledDepths sampled_depths_;

@@ -1,0 +1,207 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "components/light.h"
+#include "components/light_shadow.h"
+#include "components/shadow_tuning.h"
+#include "engine/core/result.h"
+#include "gnomon/reason.h"
+
+/// Shadows for an engine with its own meshes, scene and renderer: hand over meshes, casters and lights, get each
+/// light's visibility at every pixel. Needs an OpenGL 4.5 core context; every call is made on its thread.
+namespace gnomon {
+
+/// Name of something that was added. Valid until it is removed; a removed one never names anything again.
+template <class Kind>
+struct Handle {
+    std::uint32_t index = 0xffffffffu;
+    std::uint32_t version = 0;
+    explicit operator bool() const { return index != 0xffffffffu; }
+    bool operator==(const Handle&) const = default;
+};
+using MeshId = Handle<struct MeshKind>;
+using CasterId = Handle<struct CasterKind>;
+using LightId = Handle<struct ShadowLightKind>;
+
+/// Cut-out of a mesh: where alpha is below the cutoff, light passes.
+struct AlphaMask {
+    glm::uvec2 size_px{0, 0};                  // 0: the mesh is opaque
+    std::span<const std::uint8_t> alpha = {};  // size_px.x * size_px.y bytes, first row at v = 0
+    float cutoff = 0.5f;                       // (0, 1]
+};
+
+/// Triangles, copied when the mesh is added.
+struct MeshDesc {
+    std::string_view name = {};                   // in error messages and captures
+    std::span<const glm::vec3> positions_m = {};  // mesh space, metres, finite
+    std::span<const std::uint32_t> indices = {};  // three per triangle, counter-clockwise from outside
+    bool two_sided = false;                       // drawn from both sides: neither is inside
+    AlphaMask mask = {};
+    std::span<const glm::vec2> uvs = {};  // one per position, for the mask; else empty
+};
+
+/// Placed mesh. It darkens others (casts) and is darkened (receives); what a view shows and nothing declares receives
+/// no fitted shadow.
+struct CasterDesc {
+    MeshId mesh;
+    glm::dmat4 world_from_mesh{1.0};  // affine; may mirror, scale and shear
+    bool casts = true;
+    bool receives = true;
+    ShadowLayers cast_layers = kAllShadowLayers;
+    ShadowLayers receive_layers = kAllShadowLayers;
+};
+
+/// Light. Its kind, range, cone and size decide where its shadow falls. Colour and intensity only decide whether it is
+/// on: they may stay at their defaults where the engine has other units.
+struct LightDesc {
+    std::string name = {};  // in status, captures and messages; a repeated name gets .1, .2, …
+    Light light = {};
+    glm::dvec3 position_m{0.0};            // spot and point: world
+    glm::dvec3 direction{0.0, -1.0, 0.0};  // sun and spot: in which it shines, world; any length above 0
+    LightShadow shadow = {};
+};
+
+/// Range of depths in clip space after division by w. minus_one_to_one is OpenGL's default; zero_to_one is what
+/// glClipControl(…, GL_ZERO_TO_ONE) sets.
+enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };
+
+/// Components of a normal texture. snorm: [-1, 1], as float and SNORM formats have. unorm: [0, 1], n = 2 x - 1.
+enum class NormalFormat : std::uint8_t { snorm, unorm };
+/// Axes of its normals.
+enum class NormalSpace : std::uint8_t { world, view };
+
+/// Picture that needs shadows: a camera, and the depths that the engine has drawn with it.
+struct View {
+    glm::dmat4 world_from_view{1.0};  // the camera's place: rigid, looks along its -Z with +Y up
+    /// Projection, as the depths were drawn with it. Perspective or orthographic; reversed, infinite, off-centre and
+    /// jittered ones are read as they are.
+    glm::dmat4 clip_from_view{1.0};
+    ClipDepth clip_depth = ClipDepth::minus_one_to_one;
+    unsigned depth_texture = 0;  // GL_TEXTURE_2D with a depth format, from pixel (0, 0) on; not multisampled
+    glm::uvec2 size_px{0, 0};    // drawn part of it
+    /// GL_TEXTURE_2D with geometric normals. 0: they are derived from the depths, less exactly.
+    unsigned normal_texture = 0;
+    NormalFormat normal_format = NormalFormat::snorm;
+    NormalSpace normal_space = NormalSpace::world;
+    /// Lights of the mask, a layer each, in this order. Empty: all lights, in the order in which they were added.
+    std::span<const LightId> lights = {};
+};
+
+/// Visibility of a view's lights.
+struct Mask {
+    /// GL_TEXTURE_2D_ARRAY of R8, a layer per light: 1 where the light arrives, 0 where it does not, and where the
+    /// surface faces away or is out of its reach. Gnomon's own; valid until the next render(). 0: it could not be made.
+    unsigned texture = 0;
+    std::uint32_t layers = 0;
+    /// Why there is none: "view.projection", "view.size", "view.depth", "view.normals", or the device's code. Empty:
+    /// there is one.
+    std::string_view failure = {};
+};
+
+/// What became of a light's shadow in the last render(), over all views.
+struct LightStatus {
+    LightState state = LightState::skipped;
+    Reason reason = Reason::none;                   // reason_code() names it, reason_text() explains it
+    double predicted_error_px = 0.0;                // bound on how far its edges are off, pixels
+    bool keeps_max_error = false;                   // predicted_error_px is within LightShadow::max_error_px
+    ShadowFilter filter = ShadowFilter::automatic;  // that its maps are read with; automatic: it has no shadow
+    std::uint32_t maps = 0, maps_drawn = 0;         // cascades, faces or views; drawn in this frame
+    std::uint32_t draws = 0;                        // draw calls into them
+    std::uint64_t bytes = 0;                        // memory of its maps
+    std::optional<double> gpu_us;                   // time of its maps and its mask on the GPU; empty: not measured yet
+};
+
+/// Something that cannot be drawn, and why: its transform is not finite, flattens it, or its mesh is gone. Everything
+/// else is unaffected; it returns when what was wrong is set right.
+struct Dropped {
+    CasterId caster;  // none: `light` is meant
+    LightId light;
+    std::string_view reason;  // stable code
+};
+
+/// Totals of the last render().
+struct RenderStatus {
+    bool still = false;  // nothing changed: no map was looked at
+    std::uint32_t maps_drawn = 0, draws = 0;
+    std::uint64_t bytes = 0;       // memory of all maps
+    double cpu_us = 0.0;           // time of the call
+    std::optional<double> gpu_us;  // of all that it submitted; empty: not measured yet
+    std::string_view failure;      // of the device, its code; empty: none
+};
+
+/// Limits on all shadows together. Over a limit, the least visible lights get less, and their status says so.
+struct Budget {
+    std::uint64_t bytes = 0;  // memory of maps; 0: no limit
+    float gpu_ms = 0.0f;      // time per frame, as measured on this device; 0: no limit
+};
+
+struct ShadowsOptions {
+    Budget budget = {};
+    bool time_gpu = false;  // measure gpu_us by timer queries; implied by a budget in milliseconds
+    /// Receives messages of the GL implementation about Gnomon's calls. Empty: none.
+    std::function<void(std::string_view)> message = {};
+};
+
+/// Owner of maps, programs and copies of meshes in one OpenGL context. render() is called once per frame; all else at
+/// any time between. The context must be current in every call, and when the object is destroyed.
+class Shadows {
+public:
+    /// Creates the system for the current context. Errors: "gl.version" (below 4.5 core).
+    static Result<std::unique_ptr<Shadows>> create(const ShadowsOptions& options = {});
+    ~Shadows();
+    Shadows(const Shadows&) = delete;
+    Shadows& operator=(const Shadows&) = delete;
+
+    /// Adds a mesh. Cost: in proportion to its triangles. Errors: "mesh.empty", "mesh.index", "mesh.position",
+    /// "mesh.mask" (sizes do not fit), "mesh.memory".
+    Result<MeshId> add_mesh(const MeshDesc& mesh);
+    /// Removes a mesh. Casters that still have it are dropped until they are removed or have another.
+    void remove(MeshId mesh);
+
+    CasterId add_caster(const CasterDesc& caster);
+    /// Moves a caster. Maps that show it are drawn again if the matrix differs.
+    void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
+    void set_caster(CasterId caster, const CasterDesc& desc);
+    void remove(CasterId caster);
+
+    LightId add_light(const LightDesc& light);
+    /// Changes a light. What is equal costs nothing.
+    void set_light(LightId light, const LightDesc& desc);
+    /// Sets what few need: filters' taps, fits, formats (components/shadow_tuning.h).
+    void tune(LightId light, const ShadowTuning& tuning);
+    void remove(LightId light);
+
+    void set_budget(const Budget& budget);
+
+    /// Draws the maps that changed, and a mask per view, in the same order. At most 32 views. The masks stay valid
+    /// until the next call. Never throws; nothing is allocated while nothing grows.
+    std::span<const Mask> render(std::span<const View> views);
+    /// Does the same for one view.
+    Mask render(const View& view) { return render(std::span(&view, 1)).front(); }
+
+    LightStatus status(LightId light) const;
+    const RenderStatus& status() const;
+    /// Lists what the last render() had to leave out.
+    std::span<const Dropped> dropped() const;
+
+    /// Returns the share of a light that reaches a place, 0 to 1, for gameplay: by rays to the casters as they are now,
+    /// independent of views and maps. `radius_m`: size of what receives; 0: a point.
+    float visibility(LightId light, const glm::dvec3& position_m, double radius_m = 0.0);
+
+private:
+    struct State;
+    explicit Shadows(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,76 @@
+#include "systems/embed/mesh_of.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "engine/assets/mesh_shape.h"
+#include "engine/assets/mesh_topology.h"
+#include "systems/embed/finite.h"
+
+namespace gnomon::embed {
+namespace {
+
+Error mesh_error(const MeshDesc& desc, const char* what, const char* rule) {
+    std::string name = desc.name.empty() ? "mesh" : "mesh " + std::string(desc.name);
+    return {name + " " + what, {}, {}, rule};
+}
+
+bool has_mask(const AlphaMask& mask) { return mask.size_px.x > 0 && mask.size_px.y > 0; }
+
+/// Appends the material of a cut-out mesh, with the mask as its texture's alpha. Returns its index.
+std::uint32_t add_mask(const MeshDesc& desc, assets::MeshLibrary& library) {
+    assets::Texture texture{std::string(desc.name), desc.mask.size_px.x, desc.mask.size_px.y, {}};
+    texture.rgba.reserve(desc.mask.alpha.size() * 4);
+    for (const std::uint8_t alpha : desc.mask.alpha) texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
+    assets::Material material;
+    material.name = desc.name;
+    material.base_colour_texture = static_cast<std::int32_t>(library.textures.size());
+    material.alpha_mode = assets::AlphaMode::mask;
+    material.alpha_cutoff = desc.mask.cutoff;
+    material.double_sided = desc.two_sided;
+    library.textures.push_back(std::move(texture));
+    library.materials.push_back(std::move(material));
+    return static_cast<std::uint32_t>(library.materials.size() - 1);
+}
+
+}  // namespace
+
+assets::MeshLibrary empty_library() {
+    assets::MeshLibrary library;
+    library.materials.resize(2);
+    library.materials[kTwoSided].double_sided = true;
+    return library;
+}
+
+Result<assets::Mesh> mesh_of(const MeshDesc& desc, assets::MeshLibrary& library) {
+    if (desc.positions_m.empty() || desc.indices.empty() || desc.indices.size() % 3 != 0)
+        return mesh_error(desc, "has no triangles, or indices that are no multiple of three", "mesh.empty");
+    if (std::any_of(desc.indices.begin(), desc.indices.end(), [&](auto i) { return i >= desc.positions_m.size(); }))
+        return mesh_error(desc, "has an index beyond its positions", "mesh.index");
+    if (!std::all_of(desc.positions_m.begin(), desc.positions_m.end(), [](glm::dvec3 v) { return is_finite(v); }))
+        return mesh_error(desc, "has a position that is not finite", "mesh.position");
+    const bool masked = has_mask(desc.mask);
+    const std::size_t texels = std::size_t{desc.mask.size_px.x} * desc.mask.size_px.y;
+    if (masked && (desc.mask.alpha.size() != texels || desc.uvs.size() != desc.positions_m.size() ||
+                   !(desc.mask.cutoff > 0.0f && desc.mask.cutoff <= 1.0f)))
+        return mesh_error(desc,
+                          "has a mask of another size, without a uv per position, or with a cutoff outside (0, 1]",
+                          "mesh.mask");
+    assets::Mesh mesh;
+    mesh.name = desc.name;
+    mesh.vertices.resize(desc.positions_m.size());
+    for (std::size_t i = 0; i < desc.positions_m.size(); ++i) {
+        mesh.vertices[i].position_ms = desc.positions_m[i];
+        if (masked) mesh.vertices[i].uv = desc.uvs[i];
+        mesh.bounds_ms = math::extended(mesh.bounds_ms, glm::dvec3(desc.positions_m[i]));
+    }
+    mesh.indices.assign(desc.indices.begin(), desc.indices.end());
+    const std::uint32_t material = masked ? add_mask(desc, library) : desc.two_sided ? kTwoSided : kOneSided;
+    mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), material}};
+    mesh.topology = assets::analyse_topology(mesh);
+    mesh.shape = assets::shape_of(mesh);
+    return mesh;
+}
+
+}  // namespace gnomon::embed

@@ -1,0 +1,293 @@
+#include "systems/embed/scene_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/matrix.hpp>
+#include <optional>
+#include <utility>
+
+#include "engine/math/projection.h"
+#include "systems/embed/finite.h"
+#include "systems/embed/mesh_of.h"
+#include "systems/extract/drawable_basis.h"
+#include "systems/extract/names.h"
+#include "systems/extract/scene_tree.h"
+#include "systems/extract/usable_light.h"
+
+namespace gnomon::embed {
+namespace {
+
+template <class Id>
+ecs::Entity entity_of(Id id) {
+    return {id.index, id.version};
+}
+
+/// Returns a rotation that looks along `direction`. Empty: it has none.
+std::optional<glm::dmat3> looking_along(const glm::dvec3& direction) {
+    const double size = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (!(size > 0.0) || !std::isfinite(size)) return std::nullopt;
+    return math::basis_from_back(-glm::normalize(direction / size));
+}
+
+/// Writes a field. Returns true if its value changed, NaN included.
+template <class T>
+bool put_field(T& field, const T& value) {
+    const bool same = field == value;
+    field = value;
+    return !same;
+}
+
+/// Returns whether the description is that of a light that can shine. Otherwise `fault` has the reason.
+bool usable(const LightDesc& desc, DropReason& fault) {
+    fault = DropReason::absurd_light;
+    if (!is_usable(desc.light)) return false;
+    fault = DropReason::non_finite_transform;
+    if (!is_finite(desc.position_m)) return false;
+    fault = DropReason::zero_rotation;
+    return desc.light.kind == LightKind::point || looking_along(desc.direction).has_value();
+}
+
+/// Writes all but the name. Sets versions to `version` if anything differs and returns true.
+bool put_light(const LightDesc& desc, const ShadowTuning& tuning, std::uint64_t version, LightItem& item) {
+    const Light& light = desc.light;
+    bool shape = put_field(item.kind, light.kind);
+    shape |= put_field(item.position_ws_m, desc.position_m);
+    shape |= put_field(item.rotation_ws, looking_along(desc.direction).value_or(glm::dmat3(1.0)));
+    shape |= put_field(item.range_m, static_cast<double>(light.range_m));
+    shape |= put_field(item.inner_cone_rad, static_cast<double>(light.inner_cone_rad));
+    shape |=
+        put_field(item.outer_cone_rad, std::min(static_cast<double>(light.outer_cone_rad), glm::half_pi<double>()));
+    shape |= put_field(item.source_radius_m, light.source_radius_m);
+    shape |= put_field(item.sun_radius_rad, light.sun_radius_rad);
+    shape |= put_field(item.has_shadow, true);
+    shape |= put_field(item.shadow, desc.shadow);
+    shape |= put_field(item.tuning, tuning);
+    bool any = put_field(item.colour, light.colour);
+    any |= put_field(item.intensity, light.intensity);
+    if (shape) item.shape_version = version;
+    if (shape || any) item.version = version;
+    return shape || any;
+}
+
+bool same_place(const ConsumerItem& a, const ConsumerItem& b) {
+    return a.position_ws_m == b.position_ws_m && a.rotation_ws == b.rotation_ws && a.projection == b.projection &&
+           a.fov_y_rad == b.fov_y_rad && a.half_height_m == b.half_height_m && a.near_m == b.near_m &&
+           a.far_m == b.far_m && a.viewport_px == b.viewport_px && a.entity == b.entity;
+}
+
+}  // namespace
+
+SceneStore::SceneStore() : library_(empty_library()) {}
+
+Result<MeshId> SceneStore::add_mesh(const MeshDesc& desc) {
+    auto mesh = mesh_of(desc, library_);
+    if (!mesh) return mesh.error();
+    library_.meshes.push_back(std::move(mesh).value());
+    ++meshes_version_;
+    return meshes_.add(static_cast<std::uint32_t>(library_.meshes.size() - 1));
+}
+
+void SceneStore::remove(MeshId mesh) {
+    if (meshes_.remove(mesh)) instances_anew_ = true;
+}
+
+CasterId SceneStore::add_caster(const CasterDesc& desc) {
+    instances_anew_ = true;
+    return casters_.add({desc});
+}
+
+void SceneStore::set_caster(CasterId id, const CasterDesc& desc) {
+    Caster* caster = casters_.find(id);
+    if (!caster) return;
+    const bool moved = caster->desc.mesh != desc.mesh || caster->desc.world_from_mesh != desc.world_from_mesh;
+    const bool marked = caster->desc.casts != desc.casts || caster->desc.receives != desc.receives ||
+                        caster->desc.cast_layers != desc.cast_layers ||
+                        caster->desc.receive_layers != desc.receive_layers;
+    if (!moved && !marked) return;
+    if (caster->desc.mesh != desc.mesh) instances_anew_ = true;
+    caster->desc = desc;
+    if (!caster->moved && !caster->marked) changed_.push_back(id);
+    caster->moved |= moved;
+    caster->marked |= marked;
+}
+
+void SceneStore::set_transform(CasterId id, const glm::dmat4& world_from_mesh) {
+    Caster* caster = casters_.find(id);
+    if (!caster || caster->desc.world_from_mesh == world_from_mesh) return;
+    caster->desc.world_from_mesh = world_from_mesh;
+    if (!caster->moved && !caster->marked) changed_.push_back(id);
+    caster->moved = true;
+}
+
+void SceneStore::remove(CasterId caster) {
+    if (casters_.remove(caster)) instances_anew_ = true;
+}
+
+LightId SceneStore::add_light(const LightDesc& desc) {
+    lights_anew_ = true;
+    return lights_.add({desc, {}});
+}
+
+void SceneStore::set_light(LightId id, const LightDesc& desc) {
+    StoredLight* light = lights_.find(id);
+    if (!light) return;
+    DropReason fault;
+    if (light->desc.name != desc.name || usable(desc, fault) != (light->item != kNone)) lights_anew_ = true;
+    light->desc = desc;
+    light->set = lights_set_ = true;
+}
+
+void SceneStore::tune(LightId id, const ShadowTuning& tuning) {
+    StoredLight* light = lights_.find(id);
+    if (!light) return;
+    light->tuning = tuning;
+    light->set = lights_set_ = true;
+}
+
+void SceneStore::remove(LightId light) {
+    if (lights_.remove(light)) lights_anew_ = true;
+}
+
+std::uint32_t SceneStore::light_index(LightId id) const {
+    const StoredLight* light = lights_.find(id);
+    return light ? light->item : kNone;
+}
+
+/// Returns why a caster cannot be placed; DropReason::instances_full, which no caster has, if it can.
+DropReason SceneStore::fault_of(const CasterDesc& desc) const {
+    if (!meshes_.find(desc.mesh)) return DropReason::unknown_mesh;
+    if (!is_finite(desc.world_from_mesh)) return DropReason::non_finite_transform;
+    const std::optional<glm::dmat3> basis = drawable_basis(glm::dmat3(desc.world_from_mesh));
+    if (!basis) return DropReason::zero_scale;
+    const math::Aabb box = math::transformed(library_.meshes[*meshes_.find(desc.mesh)].bounds_ms, *basis,
+                                             glm::dvec3(desc.world_from_mesh[3]));
+    return math::is_finite(box) && !math::is_empty(box) ? DropReason::instances_full : DropReason::zero_scale;
+}
+
+/// Writes a usable caster into its item.
+void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
+    const CasterDesc& desc = caster.desc;
+    item.entity = entity_of(id);
+    item.mesh = *meshes_.find(desc.mesh);
+    item.gpu_slot = id.index;
+    item.basis = *drawable_basis(glm::dmat3(desc.world_from_mesh));
+    item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
+    item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
+    item.mirrored = glm::determinant(item.basis) < 0.0;
+    item.casts = desc.casts;
+    item.receives = desc.receives;
+    item.cast_layers = desc.cast_layers;
+    item.receive_layers = desc.receive_layers;
+    item.version = caster.version;
+}
+
+/// Applies changed casters in place. Returns false if one became usable or stopped being so: the list is then made
+/// anew.
+bool SceneStore::put_changes() {
+    const auto came_or_went = [&](CasterId id) {
+        const Caster* caster = casters_.find(id);
+        return caster && (fault_of(caster->desc) == DropReason::instances_full) != (caster->instance != kNone);
+    };
+    if (std::any_of(changed_.begin(), changed_.end(), came_or_went)) return false;
+    for (const CasterId id : changed_) {
+        Caster* caster = casters_.find(id);
+        if (!caster || caster->instance == kNone) continue;
+        if (caster->moved) caster->version = snapshot_.version;
+        if (caster->marked) snapshot_.list_version = snapshot_.version;
+        put(*caster, id, snapshot_.instances[caster->instance]);
+        snapshot_.changed_instances.push_back(caster->instance);
+        caster->moved = caster->marked = false;
+    }
+    return true;
+}
+
+void SceneStore::list_instances() {
+    snapshot_.instances.clear();
+    snapshot_.changed_instances.clear();
+    std::erase_if(dropped_, [](const Dropped& dropped) { return static_cast<bool>(dropped.caster); });
+    casters_.each([&](CasterId id, Caster& caster) {
+        const DropReason fault = fault_of(caster.desc);
+        if (fault != DropReason::instances_full) {
+            dropped_.push_back({id, {}, reason_code(fault)});
+            caster.instance = kNone;
+            return;
+        }
+        const bool is_new = caster.instance == kNone;
+        if (is_new || caster.moved) caster.version = snapshot_.version;
+        caster.instance = static_cast<std::uint32_t>(snapshot_.instances.size());
+        put(caster, id, snapshot_.instances.emplace_back());
+        if (is_new || caster.moved || caster.marked) snapshot_.changed_instances.push_back(caster.instance);
+        caster.moved = caster.marked = false;
+    });
+    snapshot_.gpu_slot_count = casters_.bound();
+    snapshot_.shapes.clear();
+    for (const assets::Mesh& mesh : library_.meshes) snapshot_.shapes.push_back(mesh.shape);
+    snapshot_.list_version = snapshot_.version;
+}
+
+void SceneStore::list_lights() {
+    std::vector<LightItem> before = std::exchange(snapshot_.lights, {});
+    std::erase_if(dropped_, [](const Dropped& dropped) { return static_cast<bool>(dropped.light); });
+    lights_.each([&](LightId id, StoredLight& light) {
+        light.item = kNone;
+        light.set = true;
+        DropReason fault;
+        if (!usable(light.desc, fault)) return dropped_.push_back({{}, id, reason_code(fault)});
+        light.item = static_cast<std::uint32_t>(snapshot_.lights.size());
+        const auto was = std::find_if(before.begin(), before.end(),
+                                      [&](const LightItem& item) { return item.entity == entity_of(id); });
+        snapshot_.lights.push_back(was != before.end() ? std::move(*was) : LightItem{.entity = entity_of(id)});
+        snapshot_.lights.back().name = light.desc.name.empty() ? "light" + std::to_string(id.index) : light.desc.name;
+    });
+    make_names_unique(snapshot_.lights);
+    lights_set_ = true;
+}
+
+/// Applies set lights in place. Returns whether any differs.
+bool SceneStore::put_lights() {
+    bool any = false;
+    lights_.each([&](LightId, StoredLight& light) {
+        if (!light.set || light.item == kNone) return;
+        light.set = false;
+        any |= put_light(light.desc, light.tuning, snapshot_.version, snapshot_.lights[light.item]);
+    });
+    return any;
+}
+
+bool SceneStore::put_consumers(std::span<const ConsumerItem> consumers) {
+    bool any = consumers.size() != snapshot_.consumers.size();
+    snapshot_.consumers.resize(consumers.size());
+    for (std::size_t i = 0; i < consumers.size(); ++i) {
+        if (same_place(snapshot_.consumers[i], consumers[i])) continue;
+        snapshot_.consumers[i] = consumers[i];
+        any = true;
+    }
+    return any;
+}
+
+void SceneStore::update(std::span<const ConsumerItem> consumers) {
+    snapshot_.changed_instances.clear();
+    ++snapshot_.version;
+    bool any = put_consumers(consumers);
+    if (lights_anew_) list_lights();
+    any |= std::exchange(lights_anew_, false);
+    if (std::exchange(lights_set_, false)) any |= put_lights();
+    if (!instances_anew_ && !put_changes()) instances_anew_ = true;
+    any |= !changed_.empty() || instances_anew_;
+    changed_.clear();
+    if (!any) {
+        --snapshot_.version;  // set to equal values
+        return;
+    }
+    if (std::exchange(instances_anew_, false)) {
+        list_instances();
+        build_tree(snapshot_);
+    } else {
+        std::sort(snapshot_.changed_instances.begin(), snapshot_.changed_instances.end());
+        refit_tree(snapshot_);
+    }
+}
+
+}  // namespace gnomon::embed

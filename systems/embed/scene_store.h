@@ -1,0 +1,74 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "engine/assets/mesh_library.h"
+#include "gnomon/shadows.h"
+#include "systems/embed/slots.h"
+#include "systems/extract/snapshot.h"
+
+namespace gnomon::embed {
+
+/// Scene behind gnomon::Shadows: what was added, as the snapshot that all stages read. update() applies what was set
+/// since the last one; its cost is in proportion to that, and to the scene only where casters came or went.
+class SceneStore {
+public:
+    SceneStore();
+
+    Result<MeshId> add_mesh(const MeshDesc& desc);
+    void remove(MeshId mesh);
+    CasterId add_caster(const CasterDesc& desc);
+    void set_caster(CasterId caster, const CasterDesc& desc);
+    void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
+    void remove(CasterId caster);
+    LightId add_light(const LightDesc& desc);
+    void set_light(LightId light, const LightDesc& desc);
+    void tune(LightId light, const ShadowTuning& tuning);
+    void remove(LightId light);
+
+    /// Applies what was set, for these cameras. Without a change the snapshot's version stays.
+    void update(std::span<const ConsumerItem> consumers);
+
+    const SceneSnapshot& snapshot() const { return snapshot_; }
+    const assets::MeshLibrary& library() const { return library_; }
+    /// Returns a count that grows with every mesh that came.
+    std::uint64_t meshes_version() const { return meshes_version_; }
+    std::span<const Dropped> dropped() const { return dropped_; }
+    /// Returns the light's index in the snapshot; kNone if the handle names no usable light.
+    std::uint32_t light_index(LightId light) const;
+    static constexpr std::uint32_t kNone = ~0u;
+
+private:
+    struct Caster {
+        CasterDesc desc;
+        std::uint32_t instance = kNone;  // index in the snapshot; kNone: unusable
+        std::uint64_t version = 0;       // InstanceItem::version
+        bool moved = true;               // its mesh or place was set since the last update
+        bool marked = true;              // what it casts or receives was
+    };
+    struct StoredLight {
+        LightDesc desc;
+        ShadowTuning tuning;
+        std::uint32_t item = kNone;  // index in the snapshot; kNone: unusable
+        bool set = true;
+    };
+    DropReason fault_of(const CasterDesc& desc) const;
+    void put(Caster& caster, CasterId id, InstanceItem& item) const;
+    bool put_changes();
+    void list_instances();
+    void list_lights();
+    bool put_lights();
+    bool put_consumers(std::span<const ConsumerItem> consumers);
+
+    assets::MeshLibrary library_;
+    Slots<MeshId, std::uint32_t> meshes_;  // index into library_.meshes
+    Slots<CasterId, Caster> casters_;
+    Slots<LightId, StoredLight> lights_;
+    SceneSnapshot snapshot_;
+    std::vector<CasterId> changed_;  // casters with `moved` or `marked`
+    std::vector<Dropped> dropped_;
+    std::uint64_t meshes_version_ = 0;
+    bool instances_anew_ = true, lights_anew_ = true, lights_set_ = false;
+};
+
+}  // namespace gnomon::embed

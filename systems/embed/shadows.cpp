@@ -1,0 +1,302 @@
+#include "gnomon/shadows.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "engine/gl/device_gl45.h"
+#include "systems/after_submission.h"
+#include "systems/embed/picture_lens.h"
+#include "systems/embed/scene_store.h"
+#include "systems/lighting/light_programs.h"
+#include "systems/lighting/mask_pass.h"
+#include "systems/shadow/shadow_system.h"
+#include "systems/timed_lights.h"
+#include "systems/visibility/caster_trees.h"
+#include "systems/visibility/light_queries.h"
+
+namespace gnomon {
+namespace embed {
+
+/// Texture of the engine's own, as it was last imported.
+struct Imported {
+    unsigned name = 0;
+    gl::TextureDesc desc;
+    gl::TextureHandle handle{};
+};
+
+/// One view: its mask, and the engine's textures that it reads.
+struct ViewState {
+    ViewState(gl::Device& device, lighting::LightPrograms& programs) : mask(device, programs) {}
+    lighting::MaskPass mask;
+    Imported depth, normals;
+    lighting::DepthPicture picture;
+    std::vector<std::uint32_t> layers;  // index of a light per layer
+    std::string_view failure;
+};
+
+}  // namespace embed
+
+namespace {
+
+using embed::Imported;
+using embed::ViewState;
+
+/// Imports a texture if it is not the one that was imported last. Returns {0} if it is no flat texture of that size.
+gl::TextureHandle import(gl::Device& device, unsigned name, glm::uvec2 least_px, Imported& held) {
+    const std::optional<gl::TextureDesc> desc = gl::describe_texture(device, name);
+    const bool fits =
+        desc && desc->kind == gl::TextureKind::flat && desc->width >= least_px.x && desc->height >= least_px.y;
+    if (held.handle && (!fits || held.name != name || !(held.desc == *desc))) {
+        device.destroy(held.handle);
+        held = {};
+    }
+    if (fits && !held.handle) held = {name, *desc, gl::import_texture(device, name, *desc)};
+    return held.handle;
+}
+
+/// Returns half a step of a depth format with fixed point; 0 for floating point.
+lighting::DepthRounding rounding_of(gl::Format format) {
+    constexpr double kHalf16 = 0.5 / 0xffff, kHalf24 = 0.5 / 0xffffff;
+    return {format == gl::Format::d16                                   ? kHalf16
+            : format == gl::Format::d24 || format == gl::Format::d24_s8 ? kHalf24
+                                                                        : 0.0};
+}
+
+ecs::Entity entity_of(std::size_t view) { return {static_cast<std::uint32_t>(view), 1}; }
+
+std::string_view code(gl::Failure failure) { return failure == gl::Failure::none ? "" : gl::to_text(failure); }
+
+}  // namespace
+
+struct Shadows::State {
+    State(std::unique_ptr<gl::Device> gl_device, const ShadowsOptions& wanted)
+        : options(wanted),
+          device(std::move(gl_device)),
+          programs(*device),
+          shadows(*device),
+          trees(store.library()),
+          queries(trees) {
+        if (wants_times())
+            device->set_timing(device->info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+    }
+    ~State() {
+        for (const auto& view : views) {
+            device->destroy(view->depth.handle);
+            device->destroy(view->normals.handle);
+        }
+    }
+    bool wants_times() const { return options.time_gpu || options.budget.gpu_ms > 0.0f; }
+
+    bool provide_scene();
+    void take_view(const View& view, std::size_t index);
+    void list_layers(const View& view, ViewState& state) const;
+    void record_masks();
+    void submit();
+    void fill_masks(std::size_t count);
+
+    ShadowsOptions options;
+    embed::SceneStore store;
+    std::unique_ptr<gl::Device> device;
+    lighting::LightPrograms programs;
+    std::optional<GpuScene> gpu;
+    std::uint64_t meshes_on_gpu = ~std::uint64_t{0};
+    shadow::ShadowSystem shadows;
+    std::vector<std::unique_ptr<ViewState>> views;
+    std::vector<ConsumerItem> consumers;
+    std::vector<std::uint32_t> consumer_views;  // view of each consumer
+    std::vector<Mask> masks;
+    gl::CommandList commands;
+    FrameReport report;
+    shadow::LightingOutcome outcome;
+    TimedLights timed;
+    RenderStatus status;
+    std::optional<double> gpu_us;
+    visibility::CasterTrees trees;
+    visibility::LightQueries queries;
+};
+
+/// Puts the meshes on the device. Returns false without room.
+bool Shadows::State::provide_scene() {
+    if (gpu && meshes_on_gpu == store.meshes_version()) return true;
+    auto made = GpuScene::create(*device, store.library());
+    if (!made) {
+        status.failure = "out_of_memory";
+        return static_cast<bool>(gpu);
+    }
+    gpu.emplace(std::move(made).value());
+    meshes_on_gpu = store.meshes_version();
+    return true;
+}
+
+/// Takes one view's camera and textures. A view that cannot be read has a failure, and is no consumer.
+void Shadows::State::take_view(const View& view, std::size_t index) {
+    ViewState& state = *views[index];
+    state.failure = {};
+    if (view.size_px.x == 0 || view.size_px.y == 0 || view.size_px.x > device->info().max_texture_px ||
+        view.size_px.y > device->info().max_texture_px) {
+        state.failure = "view.size";
+        return;
+    }
+    std::optional<lighting::PictureLens> lens = embed::lens_of(view.clip_from_view, view.clip_depth);
+    ConsumerItem consumer;
+    consumer.entity = entity_of(index);
+    if (!lens || !embed::put_view(view.world_from_view, view.size_px, *lens, consumer)) {
+        state.failure = "view.projection";
+        return;
+    }
+    state.picture.size_px = view.size_px;
+    state.picture.lens = *lens;
+    state.picture.depth = import(*device, view.depth_texture, view.size_px, state.depth);
+    if (!state.picture.depth || !gl::is_depth(state.depth.desc.format)) {
+        state.failure = "view.depth";
+        return;
+    }
+    state.picture.rounding = rounding_of(state.depth.desc.format);
+    state.picture.normals = {};
+    if (view.normal_texture != 0) {
+        state.picture.normals = import(*device, view.normal_texture, view.size_px, state.normals);
+        if (!state.picture.normals) state.failure = "view.normals";
+    }
+    state.picture.range = view.normal_format == NormalFormat::snorm ? lighting::NormalRange::plus_minus_one
+                                                                    : lighting::NormalRange::zero_to_one;
+    state.picture.view_space = view.normal_space == NormalSpace::view;
+    if (!state.failure.empty()) return;
+    consumers.push_back(consumer);
+    consumer_views.push_back(static_cast<std::uint32_t>(index));
+}
+
+/// Lists the light of each layer of a view's mask, as an index of the updated snapshot.
+void Shadows::State::list_layers(const View& view, ViewState& state) const {
+    state.layers.clear();
+    for (const LightId light : view.lights) state.layers.push_back(store.light_index(light));
+    if (!view.lights.empty()) return;
+    for (std::uint32_t i = 0; i < store.snapshot().lights.size(); ++i) state.layers.push_back(i);
+}
+
+/// Records the mask of each view that could be read.
+void Shadows::State::record_masks() {
+    const shadow::ShadowFrame& frame = shadows.frame();
+    gl::Failure worst = gl::Failure::none;
+    for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
+        ViewState& view = *views[consumer_views[c]];
+        view.mask.record(frame.inputs[c], store.snapshot(), *gpu, view.picture, view.layers, commands, outcome);
+        view.failure = code(outcome.failure);
+        if (outcome.failure != gl::Failure::none) worst = outcome.failure;
+    }
+    outcome.failure = worst;
+}
+
+void Shadows::State::submit() {
+    const gl::SubmitResult result = device->submit(commands);
+    timed.submitted(result.submission, report);
+    const bool learn_costs = options.budget.gpu_ms > 0.0f;
+    timed.tell(after_submission({*device, store.snapshot(), *gpu, shadows}, result, learn_costs, report), report);
+    if (report.gpu_us) gpu_us = report.gpu_us;
+    if (result.failure != gl::Failure::none) status.failure = code(result.failure);
+}
+
+void Shadows::State::fill_masks(std::size_t count) {
+    masks.assign(count, {});
+    for (std::size_t i = 0; i < count; ++i) {
+        ViewState& view = *views[i];
+        masks[i].failure = !view.failure.empty() ? view.failure : status.failure;
+        if (!masks[i].failure.empty()) continue;
+        masks[i].texture = gl::gl_name(*device, view.mask.texture());
+        masks[i].layers = view.mask.layer_count();
+    }
+}
+
+Result<std::unique_ptr<Shadows>> Shadows::create(const ShadowsOptions& options) {
+    gl::MessageSink sink;
+    if (options.message)
+        sink = [message = options.message](gl::MessageSeverity, std::string_view text) { message(text); };
+    auto device = gl::make_gl45_device(std::move(sink));
+    if (!device) return device.error();
+    return std::unique_ptr<Shadows>(new Shadows(std::make_unique<State>(std::move(device).value(), options)));
+}
+
+Shadows::Shadows(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Shadows::~Shadows() = default;
+
+Result<MeshId> Shadows::add_mesh(const MeshDesc& mesh) { return state_->store.add_mesh(mesh); }
+void Shadows::remove(MeshId mesh) { state_->store.remove(mesh); }
+CasterId Shadows::add_caster(const CasterDesc& caster) { return state_->store.add_caster(caster); }
+void Shadows::set_transform(CasterId caster, const glm::dmat4& world_from_mesh) {
+    state_->store.set_transform(caster, world_from_mesh);
+}
+void Shadows::set_caster(CasterId caster, const CasterDesc& desc) { state_->store.set_caster(caster, desc); }
+void Shadows::remove(CasterId caster) { state_->store.remove(caster); }
+LightId Shadows::add_light(const LightDesc& light) { return state_->store.add_light(light); }
+void Shadows::set_light(LightId light, const LightDesc& desc) { state_->store.set_light(light, desc); }
+void Shadows::tune(LightId light, const ShadowTuning& tuning) { state_->store.tune(light, tuning); }
+void Shadows::remove(LightId light) { state_->store.remove(light); }
+
+void Shadows::set_budget(const Budget& budget) {
+    state_->options.budget = budget;
+    if (!state_->wants_times()) return;
+    gl::Device& device = *state_->device;
+    device.set_timing(device.info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+}
+
+std::span<const Mask> Shadows::render(std::span<const View> views) {
+    const auto start = std::chrono::steady_clock::now();
+    State& s = *state_;
+    s.commands.clear();
+    s.report.clear();
+    s.outcome.clear();
+    s.status = {};
+    s.consumers.clear();
+    s.consumer_views.clear();
+    while (s.views.size() < views.size()) s.views.push_back(std::make_unique<ViewState>(*s.device, s.programs));
+    s.programs.next_frame();
+    for (std::size_t i = 0; i < views.size(); ++i) s.take_view(views[i], i);
+    s.store.update(s.consumers);
+    for (std::size_t i = 0; i < views.size(); ++i) s.list_layers(views[i], *s.views[i]);
+    if (s.provide_scene()) {
+        const SceneSnapshot& scene = s.store.snapshot();
+        if (!s.gpu->update(scene, s.commands)) s.status.failure = "instances_full";
+        const Budget& budget = s.options.budget;
+        const shadow::ShadowSettings settings{.budget = {budget.bytes, budget.gpu_ms}, .rays = false};
+        s.shadows.update(scene, *s.gpu, settings, s.commands, s.report);
+        s.record_masks();
+        s.shadows.report(scene, s.outcome, s.report);
+        s.submit();
+    }
+    s.fill_masks(views.size());
+    s.status.still = s.report.still;
+    for (const LightReport& light : s.report.lights) {
+        s.status.maps_drawn += light.counts.views_drawn;
+        s.status.draws += light.counts.draws;
+        s.status.bytes += light.counts.bytes;
+    }
+    s.status.gpu_us = s.gpu_us;
+    s.status.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+    return s.masks;
+}
+
+LightStatus Shadows::status(LightId light) const {
+    const std::uint32_t index = state_->store.light_index(light);
+    if (index >= state_->report.lights.size()) return {};
+    const LightReport& report = state_->report.lights[index];
+    return {report.state,         report.reason,       report.predicted_error_px, report.keeps_max_error,
+            report.filter.filter, report.counts.views, report.counts.views_drawn, report.counts.draws,
+            report.counts.bytes,  report.gpu_us};
+}
+
+const RenderStatus& Shadows::status() const { return state_->status; }
+std::span<const Dropped> Shadows::dropped() const { return state_->store.dropped(); }
+
+float Shadows::visibility(LightId light, const glm::dvec3& position_m, double radius_m) {
+    State& s = *state_;
+    const std::uint32_t index = s.store.light_index(light);
+    if (index >= s.store.snapshot().lights.size()) return 0.0f;
+    const visibility::Place place{position_m, radius_m};
+    float answer = 0.0f;
+    s.queries.ask(s.store.snapshot(), s.store.snapshot().lights[index], {&place, 1}, {}, {&answer, 1});
+    return answer;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,34 @@
+#pragma once
+#include "systems/extract/gpu_scene.h"
+#include "systems/lighting/light_programs.h"
+#include "systems/shadow/frame/lighting_inputs.h"
+
+/// Program that looks a light up, and what it reads.
+namespace gnomon::lighting {
+
+/// Program of a light, and its inputs.
+struct LightProgram {
+    gl::ProgramHandle program{};
+    gl::TextureHandle map{}, triangles{};
+    gl::SamplerHandle sampler{};
+    visibility::RayBuffers rays{};
+    gl::TextureHandle second{}, bounds{};                  // for maps of sheets
+    gl::BufferHandle ends{};                               // for area lights on such maps
+    gl::ProgramHandle verdicts_program{}, rays_program{};  // {0}: `program` traces the rays itself
+    gl::ProgramHandle decided_program{};  // draws all but slow pixels, which remain for `program`; {0}: none
+    Reason lacks = Reason::none;          // reason why it is not the light's own row
+    bool unshadowed = false;
+};
+
+/// Returns the program of a light whose own row is unavailable, because of `lacks`: one tap of its map, otherwise the
+/// light without shadow.
+LightProgram fallback_program(LightPrograms& programs, const shadow::LightingLight& light, ShaderPass output,
+                              Reason lacks);
+
+/// Binds the light's maps: depths, and what conservative maps have beside them.
+void bind_maps(const LightProgram& light, gl::CommandList& list);
+
+/// Binds what a row with triangles reads beside its map; nothing for other rows.
+void bind_triangles(const LightProgram& light, const GpuScene& gpu, gl::CommandList& list);
+
+}  // namespace gnomon::lighting

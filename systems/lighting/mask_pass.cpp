@@ -1,0 +1,225 @@
+#include "systems/lighting/mask_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+
+#include "shaders/bindings.h"
+#include "systems/extract/volumes.h"
+#include "systems/frame_timers.h"
+
+namespace gnomon::lighting {
+namespace {
+
+constexpr double kUnitRoundoff = 0x1p-24;
+
+/// Rounding of an imported depth's way to a distance, in units of 2^-24 of what is added: the rasteriser's
+/// interpolation, the format, the offset as a float, the sum and the quotient.
+constexpr double kImportRoundings = 5.0;
+
+/// Errors of imported distances, as CameraRecord::lens.zw: per metre and per square metre (perspective), or metres
+/// (orthographic).
+glm::dvec2 import_errors(const PictureLens& lens, const DepthRounding& rounding) {
+    const double scale = std::abs(lens.scale);
+    const double rounded = kImportRoundings * kUnitRoundoff;
+    if (lens.orthographic) return {scale * (rounding.step + rounded) + rounded * std::abs(lens.offset), 0.0};
+    // d(distance) = distance^2 / scale * d(depth); a depth is scale / distance - offset.
+    return {rounded, (rounding.step + 2.0 * rounded * std::abs(lens.offset)) / scale};
+}
+
+}  // namespace
+
+shadow::CameraRecord with_lens(const shadow::CameraRecord& camera, const DepthPicture& picture) {
+    const PictureLens& lens = picture.lens;
+    shadow::CameraRecord record = camera;
+    record.right.w = static_cast<float>(lens.half.x);
+    record.up.w = static_cast<float>(lens.half.y);
+    record.unproject.z = static_cast<float>(picture.size_px.x);
+    record.unproject.w = static_cast<float>(picture.size_px.y);
+    record.lens = glm::vec4(glm::vec2(lens.shift), glm::vec2(import_errors(lens, picture.rounding)));
+    return record;
+}
+
+gl::Rect in_picture(const gl::Rect& area, const ConsumerItem& consumer, const DepthPicture& picture) {
+    const double half_y = consumer.projection == CameraProjection::orthographic ? consumer.half_height_m
+                                                                                : std::tan(0.5 * consumer.fov_y_rad);
+    const glm::dvec2 half(half_y * aspect(consumer), half_y), size(picture.size_px);
+    const auto pixels = [&](const glm::dvec2& of_consumer) {
+        const glm::dvec2 place = (of_consumer / glm::dvec2(consumer.viewport_px) * 2.0 - 1.0) * half;
+        return (place / picture.lens.half - picture.lens.shift + 1.0) * 0.5 * size;
+    };
+    const glm::dvec2 low(area.x, area.y), high = low + glm::dvec2(area.width, area.height);
+    const glm::dvec2 from = glm::clamp(glm::floor(pixels(low)), glm::dvec2(0.0), size);
+    const glm::dvec2 to = glm::clamp(glm::ceil(pixels(high)), glm::dvec2(0.0), size);
+    if (!(from.x < to.x && from.y < to.y)) return {};
+    return {static_cast<std::int32_t>(from.x), static_cast<std::int32_t>(from.y),
+            static_cast<std::int32_t>(to.x - from.x), static_cast<std::int32_t>(to.y - from.y)};
+}
+
+gl::Failure MaskPass::make_surfaces(glm::uvec2 size) {
+    if (surfaces_ && size == size_px_) return gl::Failure::none;
+    release();
+    gl::Failure failure = gl::Failure::none;
+    const auto make = [&](gl::TextureHandle& texture, const char* label, gl::Format format) {
+        if (failure != gl::Failure::none) return;
+        const auto made = device_.create_texture({label, gl::TextureKind::flat, format, size.x, size.y, 1, 1}, {});
+        texture = made.handle;
+        failure = made.failure;
+    };
+    make(depth_, "imported depth", gl::Format::d32f);
+    make(normals_, "imported normals", gl::Format::rgba16_snorm);
+    make(material_, "imported material", gl::Format::rgba8);
+    if (failure == gl::Failure::none) {
+        const auto made = device_.create_target({"imported surfaces", {{normals_, -1}, {material_, -1}}, {depth_, -1}});
+        surfaces_ = made.handle;
+        failure = made.failure;
+    }
+    if (failure != gl::Failure::none) release();
+    size_px_ = size;
+    return failure;
+}
+
+gl::Failure MaskPass::make_layers(std::size_t layers) {
+    if (mask_ && targets_.size() == layers) return gl::Failure::none;
+    release_layers();
+    const auto made = device_.create_texture({"shadow mask", gl::TextureKind::array, gl::Format::r8, size_px_.x,
+                                              size_px_.y, static_cast<std::uint32_t>(layers), 1},
+                                             {});
+    mask_ = made.handle;
+    gl::Failure failure = made.failure;
+    for (std::size_t i = 0; i < layers && failure == gl::Failure::none; ++i) {
+        const auto target =
+            device_.create_target({"shadow mask", {{mask_, static_cast<std::int32_t>(i)}}, {depth_, -1}});
+        if (target) targets_.push_back(target.handle);
+        failure = target.failure;
+    }
+    if (failure != gl::Failure::none) release_layers();
+    return failure;
+}
+
+gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, std::size_t lights) {
+    gl::Failure failure = make_surfaces(picture.size_px);
+    if (failure == gl::Failure::none && layers > 0) failure = make_layers(layers);
+    if (failure == gl::Failure::none && !sampler_) {
+        const auto made = device_.create_sampler({.label = "imported surface"});
+        sampler_ = made.handle;
+        failure = made.failure;
+    }
+    if (failure != gl::Failure::none) return failure;
+    const std::uint32_t alignment = device_.info().uniform_alignment;
+    import_offset_ = aligned(sizeof(shadow::CameraRecord), alignment);
+    lights_offset_ = import_offset_ + aligned(sizeof(ImportRecord), alignment);
+    light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
+    if (!programs_.import_surfaces()) return programs_.failure();
+    const bool room =
+        uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * std::max<std::size_t>(lights, 1));
+    return room ? gl::Failure::none : gl::Failure::out_of_memory;
+}
+
+void MaskPass::upload(const shadow::LightingInputs& inputs, const DepthPicture& picture, gl::CommandList& list) {
+    const shadow::CameraRecord camera = with_lens(inputs.camera, picture);
+    const PictureLens& lens = picture.lens;
+    ImportRecord record;
+    record.depth = {static_cast<float>(lens.scale), static_cast<float>(lens.offset), lens.reversed ? 0.0f : 1.0f, 0.0f};
+    record.normals = {static_cast<int>(picture.normals ? picture.range : NormalRange::none), picture.receive_layers,
+                      picture.view_space ? 1 : 0, 0};
+    bytes_.clear();
+    put_record(bytes_, 0, camera);
+    put_record(bytes_, import_offset_, record);
+    for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
+        put_record(bytes_, lights_offset_ + i * light_stride_, inputs.lights[i].record);
+    list.update(uniforms_.handle(), 0, std::span<const std::byte>(bytes_));
+}
+
+void MaskPass::import(const DepthPicture& picture, gl::CommandList& list) const {
+    const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
+    list.add(gl::BeginGroup{"imported surfaces"});
+    list.add(gl::BeginTimer{kSurfaceTimer});
+    list.add(gl::BeginPass{surfaces_, all, true, 0.0f, true, {}});
+    list.add(gl::SetPipeline{
+        {programs_.import_surfaces(), gl::CullMode::none, false, gl::DepthTest::greater, true, false, gl::Blend::off}});
+    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindUniforms{bindings::kImportBlock, uniforms_.handle(), import_offset_, sizeof(ImportRecord)});
+    list.add(gl::BindTexture{bindings::kImportedDepthUnit, picture.depth, sampler_});
+    list.add(
+        gl::BindTexture{bindings::kImportedNormalUnit, picture.normals ? picture.normals : picture.depth, sampler_});
+    list.add(gl::DrawTriangle{});
+    list.add(gl::EndPass{});
+    list.add(gl::EndTimer{kSurfaceTimer});
+    list.add(gl::EndGroup{});
+}
+
+void MaskPass::record_layer(const LightProgram& program, std::uint32_t light, const gl::Rect& area, float depth,
+                            const GpuScene& gpu, gl::CommandList& list) const {
+    list.add(gl::SetScissor{area});
+    list.add(gl::SetPipeline{
+        {program.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::off}});
+    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, depth_, sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, normals_, sampler_});
+    list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, material_, sampler_});
+    list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
+                              sizeof(shadow::LightRecord)});
+    bind_maps(program, list);
+    bind_triangles(program, gpu, list);
+    list.add(gl::DrawTriangle{depth});
+}
+
+bool MaskPass::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
+                      const DepthPicture& picture, std::span<const std::uint32_t> layers, gl::CommandList& list,
+                      shadow::LightingOutcome& outcome) {
+    outcome.failure = prepare(picture, layers.size(), inputs.lights.size());
+    if (outcome.failure != gl::Failure::none) return false;
+    if (layers.empty()) return true;
+    upload(inputs, picture, list);
+    import(picture, list);
+    const ConsumerItem& consumer = scene.consumers[inputs.consumer];
+    const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
+    list.add(gl::BeginGroup{"shadow mask"});
+    for (std::uint32_t layer = 0; layer < layers.size(); ++layer) {
+        const bool is_light = layers[layer] < inputs.lights.size();
+        list.add(gl::BeginPass{targets_[layer], all, false, 0.0f, true, {is_light ? 0.0f : 1.0f, 0.0f, 0.0f, 0.0f}});
+        if (is_light) {
+            const shadow::LightingLight& light = inputs.lights[layers[layer]];
+            const gl::Rect area = light.screen.width > 0 ? in_picture(light.screen, consumer, picture) : gl::Rect{};
+            LightProgram used{programs_.row(light.row, ShaderPass::visibility), light.map, light.triangles,
+                              light.sampler};
+            if (!used.program)
+                used = fallback_program(programs_, light, ShaderPass::visibility, Reason::filter_program_failed);
+            if (used.lacks != Reason::none)
+                outcome.failures.push_back({light.light, used.lacks, used.unshadowed, false, light.plain.accuracy});
+            if (area.width > 0 && used.program) {
+                list.add(gl::BeginGroup{scene.lights[light.light].name});
+                list.add(gl::BeginTimer{lighting_timer(light.light)});
+                record_layer(used, layers[layer], area, light.farthest_depth, gpu, list);
+                list.add(gl::EndTimer{lighting_timer(light.light)});
+                list.add(gl::EndGroup{});
+            }
+        }
+        list.add(gl::EndPass{});
+    }
+    list.add(gl::EndGroup{});
+    return true;
+}
+
+void MaskPass::release_layers() {
+    for (const gl::TargetHandle target : targets_) device_.destroy(target);
+    targets_.clear();
+    device_.destroy(mask_);
+    mask_ = {};
+}
+
+void MaskPass::release() {
+    release_layers();
+    device_.destroy(surfaces_);
+    surfaces_ = {};
+    for (gl::TextureHandle* texture : {&depth_, &normals_, &material_}) {
+        device_.destroy(*texture);
+        *texture = {};
+    }
+    device_.destroy(sampler_);
+    sampler_ = {};
+    size_px_ = {0, 0};
+}
+
+}  // namespace gnomon::lighting

@@ -1,0 +1,81 @@
+#pragma once
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/gl/device.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/extract/snapshot.h"
+#include "systems/growing_buffer.h"
+#include "systems/lighting/depth_picture.h"
+#include "systems/lighting/light_lookup.h"
+#include "systems/shadow/frame/lighting_inputs.h"
+
+namespace gnomon::lighting {
+
+/// Matches ImportBlock in shaders/lighting/mask/import_surfaces.frag (std140).
+struct ImportRecord {
+    glm::vec4 depth{0.0f};
+    glm::ivec4 normals{0};
+};
+static_assert(sizeof(ImportRecord) == 32);
+
+/// Returns the camera's record for a picture with that lens: `camera`, with the lens in place of the symmetric view
+/// that shadows are fitted to.
+shadow::CameraRecord with_lens(const shadow::CameraRecord& camera, const DepthPicture& picture);
+
+/// Returns the pixels of `picture` that `area` covers. `area` is a rectangle of the symmetric view `consumer`, which
+/// contains the picture.
+gl::Rect in_picture(const gl::Rect& area, const ConsumerItem& consumer, const DepthPicture& picture);
+
+/// Visibility of lights over another renderer's picture: a texture with a layer per light, 8 bits each. One object per
+/// view. Owns its device objects; programs are shared.
+class MaskPass {
+public:
+    MaskPass(gl::Device& device, LightPrograms& programs)
+        : device_(device), programs_(programs), uniforms_(device, "mask uniforms") {}
+    ~MaskPass() { release(); }
+    MaskPass(const MaskPass&) = delete;
+    MaskPass& operator=(const MaskPass&) = delete;
+
+    /// Layer without a light: it is 1 everywhere.
+    static constexpr std::uint32_t kNoLight = ~0u;
+
+    /// Records the mask. `layers`: an index into inputs.lights per layer, or kNoLight. Pixels without a surface, and
+    /// those that the light does not reach, are 0. Lights without a shadow are 1. Returns false without room on the
+    /// device: nothing is recorded, and outcome.failure has the reason. Lights that fall back are in
+    /// outcome.failures.
+    bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
+                const DepthPicture& picture, std::span<const std::uint32_t> layers, gl::CommandList& list,
+                shadow::LightingOutcome& outcome);
+
+    /// Returns the mask, r8; {0} before the first record(). Another texture after a change of size or number of layers.
+    gl::TextureHandle texture() const { return mask_; }
+    std::uint32_t layer_count() const { return static_cast<std::uint32_t>(targets_.size()); }
+
+private:
+    gl::Failure prepare(const DepthPicture& picture, std::size_t layers, std::size_t lights);
+    gl::Failure make_surfaces(glm::uvec2 size_px);
+    gl::Failure make_layers(std::size_t layers);
+    void upload(const shadow::LightingInputs& inputs, const DepthPicture& picture, gl::CommandList& list);
+    void import(const DepthPicture& picture, gl::CommandList& list) const;
+    void record_layer(const LightProgram& program, std::uint32_t light, const gl::Rect& area, float depth,
+                      const GpuScene& gpu, gl::CommandList& list) const;
+    void release_layers();
+    void release();
+
+    gl::Device& device_;
+    LightPrograms& programs_;
+    GrowingBuffer uniforms_;
+    gl::TextureHandle depth_{}, normals_{}, material_{}, mask_{};
+    gl::TargetHandle surfaces_{};
+    std::vector<gl::TargetHandle> targets_;  // one per layer of the mask, with depth_
+    glm::uvec2 size_px_{0, 0};
+    gl::SamplerHandle sampler_{};
+    std::uint32_t import_offset_ = 0, lights_offset_ = 0, light_stride_ = 0;
+    std::vector<std::byte> bytes_;
+};
+
+}  // namespace gnomon::lighting
