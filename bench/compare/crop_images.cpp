@@ -108,7 +108,7 @@ std::optional<Error> RowPictures::write(const std::string& stem, const TracedLig
         const ComparedPixel pixel{truth[i], measured[i], light.point.scored[i] != 0, light.point.ambiguous[i] != 0};
         return by_disk ? soft_error_colour(pixel) : error_colour(pixel);
     });
-    const auto jpeg = game::encode_jpeg(part_px.x, part_px.y, drawn, kJpegQuality);
+    const auto jpeg = encode_jpeg(part_px.x, part_px.y, drawn, kJpegQuality);
     if (auto error = game::write_file(folder_ / (stem + "_render.jpg"), std::as_bytes(std::span(jpeg)))) return error;
     if (auto error = game::write_png(folder_ / (stem + "_shown.png"), part_px.x, part_px.y, shown)) return error;
     return game::write_png(folder_ / (stem + "_error.png"), part_px.x, part_px.y, off);

@@ -186,14 +186,14 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
 /// Applies changed casters in place. Returns false if one became usable or stopped being so: the list is then made
 /// anew.
 bool SceneStore::put_changes() {
-    const auto came_or_went = [&](CasterId id) {
+    const auto lacks = [&](CasterId id) {
         const Caster* caster = casters_.find(id);
-        return caster && (fault_of(caster->desc) == DropReason::instances_full) != (caster->instance != kNone);
+        return caster && (caster->instance == kNone || fault_of(caster->desc) != DropReason::instances_full);
     };
-    if (std::any_of(changed_.begin(), changed_.end(), came_or_went)) return false;
+    if (std::any_of(changed_.begin(), changed_.end(), lacks)) return false;
     for (const CasterId id : changed_) {
         Caster* caster = casters_.find(id);
-        if (!caster || caster->instance == kNone) continue;
+        if (!caster) continue;
         if (caster->moved) caster->version = snapshot_.version;
         if (caster->marked) snapshot_.list_version = snapshot_.version;
         put(*caster, id, snapshot_.instances[caster->instance]);
@@ -212,6 +212,7 @@ void SceneStore::list_instances() {
         if (fault != DropReason::instances_full) {
             dropped_.push_back({id, {}, reason_code(fault)});
             caster.instance = kNone;
+            caster.moved = caster.marked = false;
             return;
         }
         const bool is_new = caster.instance == kNone;

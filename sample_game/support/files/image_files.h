@@ -6,16 +6,9 @@
 #include <vector>
 
 #include "engine/core/result.h"
+#include "engine/image/encode_image.h"
 
 namespace gnomon::game {
-
-/// Encodes a picture of width x height, 4 bytes per pixel, top row first. Returns nothing if width or height is 0 or
-/// the sizes disagree.
-std::vector<std::uint8_t> encode_png(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba);
-
-/// Encodes the same picture as a JPEG without alpha; quality 1 to 100.
-std::vector<std::uint8_t> encode_jpeg(std::uint32_t width, std::uint32_t height, std::span<const std::uint8_t> rgba,
-                                      int quality);
 
 /// Errors of the writers: rule "output.write", naming the file.
 std::optional<Error> write_png(const std::filesystem::path& file, std::uint32_t width, std::uint32_t height,

@@ -1,0 +1,180 @@
+#include "systems/embed/scene_store.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "systems/extract/scene_tree.h"
+
+namespace gnomon::embed {
+namespace {
+
+constexpr std::array<glm::vec3, 4> kCorners{glm::vec3(0.0f), {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}};
+constexpr std::array<std::uint32_t, 12> kFaces{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
+
+class SceneStoreTest : public ::testing::Test {
+protected:
+    SceneStore store;
+    std::vector<ConsumerItem> cameras{{.entity = {0, 1}, .name = "view"}};
+
+    MeshId add_mesh() {
+        const auto made = store.add_mesh({.name = "tetrahedron", .positions_m = kCorners, .indices = kFaces});
+        EXPECT_TRUE(made);
+        return made.value();
+    }
+    CasterId add_at(MeshId mesh, const glm::dvec3& at_m) {
+        return store.add_caster({.mesh = mesh, .world_from_mesh = glm::translate(glm::dmat4(1.0), at_m)});
+    }
+    const SceneSnapshot& updated() {
+        store.update(cameras);
+        return store.snapshot();
+    }
+};
+
+TEST_F(SceneStoreTest, ListsCastersWithTheirPlaces) {
+    const MeshId mesh = add_mesh();
+    add_at(mesh, {1.0, 0.0, 0.0});
+    add_at(mesh, {5.0, 0.0, 0.0});
+    const SceneSnapshot& scene = updated();
+    ASSERT_EQ(scene.instances.size(), 2u);
+    EXPECT_EQ(scene.changed_instances.size(), 2u);
+    EXPECT_EQ(scene.instances[1].translation_ws_m.x, 5.0);
+    EXPECT_EQ(scene.instances[1].bounds_ws.max.x, 6.0);
+    EXPECT_TRUE(has_tree(scene));
+}
+
+TEST_F(SceneStoreTest, WithoutAChangeTheVersionStays) {
+    const CasterId caster = add_at(add_mesh(), {0.0, 0.0, 0.0});
+    const LightId light = store.add_light({});
+    const std::uint64_t version = updated().version;
+    EXPECT_EQ(updated().version, version);
+    store.set_transform(caster, glm::dmat4(1.0));  // equal
+    store.set_light(light, {});
+    store.tune(light, {});
+    EXPECT_EQ(updated().version, version);
+    EXPECT_TRUE(store.snapshot().changed_instances.empty());
+    cameras.front().position_ws_m.x = 1.0;
+    EXPECT_GT(updated().version, version) << "control: a camera moved";
+}
+
+TEST_F(SceneStoreTest, AMoveIsAppliedInPlace) {
+    const MeshId mesh = add_mesh();
+    const CasterId still = add_at(mesh, {0.0, 0.0, 0.0}), moving = add_at(mesh, {3.0, 0.0, 0.0});
+    static_cast<void>(still);
+    const std::uint64_t list = updated().list_version;
+    const std::uint64_t first = store.snapshot().instances[0].version, second = store.snapshot().instances[1].version;
+    store.set_transform(moving, glm::translate(glm::dmat4(1.0), glm::dvec3(4.0, 0.0, 0.0)));
+    const SceneSnapshot& scene = updated();
+    EXPECT_EQ(scene.list_version, list);
+    EXPECT_EQ(scene.changed_instances, std::vector<std::uint32_t>{1});
+    EXPECT_EQ(scene.instances[0].version, first);
+    EXPECT_GT(scene.instances[1].version, second);
+    EXPECT_EQ(scene.instances[1].bounds_ws.min.x, 4.0);
+    EXPECT_TRUE(has_tree(scene));
+}
+
+TEST_F(SceneStoreTest, WhatIsRemovedLeavesTheOthersAlone) {
+    const MeshId mesh = add_mesh();
+    const CasterId first = add_at(mesh, {0.0, 0.0, 0.0});
+    add_at(mesh, {3.0, 0.0, 0.0});
+    const std::uint64_t version = updated().instances[1].version;
+    const std::uint32_t slot = store.snapshot().instances[1].gpu_slot;
+    store.remove(first);
+    const SceneSnapshot& scene = updated();
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_EQ(scene.instances[0].version, version) << "maps that show it stay valid";
+    EXPECT_EQ(scene.instances[0].gpu_slot, slot);
+    EXPECT_TRUE(scene.changed_instances.empty());
+    store.remove(first);  // a handle of nothing
+    store.set_transform(first, glm::dmat4(2.0));
+    EXPECT_EQ(updated().instances.size(), 1u);
+}
+
+TEST_F(SceneStoreTest, ASlotIsUsedAgainByAnotherEntity) {
+    const MeshId mesh = add_mesh();
+    const CasterId first = add_at(mesh, {0.0, 0.0, 0.0});
+    const ecs::Entity was = updated().instances[0].entity;
+    const std::uint64_t version = store.snapshot().instances[0].version;
+    store.remove(first);
+    add_at(mesh, {0.0, 0.0, 0.0});
+    const SceneSnapshot& scene = updated();
+    EXPECT_EQ(scene.instances[0].gpu_slot, 0u);
+    EXPECT_NE(scene.instances[0].entity, was);
+    EXPECT_GT(scene.instances[0].version, version);
+    EXPECT_EQ(scene.changed_instances.size(), 1u);
+}
+
+TEST_F(SceneStoreTest, WhatCannotBePlacedIsNamedAndComesBack) {
+    const MeshId mesh = add_mesh();
+    add_at(mesh, {0.0, 0.0, 0.0});
+    const CasterId bad = add_at(mesh, {1.0, 0.0, 0.0});
+    updated();
+    const auto reason = [&]() -> std::string_view { return store.dropped().empty() ? "" : store.dropped().front().reason; };
+    EXPECT_EQ(reason(), "");
+    store.set_transform(bad, glm::dmat4(std::numeric_limits<double>::quiet_NaN()));
+    EXPECT_EQ(updated().instances.size(), 1u);
+    EXPECT_EQ(reason(), "non_finite_transform");
+    EXPECT_EQ(store.dropped().front().caster, bad);
+    store.set_transform(bad, glm::scale(glm::dmat4(1.0), glm::dvec3(0.0)));
+    EXPECT_EQ(updated().instances.size(), 1u);
+    EXPECT_EQ(reason(), "zero_scale");
+    store.set_transform(bad, glm::dmat4(1.0));
+    EXPECT_EQ(updated().instances.size(), 2u);
+    EXPECT_EQ(reason(), "");
+    EXPECT_EQ(store.snapshot().changed_instances.size(), 1u) << "it is uploaded again";
+    store.remove(mesh);
+    EXPECT_TRUE(updated().instances.empty());
+    EXPECT_EQ(reason(), "unknown_mesh");
+}
+
+TEST_F(SceneStoreTest, MeshesThatAreNoneAreRefusedByRule) {
+    const auto rule = [&](const MeshDesc& desc) {
+        const auto made = store.add_mesh(desc);
+        return made ? std::string() : made.error().rule;
+    };
+    const std::array<std::uint32_t, 3> beyond{0, 1, 4};
+    std::array<glm::vec3, 4> broken = kCorners;
+    broken[2].y = std::numeric_limits<float>::infinity();
+    const std::array<std::uint8_t, 4> alpha{};
+    const std::array<glm::vec2, 4> uvs{};
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces}), "");
+    EXPECT_EQ(rule({}), "mesh.empty");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = std::span(kFaces).first(4)}), "mesh.empty");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = beyond}), "mesh.index");
+    EXPECT_EQ(rule({.positions_m = broken, .indices = kFaces}), "mesh.position");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha}, .uvs = uvs}), "");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha}}), "mesh.mask");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{3, 2}, alpha}, .uvs = uvs}), "mesh.mask");
+    EXPECT_EQ(rule({.positions_m = kCorners, .indices = kFaces, .mask = {{2, 2}, alpha, 0.0f}, .uvs = uvs}), "mesh.mask");
+}
+
+TEST_F(SceneStoreTest, LightsKeepTheirHistoryWhenOthersComeAndGo) {
+    const LightId first = store.add_light({.name = "lamp"}), second = store.add_light({.name = "lamp"});
+    updated();
+    const std::uint64_t version = store.snapshot().lights[store.light_index(second)].version;
+    EXPECT_NE(store.snapshot().lights[0].name, store.snapshot().lights[1].name);
+    store.remove(first);
+    updated();
+    ASSERT_EQ(store.snapshot().lights.size(), 1u);
+    EXPECT_EQ(store.light_index(first), SceneStore::kNone);
+    EXPECT_EQ(store.light_index(second), 0u);
+    EXPECT_EQ(store.snapshot().lights[0].version, version);
+}
+
+TEST_F(SceneStoreTest, ALightWithoutDirectionIsNamedAndComesBack) {
+    const LightId sun = store.add_light({.light = {.kind = LightKind::directional}, .direction = glm::dvec3(0.0)});
+    EXPECT_TRUE(updated().lights.empty());
+    ASSERT_EQ(store.dropped().size(), 1u);
+    EXPECT_EQ(store.dropped().front().light, sun);
+    store.set_light(sun, {.light = {.kind = LightKind::directional}, .direction = {0.0, -1.0e-200, 0.0}});
+    ASSERT_EQ(updated().lights.size(), 1u);
+    EXPECT_TRUE(store.dropped().empty());
+    EXPECT_EQ(store.snapshot().lights[0].rotation_ws[2], glm::dvec3(0.0, 1.0, 0.0));
+    store.set_light(sun, {.light = {.kind = LightKind::directional, .intensity = -1.0f}});
+    EXPECT_TRUE(updated().lights.empty());
+}
+
+}  // namespace
+}  // namespace gnomon::embed

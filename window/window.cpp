@@ -1,0 +1,126 @@
+#include "gnomon/window.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <vector>
+
+#include "engine/image/encode_image.h"
+#include "engine/platform/context.h"
+
+namespace gnomon {
+
+struct Window::State {
+    WindowOptions options;
+    std::unique_ptr<platform::Context> context;
+    platform::Window* window = nullptr;  // null: headless
+    glm::uvec2 size_px{0, 0};
+    GLuint framebuffer = 0, colour = 0, depth = 0;
+    std::uint32_t frames = 0;  // begun
+    bool closed = false;
+    std::chrono::steady_clock::time_point start{};
+
+    bool make_picture(glm::uvec2 size);
+    void release_picture();
+    bool is_last() const { return options.frames > 0 && frames >= options.frames; }
+};
+
+/// Makes the picture at this size. Returns false if the device refuses.
+bool Window::State::make_picture(glm::uvec2 size) {
+    if (framebuffer != 0 && size == size_px) return true;
+    release_picture();
+    size_px = size;
+    const auto width = static_cast<GLsizei>(size.x), height = static_cast<GLsizei>(size.y);
+    glCreateTextures(GL_TEXTURE_2D, 1, &colour);
+    glTextureStorage2D(colour, 1, GL_SRGB8_ALPHA8, width, height);
+    glCreateTextures(GL_TEXTURE_2D, 1, &depth);
+    glTextureStorage2D(depth, 1, GL_DEPTH_COMPONENT32F, width, height);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, colour, 0);
+    glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, depth, 0);
+    return glCheckNamedFramebufferStatus(framebuffer, GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+}
+
+void Window::State::release_picture() {
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteTextures(1, &colour);
+    glDeleteTextures(1, &depth);
+    framebuffer = colour = depth = 0;
+}
+
+Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
+    auto state = std::make_unique<State>();
+    state->options = options;
+    if (options.headless) {
+        state->options.frames = std::max(options.frames, 1u);
+        auto context = platform::make_headless_context(false);
+        if (!context) return context.error();
+        state->context = std::move(context).value();
+    } else {
+        auto window = platform::make_window(options.size_px.x, options.size_px.y, options.title, false);
+        if (!window) return window.error();
+        state->window = window.value().get();
+        state->context = std::move(window).value();
+    }
+    if (!state->make_picture(options.size_px))
+        return Error{"the device has no room for a picture of this size", {}, {}, "window.picture"};
+    return std::unique_ptr<Window>(new Window(std::move(state)));
+}
+
+Window::Window(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Window::~Window() { state_->release_picture(); }
+
+bool Window::begin_frame() {
+    State& s = *state_;
+    if (s.closed || s.is_last()) return false;
+    if (s.frames == 0) s.start = std::chrono::steady_clock::now();
+    if (s.window) {
+        const platform::Input& input = s.window->poll();
+        if (input.close_requested) return false;
+        const glm::uvec2 size(input.framebuffer_width, input.framebuffer_height);
+        if (size.x > 0 && size.y > 0 && !s.make_picture(size)) return false;  // 0: minimised
+    }
+    ++s.frames;
+    glBindFramebuffer(GL_FRAMEBUFFER, s.framebuffer);
+    glViewport(0, 0, static_cast<GLsizei>(s.size_px.x), static_cast<GLsizei>(s.size_px.y));
+    return true;
+}
+
+Result<bool> Window::end_frame() {
+    State& s = *state_;
+    const auto width = static_cast<GLint>(s.size_px.x), height = static_cast<GLint>(s.size_px.y);
+    if (s.window) {
+        glDisable(GL_SCISSOR_TEST);
+        glDisable(GL_FRAMEBUFFER_SRGB);  // colours are encoded already
+        glBlitNamedFramebuffer(s.framebuffer, 0, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                               GL_NEAREST);
+        s.window->present();
+    }
+    if (!s.is_last() || s.options.screenshot.empty()) return true;
+    const std::size_t row = std::size_t{s.size_px.x} * 4;
+    std::vector<std::uint8_t> rgba(row * s.size_px.y), flipped(rgba.size());
+    glGetTextureImage(s.colour, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
+    for (std::size_t y = 0; y < s.size_px.y; ++y)
+        std::copy_n(rgba.data() + y * row, row, flipped.data() + (s.size_px.y - 1 - y) * row);
+    const std::vector<std::uint8_t> png = encode_png(s.size_px.x, s.size_px.y, flipped);
+    std::FILE* file = std::fopen(s.options.screenshot.c_str(), "wb");
+    const bool written = file != nullptr && std::fwrite(png.data(), 1, png.size(), file) == png.size();
+    const bool closed = file == nullptr || std::fclose(file) == 0;
+    if (!written || !closed) return Error{"cannot write the screenshot", s.options.screenshot, {}, "output.write"};
+    return true;
+}
+
+glm::uvec2 Window::size_px() const { return state_->size_px; }
+unsigned Window::framebuffer() const { return state_->framebuffer; }
+unsigned Window::colour_texture() const { return state_->colour; }
+unsigned Window::depth_texture() const { return state_->depth; }
+
+double Window::time_s() const {
+    constexpr double kFrame_s = 1.0 / 60.0;
+    if (state_->options.frames > 0) return (state_->frames - 1.0) * kFrame_s;
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - state_->start).count();
+}
+
+}  // namespace gnomon
