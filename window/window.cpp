@@ -104,6 +104,7 @@ Result<bool> Window::end_frame() {
     glGetTextureImage(s.colour, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
     for (std::size_t y = 0; y < s.size_px.y; ++y)
         std::copy_n(rgba.data() + y * row, row, flipped.data() + (s.size_px.y - 1 - y) * row);
+    for (std::size_t i = 3; i < flipped.size(); i += 4) flipped[i] = 255;  // a picture on a screen is opaque
     const std::vector<std::uint8_t> png = encode_png(s.size_px.x, s.size_px.y, flipped);
     std::FILE* file = std::fopen(s.options.screenshot.c_str(), "wb");
     const bool written = file != nullptr && std::fwrite(png.data(), 1, png.size(), file) == png.size();

@@ -8,6 +8,9 @@ namespace {
 
 constexpr std::array kShaderStages = {GL_VERTEX_SHADER,   GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
                                       GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER,     GL_COMPUTE_SHADER};
+constexpr std::array kSubroutineUniforms = {GL_VERTEX_SUBROUTINE_UNIFORM,          GL_TESS_CONTROL_SUBROUTINE_UNIFORM,
+                                            GL_TESS_EVALUATION_SUBROUTINE_UNIFORM, GL_GEOMETRY_SUBROUTINE_UNIFORM,
+                                            GL_FRAGMENT_SUBROUTINE_UNIFORM,        GL_COMPUTE_SUBROUTINE_UNIFORM};
 
 /// Capabilities that draws, clears and blits depend on, and their value while a list runs. Lists set the first four.
 constexpr std::array<std::pair<GLenum, bool>, 31> kFixed = {{{GL_DEPTH_TEST, false},
@@ -79,7 +82,12 @@ void KeptSubroutines::read(GLuint program) {
         chosen_[i].clear();
         GLint of_stage = static_cast<GLint>(program), locations = 0;
         if (pipeline != 0) glGetProgramPipelineiv(static_cast<GLuint>(pipeline), kShaderStages[i], &of_stage);
-        if (of_stage == 0) continue;
+        // A program without the stage has no subroutines in it, and some drivers make an error of the question.
+        GLint subroutines = 0;
+        if (of_stage != 0)
+            glGetProgramInterfaceiv(static_cast<GLuint>(of_stage), kSubroutineUniforms[i], GL_ACTIVE_RESOURCES,
+                                    &subroutines);
+        if (subroutines == 0) continue;
         glGetProgramStageiv(static_cast<GLuint>(of_stage), kShaderStages[i], GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS,
                             &locations);
         for (GLint location = 0; location < locations; ++location)

@@ -213,7 +213,7 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const ShadowsOptions& options) 
     gl::MessageSink sink;
     if (options.message)
         sink = [message = options.message](gl::MessageSeverity, std::string_view text) { message(text); };
-    auto device = gl::make_gl45_device(std::move(sink));
+    auto device = gl::make_gl45_device(std::move(sink), {.keeps_state = true});
     if (!device) return device.error();
     return std::unique_ptr<Shadows>(new Shadows(std::make_unique<State>(std::move(device).value(), options)));
 }
