@@ -1,8 +1,10 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "engine/core/result.h"
 #include "engine/gl/device.h"
@@ -42,9 +44,18 @@ unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 /// - Where no sampler is bound, reads are exact whatever its parameters are (nearest, clamped, no comparison).
 /// - Its swizzle and its depth-stencil mode apply.
 TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc);
-/// Describes any texture of the context that is not multisampled, for import_texture(). Empty: there is none of that
-/// name, or of another kind or format than a TextureDesc can have.
-std::optional<TextureDesc> describe_texture(const Device& gl45_device, unsigned gl_name);
+/// Texture of the context, whoever made it.
+struct EngineTexture {
+    TextureDesc desc;
+    std::uint32_t samples = 1;  // above 1: multisampled
+    bool operator==(const EngineTexture&) const = default;
+};
+/// Describes any texture of the context, for import_texture(). Empty: there is none of that name, or of another kind or
+/// format than a TextureDesc can have.
+std::optional<EngineTexture> describe_texture(const Device& gl45_device, unsigned gl_name);
+/// Returns where the samples of a multisampled depth texture lie in a pixel, [0, 1) from its lower left corner. Empty:
+/// it is none.
+std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, unsigned gl_name);
 /// Does the same for a buffer of at least desc.size bytes. `updated` needs storage that glBufferSubData may change;
 /// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "engine/gl/device_gl45.h"
@@ -93,20 +94,40 @@ Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc) {
     return {{name, desc, static_cast<GLenum>(target), true}};
 }
 
-std::optional<TextureDesc> describe_texture(const Device&, unsigned name) {
+std::optional<EngineTexture> describe_texture(const Device&, unsigned name) {
     drop_gl_errors();
     GLint target = GL_NONE;
     if (glIsTexture(name) == GL_TRUE) glGetTextureParameteriv(name, GL_TEXTURE_TARGET, &target);
     for (const TextureKind kind : {TextureKind::flat, TextureKind::array, TextureKind::cube}) {
-        if (static_cast<GLenum>(target) != gl_kind(kind)) continue;
+        if (!is_kind(static_cast<GLenum>(target), kind)) continue;
         for (std::uint8_t format = 0; format <= static_cast<std::uint8_t>(kLastFormat); ++format) {
             if (!has_format(name, static_cast<Format>(format))) continue;
-            const auto size = [&](GLenum which) { return static_cast<std::uint32_t>(level_value(name, which)); };
-            return TextureDesc{{}, kind, static_cast<Format>(format), size(GL_TEXTURE_WIDTH), size(GL_TEXTURE_HEIGHT),
-                               kind == TextureKind::array ? size(GL_TEXTURE_DEPTH) : 1};
+            const auto value = [&](GLenum which) { return static_cast<std::uint32_t>(level_value(name, which)); };
+            const std::uint32_t layers = kind == TextureKind::array ? value(GL_TEXTURE_DEPTH) : 1;
+            return EngineTexture{
+                {{}, kind, static_cast<Format>(format), value(GL_TEXTURE_WIDTH), value(GL_TEXTURE_HEIGHT), layers},
+                std::max(value(GL_TEXTURE_SAMPLES), 1u)};
         }
     }
     return std::nullopt;
+}
+
+std::vector<std::array<float, 2>> sample_positions(const Device& device, unsigned name) {
+    const std::optional<EngineTexture> texture = describe_texture(device, name);
+    if (!texture || texture->samples < 2 || texture->desc.kind != TextureKind::flat || !is_depth(texture->desc.format))
+        return {};
+    const bool stencil = texture->desc.format == Format::d24_s8 || texture->desc.format == Format::d32f_s8;
+    GLuint framebuffer = 0;
+    GLint bound = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, name, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
+    std::vector<std::array<float, 2>> positions(texture->samples);
+    for (GLuint i = 0; i < texture->samples; ++i) glGetMultisamplefv(GL_SAMPLE_POSITION, i, positions[i].data());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(bound));
+    glDeleteFramebuffers(1, &framebuffer);
+    return positions;
 }
 
 Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc) {

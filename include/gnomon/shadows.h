@@ -87,9 +87,11 @@ struct View {
     /// jittered ones are read as they are.
     glm::dmat4 clip_from_view{1.0};
     ClipDepth clip_depth = ClipDepth::minus_one_to_one;
-    unsigned depth_texture = 0;  // GL_TEXTURE_2D with a depth format, from pixel (0, 0) on; not multisampled
-    glm::uvec2 size_px{0, 0};    // drawn part of it
-    /// GL_TEXTURE_2D with geometric normals. 0: they are derived from the depths, less exactly.
+    /// GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE with a depth format, from pixel (0, 0) on.
+    unsigned depth_texture = 0;
+    glm::uvec2 size_px{0, 0};  // drawn part of it
+    /// The same kind of texture with geometric normals, and as many samples. 0: they are derived from the depths, less
+    /// exactly.
     unsigned normal_texture = 0;
     NormalFormat normal_format = NormalFormat::snorm;
     NormalSpace normal_space = NormalSpace::world;
@@ -99,10 +101,14 @@ struct View {
 
 /// Visibility of a view's lights.
 struct Mask {
-    /// GL_TEXTURE_2D_ARRAY of R8, a layer per light: 1 where the light arrives, 0 where it does not, and where the
-    /// surface faces away or is out of its reach. Gnomon's own; valid until the next render(). 0: it could not be made.
+    /// GL_TEXTURE_2D_ARRAY of R8, a layer per light and sample: light i has layers i * samples to i * samples + samples
+    /// - 1. 1 where the light arrives, 0 where it does not, and where the surface faces away or is out of its reach.
+    /// Gnomon's own; valid until the next render(). 0: it could not be made.
     unsigned texture = 0;
     std::uint32_t layers = 0;
+    /// Samples of the depth texture, 1 without multisampling. A forward shader reads the layer of a sample that it
+    /// covers: findLSB(gl_SampleMaskIn[0]).
+    std::uint32_t samples = 1;
     /// Why there is none: "view.projection", "view.size", "view.depth", "view.normals", or the device's code. Empty:
     /// there is one.
     std::string_view failure = {};

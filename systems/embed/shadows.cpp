@@ -23,7 +23,7 @@ namespace embed {
 /// Texture of the engine's own, as it was last imported.
 struct Imported {
     unsigned name = 0;
-    gl::TextureDesc desc;
+    gl::EngineTexture texture;
     gl::TextureHandle handle{};
 };
 
@@ -46,15 +46,24 @@ using embed::ViewState;
 
 /// Imports a texture if it is not the one that was imported last. Returns {0} if it is no flat texture of that size.
 gl::TextureHandle import(gl::Device& device, unsigned name, glm::uvec2 least_px, Imported& held) {
-    const std::optional<gl::TextureDesc> desc = gl::describe_texture(device, name);
-    const bool fits =
-        desc && desc->kind == gl::TextureKind::flat && desc->width >= least_px.x && desc->height >= least_px.y;
-    if (held.handle && (!fits || held.name != name || !(held.desc == *desc))) {
+    const std::optional<gl::EngineTexture> texture = gl::describe_texture(device, name);
+    const bool fits = texture && texture->desc.kind == gl::TextureKind::flat && texture->desc.width >= least_px.x &&
+                      texture->desc.height >= least_px.y;
+    if (held.handle && (!fits || held.name != name || !(held.texture == *texture))) {
         device.destroy(held.handle);
         held = {};
     }
-    if (fits && !held.handle) held = {name, *desc, gl::import_texture(device, name, *desc)};
+    if (fits && !held.handle) held = {name, *texture, gl::import_texture(device, name, texture->desc)};
     return held.handle;
+}
+
+/// Sets where the samples of a picture's pixels lie. Asks the device only where the texture changed.
+void put_samples(const gl::Device& device, const Imported& depth, lighting::DepthPicture& picture) {
+    if (depth.texture.samples < 2) return picture.samples.clear();
+    if (picture.samples.size() == depth.texture.samples) return;
+    picture.samples.clear();
+    for (const auto& place : gl::sample_positions(device, depth.name))
+        picture.samples.emplace_back(place[0] - 0.5, place[1] - 0.5);
 }
 
 /// Returns half a step of a depth format with fixed point; 0 for floating point.
@@ -150,15 +159,17 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     state.picture.size_px = view.size_px;
     state.picture.lens = *lens;
     state.picture.depth = import(*device, view.depth_texture, view.size_px, state.depth);
-    if (!state.picture.depth || !gl::is_depth(state.depth.desc.format)) {
+    if (!state.picture.depth || !gl::is_depth(state.depth.texture.desc.format)) {
         state.failure = "view.depth";
         return;
     }
-    state.picture.rounding = rounding_of(state.depth.desc.format);
+    state.picture.rounding = rounding_of(state.depth.texture.desc.format);
+    put_samples(*device, state.depth, state.picture);
     state.picture.normals = {};
     if (view.normal_texture != 0) {
         state.picture.normals = import(*device, view.normal_texture, view.size_px, state.normals);
-        if (!state.picture.normals) state.failure = "view.normals";
+        if (!state.picture.normals || state.normals.texture.samples != state.depth.texture.samples)
+            state.failure = "view.normals";
     }
     state.picture.range = view.normal_format == NormalFormat::snorm ? lighting::NormalRange::plus_minus_one
                                                                     : lighting::NormalRange::zero_to_one;
@@ -182,7 +193,7 @@ void Shadows::State::record_masks() {
     gl::Failure worst = gl::Failure::none;
     for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
         ViewState& view = *views[consumer_views[c]];
-        view.mask.record(frame.inputs[c], store.snapshot(), *gpu, view.picture, view.layers, commands, outcome);
+        view.mask.record({frame.inputs[c], store.snapshot(), *gpu, view.picture, view.layers}, commands, outcome);
         view.failure = code(outcome.failure);
         if (outcome.failure != gl::Failure::none) worst = outcome.failure;
     }
@@ -206,6 +217,7 @@ void Shadows::State::fill_masks(std::size_t count) {
         if (!masks[i].failure.empty()) continue;
         masks[i].texture = gl::gl_name(*device, view.mask.texture());
         masks[i].layers = view.mask.layer_count();
+        masks[i].samples = static_cast<std::uint32_t>(std::max<std::size_t>(view.picture.samples.size(), 1));
     }
 }
 

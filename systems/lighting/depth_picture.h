@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <vector>
 
 #include "engine/gl/handles.h"
 
@@ -36,6 +37,8 @@ struct DepthPicture {
     NormalRange range = NormalRange::none;
     bool view_space = false;  // normals have the camera's axes, not the world's
     std::uint8_t receive_layers = 0xff;
+    /// Places of samples in a pixel, from its middle, pixels. Empty: the textures are not multisampled.
+    std::vector<glm::dvec2> samples = {};
 };
 
 }  // namespace gnomon::lighting

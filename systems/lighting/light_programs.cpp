@@ -54,7 +54,7 @@ std::string_view fragment_file(ShaderPass output) {
 LightPrograms::~LightPrograms() {
     for (const RowEntry& e : rows_) device_.destroy(e.entry.program);
     for (const Entry& e : {surface_, surface_places_, blended_base_, luminance_, tonemap_, unlit_surface_,
-                           unlit_surface_places_, unlit_blended_, import_surfaces_})
+                           unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_})
         device_.destroy(e.program);
 }
 
@@ -179,9 +179,10 @@ gl::ProgramHandle LightPrograms::unlit_blended() {
         make_of_meshes(unlit_blended_, "unlit blended", "lighting/lights/blended.frag", {"UNLIT 1"});
     return unlit_blended_.program;
 }
-gl::ProgramHandle LightPrograms::import_surfaces() {
-    return needed(import_surfaces_, "imported surfaces", "common/fullscreen.vert",
-                  "lighting/mask/import_surfaces.frag");
+gl::ProgramHandle LightPrograms::import_surfaces(bool multisampled) {
+    const std::string define = multisampled ? "MULTISAMPLED 1" : "MULTISAMPLED 0";
+    return needed(multisampled ? import_samples_ : import_surfaces_, "imported surfaces", "common/fullscreen.vert",
+                  "lighting/mask/import_surfaces.frag", {&define, 1});
 }
 gl::ProgramHandle LightPrograms::luminance() {
     return needed(luminance_, "luminance", "common/fullscreen.vert", "lighting/post/luminance.frag");

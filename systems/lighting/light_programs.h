@@ -68,7 +68,7 @@ public:
     gl::ProgramHandle unlit_surface(bool places);
     gl::ProgramHandle unlit_blended();
     /// Returns the program that writes another renderer's surfaces as light passes read them.
-    gl::ProgramHandle import_surfaces();
+    gl::ProgramHandle import_surfaces(bool multisampled);
     gl::ProgramHandle luminance();
     gl::ProgramHandle tonemap();
     gl::Failure failure() const { return failure_; }  // last program made
@@ -99,7 +99,7 @@ private:
     gl::Device& device_;
     std::vector<RowEntry> rows_;
     Entry surface_, surface_places_, blended_base_, luminance_, tonemap_;
-    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_;
+    Entry unlit_surface_, unlit_surface_places_, unlit_blended_, import_surfaces_, import_samples_;
     bool some_unlit_ = false;
     bool coloured_ = false;
     std::uint64_t frame_ = 0;

@@ -27,6 +27,8 @@ glm::dvec2 import_errors(const PictureLens& lens, const DepthRounding& rounding)
     return {rounded, (rounding.step + 2.0 * rounded * std::abs(lens.offset)) / scale};
 }
 
+std::size_t sample_count(const DepthPicture& picture) { return std::max<std::size_t>(picture.samples.size(), 1); }
+
 }  // namespace
 
 shadow::CameraRecord with_lens(const shadow::CameraRecord& camera, const DepthPicture& picture) {
@@ -98,8 +100,9 @@ gl::Failure MaskPass::make_layers(std::size_t layers) {
 }
 
 gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, std::size_t lights) {
+    const std::size_t samples = sample_count(picture);
     gl::Failure failure = make_surfaces(picture.size_px);
-    if (failure == gl::Failure::none && layers > 0) failure = make_layers(layers);
+    if (failure == gl::Failure::none && layers > 0) failure = make_layers(layers * samples);
     if (failure == gl::Failure::none && !sampler_) {
         const auto made = device_.create_sampler({.label = "imported surface"});
         sampler_ = made.handle;
@@ -108,9 +111,10 @@ gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, s
     if (failure != gl::Failure::none) return failure;
     const std::uint32_t alignment = device_.info().uniform_alignment;
     import_offset_ = aligned(sizeof(shadow::CameraRecord), alignment);
-    lights_offset_ = import_offset_ + aligned(sizeof(ImportRecord), alignment);
+    sample_stride_ = import_offset_ + aligned(sizeof(ImportRecord), alignment);
+    lights_offset_ = sample_stride_ * static_cast<std::uint32_t>(samples);
     light_stride_ = aligned(sizeof(shadow::LightRecord), alignment);
-    if (!programs_.import_surfaces()) return programs_.failure();
+    if (!programs_.import_surfaces(!picture.samples.empty())) return programs_.failure();
     const bool room =
         uniforms_.reserve(lights_offset_ + std::uint64_t{light_stride_} * std::max<std::size_t>(lights, 1));
     return room ? gl::Failure::none : gl::Failure::out_of_memory;
@@ -124,22 +128,38 @@ void MaskPass::upload(const shadow::LightingInputs& inputs, const DepthPicture& 
     record.normals = {static_cast<int>(picture.normals ? picture.range : NormalRange::none), picture.receive_layers,
                       picture.view_space ? 1 : 0, 0};
     bytes_.clear();
-    put_record(bytes_, 0, camera);
-    put_record(bytes_, import_offset_, record);
+    for (std::uint32_t sample = 0; sample < sample_count(picture); ++sample) {
+        shadow::CameraRecord there = camera;
+        if (!picture.samples.empty()) {
+            const glm::dvec2 shift = lens.shift + 2.0 * picture.samples[sample] / glm::dvec2(picture.size_px);
+            there.lens.x = static_cast<float>(shift.x);
+            there.lens.y = static_cast<float>(shift.y);
+        }
+        record.normals.w = static_cast<int>(sample);
+        put_record(bytes_, sample * sample_stride_, there);
+        put_record(bytes_, sample * sample_stride_ + import_offset_, record);
+    }
     for (std::uint32_t i = 0; i < inputs.lights.size(); ++i)
         put_record(bytes_, lights_offset_ + i * light_stride_, inputs.lights[i].record);
     list.update(uniforms_.handle(), 0, std::span<const std::byte>(bytes_));
 }
 
-void MaskPass::import(const DepthPicture& picture, gl::CommandList& list) const {
+void MaskPass::bind_camera(std::uint32_t sample, gl::CommandList& list) const {
+    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), sample * sample_stride_,
+                              sizeof(shadow::CameraRecord)});
+}
+
+/// Records the surfaces of one sample, as light passes read them.
+void MaskPass::import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const {
     const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
     list.add(gl::BeginGroup{"imported surfaces"});
     list.add(gl::BeginTimer{kSurfaceTimer});
     list.add(gl::BeginPass{surfaces_, all, true, 0.0f, true, {}});
-    list.add(gl::SetPipeline{
-        {programs_.import_surfaces(), gl::CullMode::none, false, gl::DepthTest::greater, true, false, gl::Blend::off}});
-    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
-    list.add(gl::BindUniforms{bindings::kImportBlock, uniforms_.handle(), import_offset_, sizeof(ImportRecord)});
+    list.add(gl::SetPipeline{{programs_.import_surfaces(!picture.samples.empty()), gl::CullMode::none, false,
+                              gl::DepthTest::greater, true, false, gl::Blend::off}});
+    bind_camera(sample, list);
+    list.add(gl::BindUniforms{bindings::kImportBlock, uniforms_.handle(), sample * sample_stride_ + import_offset_,
+                              sizeof(ImportRecord)});
     list.add(gl::BindTexture{bindings::kImportedDepthUnit, picture.depth, sampler_});
     list.add(
         gl::BindTexture{bindings::kImportedNormalUnit, picture.normals ? picture.normals : picture.depth, sampler_});
@@ -149,12 +169,13 @@ void MaskPass::import(const DepthPicture& picture, gl::CommandList& list) const 
     list.add(gl::EndGroup{});
 }
 
-void MaskPass::record_layer(const LightProgram& program, std::uint32_t light, const gl::Rect& area, float depth,
-                            const GpuScene& gpu, gl::CommandList& list) const {
+/// Records one light over the surfaces that were imported last.
+void MaskPass::record_light(const LightProgram& program, std::uint32_t light, std::uint32_t sample,
+                            const gl::Rect& area, float depth, const GpuScene& gpu, gl::CommandList& list) const {
     list.add(gl::SetScissor{area});
     list.add(gl::SetPipeline{
         {program.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::off}});
-    list.add(gl::BindUniforms{bindings::kCameraBlock, uniforms_.handle(), 0, sizeof(shadow::CameraRecord)});
+    bind_camera(sample, list);
     list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, depth_, sampler_});
     list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, normals_, sampler_});
     list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, material_, sampler_});
@@ -165,40 +186,55 @@ void MaskPass::record_layer(const LightProgram& program, std::uint32_t light, co
     list.add(gl::DrawTriangle{depth});
 }
 
-bool MaskPass::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
-                      const DepthPicture& picture, std::span<const std::uint32_t> layers, gl::CommandList& list,
-                      shadow::LightingOutcome& outcome) {
-    outcome.failure = prepare(picture, layers.size(), inputs.lights.size());
-    if (outcome.failure != gl::Failure::none) return false;
-    if (layers.empty()) return true;
-    upload(inputs, picture, list);
-    import(picture, list);
-    const ConsumerItem& consumer = scene.consumers[inputs.consumer];
+LightProgram MaskPass::program_of(const shadow::LightingLight& light) {
+    const gl::ProgramHandle own = programs_.row(light.row, ShaderPass::visibility);
+    if (own) return {own, light.map, light.triangles, light.sampler};
+    return fallback_program(programs_, light, ShaderPass::visibility, Reason::filter_program_failed);
+}
+
+/// Records a layer per light, over the surfaces of one sample.
+void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list) {
+    const ConsumerItem& consumer = in.scene.consumers[in.inputs.consumer];
+    const auto samples = static_cast<std::uint32_t>(sample_count(in.picture));
     const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
-    list.add(gl::BeginGroup{"shadow mask"});
-    for (std::uint32_t layer = 0; layer < layers.size(); ++layer) {
-        const bool is_light = layers[layer] < inputs.lights.size();
-        list.add(gl::BeginPass{targets_[layer], all, false, 0.0f, true, {is_light ? 0.0f : 1.0f, 0.0f, 0.0f, 0.0f}});
+    for (std::uint32_t layer = 0; layer < in.layers.size(); ++layer) {
+        const bool is_light = in.layers[layer] < in.inputs.lights.size();
+        const float clear = is_light ? 0.0f : 1.0f;
+        list.add(gl::BeginPass{targets_[layer * samples + sample], all, false, 0.0f, true, {clear, 0.0f, 0.0f, 0.0f}});
         if (is_light) {
-            const shadow::LightingLight& light = inputs.lights[layers[layer]];
-            const gl::Rect area = light.screen.width > 0 ? in_picture(light.screen, consumer, picture) : gl::Rect{};
-            LightProgram used{programs_.row(light.row, ShaderPass::visibility), light.map, light.triangles,
-                              light.sampler};
-            if (!used.program)
-                used = fallback_program(programs_, light, ShaderPass::visibility, Reason::filter_program_failed);
-            if (used.lacks != Reason::none)
-                outcome.failures.push_back({light.light, used.lacks, used.unshadowed, false, light.plain.accuracy});
+            const shadow::LightingLight& light = in.inputs.lights[in.layers[layer]];
+            const LightProgram used = program_of(light);
+            const gl::Rect area = light.screen.width > 0 ? in_picture(light.screen, consumer, in.picture) : gl::Rect{};
             if (area.width > 0 && used.program) {
-                list.add(gl::BeginGroup{scene.lights[light.light].name});
+                list.add(gl::BeginGroup{in.scene.lights[light.light].name});
                 list.add(gl::BeginTimer{lighting_timer(light.light)});
-                record_layer(used, layers[layer], area, light.farthest_depth, gpu, list);
+                record_light(used, in.layers[layer], sample, area, light.farthest_depth, in.gpu, list);
                 list.add(gl::EndTimer{lighting_timer(light.light)});
                 list.add(gl::EndGroup{});
             }
         }
         list.add(gl::EndPass{});
     }
+}
+
+bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::LightingOutcome& outcome) {
+    outcome.failure = prepare(in.picture, in.layers.size(), in.inputs.lights.size());
+    if (outcome.failure != gl::Failure::none) return false;
+    if (in.layers.empty()) return true;
+    upload(in.inputs, in.picture, list);
+    list.add(gl::BeginGroup{"shadow mask"});
+    for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {
+        import(in.picture, sample, list);
+        record_layers(in, sample, list);
+    }
     list.add(gl::EndGroup{});
+    for (const std::uint32_t layer : in.layers) {
+        if (layer >= in.inputs.lights.size()) continue;
+        const shadow::LightingLight& light = in.inputs.lights[layer];
+        const LightProgram used = program_of(light);
+        if (used.lacks != Reason::none)
+            outcome.failures.push_back({light.light, used.lacks, used.unshadowed, false, light.plain.accuracy});
+    }
     return true;
 }
 

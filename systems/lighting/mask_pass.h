@@ -30,8 +30,17 @@ shadow::CameraRecord with_lens(const shadow::CameraRecord& camera, const DepthPi
 /// contains the picture.
 gl::Rect in_picture(const gl::Rect& area, const ConsumerItem& consumer, const DepthPicture& picture);
 
-/// Visibility of lights over another renderer's picture: a texture with a layer per light, 8 bits each. One object per
-/// view. Owns its device objects; programs are shared.
+/// Inputs of a mask. `layers`: an index into inputs.lights per layer, or MaskPass::kNoLight.
+struct MaskInputs {
+    const shadow::LightingInputs& inputs;
+    const SceneSnapshot& scene;
+    const GpuScene& gpu;
+    const DepthPicture& picture;
+    std::span<const std::uint32_t> layers;
+};
+
+/// Visibility of lights over another renderer's picture: a texture with a layer per light and sample, 8 bits each. One
+/// object per view. Owns its device objects; programs are shared.
 class MaskPass {
 public:
     MaskPass(gl::Device& device, LightPrograms& programs)
@@ -43,13 +52,10 @@ public:
     /// Layer without a light: it is 1 everywhere.
     static constexpr std::uint32_t kNoLight = ~0u;
 
-    /// Records the mask. `layers`: an index into inputs.lights per layer, or kNoLight. Pixels without a surface, and
-    /// those that the light does not reach, are 0. Lights without a shadow are 1. Returns false without room on the
-    /// device: nothing is recorded, and outcome.failure has the reason. Lights that fall back are in
-    /// outcome.failures.
-    bool record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
-                const DepthPicture& picture, std::span<const std::uint32_t> layers, gl::CommandList& list,
-                shadow::LightingOutcome& outcome);
+    /// Records the mask. Pixels without a surface, and those that the light does not reach, are 0. Lights without a
+    /// shadow are 1. Returns false without room on the device: nothing is recorded, and outcome.failure has the reason.
+    /// Lights that fall back are in outcome.failures.
+    bool record(const MaskInputs& in, gl::CommandList& list, shadow::LightingOutcome& outcome);
 
     /// Returns the mask, r8; {0} before the first record(). Another texture after a change of size or number of layers.
     gl::TextureHandle texture() const { return mask_; }
@@ -60,9 +66,12 @@ private:
     gl::Failure make_surfaces(glm::uvec2 size_px);
     gl::Failure make_layers(std::size_t layers);
     void upload(const shadow::LightingInputs& inputs, const DepthPicture& picture, gl::CommandList& list);
-    void import(const DepthPicture& picture, gl::CommandList& list) const;
-    void record_layer(const LightProgram& program, std::uint32_t light, const gl::Rect& area, float depth,
-                      const GpuScene& gpu, gl::CommandList& list) const;
+    void bind_camera(std::uint32_t sample, gl::CommandList& list) const;
+    void import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const;
+    LightProgram program_of(const shadow::LightingLight& light);
+    void record_light(const LightProgram& program, std::uint32_t light, std::uint32_t sample, const gl::Rect& area,
+                      float depth, const GpuScene& gpu, gl::CommandList& list) const;
+    void record_layers(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list);
     void release_layers();
     void release();
 
@@ -74,7 +83,7 @@ private:
     std::vector<gl::TargetHandle> targets_;  // one per layer of the mask, with depth_
     glm::uvec2 size_px_{0, 0};
     gl::SamplerHandle sampler_{};
-    std::uint32_t import_offset_ = 0, lights_offset_ = 0, light_stride_ = 0;
+    std::uint32_t import_offset_ = 0, sample_stride_ = 0, lights_offset_ = 0, light_stride_ = 0;
     std::vector<std::byte> bytes_;
 };
 

@@ -24,12 +24,17 @@ constexpr double kNear_m = 0.1, kFov_rad = 0.9;
 /// An engine that draws depths and normals of meshes in world space, and knows OpenGL alone.
 class Engine {
 public:
-    explicit Engine(Depths depths) : depths_(depths) {
-        glCreateTextures(GL_TEXTURE_2D, 1, &depth);
-        glTextureStorage2D(depth, 1, depths == Depths::usual_d24 ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT32F, kWidth_px,
-                           kHeight_px);
-        glCreateTextures(GL_TEXTURE_2D, 1, &normals);
-        glTextureStorage2D(normals, 1, GL_RGBA16F, kWidth_px, kHeight_px);
+    explicit Engine(Depths depths, GLsizei samples = 1) : depths_(depths) {
+        const GLenum target = samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+        const auto make = [&](GLuint& texture, GLenum format) {
+            glCreateTextures(target, 1, &texture);
+            if (samples > 1)
+                glTextureStorage2DMultisample(texture, samples, format, kWidth_px, kHeight_px, GL_TRUE);
+            else
+                glTextureStorage2D(texture, 1, format, kWidth_px, kHeight_px);
+        };
+        make(depth, depths == Depths::usual_d24 ? GL_DEPTH24_STENCIL8 : GL_DEPTH_COMPONENT32F);
+        make(normals, GL_RGBA16F);
         glCreateFramebuffers(1, &framebuffer_);
         glNamedFramebufferTexture(framebuffer_,
                                   depths == Depths::usual_d24 ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT, depth, 0);
@@ -92,6 +97,7 @@ void main() { normal = vec4(normalize(cross(dFdx(place), dFdy(place))), 0.0); })
     }
     /// The projection with which depths are drawn.
     glm::dmat4 projection() const {
+        if (own_projection) return *own_projection;
         const double half_y = std::tan(0.5 * kFov_rad), half_x = half_y * kWidth_px / kHeight_px;
         if (depths_ == Depths::reversed)
             return math::reversed_perspective(-half_x, half_x, -half_y, half_y, kNear_m, std::numeric_limits<double>::infinity());
@@ -102,6 +108,7 @@ void main() { normal = vec4(normalize(cross(dFdx(place), dFdy(place))), 0.0); })
     }
 
     GLuint depth = 0, normals = 0;
+    std::optional<glm::dmat4> own_projection;
 
 private:
     struct Mesh {
@@ -139,16 +146,18 @@ protected:
     void TearDown() override {
         shadows.reset();
         engine.reset();
+        others.clear();
         EXPECT_THAT(said, ::testing::IsEmpty());
         TracedFrameTest::TearDown();
     }
-    void make_engine(Depths depths) { engine = std::make_unique<Engine>(depths); }
+    void make_engine(Depths depths, GLsizei samples = 1) { engine = std::make_unique<Engine>(depths, samples); }
 
     CasterId add(const game::Shape& shape, const glm::dmat4& world_from_mesh = glm::dmat4(1.0)) {
         game::Shape placed;
         game::append(placed, shape, world_from_mesh);
         place(add_analysed(placed));
         engine->add(placed.positions, placed.indices);
+        for (const auto& other : others) other->add(placed.positions, placed.indices);
         const auto mesh = shadows->add_mesh({.name = "shape", .positions_m = placed.positions, .indices = placed.indices});
         EXPECT_TRUE(mesh) << to_line(mesh.error());
         return shadows->add_caster({.mesh = mesh.value()});
@@ -172,20 +181,33 @@ protected:
         add_camera({.fov_y_rad = kFov_rad, .near_m = kNear_m}, at_m, to_m - at_m);
         view.world_from_view = glm::inverse(glm::lookAt(at_m, to_m, glm::dvec3(0.0, 1.0, 0.0)));
     }
-    /// Draws the engine's depths, renders the shadows and reads one layer of the mask.
-    std::vector<std::uint8_t> masked(std::uint32_t layer = 0) {
-        view.clip_from_view = engine->projection();
-        view.clip_depth = engine->clip_depth();
-        view.depth_texture = engine->depth;
-        view.size_px = {kWidth_px, kHeight_px};
-        engine->draw(view.clip_from_view * glm::inverse(view.world_from_view));
-        const Mask mask = shadows->render(view);
+    /// Draws the engine's depths as the view sees them.
+    void draw_depths(View& of, const Engine& by) const {
+        of.clip_from_view = by.projection();
+        of.clip_depth = by.clip_depth();
+        of.depth_texture = by.depth;
+        of.size_px = {kWidth_px, kHeight_px};
+        by.draw(of.clip_from_view * glm::inverse(of.world_from_view));
+    }
+    static std::vector<std::uint8_t> layer_of(const Mask& mask, std::uint32_t layer) {
         EXPECT_EQ(mask.failure, "");
         EXPECT_GT(mask.layers, layer);
         std::vector<std::uint8_t> texels(kWidth_px * kHeight_px);
-        glGetTextureSubImage(mask.texture, 0, 0, 0, static_cast<GLint>(layer), kWidth_px, kHeight_px, 1, GL_RED,
-                             GL_UNSIGNED_BYTE, static_cast<GLsizei>(texels.size()), texels.data());
+        if (mask.layers > layer)
+            glGetTextureSubImage(mask.texture, 0, 0, 0, static_cast<GLint>(layer), kWidth_px, kHeight_px, 1, GL_RED,
+                                 GL_UNSIGNED_BYTE, static_cast<GLsizei>(texels.size()), texels.data());
         return texels;
+    }
+    /// Draws the engine's depths, renders the shadows and reads one layer of the mask.
+    std::vector<std::uint8_t> masked(std::uint32_t layer = 0) {
+        draw_depths(view, *engine);
+        return layer_of(shadows->render(view), layer);
+    }
+    /// Counts pixels in which two masks differ by more than rounding to 8 bits.
+    static std::size_t differing(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) count += std::abs(int{a[i]} - int{b[i]}) > 1;
+        return count;
     }
     struct Difference {
         std::size_t surfaces = 0, dark = 0, lit = 0, other = 0;  // pixels; other: the mask is not the frame's visibility
@@ -207,6 +229,7 @@ protected:
     }
 
     std::unique_ptr<Engine> engine;
+    std::vector<std::unique_ptr<Engine>> others;  // that draw the same meshes
     std::unique_ptr<Shadows> shadows;
     std::vector<std::string> said;
     View view;
@@ -238,6 +261,224 @@ TEST_P(EmbedMask, NeedsNoNormals) {
     const Difference d = compared(masked());
     std::printf("%s %s, derived normals: %zu other, %.4f %%\n", kind_name(kind), name_of(depths), d.other, 100.0 * d.share());
     EXPECT_LT(d.share(), 0.001);
+}
+
+/// Half a shadow edge's pixels may fall to the other side where depths are rounded otherwise.
+constexpr std::size_t kFewPixels = 20;
+
+class EmbedScene : public EmbedTest {
+protected:
+    void SetUp() override {
+        EmbedTest::SetUp();
+        make_engine(Depths::usual_float);
+        view.normal_texture = engine->normals;
+    }
+    void add_lit_room() {
+        add_room();
+        add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});
+        look_from({0.5, 2.5, 4.0});
+    }
+};
+
+TEST_F(EmbedScene, WithoutItsCasterThereIsNoShadow) {
+    add(game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 12.0}, {12.0, 0.0, 0.0}));
+    const CasterId box = add(game::make_box({-0.8, 0.7, -0.5}, {0.8, 0.8, 0.5}));
+    add_shadowed(LightKind::point, {0.0, 3.0, 0.0});
+    look_from({0.5, 4.5, 4.0});
+    const std::vector<std::uint8_t> with = masked();
+    shadows->remove(box);
+    const std::vector<std::uint8_t> without = masked();
+    EXPECT_GT(differing(with, without), 1000u);
+    const std::size_t under_the_box = static_cast<std::size_t>(std::count(without.begin(), without.end(), 255));
+    EXPECT_GT(under_the_box, static_cast<std::size_t>(std::count(with.begin(), with.end(), 255)) + 1000);
+}
+
+TEST_F(EmbedScene, FollowsWhatMovesAndKeepsWhatStays) {
+    add_lit_room();
+    masked();
+    masked();
+    EXPECT_EQ(shadows->status().maps_drawn, 0u) << "nothing moved";
+    const auto mesh = shadows->add_mesh({.positions_m = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).positions,
+                                         .indices = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).indices});
+    const CasterId box = shadows->add_caster({.mesh = mesh.value(), .world_from_mesh = glm::translate(glm::dmat4(1.0), {0.6, 1.2, 0.3})});
+    const std::vector<std::uint8_t> first = masked();
+    EXPECT_GT(shadows->status().maps_drawn, 0u);
+    shadows->set_transform(box, glm::translate(glm::dmat4(1.0), {0.2, 1.4, 0.3}));
+    const std::vector<std::uint8_t> second = masked();
+    EXPECT_GT(shadows->status().maps_drawn, 0u);
+    EXPECT_GT(differing(first, second), 200u);
+    shadows->set_transform(box, glm::translate(glm::dmat4(1.0), {0.6, 1.2, 0.3}));
+    EXPECT_EQ(differing(masked(), first), 0u);
+}
+
+TEST_F(EmbedScene, LayersAreTheViewsLightsInItsOrder) {
+    add_room();
+    const LightId sun = add_shadowed(LightKind::directional, {1.5, 3.0, 1.0});
+    const LightId lamp = add_shadowed(LightKind::point, {-1.0, 2.5, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    const std::vector<std::uint8_t> of_sun = masked(0), of_lamp = masked(1);
+    EXPECT_GT(differing(of_sun, of_lamp), 1000u);
+    const LightId order[] = {lamp, sun, lamp};
+    view.lights = order;
+    EXPECT_EQ(differing(masked(0), of_lamp), 0u);
+    EXPECT_EQ(differing(masked(1), of_sun), 0u);
+    EXPECT_EQ(differing(masked(2), of_lamp), 0u);
+    shadows->remove(sun);
+    const std::vector<std::uint8_t> of_none = masked(1);
+    EXPECT_EQ(std::count(of_none.begin(), of_none.end(), 255), kWidth_px * kHeight_px) << "a light that is gone darkens nothing";
+    EXPECT_EQ(differing(masked(0), of_lamp), 0u);
+}
+
+TEST_F(EmbedScene, AnOffCentrePictureIsAPartOfTheWhole) {
+    add_lit_room();
+    const double top = kNear_m * std::tan(0.5 * kFov_rad), right = top * kWidth_px / kHeight_px;
+    const glm::dmat4 whole = glm::frustumRH_NO(-right, right, -top, top, kNear_m, 100.0);
+    // Half as wide and high about a place off the axis, so that each pixel is a quarter of one of the whole's.
+    const glm::dmat4 part = glm::frustumRH_NO(-0.25 * right, 0.75 * right, -0.75 * top, 0.25 * top, kNear_m, 100.0);
+    engine->own_projection = part;
+    const std::vector<std::uint8_t> seen = masked();
+    engine->own_projection = whole;
+    const std::vector<std::uint8_t> all = masked();
+    std::size_t compared = 0, other = 0;
+    for (int y = 0; y < kHeight_px; ++y)
+        for (int x = 0; x < kWidth_px; ++x) {
+            const int in_x = (x + 3 * kWidth_px / 4) / 2, in_y = (y + kHeight_px / 4) / 2;
+            if (in_x < 1 || in_x + 1 >= kWidth_px || in_y < 1 || in_y + 1 >= kHeight_px) continue;
+            const auto at = [&](int dx, int dy) { return all[static_cast<std::size_t>((in_y + dy) * kWidth_px + in_x + dx)]; };
+            const bool even = at(0, 0) == at(1, 0) && at(0, 0) == at(-1, 0) && at(0, 0) == at(0, 1) && at(0, 0) == at(0, -1) &&
+                              at(0, 0) == at(1, 1) && at(0, 0) == at(-1, -1) && at(0, 0) == at(1, -1) && at(0, 0) == at(-1, 1);
+            if (!even) continue;
+            ++compared;
+            other += seen[static_cast<std::size_t>(y * kWidth_px + x)] != at(0, 0);
+        }
+    EXPECT_GT(compared, 60000u);
+    EXPECT_LT(other, 60u) << "of " << compared << ": only thin features between the whole's pixels";
+}
+
+TEST_F(EmbedTest, EachSampleOfAMultisampledPictureHasALayer) {
+    make_engine(Depths::usual_float, 4);
+    others.push_back(std::make_unique<Engine>(Depths::usual_float));
+    Engine& plain = *others.front();
+    add_room();
+    add_shadowed(LightKind::point, {1.5, 3.0, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    draw_depths(view, *engine);
+    const Mask mask = shadows->render(view);
+    ASSERT_EQ(mask.samples, 4u);
+    ASSERT_EQ(mask.layers, 4u);
+    std::vector<std::vector<std::uint8_t>> samples;
+    for (std::uint32_t i = 0; i < 4; ++i) samples.push_back(layer_of(mask, i));
+    EXPECT_GT(differing(samples[0], samples[3]), 100u) << "edges lie elsewhere";
+    const auto places = gl::sample_positions(device(), engine->depth);
+    ASSERT_EQ(places.size(), 4u);
+    View single = view;
+    single.normal_texture = plain.normals;
+    for (std::size_t i = 0; i < 4; ++i) {
+        glm::dmat4 jittered = engine->projection();
+        jittered[2][0] += 2.0 * (places[i][0] - 0.5) / kWidth_px;
+        jittered[2][1] += 2.0 * (places[i][1] - 0.5) / kHeight_px;
+        plain.own_projection = jittered;
+        draw_depths(single, plain);
+        const Mask alone = shadows->render(single);
+        EXPECT_EQ(alone.samples, 1u);
+        EXPECT_LT(differing(layer_of(alone, 0), samples[i]), kFewPixels) << "sample " << i;
+    }
+}
+
+TEST_F(EmbedScene, ViewsAtOnceShowWhatEachShowsAlone) {
+    others.push_back(std::make_unique<Engine>(Depths::reversed));
+    add_lit_room();
+    draw_depths(view, *engine);
+    View from_behind = view;
+    from_behind.world_from_view = glm::inverse(glm::lookAt(glm::dvec3(-3.0, 2.0, -2.0), glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
+    from_behind.normal_texture = others.front()->normals;
+    draw_depths(from_behind, *others.front());
+    const View both[] = {view, from_behind};
+    const auto masks = shadows->render(both);
+    ASSERT_EQ(masks.size(), 2u);
+    const std::vector<std::uint8_t> first = layer_of(masks[0], 0), second = layer_of(masks[1], 0);
+    EXPECT_GT(differing(first, second), 1000u);
+    EXPECT_LT(differing(layer_of(shadows->render(view), 0), first), kFewPixels);
+    EXPECT_LT(differing(layer_of(shadows->render(from_behind), 0), second), kFewPixels);
+}
+
+TEST_F(EmbedScene, AFlatViewIsThatOfTheFrame) {
+    add_room();
+    add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});
+    const glm::dvec3 at_m(2.0, 3.0, 4.0), to_m(0.0, 0.5, 0.0);
+    constexpr double kHalf_m = 1.5;
+    add_camera({.projection = CameraProjection::orthographic, .half_height_m = kHalf_m, .near_m = 0.1, .far_m = 30.0}, at_m, to_m - at_m);
+    view.world_from_view = glm::inverse(glm::lookAt(at_m, to_m, glm::dvec3(0.0, 1.0, 0.0)));
+    const double half_x = kHalf_m * kWidth_px / kHeight_px;
+    engine->own_projection = glm::orthoRH_NO(-half_x, half_x, -kHalf_m, kHalf_m, 0.1, 30.0);
+    const Difference d = compared(masked());
+    EXPECT_GT(d.dark, 2000u);
+    EXPECT_LT(d.share(), 0.0005) << d.other;
+}
+
+TEST_F(EmbedScene, WhatCannotBeReadHasAReasonAndHarmsNoOther) {
+    add_lit_room();
+    const std::vector<std::uint8_t> good = masked();
+    const auto failure = [&](auto change) {
+        View bad = view;
+        change(bad);
+        const View both[] = {bad, view};
+        const auto masks = shadows->render(both);
+        EXPECT_EQ(masks[0].texture, 0u);
+        EXPECT_LT(differing(layer_of(masks[1], 0), good), kFewPixels);
+        return std::string(masks[0].failure);
+    };
+    EXPECT_EQ(failure([](View& v) { v.depth_texture = 0; }), "view.depth");
+    EXPECT_EQ(failure([](View& v) { v.depth_texture = 4711; }), "view.depth");
+    EXPECT_EQ(failure([&](View& v) { v.depth_texture = engine->normals; }), "view.depth");
+    EXPECT_EQ(failure([](View& v) { v.normal_texture = 4711; }), "view.normals");
+    EXPECT_EQ(failure([](View& v) { v.size_px = {0, 10}; }), "view.size");
+    EXPECT_EQ(failure([](View& v) { v.size_px = {kWidth_px + 1, kHeight_px}; }), "view.depth");
+    EXPECT_EQ(failure([](View& v) { v.clip_from_view = glm::dmat4(std::numeric_limits<double>::quiet_NaN()); }), "view.projection");
+    EXPECT_EQ(failure([](View& v) { v.world_from_view[0][0] = std::numeric_limits<double>::infinity(); }), "view.projection");
+    EXPECT_EQ(failure([](View& v) { v.world_from_view *= 2.0; }), "view.projection");
+}
+
+TEST_F(EmbedScene, NothingAtAllIsNoFault) {
+    EXPECT_TRUE(shadows->render(std::span<const View>{}).empty());
+    look_from({0.5, 2.5, 4.0});
+    draw_depths(view, *engine);
+    const Mask mask = shadows->render(view);
+    EXPECT_EQ(mask.failure, "");
+    EXPECT_EQ(mask.layers, 0u);
+    EXPECT_FALSE(shadows->status(LightId{}).gpu_us);
+    EXPECT_EQ(shadows->visibility(LightId{}, {0.0, 0.0, 0.0}), 0.0f);
+}
+
+TEST_F(EmbedScene, ALightOfRaysGetsAFilteredMapAndSaysSo) {
+    add_room();
+    const LightId lamp = add_shadowed(LightKind::spot, {1.5, 3.0, 1.0}, {.filter = ShadowFilter::exact});
+    look_from({0.5, 2.5, 4.0});
+    const Difference d = compared(masked());
+    EXPECT_LT(d.share(), 0.0005) << d.other;
+    EXPECT_EQ(shadows->status(lamp).reason, Reason::rays_off);
+    EXPECT_EQ(shadows->status(lamp).state, LightState::degraded);
+    EXPECT_NE(shadows->status(lamp).filter, ShadowFilter::exact);
+}
+
+TEST_F(EmbedScene, ABudgetIsKeptAndSaid) {
+    add_lit_room();
+    masked();
+    const std::uint64_t bytes = shadows->status().bytes;
+    shadows->set_budget({.bytes = bytes / 5});
+    for (int frame = 0; frame < 3; ++frame) masked();
+    EXPECT_LE(shadows->status().bytes, bytes / 5);
+    EXPECT_GT(shadows->status().bytes, 0u);
+}
+
+TEST_F(EmbedScene, QueriesAgreeWithTheMask) {
+    add_room();
+    const LightId lamp = add_shadowed(LightKind::point, {1.5, 3.0, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    masked();
+    EXPECT_EQ(shadows->visibility(lamp, {0.0, 2.0, 0.0}), 1.0f);
+    EXPECT_EQ(shadows->visibility(lamp, {0.0, 0.6, 0.0}), 0.0f) << "under the table";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EmbedMask,

@@ -1,17 +1,22 @@
 // Surfaces of another renderer's picture as light passes read them, from its depth buffer and, where it has them, its
-// normals.
+// normals. MULTISAMPLED: both have samples, of which one is taken.
 #include "common/bindings.glsl"
 #include "common/octahedral.glsl"
 #include "common/pixel_ray.glsl"
 #include "common/unit.glsl"
 #include "common/view_vector.glsl"
+#if MULTISAMPLED
+layout(binding = kImportedDepthUnit) uniform sampler2DMS imported_depth;
+layout(binding = kImportedNormalUnit) uniform sampler2DMS imported_normals;
+#else
 layout(binding = kImportedDepthUnit) uniform sampler2D imported_depth;
 layout(binding = kImportedNormalUnit) uniform sampler2D imported_normals;
+#endif
 // C++ twin: ImportRecord in systems/lighting/mask_pass.h.
 layout(std140, binding = kImportBlock) uniform ImportBlock {
     vec4 depth;      // x, y: see imported_distance(); z: depth where there is no surface
     ivec4 normals;   // x: 0: none; 1: components of [-1, 1]; 2: of [0, 1]. y: layers whose shadows fall on the surfaces.
-                     // z: 1: along the camera's axes, 0: the world's
+                     // z: 1: along the camera's axes, 0: the world's. w: sample
 } imported;
 layout(location = 0) out vec4 normals_out;
 layout(location = 1) out vec4 material_out;
@@ -27,8 +32,17 @@ float reversed_depth(float distance_m) {
                                : camera.unproject.y / distance_m - camera.unproject.x;
 }
 
+// Returns what texelFetch() takes beside the pixel: the sample, or the level.
+#if MULTISAMPLED
+ivec2 picture_size() { return textureSize(imported_depth); }
+int fetched() { return imported.normals.w; }
+#else
+ivec2 picture_size() { return textureSize(imported_depth, 0); }
+int fetched() { return 0; }
+#endif
+
 float depth_at(ivec2 pixel) {
-    return texelFetch(imported_depth, clamp(pixel, ivec2(0), textureSize(imported_depth, 0) - 1), 0).r;
+    return texelFetch(imported_depth, clamp(pixel, ivec2(0), picture_size() - 1), fetched()).r;
 }
 
 vec3 position_at(ivec2 pixel, float depth) { return position_seen_at(pixel, imported_distance(depth)); }
@@ -50,7 +64,7 @@ void main() {
     float distance_m = imported_distance(depth);
     vec3 to_viewer = unit_or(to_camera(position_seen_at(pixel, distance_m)), camera.back.xyz);
     vec3 normal = imported.normals.x == 0 ? cross(tangent(pixel, depth, ivec2(1, 0)), tangent(pixel, depth, ivec2(0, 1)))
-                                          : texelFetch(imported_normals, pixel, 0).xyz;
+                                          : texelFetch(imported_normals, pixel, fetched()).xyz;
     if (imported.normals.x == 2) normal = 2.0 * normal - 1.0;
     if (imported.normals.x != 0 && imported.normals.z == 1)
         normal = camera.right.xyz * normal.x + camera.up.xyz * normal.y + camera.back.xyz * normal.z;
