@@ -26,6 +26,7 @@ std::uint32_t texel_bytes(Format format) {
         case Format::r32f:
         case Format::r32ui:
         case Format::d24:
+        case Format::d24_s8:
         case Format::d32f:
             return 4;
         case Format::rgba16:
@@ -33,6 +34,7 @@ std::uint32_t texel_bytes(Format format) {
         case Format::rgba16f:
         case Format::rg32f:
         case Format::rg32ui:
+        case Format::d32f_s8:
             return 8;
         case Format::rgba32f:
         case Format::rgba32ui:
@@ -43,7 +45,10 @@ std::uint32_t texel_bytes(Format format) {
 
 std::uint32_t transfer_bytes(Format format) { return is_depth(format) ? kDepthTransferBytes : texel_bytes(format); }
 
-bool is_depth(Format format) { return format == Format::d16 || format == Format::d24 || format == Format::d32f; }
+bool is_depth(Format format) {
+    return format == Format::d16 || format == Format::d24 || format == Format::d24_s8 || format == Format::d32f ||
+           format == Format::d32f_s8;
+}
 
 bool is_integer(Format format) {
     return format == Format::r32ui || format == Format::rg32ui || format == Format::rgba32ui;
@@ -104,6 +109,10 @@ const char* to_text(Format format) {
             return "d24";
         case Format::d32f:
             return "d32f";
+        case Format::d24_s8:
+            return "d24_s8";
+        case Format::d32f_s8:
+            return "d32f_s8";
     }
     return "?";
 }

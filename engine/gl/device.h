@@ -29,13 +29,15 @@ enum class Format : std::uint8_t {
     d16,
     d24,
     d32f,
-    rgba32ui
+    rgba32ui,
+    d24_s8,  // depth alone is drawn, compared and transferred; stencil is left as it is
+    d32f_s8
 };
 /// fixed: contents given at creation, never changed by lists. updated: written by lists. read_back: written by
 /// CopyBuffer only, for read_buffer.
 enum class BufferUse : std::uint8_t { fixed, updated, read_back };
 
-/// Returns the bytes of one texel in `format` for accounting (D24 counts 4).
+/// Returns the bytes of one texel in `format` for accounting (D24 counts 4, with D32F a stencil 8).
 std::uint32_t texel_bytes(Format format);
 /// Returns the bytes of one texel in uploads and readbacks: depth formats use one float.
 std::uint32_t transfer_bytes(Format format);

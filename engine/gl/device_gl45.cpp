@@ -85,10 +85,11 @@ public:
     Gl45Device& operator=(const Gl45Device&) = delete;
     ~Gl45Device() override {
         for (const auto& [id, target] : objects_.targets) glDeleteFramebuffers(1, &target.name);
-        for (const auto& [id, texture] : objects_.textures) glDeleteTextures(1, &texture.name);
+        for (const auto& [id, texture] : objects_.textures) delete_texture(texture);
         for (const auto& [id, sampler] : objects_.samplers) glDeleteSamplers(1, &sampler);
-        for (const auto& [id, buffer] : objects_.buffers) glDeleteBuffers(1, &buffer.name);
+        for (const auto& [id, buffer] : objects_.buffers) delete_buffer(buffer);
         for (const auto& [id, program] : objects_.programs) glDeleteProgram(program);
+        if (objects_.plain_sampler != 0) glDeleteSamplers(1, &objects_.plain_sampler);
         delete_fixtures(fixtures_);
         if (sink_) glDebugMessageCallback(nullptr, nullptr);
     }
@@ -139,9 +140,16 @@ public:
         return keep<TargetHandle>(objects_.targets, make_target(desc, objects_));
     }
 
-    void destroy(TextureHandle h) override {
-        remove(objects_.textures, h.id, [](const GlTexture& texture) { glDeleteTextures(1, &texture.name); });
+    TextureHandle import(GLuint name, const TextureDesc& desc) {
+        if (check_texture(desc, info_, 0) != Failure::none || lost() || !has_plain_sampler()) return {};
+        return keep<TextureHandle>(objects_.textures, adopt_texture(name, desc)).handle;
     }
+    BufferHandle import(GLuint name, const BufferDesc& desc) {
+        if (lost()) return {};
+        return keep<BufferHandle>(objects_.buffers, adopt_buffer(name, desc)).handle;
+    }
+
+    void destroy(TextureHandle h) override { remove(objects_.textures, h.id, delete_texture); }
     void destroy(SamplerHandle h) override {
         remove(objects_.samplers, h.id, [](GLuint name) { glDeleteSamplers(1, &name); });
     }
@@ -210,6 +218,11 @@ private:
         return lost_;
     }
 
+    bool has_plain_sampler() {
+        if (objects_.plain_sampler == 0) objects_.plain_sampler = make_sampler({.label = "plain reads"}).object;
+        return objects_.plain_sampler != 0;
+    }
+
     template <class H>
     static Created<H> refused(Failure failure, const std::string& label) {
         return {H{}, failure, '"' + label + "\": " + to_text(failure)};
@@ -267,6 +280,16 @@ unsigned gl_name(const Device& gl45_device, BufferHandle buffer) {
 unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer) {
     const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
     return device == nullptr ? 0 : device->texels_name(buffer);
+}
+
+TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc) {
+    auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
+    return device == nullptr ? TextureHandle{} : device->import(name, desc);
+}
+
+BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc) {
+    auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
+    return device == nullptr ? BufferHandle{} : device->import(name, desc);
 }
 
 std::size_t live_objects(const Device& gl45_device) {

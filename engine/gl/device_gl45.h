@@ -14,8 +14,8 @@ enum class MessageSeverity : std::uint8_t { notification, low, medium, high };
 using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 
 /// Creates the OpenGL 4.5 executor for the context that is current on this thread. Sets glClipControl and other fixed
-/// state. Owns every object that it creates; the destructor deletes them (context must be current). Error if the context
-/// is below 4.5 core (rule "gl.version").
+/// state. Owns every object that it creates; the destructor deletes them (context must be current). Error if the
+/// context is below 4.5 core (rule "gl.version").
 Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink);
 
 /// Returns OpenGL's own name of a texture, sampler or buffer, for draw calls outside Gnomon; 0 if it does not exist.
@@ -26,7 +26,19 @@ unsigned gl_name(const Device& gl45_device, BufferHandle buffer);
 /// Returns the name of the texture that reads a buffer with BufferDesc::texels.
 unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 
-/// Counts the GL objects that this device owns (leak checks).
+/// Lets command lists use a texture of the engine's own, for example its depth buffer. The engine keeps ownership, and
+/// deletes it after the handle was destroyed, which deletes nothing. Returns {0} if the texture is not what `desc`
+/// says.
+/// - A multisampled texture counts as flat or array. Shaders read it as sampler2DMS; it is neither copied nor read
+/// back.
+/// - Where no sampler is bound, reads are exact whatever its parameters are (nearest, clamped, no comparison).
+/// - Its swizzle and its depth-stencil mode apply.
+TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc);
+/// Does the same for a buffer of at least desc.size bytes. `updated` needs storage that glBufferSubData may change;
+/// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
+BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);
+
+/// Counts the objects that live on this device (leak checks), imported ones included.
 std::size_t live_objects(const Device& gl45_device);
 
 }  // namespace gnomon::gl

@@ -165,7 +165,9 @@ public:
         const GLuint* sampler = find_object(objects_.samplers, c.sampler.id);
         if ((c.texture && texture == nullptr) || (c.sampler && sampler == nullptr)) note(Failure::invalid_value);
         glBindTextureUnit(c.unit, texture == nullptr ? 0 : texture->name);
-        glBindSampler(c.unit, sampler == nullptr ? 0 : *sampler);
+        // Parameters of someone else's texture may forbid plain reads: compare mode, mipmaps that do not exist.
+        const GLuint plain = texture != nullptr && texture->imported ? objects_.plain_sampler : 0;
+        glBindSampler(c.unit, sampler == nullptr ? plain : *sampler);
     }
     void operator()(const BindUniforms& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
@@ -288,8 +290,8 @@ public:
         const Rect all{0, 0, static_cast<std::int32_t>(source->desc.width),
                        static_cast<std::int32_t>(source->desc.height)};
         const Rect& of = c.area.width == 0 ? all : c.area;
-        glCopyImageSubData(source->name, gl_kind(source->desc.kind), 0, of.x, of.y, layer, destination->name,
-                           gl_kind(destination->desc.kind), 0, of.x, of.y, layer, of.width, of.height, 1);
+        glCopyImageSubData(source->name, source->target, 0, of.x, of.y, layer, destination->name, destination->target,
+                           0, of.x, of.y, layer, of.width, of.height, 1);
     }
 
     void operator()(const GenerateMips& c) {

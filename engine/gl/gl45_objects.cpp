@@ -114,6 +114,10 @@ GlFormat gl_format(Format format) {
             return {GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_FLOAT};
         case Format::d32f:
             return {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
+        case Format::d24_s8:
+            return {GL_DEPTH24_STENCIL8, GL_DEPTH_COMPONENT, GL_FLOAT};
+        case Format::d32f_s8:
+            return {GL_DEPTH32F_STENCIL8, GL_DEPTH_COMPONENT, GL_FLOAT};
     }
     return {};
 }
@@ -161,8 +165,8 @@ void set_gl_label(GLenum kind, GLuint name, const std::string& label) {
 
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels) {
     drop_gl_errors();
-    GlTexture texture{0, desc};
-    glCreateTextures(gl_kind(desc.kind), 1, &texture.name);
+    GlTexture texture{0, desc, gl_kind(desc.kind)};
+    glCreateTextures(texture.target, 1, &texture.name);
     const auto mips = static_cast<GLsizei>(mip_count(desc));
     const auto width = static_cast<GLsizei>(desc.width), height = static_cast<GLsizei>(desc.height);
     const GLenum internal = gl_format(desc.format).internal;
@@ -210,14 +214,17 @@ Made<GLuint> make_sampler(const SamplerDesc& desc) {
     return failed<GLuint>(failure, desc.label);
 }
 
-namespace {
-
-/// Returns the context's largest buffer that can be read as texels.
 std::uint64_t most_texel_bytes() {
     GLint most = 0;
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     return static_cast<std::uint64_t>(most) * kTexelBytes;
 }
+
+void delete_texture(const GlTexture& texture) {
+    if (!texture.imported) glDeleteTextures(1, &texture.name);
+}
+
+namespace {
 
 Failure make_texels(GlBuffer& buffer) {
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &buffer.texels);
@@ -230,7 +237,7 @@ Failure make_texels(GlBuffer& buffer) {
 
 void delete_buffer(const GlBuffer& buffer) {
     glDeleteTextures(1, &buffer.texels);
-    glDeleteBuffers(1, &buffer.name);
+    if (!buffer.imported) glDeleteBuffers(1, &buffer.name);
 }
 
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) {

@@ -12,11 +12,14 @@ namespace gnomon::gl {
 struct GlTexture {
     GLuint name = 0;
     TextureDesc desc;
+    GLenum target = GL_NONE;  // GL_TEXTURE_…
+    bool imported = false;    // someone else's, who deletes it
 };
 struct GlBuffer {
     GLuint name = 0;
     BufferDesc desc;
     GLuint texels = 0;  // texture view of the buffer; 0: without BufferDesc::texels
+    bool imported = false;
 };
 struct GlTarget {
     GLuint name = 0;
@@ -31,6 +34,7 @@ struct GlObjects {
     std::unordered_map<std::uint32_t, GlBuffer> buffers;
     std::unordered_map<std::uint32_t, GLuint> programs;
     std::unordered_map<std::uint32_t, GlTarget> targets;
+    GLuint plain_sampler = 0;  // exact reads of imported textures; made with the first
 
     std::size_t count() const {
         return textures.size() + samplers.size() + buffers.size() + programs.size() + targets.size();
@@ -62,10 +66,16 @@ struct Made {
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels);
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
+void delete_texture(const GlTexture& texture);
 void delete_buffer(const GlBuffer& buffer);
+/// Takes an object that someone else made and goes on owning. invalid_value: it is not what `desc` describes.
+Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc);
+Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc);
 Made<GLuint> make_program(const ProgramDesc& desc);
 Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects);
 
+/// Returns the context's largest buffer that can be read as texels.
+std::uint64_t most_texel_bytes();
 /// Discards errors that other users of the context left behind.
 void drop_gl_errors();
 /// Returns the first error since the last call, as a Failure.

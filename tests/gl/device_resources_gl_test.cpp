@@ -79,6 +79,8 @@ std::vector<std::byte> pattern(Format format, std::size_t texels) {
             case Format::d16:
             case Format::d24:
             case Format::d32f:
+            case Format::d24_s8:
+            case Format::d32f_s8:
                 add(static_cast<float>(small) / 255.0f);
                 break;
         }
@@ -101,9 +103,8 @@ TEST_P(DeviceFormat, EveryLayerSurvivesUploadAndReadback) {
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
         const std::span<const std::byte> wanted = std::span{sent}.subspan(layer * layer_bytes, layer_bytes);
         if (gl::is_depth(format)) {
-            const double half_step = format == Format::d16   ? 0.5 / 65535.0
-                                     : format == Format::d24 ? 0.5 / 16777215.0
-                                                             : 0;
+            const bool is_24 = format == Format::d24 || format == Format::d24_s8;
+            const double half_step = format == Format::d16 ? 0.5 / 65535.0 : is_24 ? 0.5 / 16777215.0 : 0;
             const std::vector<float> back = read<float>(texture, 64, layer);
             for (std::size_t i = 0; i < back.size(); ++i) {
                 float value = 0;
@@ -231,7 +232,9 @@ constexpr std::array kFormatNames = {std::pair{"r8", Format::r8},
                                      std::pair{"rg32ui", Format::rg32ui},
                                      std::pair{"d16", Format::d16},
                                      std::pair{"d24", Format::d24},
-                                     std::pair{"d32f", Format::d32f}};
+                                     std::pair{"d32f", Format::d32f},
+                                     std::pair{"d24_s8", Format::d24_s8},
+                                     std::pair{"d32f_s8", Format::d32f_s8}};
 
 std::vector<FormatRow> format_rows() {
     std::vector<FormatRow> rows;

@@ -1,0 +1,113 @@
+#include <utility>
+
+#include "engine/gl/gl45_objects.h"
+
+namespace gnomon::gl {
+namespace {
+
+GLint level_value(GLuint texture, GLenum name) {
+    GLint value = 0;
+    glGetTextureLevelParameteriv(texture, 0, name, &value);
+    return value;
+}
+
+bool is_kind(GLenum target, TextureKind kind) {
+    switch (kind) {
+        case TextureKind::flat:
+            return target == GL_TEXTURE_2D || target == GL_TEXTURE_2D_MULTISAMPLE;
+        case TextureKind::array:
+            return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_2D_MULTISAMPLE_ARRAY;
+        case TextureKind::cube:
+            return target == GL_TEXTURE_CUBE_MAP;
+    }
+    return false;
+}
+
+/// Depth bits, their type and stencil bits, which show the choice of the driver for GL_DEPTH_COMPONENT.
+struct DepthBits {
+    GLint depth = 0, type = GL_NONE, stencil = 0;
+    bool operator==(const DepthBits&) const = default;
+};
+DepthBits depth_bits(Format format) {
+    switch (format) {
+        case Format::d16:
+            return {16, GL_UNSIGNED_NORMALIZED, 0};
+        case Format::d24:
+            return {24, GL_UNSIGNED_NORMALIZED, 0};
+        case Format::d24_s8:
+            return {24, GL_UNSIGNED_NORMALIZED, 8};
+        case Format::d32f:
+            return {32, GL_FLOAT, 0};
+        case Format::d32f_s8:
+            return {32, GL_FLOAT, 8};
+        default:
+            return {};
+    }
+}
+
+bool has_format(GLuint texture, Format format) {
+    if (static_cast<GLenum>(level_value(texture, GL_TEXTURE_INTERNAL_FORMAT)) == gl_format(format).internal)
+        return true;
+    const DepthBits bits{level_value(texture, GL_TEXTURE_DEPTH_SIZE), level_value(texture, GL_TEXTURE_DEPTH_TYPE),
+                         level_value(texture, GL_TEXTURE_STENCIL_SIZE)};
+    return is_depth(format) && bits == depth_bits(format);
+}
+
+bool has_size(GLuint texture, const TextureDesc& desc) {
+    const GLint depth = desc.kind == TextureKind::array ? static_cast<GLint>(desc.layers) : 1;
+    return level_value(texture, GL_TEXTURE_WIDTH) == static_cast<GLint>(desc.width) &&
+           level_value(texture, GL_TEXTURE_HEIGHT) == static_cast<GLint>(desc.height) &&
+           level_value(texture, GL_TEXTURE_DEPTH) == depth;
+}
+
+GLint64 buffer_value(GLuint buffer, GLenum name) {
+    GLint64 value = 0;
+    glGetNamedBufferParameteri64v(buffer, name, &value);
+    return value;
+}
+
+bool may_be_updated(GLuint buffer) {
+    return buffer_value(buffer, GL_BUFFER_IMMUTABLE_STORAGE) == GL_FALSE ||
+           (buffer_value(buffer, GL_BUFFER_STORAGE_FLAGS) & GL_DYNAMIC_STORAGE_BIT) != 0;
+}
+
+bool is_buffer_of(GLuint name, const BufferDesc& desc) {
+    if (desc.size == 0 || desc.use == BufferUse::read_back || glIsBuffer(name) == GL_FALSE) return false;
+    if (desc.texels && (desc.size % kTexelBytes != 0 || desc.size > most_texel_bytes())) return false;
+    const GLint64 size = buffer_value(name, GL_BUFFER_SIZE);
+    return size > 0 && desc.size <= static_cast<std::uint64_t>(size) &&
+           (desc.use != BufferUse::updated || may_be_updated(name));
+}
+
+}  // namespace
+
+Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc) {
+    drop_gl_errors();
+    GLint target = GL_NONE;
+    if (glIsTexture(name) == GL_TRUE) glGetTextureParameteriv(name, GL_TEXTURE_TARGET, &target);
+    const bool fits =
+        is_kind(static_cast<GLenum>(target), desc.kind) && has_size(name, desc) && has_format(name, desc.format);
+    const Failure failure = take_gl_error();
+    if (!fits || failure != Failure::none) return {{}, fits ? failure : Failure::invalid_value};
+    return {{name, desc, static_cast<GLenum>(target), true}};
+}
+
+Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc) {
+    drop_gl_errors();
+    if (!is_buffer_of(name, desc)) {
+        drop_gl_errors();
+        return {{}, Failure::invalid_value};
+    }
+    GlBuffer buffer{name, desc, 0, true};
+    if (desc.texels) {
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &buffer.texels);
+        glTextureBufferRange(buffer.texels, GL_RGBA32UI, name, 0, static_cast<GLsizeiptr>(desc.size));
+        set_gl_label(GL_TEXTURE, buffer.texels, desc.label);
+    }
+    const Failure failure = take_gl_error();
+    if (failure == Failure::none) return {std::move(buffer)};
+    delete_buffer(buffer);
+    return {{}, failure};
+}
+
+}  // namespace gnomon::gl
