@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "engine/gl/gl45_execute.h"
+#include "engine/gl/gl45_kept_state.h"
+#include "engine/gl/gl45_manners.h"
 #include "engine/gl/gl45_objects.h"
 #include "engine/gl/gl45_readbacks.h"
 #include "engine/gl/gl45_timers.h"
@@ -72,26 +74,34 @@ MessageSeverity severity_of(GLenum type, GLenum severity) {
 
 class Gl45Device final : public Device {
 public:
-    explicit Gl45Device(MessageSink sink) : sink_(std::move(sink)), info_(read_info()) {
-        if (sink_) {
+    Gl45Device(MessageSink sink, const Gl45Options& options)
+        : sink_(std::move(sink)), keeps_state_(options.keeps_state), timers_(options.keeps_state) {
+        const GlCall call = enter();
+        info_ = read_info();
+        if (sink_ && !keeps_state_) {
             glEnable(GL_DEBUG_OUTPUT);
             glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
             glDebugMessageCallback(&Gl45Device::on_message, this);
         }
         robust_ = get_unsigned(GL_RESET_NOTIFICATION_STRATEGY) == GL_LOSE_CONTEXT_ON_RESET;
         fixtures_ = make_fixtures();
+        if (keeps_state_)
+            state_ = std::make_unique<KeptState>(fixtures_);
+        else
+            state_ = std::make_unique<GlState>(fixtures_);
     }
     Gl45Device(const Gl45Device&) = delete;
     Gl45Device& operator=(const Gl45Device&) = delete;
     ~Gl45Device() override {
+        const GlCall call = enter();
         for (const auto& [id, target] : objects_.targets) glDeleteFramebuffers(1, &target.name);
         for (const auto& [id, texture] : objects_.textures) delete_texture(texture);
         for (const auto& [id, sampler] : objects_.samplers) glDeleteSamplers(1, &sampler);
         for (const auto& [id, buffer] : objects_.buffers) delete_buffer(buffer);
-        for (const auto& [id, program] : objects_.programs) glDeleteProgram(program);
+        for (const auto& [id, program] : objects_.programs) glDeleteProgram(program.name);
         if (objects_.plain_sampler != 0) glDeleteSamplers(1, &objects_.plain_sampler);
         delete_fixtures(fixtures_);
-        if (sink_) glDebugMessageCallback(nullptr, nullptr);
+        if (sink_ && !keeps_state_) glDebugMessageCallback(nullptr, nullptr);
     }
 
     const DeviceInfo& info() const override { return info_; }
@@ -115,60 +125,77 @@ public:
     }
 
     Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) override {
+        const GlCall call = enter();
         const Failure checked = check_texture(desc, info_, pixels.size());
         if (checked != Failure::none) return refused<TextureHandle>(checked, desc.label);
         if (lost()) return refused<TextureHandle>(Failure::context_lost, desc.label);
-        return keep<TextureHandle>(objects_.textures, make_texture(desc, pixels));
+        return keep<TextureHandle>(objects_.textures, make_texture(desc, pixels, keeps_state_));
     }
     Created<SamplerHandle> create_sampler(const SamplerDesc& desc) override {
+        const GlCall call = enter();
         if (lost()) return refused<SamplerHandle>(Failure::context_lost, desc.label);
         return keep<SamplerHandle>(objects_.samplers, make_sampler(desc));
     }
     Created<BufferHandle> create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) override {
+        const GlCall call = enter();
         const Failure checked = check_buffer(desc, bytes.size());
         if (checked != Failure::none) return refused<BufferHandle>(checked, desc.label);
         if (lost()) return refused<BufferHandle>(Failure::context_lost, desc.label);
         return keep<BufferHandle>(objects_.buffers, make_buffer(desc, bytes));
     }
     Created<ProgramHandle> create_program(const ProgramDesc& desc) override {
+        const GlCall call = enter();
         if (lost()) return refused<ProgramHandle>(Failure::context_lost, desc.label);
         ++compiled_programs_;
-        return keep<ProgramHandle>(objects_.programs, make_program(desc));
+        Made<GlProgram> made = make_program(desc);
+        if (keeps_state_ && made.failure == Failure::none) made.object.inputs = inputs_of(made.object.name);
+        return keep<ProgramHandle>(objects_.programs, std::move(made));
     }
     Created<TargetHandle> create_target(const TargetDesc& desc) override {
+        const GlCall call = enter();
         if (lost()) return refused<TargetHandle>(Failure::context_lost, desc.label);
         return keep<TargetHandle>(objects_.targets, make_target(desc, objects_));
     }
 
     TextureHandle import(GLuint name, const TextureDesc& desc) {
+        const GlCall call = enter();
         if (check_texture(desc, info_, 0) != Failure::none || lost() || !has_plain_sampler()) return {};
         return keep<TextureHandle>(objects_.textures, adopt_texture(name, desc)).handle;
     }
     BufferHandle import(GLuint name, const BufferDesc& desc) {
+        const GlCall call = enter();
         if (lost()) return {};
         return keep<BufferHandle>(objects_.buffers, adopt_buffer(name, desc)).handle;
     }
 
-    void destroy(TextureHandle h) override { remove(objects_.textures, h.id, delete_texture); }
+    void destroy(TextureHandle h) override {
+        const GlCall call = enter();
+        remove(objects_.textures, h.id, delete_texture);
+    }
     void destroy(SamplerHandle h) override {
+        const GlCall call = enter();
         remove(objects_.samplers, h.id, [](GLuint name) { glDeleteSamplers(1, &name); });
     }
     void destroy(BufferHandle h) override {
+        const GlCall call = enter();
         readbacks_.forget(h.id);
         remove(objects_.buffers, h.id, delete_buffer);
     }
     void destroy(ProgramHandle h) override {
-        remove(objects_.programs, h.id, [](GLuint name) { glDeleteProgram(name); });
+        const GlCall call = enter();
+        remove(objects_.programs, h.id, [](const GlProgram& program) { glDeleteProgram(program.name); });
     }
     void destroy(TargetHandle h) override {
+        const GlCall call = enter();
         remove(objects_.targets, h.id, [](const GlTarget& target) { glDeleteFramebuffers(1, &target.name); });
     }
 
     SubmitResult submit(const CommandList& list) override {
+        const GlCall call = enter();
         const std::uint64_t submission = submissions_++;
         if (lost()) return {Failure::context_lost, submission};
         drop_gl_errors();
-        const Failure misuse = execute(list, submission, objects_, fixtures_, timers_, readbacks_);
+        const Failure misuse = execute(list, submission, objects_, *state_, timers_, readbacks_);
         const Failure error = take_gl_error();
         if (lost()) return {Failure::context_lost, submission};
         return {error == Failure::none ? misuse : error, submission};
@@ -179,10 +206,12 @@ public:
         if (texture == nullptr || layer >= layer_count(texture->desc)) return false;
         const TextureDesc& desc = texture->desc;
         const std::uint64_t needed = std::uint64_t{desc.width} * desc.height * transfer_bytes(desc.format);
-        if (out.size() != needed || needed > std::numeric_limits<GLsizei>::max() || lost()) return false;
+        if (out.size() != needed || needed > std::numeric_limits<GLsizei>::max()) return false;
+        const GlCall call = enter();
+        if (lost()) return false;
         const GlFormat format = gl_format(desc.format);
         drop_gl_errors();
-        reset_pixel_transfer();
+        const PixelTransfer transfer(keeps_state_, PixelTransfer::Direction::readback);
         glGetTextureSubImage(texture->name, 0, 0, 0, static_cast<GLint>(layer), static_cast<GLsizei>(desc.width),
                              static_cast<GLsizei>(desc.height), 1, format.layout, format.type,
                              static_cast<GLsizei>(out.size()), out.data());
@@ -190,6 +219,7 @@ public:
     }
 
     Readback read_buffer(BufferHandle handle, std::span<std::byte> out) override {
+        const GlCall call = enter();
         const GlBuffer* buffer = find_object(objects_.buffers, handle.id);
         if (buffer == nullptr || buffer->desc.use != BufferUse::read_back || out.size() != buffer->desc.size || lost())
             return Readback::failed;
@@ -201,8 +231,14 @@ public:
     }
 
     void set_timing(TimingMode mode) override { timers_.set_mode(mode); }
-    std::vector<Timing> take_timings() override { return timers_.take(); }
-    void finish() override { glFinish(); }
+    std::vector<Timing> take_timings() override {
+        const GlCall call = enter();
+        return timers_.take();
+    }
+    void finish() override {
+        const GlCall call = enter();
+        glFinish();
+    }
 
 private:
     static void on_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* text,
@@ -211,6 +247,9 @@ private:
         static_cast<const Gl45Device*>(self)->sink_(severity_of(type, severity),
                                                     {text, static_cast<std::size_t>(std::max(length, 0))});
     }
+
+    /// Begins a call to the device.
+    GlCall enter() const { return {keeps_state_, sink_ ? GlListener{&Gl45Device::on_message, this} : GlListener{}}; }
 
     /// Returns true if the context is lost, which is permanent. Called before each call that draws or creates.
     bool lost() {
@@ -242,8 +281,10 @@ private:
     }
 
     MessageSink sink_;
+    bool keeps_state_;
     DeviceInfo info_;
     GlFixtures fixtures_;
+    std::unique_ptr<GlState> state_;
     GlObjects objects_;
     GlTimers timers_;
     GlReadbacks readbacks_;
@@ -254,12 +295,12 @@ private:
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink) {
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, const Gl45Options& options) {
     const int version = epoxy_is_desktop_gl() ? epoxy_gl_version() : 0;
     if (version < kNeededVersion) {
         return Error{"the current context is not OpenGL 4.5 but " + get_string(GL_VERSION), {}, {}, "gl.version"};
     }
-    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink))};
+    return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink), options)};
 }
 
 unsigned gl_name(const Device& gl45_device, TextureHandle texture) {

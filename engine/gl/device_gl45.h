@@ -13,10 +13,17 @@ namespace gnomon::gl {
 enum class MessageSeverity : std::uint8_t { notification, low, medium, high };
 using MessageSink = std::function<void(MessageSeverity, std::string_view)>;
 
-/// Creates the OpenGL 4.5 executor for the context that is current on this thread. Sets glClipControl and other fixed
-/// state. Owns every object that it creates; the destructor deletes them (context must be current). Error if the
-/// context is below 4.5 core (rule "gl.version").
-Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink);
+/// Manners of the executor towards an engine that shares its context.
+struct Gl45Options {
+    /// Every call leaves all state and pending errors of the context as it found them, and the sink hears only messages
+    /// of these calls. A list costs a query per piece of state that it sets, and a change where it differs.
+    /// If false, lists leave the state that docs/embedding.md names.
+    bool keeps_state = false;
+};
+
+/// Creates the OpenGL 4.5 executor for the context that is current on this thread. Owns every object that it creates;
+/// the destructor deletes them (context must be current). Error if the context is below 4.5 core (rule "gl.version").
+Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, const Gl45Options& options = {});
 
 /// Returns OpenGL's own name of a texture, sampler or buffer, for draw calls outside Gnomon; 0 if it does not exist.
 /// The device keeps ownership, and may replace or delete the object in any later frame.

@@ -10,112 +10,32 @@ namespace gnomon::gl {
 
 namespace {
 
-constexpr GLsizei kVertexBytes = 8 * sizeof(float), kItemBytes = 2 * sizeof(std::uint32_t);
-
-/// Resets all state that affects draws and that lists do not set. Other users of the context may have changed it since
-/// the last list.
-void reset_state(const GlFixtures& fixtures) {
-    for (const GLenum capability : {GL_SCISSOR_TEST,
-                                    GL_STENCIL_TEST,
-                                    GL_DEPTH_TEST,
-                                    GL_DEPTH_CLAMP,
-                                    GL_CULL_FACE,
-                                    GL_BLEND,
-                                    GL_COLOR_LOGIC_OP,
-                                    GL_DITHER,
-                                    GL_POLYGON_OFFSET_FILL,
-                                    GL_POLYGON_OFFSET_LINE,
-                                    GL_POLYGON_OFFSET_POINT,
-                                    GL_POLYGON_SMOOTH,
-                                    GL_LINE_SMOOTH,
-                                    GL_PRIMITIVE_RESTART,
-                                    GL_PRIMITIVE_RESTART_FIXED_INDEX,
-                                    GL_RASTERIZER_DISCARD,
-                                    GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                    GL_SAMPLE_ALPHA_TO_ONE,
-                                    GL_SAMPLE_COVERAGE,
-                                    GL_SAMPLE_MASK,
-                                    GL_FRAMEBUFFER_SRGB}) {
-        glDisable(capability);
-    }
-    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
-    glDepthRange(0.0, 1.0);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glBlendEquation(GL_FUNC_ADD);
-    glUseProgram(0);
-    glBindVertexArray(0);
-    glBindTextures(0, fixtures.texture_units, nullptr);
-    glBindSamplers(0, fixtures.texture_units, nullptr);
-    glBindBuffersBase(GL_UNIFORM_BUFFER, 0, fixtures.uniform_bindings, nullptr);
-    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, fixtures.storage_bindings, nullptr);
-}
-
-GLenum gl_depth_test(DepthTest test) {
-    switch (test) {
-        case DepthTest::off:
-            return GL_ALWAYS;
-        case DepthTest::greater_equal:
-            return GL_GEQUAL;
-        case DepthTest::greater:
-            return GL_GREATER;
-        case DepthTest::equal:
-            return GL_EQUAL;
-        case DepthTest::less:
-            return GL_LESS;
-    }
-    return GL_ALWAYS;
-}
-
-void set_enabled(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
-
-void apply(const PipelineState& state, GLuint program) {
-    glUseProgram(program);
-    set_enabled(GL_CULL_FACE, state.cull != CullMode::none);
-    glCullFace(state.cull == CullMode::front ? GL_FRONT : GL_BACK);
-    glFrontFace(state.front_is_clockwise ? GL_CW : GL_CCW);
-    // OpenGL writes depth only with the depth test enabled.
-    set_enabled(GL_DEPTH_TEST, state.depth_test != DepthTest::off || state.depth_write);
-    glDepthFunc(gl_depth_test(state.depth_test));
-    glDepthMask(state.depth_write ? GL_TRUE : GL_FALSE);
-    set_enabled(GL_DEPTH_CLAMP, state.depth_clamp);
-    set_enabled(GL_BLEND, state.blend != Blend::off);
-    glBlendEquation(state.blend == Blend::largest ? GL_MAX : GL_FUNC_ADD);
-    if (state.blend == Blend::add) glBlendFunc(GL_ONE, GL_ONE);
-    if (state.blend == Blend::alpha)
-        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-}
+constexpr GLsizei kItemBytes = 2 * sizeof(std::uint32_t);
 
 /// Executes a list, one operator() per command.
 class ListExecutor {
 public:
-    ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects,
-                 const GlFixtures& fixtures, GlTimers& timers, GlReadbacks& readbacks)
+    ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
+                 GlTimers& timers, GlReadbacks& readbacks)
         : list_(list),
           submission_(submission),
           objects_(objects),
-          fixtures_(fixtures),
+          fixtures_(state.fixtures()),
+          state_(state),
           timers_(timers),
           readbacks_(readbacks) {}
 
     Failure run() {
-        reset_state(fixtures_);
+        state_.begin_list();
         for (const Command& command : list_.commands) std::visit(*this, command);
         if (!timers_.abandon() || open_groups_ != 0 || in_pass_) note(Failure::invalid_value);
         for (; open_groups_ > 0; --open_groups_) pop_group();
-        reset_state(fixtures_);
-        // Rebound, because a vertex array keeps deleted buffers alive.
-        glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kVertexSlot, 0, 0, kVertexBytes);
-        glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kItemSlot, 0, 0, kItemBytes);
-        glVertexArrayElementBuffer(fixtures_.mesh_layout, 0);
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        state_.end_list();
         return failure_;
     }
 
     void operator()(const BeginGroup& c) {
-        if (open_groups_++ >= fixtures_.group_depth) return;
+        if (open_groups_++ >= state_.group_limit()) return;
         const std::string_view text = c.label.text();
         const auto length = static_cast<GLsizei>(std::min(text.size(), fixtures_.message_bytes));
         glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, length, text.data());
@@ -134,11 +54,9 @@ public:
         if (!usable(c.target, target)) return;
         if (c.viewport.width <= 0 || c.viewport.height <= 0) return note(Failure::invalid_value);
         drawable_ = true;
-        glBindFramebuffer(GL_FRAMEBUFFER, target == nullptr ? 0 : target->name);
-        set_enabled(GL_FRAMEBUFFER_SRGB, target != nullptr);
-        glViewport(c.viewport.x, c.viewport.y, c.viewport.width, c.viewport.height);
-        set_scissor({});
-        clear(c, target == nullptr ? GlTarget{0, 0, 0, 1} : *target);
+        const GlTarget into = target == nullptr ? GlTarget{0, 0, 0, 1} : *target;
+        state_.begin_pass(into.name, into.colours, c.viewport);
+        clear(c, into);
     }
     void operator()(const EndPass& c) {
         if (!in_pass_) note(Failure::invalid_value);
@@ -148,15 +66,15 @@ public:
 
     void operator()(const SetScissor& c) {
         if (c.rect.width < 0 || c.rect.height < 0) return note(Failure::invalid_value);
-        set_scissor(c.rect);
+        state_.set_scissor(c.rect);
     }
     void operator()(const SetPipeline& c) {
         if (pipeline_ == c.state) return;
         pipeline_.reset();
-        const GLuint* program = find_object(objects_.programs, c.state.program.id);
+        const GlProgram* program = find_object(objects_.programs, c.state.program.id);
         if (program == nullptr) return note(Failure::invalid_value);
         pipeline_ = c.state;
-        apply(c.state, *program);
+        state_.use_pipeline(c.state, *program);
     }
 
     void operator()(const BindTexture& c) {
@@ -164,10 +82,10 @@ public:
         const GlTexture* texture = find_object(objects_.textures, c.texture.id);
         const GLuint* sampler = find_object(objects_.samplers, c.sampler.id);
         if ((c.texture && texture == nullptr) || (c.sampler && sampler == nullptr)) note(Failure::invalid_value);
-        glBindTextureUnit(c.unit, texture == nullptr ? 0 : texture->name);
         // Parameters of someone else's texture may forbid plain reads: compare mode, mipmaps that do not exist.
         const GLuint plain = texture != nullptr && texture->imported ? objects_.plain_sampler : 0;
-        glBindSampler(c.unit, sampler == nullptr ? plain : *sampler);
+        state_.bind_texture(c.unit, texture == nullptr ? GL_NONE : texture->target,
+                            texture == nullptr ? 0 : texture->name, sampler == nullptr ? plain : *sampler);
     }
     void operator()(const BindUniforms& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
@@ -175,22 +93,20 @@ public:
             !in_range(c.offset, c.size, buffer->desc.size) || c.offset % fixtures_.uniform_alignment != 0) {
             return note(Failure::invalid_value);
         }
-        glBindBufferRange(GL_UNIFORM_BUFFER, c.binding, buffer->name, static_cast<GLintptr>(c.offset),
-                          static_cast<GLsizeiptr>(c.size));
+        state_.bind_uniforms(c.binding, buffer->name, c.offset, c.size);
     }
     void operator()(const BindStorage& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
         if (buffer == nullptr || c.binding >= static_cast<std::uint32_t>(fixtures_.storage_bindings)) {
             return note(Failure::invalid_value);
         }
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, c.binding, buffer->name);
+        state_.bind_storage(c.binding, buffer->name);
     }
     void operator()(const BindTexels& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
         if (buffer == nullptr || buffer->texels == 0 || c.unit >= static_cast<std::uint32_t>(fixtures_.texture_units))
             return note(Failure::invalid_value);
-        glBindTextureUnit(c.unit, buffer->texels);
-        glBindSampler(c.unit, 0);
+        state_.bind_texture(c.unit, GL_TEXTURE_BUFFER, buffer->texels, 0);
     }
     void operator()(const UpdateBuffer& c) {
         const GlBuffer* buffer = find_object(objects_.buffers, c.buffer.id);
@@ -220,10 +136,7 @@ public:
             indices_ = items_ = nullptr;
             return note(Failure::invalid_value);
         }
-        const GLuint layout = fixtures_.mesh_layout;
-        glVertexArrayVertexBuffer(layout, GlFixtures::kVertexSlot, vertices->name, 0, kVertexBytes);
-        glVertexArrayVertexBuffer(layout, GlFixtures::kItemSlot, items_->name, 0, kItemBytes);
-        glVertexArrayElementBuffer(layout, indices_->name);
+        state_.bind_meshes(vertices->name, items_->name, indices_->name);
     }
     void operator()(const DrawMeshes& c) {
         if (!can_draw(fixtures_.mesh_layout)) return;
@@ -241,12 +154,12 @@ public:
     void operator()(const DrawTriangle& c) {
         constexpr GLsizei corners = 3;
         if (!can_draw(fixtures_.empty_layout)) return;
-        if (c.depth) glDepthRangef(*c.depth, *c.depth);
+        if (c.depth) state_.set_depth_range(*c.depth, *c.depth);
         glDrawArrays(GL_TRIANGLES, 0, corners);
-        if (c.depth) glDepthRangef(0.0f, 1.0f);
+        if (c.depth) state_.set_depth_range(0.0f, 1.0f);
     }
     void operator()(const DrawLines& c) {
-        if (can_draw(fixtures_.empty_layout)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));
+        if (can_draw(fixtures_.empty_layout, true)) glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(c.vertex_count));
     }
 
     void operator()(const DrawPoints& c) {
@@ -261,10 +174,11 @@ public:
     }
 
     void operator()(const Dispatch& c) {
-        const GLuint* program = find_object(objects_.programs, c.program.id);
+        const GlProgram* program = find_object(objects_.programs, c.program.id);
         if (in_pass_ || program == nullptr || c.groups_x == 0 || c.groups_y == 0) return note(Failure::invalid_value);
         pipeline_.reset();
-        glUseProgram(*program);
+        state_.use_compute(*program);
+        state_.prepare_dispatch();
         glDispatchCompute(c.groups_x, c.groups_y, 1);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     }
@@ -302,13 +216,11 @@ public:
     void operator()(const Blit& c) {
         const GlTarget *source = nullptr, *destination = nullptr;
         if (!usable(c.source, source) || !usable(c.destination, destination)) return;
-        glDisable(GL_SCISSOR_TEST);
-        glDisable(GL_FRAMEBUFFER_SRGB);
+        state_.begin_blit();
         glBlitNamedFramebuffer(source == nullptr ? 0 : source->name, destination == nullptr ? 0 : destination->name,
                                c.from.x, c.from.y, c.from.x + c.from.width, c.from.y + c.from.height, c.to.x, c.to.y,
                                c.to.x + c.to.width, c.to.y + c.to.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        set_scissor(scissor_);
-        set_enabled(GL_FRAMEBUFFER_SRGB, in_target_);
+        state_.end_blit();
     }
 
     void operator()(const BeginTimer& c) {
@@ -323,7 +235,7 @@ private:
         if (failure_ == Failure::none) failure_ = failure;
     }
     void pop_group() {
-        if (open_groups_ <= fixtures_.group_depth) glPopDebugGroup();
+        if (open_groups_ <= state_.group_limit()) glPopDebugGroup();
     }
 
     /// Finds the target. Returns false and notes the failure if it is unknown, or is the window in a context without
@@ -338,17 +250,11 @@ private:
         note(Failure::incomplete_target);
         return false;
     }
-    void set_scissor(const Rect& rect) {
-        scissor_ = rect;
-        set_enabled(GL_SCISSOR_TEST, rect.width > 0);
-        if (rect.width > 0) glScissor(rect.x, rect.y, rect.width, rect.height);
-    }
     void clear(const BeginPass& c, const GlTarget& target) {
-        in_target_ = static_cast<bool>(c.target);
         if (c.clear_depth) {
-            glDepthMask(GL_TRUE);  // clears obey the previous pipeline's mask
+            state_.set_depth_mask(true);  // clears obey the previous pipeline's mask
             glClearBufferfv(GL_DEPTH, 0, &c.depth);
-            if (pipeline_) glDepthMask(pipeline_->depth_write ? GL_TRUE : GL_FALSE);
+            if (pipeline_) state_.set_depth_mask(pipeline_->depth_write);
         }
         if (!c.clear_colour) return;
         std::array<GLuint, 4> whole{};
@@ -361,10 +267,10 @@ private:
                 glClearBufferfv(GL_COLOR, static_cast<GLint>(i), c.colour.data());
         }
     }
-    bool can_draw(GLuint layout) {
+    bool can_draw(GLuint layout, bool lines = false) {
         if (!in_pass_ || !pipeline_) note(Failure::invalid_value);
         if (!drawable_ || !pipeline_) return false;  // the reason has been noted before
-        glBindVertexArray(layout);
+        state_.prepare_draw(layout, lines);
         return true;
     }
 
@@ -372,13 +278,13 @@ private:
     std::uint64_t submission_;
     const GlObjects& objects_;
     const GlFixtures& fixtures_;
+    GlState& state_;
     GlTimers& timers_;
     GlReadbacks& readbacks_;
 
     Failure failure_ = Failure::none;
     std::size_t open_groups_ = 0;
-    bool in_pass_ = false, drawable_ = false, in_target_ = false;
-    Rect scissor_{};
+    bool in_pass_ = false, drawable_ = false;
     std::optional<PipelineState> pipeline_;
     const GlBuffer* indices_ = nullptr;
     const GlBuffer* items_ = nullptr;
@@ -386,9 +292,9 @@ private:
 
 }  // namespace
 
-Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, const GlFixtures& fixtures,
+Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
                 GlTimers& timers, GlReadbacks& readbacks) {
-    return ListExecutor(list, submission, objects, fixtures, timers, readbacks).run();
+    return ListExecutor(list, submission, objects, state, timers, readbacks).run();
 }
 
 }  // namespace gnomon::gl

@@ -1,12 +1,14 @@
+#include "engine/gl/gl45_fixtures.h"
+
 #include <algorithm>
 
-#include "engine/gl/gl45_execute.h"
+#include "engine/gl/gl45_objects.h"
 
 namespace gnomon::gl {
 namespace {
 
 constexpr GLuint kNormalOffset = 3 * sizeof(float), kUvOffset = 6 * sizeof(float);
-constexpr GLint kUsedTextureUnits = 32, kUsedBindings = 16;  // available to lists; cleared before each
+constexpr GLint kUsedTextureUnits = GlFixtures::kTextureUnits, kUsedBindings = GlFixtures::kBindings;
 
 GLint get_integer(GLenum name) {
     GLint value = 0;

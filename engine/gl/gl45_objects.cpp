@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "engine/gl/gl45_manners.h"
 #include "engine/gl/validate.h"
 
 namespace gnomon::gl {
@@ -40,11 +41,11 @@ void set_plain_sampling(GLuint name) {
     glTextureParameteri(name, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
-void upload(const GlTexture& texture, std::span<const std::byte> pixels) {
+void upload(const GlTexture& texture, std::span<const std::byte> pixels, bool keeps_state) {
     const TextureDesc& desc = texture.desc;
     const GlFormat format = gl_format(desc.format);
     const auto width = static_cast<GLsizei>(desc.width), height = static_cast<GLsizei>(desc.height);
-    reset_pixel_transfer();
+    const PixelTransfer transfer(keeps_state, PixelTransfer::Direction::upload);
     if (desc.kind == TextureKind::flat) {
         glTextureSubImage2D(texture.name, 0, 0, 0, width, height, format.layout, format.type, pixels.data());
     } else {
@@ -163,7 +164,7 @@ void set_gl_label(GLenum kind, GLuint name, const std::string& label) {
     glObjectLabel(kind, name, static_cast<GLsizei>(std::min(label.size(), longest)), label.c_str());
 }
 
-Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels) {
+Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels, bool keeps_state) {
     drop_gl_errors();
     GlTexture texture{0, desc, gl_kind(desc.kind)};
     glCreateTextures(texture.target, 1, &texture.name);
@@ -179,7 +180,7 @@ Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte>
     if (failure == Failure::none) {
         set_plain_sampling(texture.name);
         set_gl_label(GL_TEXTURE, texture.name, desc.label);
-        if (!pixels.empty()) upload(texture, pixels);
+        if (!pixels.empty()) upload(texture, pixels, keeps_state);
         failure = take_gl_error();
     }
     if (failure == Failure::none) return {std::move(texture)};

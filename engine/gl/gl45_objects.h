@@ -3,6 +3,7 @@
 
 #include <string>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/gl/device.h"
 
@@ -21,6 +22,15 @@ struct GlBuffer {
     GLuint texels = 0;  // texture view of the buffer; 0: without BufferDesc::texels
     bool imported = false;
 };
+/// Binding that a program reads.
+struct GlInput {
+    GLenum kind = GL_NONE;   // GL_UNIFORM_BUFFER, GL_SHADER_STORAGE_BUFFER, or target of a texture
+    std::uint32_t slot = 0;  // unit or binding
+};
+struct GlProgram {
+    GLuint name = 0;
+    std::vector<GlInput> inputs;  // only for KeptState
+};
 struct GlTarget {
     GLuint name = 0;
     std::uint32_t width = 0, height = 0;  // common area of all attachments
@@ -32,7 +42,7 @@ struct GlObjects {
     std::unordered_map<std::uint32_t, GlTexture> textures;
     std::unordered_map<std::uint32_t, GLuint> samplers;
     std::unordered_map<std::uint32_t, GlBuffer> buffers;
-    std::unordered_map<std::uint32_t, GLuint> programs;
+    std::unordered_map<std::uint32_t, GlProgram> programs;
     std::unordered_map<std::uint32_t, GlTarget> targets;
     GLuint plain_sampler = 0;  // exact reads of imported textures; made with the first
 
@@ -63,7 +73,7 @@ struct Made {
     Failure failure = Failure::none;
     std::string log = {};
 };
-Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels);
+Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels, bool keeps_state);
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
 void delete_texture(const GlTexture& texture);
@@ -71,7 +81,9 @@ void delete_buffer(const GlBuffer& buffer);
 /// Takes an object that someone else made and goes on owning. invalid_value: it is not what `desc` describes.
 Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc);
 Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc);
-Made<GLuint> make_program(const ProgramDesc& desc);
+Made<GlProgram> make_program(const ProgramDesc& desc);
+/// Returns all bindings that the program reads.
+std::vector<GlInput> inputs_of(GLuint program);
 Made<GlTarget> make_target(const TargetDesc& desc, const GlObjects& objects);
 
 /// Returns the context's largest buffer that can be read as texels.

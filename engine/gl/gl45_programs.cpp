@@ -44,7 +44,7 @@ std::string link_log(GLuint program) {
 
 }  // namespace
 
-Made<GLuint> make_program(const ProgramDesc& desc) {
+Made<GlProgram> make_program(const ProgramDesc& desc) {
     drop_gl_errors();
     struct Source {
         GLenum kind;
@@ -63,7 +63,7 @@ Made<GLuint> make_program(const ProgramDesc& desc) {
         stages[i] = stage.name;
         if (stage.name != 0) continue;
         for (const GLuint made : stages) glDeleteShader(made);
-        return {0, Failure::compile_failed, desc.label + " (" + sources[i].name + "): " + stage.log};
+        return {{}, Failure::compile_failed, desc.label + " (" + sources[i].name + "): " + stage.log};
     }
     const GLuint program = glCreateProgram();
     for (const GLuint stage : stages)
@@ -79,12 +79,12 @@ Made<GLuint> make_program(const ProgramDesc& desc) {
     const Failure error = take_gl_error();
     if (linked == GL_TRUE && error == Failure::none) {
         set_gl_label(GL_PROGRAM, program, desc.label);
-        return {program};
+        return {{program, {}}};
     }
     std::string log = desc.label + " (link): " + link_log(program);
     glDeleteProgram(program);
     const bool driver = error == Failure::out_of_memory || error == Failure::context_lost;
-    return {0, driver ? error : Failure::link_failed, std::move(log)};
+    return {{}, driver ? error : Failure::link_failed, std::move(log)};
 }
 
 }  // namespace gnomon::gl

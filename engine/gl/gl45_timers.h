@@ -13,7 +13,8 @@ namespace gnomon::gl {
 /// Times spans of GPU work as the mode requires. Private to the executor.
 class GlTimers {
 public:
-    GlTimers() = default;
+    /// With `keeps_state`, times come from a stamp at either end, which a GL_TIME_ELAPSED query of the engine's allows.
+    explicit GlTimers(bool keeps_state) : keeps_state_(keeps_state) {}
     GlTimers(const GlTimers&) = delete;
     GlTimers& operator=(const GlTimers&) = delete;
     ~GlTimers();
@@ -31,15 +32,19 @@ private:
     struct Running {
         Timing timing;
         TimingMode mode = TimingMode::off;
-        GLuint query = 0;
+        GLuint query = 0, first_stamp = 0;
         std::chrono::steady_clock::time_point start;
     };
     struct Pending {
         Timing timing;
-        GLuint query = 0;
+        GLuint query = 0, first_stamp = 0;  // a span; or the second of two stamps, and the first
     };
     GLuint take_query();
+    GLuint take_stamp();
+    void free(const Pending& pending);
+    bool take_next();
 
+    bool keeps_state_;
     TimingMode mode_ = TimingMode::off;
     std::optional<Running> running_;
     std::deque<Pending> pending_;
