@@ -157,6 +157,11 @@ public:
         return keep<TargetHandle>(objects_.targets, make_target(desc, objects_));
     }
 
+    template <class Ask>
+    auto asked(Ask&& ask) const {
+        const GlCall call = enter();
+        return ask();
+    }
     TextureHandle import(GLuint name, const TextureDesc& desc) {
         const GlCall call = enter();
         if (check_texture(desc, info_, 0) != Failure::none || lost() || !has_plain_sampler()) return {};
@@ -323,6 +328,15 @@ unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer) {
     return device == nullptr ? 0 : device->texels_name(buffer);
 }
 
+std::optional<EngineTexture> describe_texture(const Device& gl45_device, unsigned name) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? std::nullopt : device->asked([&] { return described(name); });
+}
+std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, unsigned name) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device == nullptr ? std::vector<std::array<float, 2>>()
+                             : device->asked([&] { return places_of_samples(name); });
+}
 TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc) {
     auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
     return device == nullptr ? TextureHandle{} : device->import(name, desc);

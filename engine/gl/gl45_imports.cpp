@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/gl/device_gl45.h"
 #include "engine/gl/gl45_objects.h"
 
 namespace gnomon::gl {
@@ -94,8 +93,7 @@ Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc) {
     return {{name, desc, static_cast<GLenum>(target), true}};
 }
 
-std::optional<EngineTexture> describe_texture(const Device&, unsigned name) {
-    drop_gl_errors();
+std::optional<EngineTexture> described(GLuint name) {
     GLint target = GL_NONE;
     if (glIsTexture(name) == GL_TRUE) glGetTextureParameteriv(name, GL_TEXTURE_TARGET, &target);
     for (const TextureKind kind : {TextureKind::flat, TextureKind::array, TextureKind::cube}) {
@@ -112,8 +110,8 @@ std::optional<EngineTexture> describe_texture(const Device&, unsigned name) {
     return std::nullopt;
 }
 
-std::vector<std::array<float, 2>> sample_positions(const Device& device, unsigned name) {
-    const std::optional<EngineTexture> texture = describe_texture(device, name);
+std::vector<std::array<float, 2>> places_of_samples(GLuint name) {
+    const std::optional<EngineTexture> texture = described(name);
     if (!texture || texture->samples < 2 || texture->desc.kind != TextureKind::flat || !is_depth(texture->desc.format))
         return {};
     const bool stencil = texture->desc.format == Format::d24_s8 || texture->desc.format == Format::d32f_s8;

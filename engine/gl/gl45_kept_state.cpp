@@ -6,11 +6,23 @@
 namespace gnomon::gl {
 namespace {
 
-constexpr std::array kShaderStages = {GL_VERTEX_SHADER,   GL_TESS_CONTROL_SHADER, GL_TESS_EVALUATION_SHADER,
-                                      GL_GEOMETRY_SHADER, GL_FRAGMENT_SHADER,     GL_COMPUTE_SHADER};
-constexpr std::array kSubroutineUniforms = {GL_VERTEX_SUBROUTINE_UNIFORM,          GL_TESS_CONTROL_SUBROUTINE_UNIFORM,
-                                            GL_TESS_EVALUATION_SUBROUTINE_UNIFORM, GL_GEOMETRY_SUBROUTINE_UNIFORM,
-                                            GL_FRAGMENT_SUBROUTINE_UNIFORM,        GL_COMPUTE_SUBROUTINE_UNIFORM};
+struct StageRow {
+    GLenum stage, subroutine_uniforms;
+};
+constexpr std::array<StageRow, 6> kStageRows = {{{GL_VERTEX_SHADER, GL_VERTEX_SUBROUTINE_UNIFORM},
+                                                 {GL_TESS_CONTROL_SHADER, GL_TESS_CONTROL_SUBROUTINE_UNIFORM},
+                                                 {GL_TESS_EVALUATION_SHADER, GL_TESS_EVALUATION_SUBROUTINE_UNIFORM},
+                                                 {GL_GEOMETRY_SHADER, GL_GEOMETRY_SUBROUTINE_UNIFORM},
+                                                 {GL_FRAGMENT_SHADER, GL_FRAGMENT_SUBROUTINE_UNIFORM},
+                                                 {GL_COMPUTE_SHADER, GL_COMPUTE_SUBROUTINE_UNIFORM}}};
+
+/// Returns the number of locations of subroutines in a stage, which may be missing.
+GLint subroutine_locations(GLuint program, const StageRow& row) {
+    GLint uniforms = 0, locations = 0;
+    glGetProgramInterfaceiv(program, row.subroutine_uniforms, GL_ACTIVE_RESOURCES, &uniforms);
+    if (uniforms > 0) glGetProgramStageiv(program, row.stage, GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS, &locations);
+    return locations;
+}
 
 /// Capabilities that draws, clears and blits depend on, and their value while a list runs. Lists set the first four.
 constexpr std::array<std::pair<GLenum, bool>, 31> kFixed = {{{GL_DEPTH_TEST, false},
@@ -80,25 +92,20 @@ void KeptSubroutines::read(GLuint program) {
     if (program == 0) glGetIntegerv(GL_PROGRAM_PIPELINE_BINDING, &pipeline);
     for (std::size_t i = 0; i < kStages; ++i) {
         chosen_[i].clear();
-        GLint of_stage = static_cast<GLint>(program), locations = 0;
-        if (pipeline != 0) glGetProgramPipelineiv(static_cast<GLuint>(pipeline), kShaderStages[i], &of_stage);
-        // A program without the stage has no subroutines in it, and some drivers make an error of the question.
-        GLint subroutines = 0;
-        if (of_stage != 0)
-            glGetProgramInterfaceiv(static_cast<GLuint>(of_stage), kSubroutineUniforms[i], GL_ACTIVE_RESOURCES,
-                                    &subroutines);
-        if (subroutines == 0) continue;
-        glGetProgramStageiv(static_cast<GLuint>(of_stage), kShaderStages[i], GL_ACTIVE_SUBROUTINE_UNIFORM_LOCATIONS,
-                            &locations);
+        const GLenum stage = kStageRows[i].stage;
+        auto of_stage = static_cast<GLint>(program);
+        if (pipeline != 0) glGetProgramPipelineiv(static_cast<GLuint>(pipeline), stage, &of_stage);
+        if (of_stage == 0) continue;
+        const GLint locations = subroutine_locations(static_cast<GLuint>(of_stage), kStageRows[i]);
         for (GLint location = 0; location < locations; ++location)
-            glGetUniformSubroutineuiv(kShaderStages[i], location, &chosen_[i].emplace_back());
+            glGetUniformSubroutineuiv(stage, location, &chosen_[i].emplace_back());
     }
 }
 
 void KeptSubroutines::write() {
     for (std::size_t i = 0; i < kStages; ++i) {
         if (chosen_[i].empty()) continue;
-        glUniformSubroutinesuiv(kShaderStages[i], static_cast<GLsizei>(chosen_[i].size()), chosen_[i].data());
+        glUniformSubroutinesuiv(kStageRows[i].stage, static_cast<GLsizei>(chosen_[i].size()), chosen_[i].data());
         chosen_[i].clear();
     }
 }

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/gl/device.h"
+#include "engine/gl/device_gl45.h"
 
 /// OpenGL objects behind handles, and functions that create them. Private to the executor.
 namespace gnomon::gl {
@@ -81,6 +81,9 @@ void delete_buffer(const GlBuffer& buffer);
 /// Takes an object that someone else made and goes on owning. invalid_value: it is not what `desc` describes.
 Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc);
 Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc);
+/// As describe_texture() and sample_positions() in device_gl45.h.
+std::optional<EngineTexture> described(GLuint name);
+std::vector<std::array<float, 2>> places_of_samples(GLuint name);
 Made<GlProgram> make_program(const ProgramDesc& desc);
 /// Returns all bindings that the program reads.
 std::vector<GlInput> inputs_of(GLuint program);

@@ -6,3 +6,11 @@ if(GNOMON_SAMPLE)
     unlit_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_shaders)
 endif()
+# An engine that shares its context with Gnomon.
+if(GNOMON_SAMPLE)
+  gnomon_tests(NAME gl_manners LABEL gl SOURCES
+    gl_state_record.cpp
+    kept_state_gl_test.cpp
+    unusual_gl_state.cpp
+    LIBRARIES gnomon_sample gnomon_shaders PkgConfig::EPOXY)
+endif()
