@@ -43,7 +43,8 @@ std::uint32_t texel_bytes(Format format);
 /// Returns the bytes of one texel in uploads and readbacks: depth formats use one float.
 std::uint32_t transfer_bytes(Format format);
 bool is_depth(Format format);
-/// Returns true for formats that shaders read and write as integers. BeginPass::colour is truncated for them.
+/// Returns true for formats that shaders read and write as integers. BeginPass::colour is truncated for them; from 2^32
+/// on it is the largest integer.
 bool is_integer(Format format);
 const char* to_text(Format format);
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/gl/gl45_draw_into.h"
 #include "engine/gl/gl45_execute.h"
 #include "engine/gl/gl45_kept_state.h"
 #include "engine/gl/gl45_manners.h"
@@ -161,6 +162,12 @@ public:
     auto asked(Ask&& ask) const {
         const GlCall call = enter();
         return ask();
+    }
+    bool draw_into(TargetHandle handle, const Rect& viewport, const std::function<void()>& draw) const {
+        const GlTarget* target = find_object(objects_.targets, handle.id);
+        if (target == nullptr) return false;
+        gl::draw_into(*target, viewport, draw);
+        return true;
     }
     TextureHandle import(GLuint name, const TextureDesc& desc) {
         const GlCall call = enter();
@@ -336,6 +343,10 @@ std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, un
     const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
     return device == nullptr ? std::vector<std::array<float, 2>>()
                              : device->asked([&] { return places_of_samples(name); });
+}
+bool draw_into(Device& gl45_device, TargetHandle target, const Rect& viewport, const std::function<void()>& draw) {
+    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
+    return device != nullptr && device->draw_into(target, viewport, draw);
 }
 TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc) {
     auto* device = dynamic_cast<Gl45Device*>(&gl45_device);

@@ -60,6 +60,11 @@ std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, un
 /// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);
 
+/// Calls draw() with a target bound as lists draw casters into it: viewport, clip depths of [0, 1], depth test
+/// `greater` with writes, depth clamp; without culling, blending, scissor and colour writes. Afterwards that state is
+/// as it was. Returns false without calling it if the target is unknown.
+bool draw_into(Device& gl45_device, TargetHandle target, const Rect& viewport, const std::function<void()>& draw);
+
 /// Counts the objects that live on this device (leak checks), imported ones included.
 std::size_t live_objects(const Device& gl45_device);
 

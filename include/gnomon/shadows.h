@@ -53,8 +53,37 @@ struct MeshDesc {
 /// Placed mesh. It darkens others (casts) and is darkened (receives); what a view shows and nothing declares receives
 /// no fitted shadow.
 struct CasterDesc {
-    MeshId mesh;
+    MeshId mesh = {};
     glm::dmat4 world_from_mesh{1.0};  // affine; may mirror, scale and shear
+    bool casts = true;
+    bool receives = true;
+    ShadowLayers cast_layers = kAllShadowLayers;
+    ShadowLayers receive_layers = kAllShadowLayers;
+};
+
+/// View of a light's map into which an engine draws a caster with code of its own. When it is called, the map is bound
+/// with its viewport, and the depth test, clip depths of [0, 1] and what else a depth pass needs are set; culling is
+/// off. Draw with any program that gives gl_Position = clip_from_world * position and whose fragment shader has no
+/// output. That state is reset afterwards; what else the draw changes stays changed.
+struct DrawableView {
+    glm::mat4 clip_from_world{1.0f};   // exact enough near the world's origin
+    glm::mat4 clip_from_anchor{1.0f};  // of positions minus anchor_m, subtracted in double: exact anywhere
+    glm::dvec3 anchor_m{0.0};
+    std::uint32_t size_px = 0;  // edge of the map
+    LightId light;
+};
+
+/// Box in world space, metres.
+struct Bounds {
+    glm::dvec3 min_m{0.0}, max_m{0.0};
+};
+
+/// Caster that the engine draws: wind, terrain, tessellation, GPU skinning, particles. Filters that read triangles
+/// treat it by depth, as docs/embedding.md says. Visibility queries do not see it.
+struct DrawableDesc {
+    std::string_view name = {};
+    std::function<void(const DrawableView&)> draw = {};  // called within render(), for each map that shows it
+    Bounds bounds = {};                                  // contains all that is drawn
     bool casts = true;
     bool receives = true;
     ShadowLayers cast_layers = kAllShadowLayers;
@@ -179,6 +208,12 @@ public:
     void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
     void set_caster(CasterId caster, const CasterDesc& desc);
     void remove(CasterId caster);
+
+    /// Adds a caster that the engine draws.
+    CasterId add_drawable(const DrawableDesc& drawable);
+    /// Announces that a drawable draws something else from now on, within `bounds`. Maps that show it are drawn again.
+    /// Without this call they stay, at no cost.
+    void redraw(CasterId drawable, const Bounds& bounds);
 
     LightId add_light(const LightDesc& light);
     /// Changes a light. What is equal costs nothing.

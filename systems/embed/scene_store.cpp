@@ -19,6 +19,9 @@
 namespace gnomon::embed {
 namespace {
 
+/// Mesh of everything that the engine draws itself: it has no triangles.
+constexpr std::uint32_t kDrawableMesh = 0;
+
 template <class Id>
 ecs::Entity entity_of(Id id) {
     return {id.index, id.version};
@@ -79,7 +82,9 @@ bool same_place(const ConsumerItem& a, const ConsumerItem& b) {
 
 }  // namespace
 
-SceneStore::SceneStore() : library_(empty_library()) {}
+SceneStore::SceneStore() : library_(empty_library()) {
+    library_.meshes.emplace_back().name = "drawable";  // kDrawableMesh
+}
 
 Result<MeshId> SceneStore::add_mesh(const MeshDesc& desc) {
     auto mesh = mesh_of(desc, library_);
@@ -95,12 +100,30 @@ void SceneStore::remove(MeshId mesh) {
 
 CasterId SceneStore::add_caster(const CasterDesc& desc) {
     instances_anew_ = true;
-    return casters_.add({desc});
+    return casters_.add({.desc = desc});
+}
+
+CasterId SceneStore::add_drawable(const DrawableDesc& desc) {
+    instances_anew_ = true;
+    return casters_.add({.desc = {.casts = desc.casts,
+                                  .receives = desc.receives,
+                                  .cast_layers = desc.cast_layers,
+                                  .receive_layers = desc.receive_layers},
+                         .draw = desc.draw,
+                         .bounds = desc.bounds});
+}
+
+void SceneStore::redraw(CasterId id, const Bounds& bounds) {
+    Caster* caster = casters_.find(id);
+    if (!caster || !caster->draw) return;
+    caster->bounds = bounds;
+    if (!caster->moved && !caster->marked) changed_.push_back(id);
+    caster->moved = true;
 }
 
 void SceneStore::set_caster(CasterId id, const CasterDesc& desc) {
     Caster* caster = casters_.find(id);
-    if (!caster) return;
+    if (!caster || caster->draw) return;
     const bool moved = caster->desc.mesh != desc.mesh || caster->desc.world_from_mesh != desc.world_from_mesh;
     const bool marked = caster->desc.casts != desc.casts || caster->desc.receives != desc.receives ||
                         caster->desc.cast_layers != desc.cast_layers ||
@@ -115,7 +138,7 @@ void SceneStore::set_caster(CasterId id, const CasterDesc& desc) {
 
 void SceneStore::set_transform(CasterId id, const glm::dmat4& world_from_mesh) {
     Caster* caster = casters_.find(id);
-    if (!caster || caster->desc.world_from_mesh == world_from_mesh) return;
+    if (!caster || caster->draw || caster->desc.world_from_mesh == world_from_mesh) return;
     caster->desc.world_from_mesh = world_from_mesh;
     if (!caster->moved && !caster->marked) changed_.push_back(id);
     caster->moved = true;
@@ -155,8 +178,25 @@ std::uint32_t SceneStore::light_index(LightId id) const {
     return light ? light->item : kNone;
 }
 
+LightId SceneStore::light_at(std::uint32_t index) const {
+    const ecs::Entity entity = snapshot_.lights[index].entity;
+    return {entity.index, entity.version};
+}
+
+const std::function<void(const DrawableView&)>* SceneStore::draw_of(std::uint32_t instance) const {
+    const ecs::Entity entity = snapshot_.instances[instance].entity;
+    const Caster* caster = casters_.find({entity.index, entity.version});
+    return caster && caster->draw ? &caster->draw : nullptr;
+}
+
 /// Returns why a caster cannot be placed; DropReason::instances_full, which no caster has, if it can.
-DropReason SceneStore::fault_of(const CasterDesc& desc) const {
+DropReason SceneStore::fault_of(const Caster& caster) const {
+    const CasterDesc& desc = caster.desc;
+    if (caster.draw) {
+        const math::Aabb box{caster.bounds.min_m, caster.bounds.max_m};
+        return math::is_finite(box) && !math::is_empty(box) ? DropReason::instances_full
+                                                            : DropReason::non_finite_transform;
+    }
     if (!meshes_.find(desc.mesh)) return DropReason::unknown_mesh;
     if (!is_finite(desc.world_from_mesh)) return DropReason::non_finite_transform;
     const std::optional<glm::dmat3> basis = drawable_basis(glm::dmat3(desc.world_from_mesh));
@@ -170,11 +210,18 @@ DropReason SceneStore::fault_of(const CasterDesc& desc) const {
 void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
     const CasterDesc& desc = caster.desc;
     item.entity = entity_of(id);
-    item.mesh = *meshes_.find(desc.mesh);
     item.gpu_slot = id.index;
-    item.basis = *drawable_basis(glm::dmat3(desc.world_from_mesh));
-    item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
-    item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
+    item.drawable = static_cast<bool>(caster.draw);
+    if (item.drawable) {
+        item.mesh = kDrawableMesh;
+        item.bounds_ws = {caster.bounds.min_m, caster.bounds.max_m};
+        item.translation_ws_m = math::centre(item.bounds_ws);
+    } else {
+        item.mesh = *meshes_.find(desc.mesh);
+        item.basis = *drawable_basis(glm::dmat3(desc.world_from_mesh));
+        item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
+        item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
+    }
     item.mirrored = glm::determinant(item.basis) < 0.0;
     item.casts = desc.casts;
     item.receives = desc.receives;
@@ -188,7 +235,7 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
 bool SceneStore::put_changes() {
     const auto lacks = [&](CasterId id) {
         const Caster* caster = casters_.find(id);
-        return caster && (caster->instance == kNone || fault_of(caster->desc) != DropReason::instances_full);
+        return caster && (caster->instance == kNone || fault_of(*caster) != DropReason::instances_full);
     };
     if (std::any_of(changed_.begin(), changed_.end(), lacks)) return false;
     for (const CasterId id : changed_) {
@@ -208,7 +255,7 @@ void SceneStore::list_instances() {
     snapshot_.changed_instances.clear();
     std::erase_if(dropped_, [](const Dropped& dropped) { return static_cast<bool>(dropped.caster); });
     casters_.each([&](CasterId id, Caster& caster) {
-        const DropReason fault = fault_of(caster.desc);
+        const DropReason fault = fault_of(caster);
         if (fault != DropReason::instances_full) {
             dropped_.push_back({id, {}, reason_code(fault)});
             caster.instance = kNone;
@@ -222,6 +269,8 @@ void SceneStore::list_instances() {
         if (is_new || caster.moved || caster.marked) snapshot_.changed_instances.push_back(caster.instance);
         caster.moved = caster.marked = false;
     });
+    snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
+                                         [](const InstanceItem& item) { return item.drawable; });
     snapshot_.gpu_slot_count = casters_.bound();
     snapshot_.shapes.clear();
     for (const assets::Mesh& mesh : library_.meshes) snapshot_.shapes.push_back(mesh.shape);

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ public:
     void set_caster(CasterId caster, const CasterDesc& desc);
     void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
     void remove(CasterId caster);
+    CasterId add_drawable(const DrawableDesc& desc);
+    void redraw(CasterId drawable, const Bounds& bounds);
     LightId add_light(const LightDesc& desc);
     void set_light(LightId light, const LightDesc& desc);
     void tune(LightId light, const ShadowTuning& tuning);
@@ -37,14 +40,20 @@ public:
     /// Returns the light's index in the snapshot; kNone if the handle names no usable light.
     std::uint32_t light_index(LightId light) const;
     static constexpr std::uint32_t kNone = ~0u;
+    /// Returns the light at an index of the snapshot.
+    LightId light_at(std::uint32_t index) const;
+    /// Returns how the caster at an index of the snapshot is drawn; null: it is no drawable.
+    const std::function<void(const DrawableView&)>* draw_of(std::uint32_t instance) const;
 
 private:
     struct Caster {
-        CasterDesc desc;
-        std::uint32_t instance = kNone;  // index in the snapshot; kNone: unusable
-        std::uint64_t version = 0;       // InstanceItem::version
-        bool moved = true;               // its mesh or place was set since the last update
-        bool marked = true;              // what it casts or receives was
+        CasterDesc desc;                                     // of a drawable: all but its mesh and place
+        std::function<void(const DrawableView&)> draw = {};  // empty: it has a mesh
+        Bounds bounds = {};                                  // of a drawable
+        std::uint32_t instance = kNone;                      // index in the snapshot; kNone: unusable
+        std::uint64_t version = 0;                           // InstanceItem::version
+        bool moved = true;                                   // its mesh or place was set since the last update
+        bool marked = true;                                  // what it casts or receives was
     };
     struct StoredLight {
         LightDesc desc;
@@ -52,7 +61,7 @@ private:
         std::uint32_t item = kNone;  // index in the snapshot; kNone: unusable
         bool set = true;
     };
-    DropReason fault_of(const CasterDesc& desc) const;
+    DropReason fault_of(const Caster& caster) const;
     void put(Caster& caster, CasterId id, InstanceItem& item) const;
     bool put_changes();
     void list_instances();

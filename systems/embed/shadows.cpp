@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,9 @@ lighting::DepthRounding rounding_of(gl::Format format) {
 
 ecs::Entity entity_of(std::size_t view) { return {static_cast<std::uint32_t>(view), 1}; }
 
+/// Clears a map's triangles: no texel shows any (kNoTriangle in shaders/shadow/filters/triangles/mesh_walk.glsl).
+constexpr float kNoTriangle = 4294967296.0f;  // the largest integer of a cleared format (gl::is_integer)
+
 std::string_view code(gl::Failure failure) { return failure == gl::Failure::none ? "" : gl::to_text(failure); }
 
 }  // namespace
@@ -102,6 +106,7 @@ struct Shadows::State {
     bool provide_scene();
     void take_view(const View& view, std::size_t index);
     void list_layers(const View& view, ViewState& state) const;
+    void draw_drawables();
     void record_masks();
     void submit();
     void fill_masks(std::size_t count);
@@ -117,7 +122,7 @@ struct Shadows::State {
     std::vector<ConsumerItem> consumers;
     std::vector<std::uint32_t> consumer_views;  // view of each consumer
     std::vector<Mask> masks;
-    gl::CommandList commands;
+    gl::CommandList commands, begun;
     FrameReport report;
     shadow::LightingOutcome outcome;
     TimedLights timed;
@@ -200,6 +205,32 @@ void Shadows::State::record_masks() {
     outcome.failure = worst;
 }
 
+/// Begins the maps that show drawables: clears them, and has the engine draw into them. The frame's list then draws all
+/// other casters.
+void Shadows::State::draw_drawables() {
+    const std::span<const shadow::EngineDraw> draws = shadows.engine_draws();
+    if (draws.empty()) return;
+    const auto area = [](const shadow::EngineDraw& draw) {
+        const auto size = static_cast<std::int32_t>(draw.size_px);
+        return gl::Rect{0, 0, size, size};
+    };
+    begun.clear();
+    for (const shadow::EngineDraw& draw : draws) {
+        if (!draw.clears) continue;
+        begun.add(gl::BeginPass{draw.target, area(draw), true, 0.0f, true, {0.0f, kNoTriangle, 0.0f, 0.0f}});
+        begun.add(gl::EndPass{});
+    }
+    device->submit(begun);
+    for (const shadow::EngineDraw& draw : draws) {
+        const auto* engine = store.draw_of(draw.instance);
+        if (!engine) continue;
+        const glm::dmat4 anchor_from_world = glm::translate(glm::dmat4(1.0), -draw.anchor_ws_m);
+        const DrawableView view{glm::mat4(glm::dmat4(draw.clip_from_anchor) * anchor_from_world), draw.clip_from_anchor,
+                                draw.anchor_ws_m, draw.size_px, store.light_at(draw.light)};
+        gl::draw_into(*device, draw.target, area(draw), [&] { (*engine)(view); });
+    }
+}
+
 void Shadows::State::submit() {
     const gl::SubmitResult result = device->submit(commands);
     timed.submitted(result.submission, report);
@@ -235,6 +266,8 @@ Shadows::~Shadows() = default;
 
 Result<MeshId> Shadows::add_mesh(const MeshDesc& mesh) { return state_->store.add_mesh(mesh); }
 void Shadows::remove(MeshId mesh) { state_->store.remove(mesh); }
+CasterId Shadows::add_drawable(const DrawableDesc& drawable) { return state_->store.add_drawable(drawable); }
+void Shadows::redraw(CasterId drawable, const Bounds& bounds) { state_->store.redraw(drawable, bounds); }
 CasterId Shadows::add_caster(const CasterDesc& caster) { return state_->store.add_caster(caster); }
 void Shadows::set_transform(CasterId caster, const glm::dmat4& world_from_mesh) {
     state_->store.set_transform(caster, world_from_mesh);
@@ -275,6 +308,7 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
         s.shadows.update(scene, *s.gpu, settings, s.commands, s.report);
         s.record_masks();
         s.shadows.report(scene, s.outcome, s.report);
+        s.draw_drawables();
         s.submit();
     }
     s.fill_masks(views.size());

@@ -88,6 +88,7 @@ struct InstanceItem {
     bool visible = true;
     bool mirrored = false;  // negative determinant
     bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
+    bool drawable = false;  // the engine draws it: its mesh has bounds and no triangles
     std::uint64_t version = 0;  // grows when mesh, place or pose changes, which maps depend on
 };
 
@@ -135,6 +136,7 @@ struct SceneSnapshot {
     std::vector<DroppedEntity> dropped;
     std::vector<std::uint32_t> changed_instances;  // instances to upload in this frame, sorted by gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
+    bool any_drawable = false;                     // InstanceItem::drawable is set for some instance
     std::uint64_t version = 0;  // grows with every change; by 1 if changed_instances has all instances with a new
                                 // version. 0: changes are not counted, and everything is always new
     /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:

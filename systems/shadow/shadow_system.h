@@ -2,6 +2,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -74,6 +75,11 @@ public:
     /// Sets the function that is called after each stage, for tests and tools. Empty: none.
     void watch_stages(StageWatch watch) { watch_ = std::move(watch); }
 
+    /// Returns the draws into maps that the engine makes before it submits the frame's list (SceneSnapshot::
+    /// any_drawable).
+    std::span<const EngineDraw> engine_draws() const {
+        return reused_ ? std::span<const EngineDraw>() : depth_pass_.engine_draws();
+    }
     const visibility::RayScene& rays() const { return rays_; }
     const MapCache& maps() const { return maps_; }
     const ContributionCulling& contribution_culling() const { return contribution_culling_; }

@@ -14,6 +14,12 @@ enum class StaticCopyUse : std::uint8_t {
     copy   // static casters are copied into the map instead of being drawn
 };
 
+/// Copy of a view's static casters, and what becomes of it. Without use there are no textures.
+struct StaticCopyPlan {
+    StaticCopyUse use = StaticCopyUse::none;
+    gl::TextureHandle texture{}, triangles{};
+};
+
 /// Reason to keep a stale map after its casters moved.
 enum class Hold : std::uint8_t {
     none,
@@ -29,6 +35,8 @@ struct Staleness {
 
 /// Plan for a view's map in this frame: draw it, keep it, or skip it for rays.
 struct UpdatePlan {
+    /// The engine draws some of its casters: it is cleared and begun before the list (engine_draw.h).
+    bool begun_by_engine = false;
     bool skipped_for_rays = false;     // rays replace the map, because drawing it costs more
     bool reuse = false;                // the layer is kept
     Hold hold = Hold::none;            // why it is kept although casters moved
@@ -40,8 +48,7 @@ struct UpdatePlan {
     std::uint32_t waited_frames = 0;   // consecutive frames for which its update was deferred
     bool convert = false;              // the prefiltered map is computed again
     std::uint64_t moment_content = 0;  // hash of the prefiltered map's content after that
-    StaticCopyUse copy_use = StaticCopyUse::none;
-    gl::TextureHandle still{}, static_triangles{};  // the copy of static casters, if used
+    StaticCopyPlan copy;
     gl::TargetHandle whole{};  // all layers of the light's map, where one pass draws all of its views; else {0}
     CubeRoute route = CubeRoute::six_passes;
 };

@@ -29,7 +29,7 @@ gl::PipelineState depth_state(gl::ProgramHandle program) {
 /// Returns the casters that the view draws in this frame.
 std::span<const std::uint32_t> drawn_casters(const DrawnViews& drawn, std::size_t v) {
     const ShadowView& view = drawn.view(v);
-    if (drawn.updates[v].copy_use == StaticCopyUse::copy) return drawn.fitted.moving_casters_of(view);
+    if (drawn.updates[v].copy.use == StaticCopyUse::copy) return drawn.fitted.moving_casters_of(view);
     return drawn.fitted.casters_of(view);
 }
 
@@ -41,8 +41,8 @@ void copy_layer(const DrawnViews& drawn, std::size_t v, bool back, gl::CommandLi
     const auto copy = [&](gl::TextureHandle from, gl::TextureHandle to) {
         if (from) list.add(back ? gl::CopyTexture{to, from, layer} : gl::CopyTexture{from, to, layer});
     };
-    copy(map.texture, plan.still);
-    copy(map.triangles, plan.static_triangles);
+    copy(map.texture, plan.copy.texture);
+    copy(map.triangles, plan.copy.triangles);
 }
 
 }  // namespace
@@ -212,8 +212,24 @@ void DepthPass::begin(const PassInputs& in, const Pass& pass, gl::CommandList& l
         list.add(gl::BeginPass{in.drawn.maps[v].target, {0, 0, size, size}, true, 0.0f, false, {}});
         list.add(gl::EndPass{});
     }
-    if (plan.copy_use == StaticCopyUse::copy) copy_layer(in.drawn, pass.first, true, list);
-    begin_pass(in, pass, one_clear && plan.copy_use != StaticCopyUse::copy, list);
+    if (plan.copy.use == StaticCopyUse::copy) copy_layer(in.drawn, pass.first, true, list);
+    begin_pass(in, pass, one_clear && plan.copy.use != StaticCopyUse::copy && !plan.begun_by_engine, list);
+}
+
+/// Lists the casters of a pass that the engine draws. They come first: where another caster is nearer, it is drawn over
+/// them, with its triangle.
+void DepthPass::list_engine_draws(const PassInputs& in, const Pass& pass, LightReport& report) {
+    if (!in.drawn.updates[pass.first].begun_by_engine) return;
+    const ShadowView& view = in.drawn.view(pass.first);
+    const MapAssignment& map = in.drawn.maps[pass.first];
+    bool first = true;
+    for (const std::uint32_t i : in.drawn.fitted.casters_of(view)) {
+        if (!in.scene.instances[i].drawable) continue;
+        engine_draws_.push_back(
+            {i, view.light, map.target, map.size_px, first, view.clip_from_anchor, view.pose.anchor_ws_m});
+        first = false;
+        ++report.counts.draws;
+    }
 }
 
 void DepthPass::begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const {
@@ -274,6 +290,7 @@ void DepthPass::peel(const PassInputs& in, const Pass& pass, gl::CommandList& li
 
 void DepthPass::record(const PassInputs& in, const PassOutputs& out) {
     gather(in);
+    engine_draws_.clear();
     if (passes_.empty()) return;
     gl::CommandList& list = out.list;
     list.update(items_.handle(), 0, std::span<const DrawItem>(item_scratch_));
@@ -282,8 +299,9 @@ void DepthPass::record(const PassInputs& in, const PassOutputs& out) {
         const std::uint32_t light = in.drawn.view(pass.first).light;
         const LightTimer time(out.cpu_us, light);
         LightReport& report = out.report.lights[light];
-        const StaticCopyUse copy_use = in.drawn.updates[pass.first].copy_use;
+        const StaticCopyUse copy_use = in.drawn.updates[pass.first].copy.use;
         pipeline_ = {};
+        list_engine_draws(in, pass, report);
         begin(in, pass, list);
         const DepthVariant way = variant_of(in, pass.first);
         draw(in, pass, way, pass.still, list, report);

@@ -6,6 +6,7 @@
 #include "engine/gl/device.h"
 #include "systems/growing_buffer.h"
 #include "systems/retry.h"
+#include "systems/shadow/frame/engine_draw.h"
 #include "systems/shadow/frame/light_accounts.h"
 #include "systems/shadow/frame/pass_inputs.h"
 
@@ -26,6 +27,9 @@ public:
     /// Records the depth passes in order (stage 7, first half). There is one pass per drawn view, or one for all views
     /// of a light with plans that name a whole map.
     void record(const PassInputs& in, const PassOutputs& out);
+
+    /// Returns the draws of the last record() that the engine makes before its list.
+    std::span<const EngineDraw> engine_draws() const { return engine_draws_; }
 
 private:
     struct DrawItem {
@@ -70,6 +74,7 @@ private:
     Group gather_layers(const PassInputs& in, const Pass& pass, bool moving);
     void append_uniforms(const ShadowView& view, std::size_t at);
     void begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const;
+    void list_engine_draws(const PassInputs& in, const Pass& pass, LightReport& report);
     void begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const;
     void begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
                          gl::CommandList& list) const;
@@ -101,6 +106,7 @@ private:
     std::vector<std::uint32_t> layer_scratch_;                           // one per caster_scratch_
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pair_scratch_;  // instance, layer
     std::vector<std::byte> view_scratch_;
+    std::vector<EngineDraw> engine_draws_;
     gl::PipelineState pipeline_;  // state of the pass being recorded
     DepthVariant variant_;        // variant of that pass
 };

@@ -113,7 +113,7 @@ void DepthPass::gather(const PassInputs& in) {
             pass.still = gather_layers(in, pass, false);
             pass.moving = gather_layers(in, pass, true);
         } else {
-            if (in.drawn.updates[v].copy_use != StaticCopyUse::copy)
+            if (in.drawn.updates[v].copy.use != StaticCopyUse::copy)
                 pass.still = gather_view(in.scene, fitted.static_casters_of(view));
             pass.moving = gather_view(in.scene, fitted.moving_casters_of(view));
         }

@@ -34,7 +34,7 @@ void commit_maps(const SceneSnapshot& scene, const DrawnViews& drawn, const Fram
         }
         if (layer < cached.layers.shown.size())
             cached.layers.shown[layer].waited_frames = plan.hold == Hold::by_turn ? plan.waited_frames + 1 : 0;
-        if (plan.copy_use == StaticCopyUse::fill) cached.still.layers[layer].content = end.executed ? wanted.still : 0;
+        if (plan.copy.use == StaticCopyUse::fill) cached.still.layers[layer].content = end.executed ? wanted.still : 0;
         if (plan.convert && drawn.has_prefiltered(v))
             cached.moments.content[layer] = end.executed ? plan.moment_content : 0;
     }

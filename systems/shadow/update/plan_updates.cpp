@@ -85,6 +85,17 @@ void plan_prefiltering(const SceneSnapshot& scene, const UpdateInputs& inputs, c
     }
 }
 
+/// Marks the views in which the engine draws casters.
+void mark_engine_draws(const SceneSnapshot& scene, const UpdateInputs& inputs, std::vector<UpdatePlan>& plans) {
+    if (!scene.any_drawable) return;
+    for (std::size_t v = 0; v < plans.size(); ++v) {
+        if (!inputs.maps[v].texture || plans[v].skipped_for_rays || plans[v].reuse) continue;
+        const auto casters = inputs.fitted.casters_of(inputs.fitted.views[v]);
+        plans[v].begun_by_engine =
+            std::any_of(casters.begin(), casters.end(), [&](std::uint32_t i) { return scene.instances[i].drawable; });
+    }
+}
+
 /// Chooses how the faces of cubes are drawn: one pass per face, or one for all.
 void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapCache& maps,
                    std::vector<UpdatePlan>& plans) {
@@ -98,7 +109,7 @@ void choose_routes(const SceneSnapshot& scene, const UpdateInputs& inputs, MapCa
         bool apart = static_cast<bool>(inputs.maps[range.first].sheets.second);  // these are peeled face by face
         for (std::size_t v = range.first; v < range.end(); ++v) {
             faces += drawn(v) ? 1 : 0;
-            apart = apart || plans[v].copy_use != StaticCopyUse::none;
+            apart = apart || plans[v].copy.use != StaticCopyUse::none || plans[v].begun_by_engine;
         }
         if (faces == 0 || apart) continue;
         const CubeRoute route = cube_route(scene.lights[i].tuning.maps.cube_route, maps.device(), faces);
@@ -125,6 +136,7 @@ void plan_updates(const SceneSnapshot& scene, const GpuScene& gpu, const UpdateI
     for (std::size_t v = 0; v < plans.size(); ++v)
         if (plans[v].hold == Hold::by_turn) maps.entry(scene.lights[inputs.fitted.views[v].light].entity).waits = true;
     plan_prefiltering(scene, inputs, maps, plans);
+    mark_engine_draws(scene, inputs, plans);
     copy_static_casters(scene, gpu, inputs, maps, plans);
     choose_routes(scene, inputs, maps, plans);
 }
@@ -136,7 +148,8 @@ void keep_all(std::span<const MapAssignment> maps, std::vector<UpdatePlan>& plan
         plan.convert = false;
         plan.whole = {};
         plan.route = CubeRoute::six_passes;
-        plan.copy_use = StaticCopyUse::none;
+        plan.copy.use = StaticCopyUse::none;
+        plan.begun_by_engine = false;
     }
 }
 

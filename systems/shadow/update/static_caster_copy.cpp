@@ -19,7 +19,9 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         const MapAssignment& assigned = inputs.maps[v];
         UpdatePlan& plan = plans[v];
         const bool both = view.static_casters > 0 && view.static_casters < view.casters.count;
-        if (!both || !assigned.texture || plan.skipped_for_rays || plan.reuse || assigned.sheets.second) continue;
+        if (!both || !assigned.texture || plan.skipped_for_rays || plan.reuse || plan.begun_by_engine ||
+            assigned.sheets.second)
+            continue;
         const LightItem& light = scene.lights[view.light];
         if (!light.tuning.reuse.economy) continue;
         CachedMap& map = maps.entry(light.entity);
@@ -33,9 +35,9 @@ void copy_static_casters(const SceneSnapshot& scene, const GpuScene& gpu, const 
         if (!held && !again) continue;
         const auto still = inputs.fitted.static_casters_of(view);
         if (!pays_to_copy(scene, gpu, still, layer_bytes(map)) || !maps.provide_static_copy(map)) continue;
-        plan.copy_use = held ? StaticCopyUse::copy : StaticCopyUse::fill;
-        plan.still = map.still.texture;
-        plan.static_triangles = map.still.triangles;
+        plan.copy.use = held ? StaticCopyUse::copy : StaticCopyUse::fill;
+        plan.copy.texture = map.still.texture;
+        plan.copy.triangles = map.still.triangles;
         map.still.last_used_frame = maps.frame();
     }
     maps.release_idle_copies();

@@ -129,6 +129,30 @@ TEST_F(SceneStoreTest, WhatCannotBePlacedIsNamedAndComesBack) {
     EXPECT_EQ(reason(), "unknown_mesh");
 }
 
+TEST_F(SceneStoreTest, ADrawableIsACasterWithoutTriangles) {
+    const auto draw = [](const DrawableView&) {};
+    const CasterId grass = store.add_drawable({.draw = draw, .bounds = {{0.0, 0.0, 0.0}, {2.0, 1.0, 2.0}}});
+    const SceneSnapshot& scene = updated();
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_TRUE(scene.any_drawable);
+    EXPECT_TRUE(scene.instances[0].drawable);
+    EXPECT_TRUE(store.library().meshes[scene.instances[0].mesh].indices.empty());
+    EXPECT_NE(store.draw_of(0), nullptr);
+    const std::uint64_t version = scene.instances[0].version;
+    updated();
+    EXPECT_EQ(store.snapshot().instances[0].version, version) << "it stands still";
+    store.redraw(grass, {{0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}});
+    EXPECT_GT(updated().instances[0].version, version);
+    EXPECT_EQ(store.snapshot().instances[0].bounds_ws.max.x, 3.0);
+    store.redraw(grass, {{0.0, 0.0, 0.0}, {-1.0, 1.0, 2.0}});
+    EXPECT_TRUE(updated().instances.empty()) << "no box";
+    EXPECT_FALSE(store.snapshot().any_drawable);
+    EXPECT_EQ(store.dropped().size(), 1u);
+    store.remove(grass);
+    updated();
+    EXPECT_TRUE(store.dropped().empty());
+}
+
 TEST_F(SceneStoreTest, MeshesThatAreNoneAreRefusedByRule) {
     const auto rule = [&](const MeshDesc& desc) {
         const auto made = store.add_mesh(desc);

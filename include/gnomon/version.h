@@ -1,0 +1,16 @@
+#pragma once
+
+namespace gnomon {
+
+/// Version, as docs/versions.md defines it.
+struct Version {
+    int major = 0, minor = 0, patch = 0;
+    bool operator==(const Version&) const = default;
+};
+
+/// Version of these headers.
+inline constexpr Version kVersion{0, 1, 0};
+/// Returns the version of the library that is linked. It equals kVersion, unless headers and library were mixed.
+Version linked_version();
+
+}  // namespace gnomon

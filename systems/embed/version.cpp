@@ -1,0 +1,7 @@
+#include "gnomon/version.h"
+
+namespace gnomon {
+
+Version linked_version() { return kVersion; }
+
+}  // namespace gnomon
