@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-LIMIT = 10
+LIMIT = 9
 PARTS = ("systems", "sample_game", "bench")
 COUNTED = {".h", ".cpp", ".inc", ".cmake", ".txt"}
 # The tables and the files with their rows.
@@ -44,14 +44,14 @@ def comparisons(root):
 SAMPLES = (
     ("if (light_facts(light.kind).parallel) f();\n", 0),
     ("item.kind = LightKind::spot;\nif (filter == ShadowFilter::automatic) f(ShadowFilter::hard);\n", 0),
-    ("// kind == LightKind::spot, kTriangles\n/* row.storage\n == FilterStorage::sheets */\n", 0),
+    ("// kind == LightKind::spot, kTriangleIds\n/* row.storage\n == FilterStorage::bounds */\n", 0),
     ("history.storage == storage;\n", 0),
     ("if (a.kind == LightKind::spot || LightKind::point != kind) f();\n", 2),
     ("if (a.kind ==\n    gnomon::LightKind::spot) f();\n", 1),
     ("switch (kind) { case LightKind::spot: case gnomon::LightKind::point: f(); }\n", 2),
     ("return filter != ShadowFilter::hard;\n", 1),
-    ("row.storage == FilterStorage::sheets;\nrow.storage != shadow::Storage::sheets;\n", 2),
-    ('if(row MATCHES "kTriangles")\nendif()\n', 1),
+    ("row.storage == FilterStorage::bounds;\nrow.storage != shadow::Storage::bounds;\n", 2),
+    ('if(row MATCHES "kTriangleIds")\nendif()\n', 1),
 )
 
 
@@ -74,7 +74,7 @@ def judged(contents):
 
 def self_test():
     failures = []
-    tables = {**dict.fromkeys(TABLES, "if (kind == LightKind::spot) f();\n"), STORAGE_TABLE: "constexpr FilterStorage kTriangles{};\n"}
+    tables = {**dict.fromkeys(TABLES, "if (kind == LightKind::spot) f();\n"), STORAGE_TABLE: "constexpr FilterStorage kTriangleIds{};\n"}
     for part in PARTS:
         for text, want in SAMPLES:
             found, _ = judged({**tables, f"{part}/own.cpp": text})

@@ -65,7 +65,7 @@ def read_junit(path):
     return results
 
 
-def read_googletest(path, prefix):
+def read_googletest(path):
     """One process's tests as [Case]; None where it left no results, as one that crashed does."""
     try:
         cases = ElementTree.parse(path).getroot().iter("testcase")
@@ -73,7 +73,7 @@ def read_googletest(path, prefix):
         return None
     results = []
     for case in cases:
-        name = f"{prefix}{case.get('classname')}.{case.get('name')}"
+        name = f"{case.get('classname')}.{case.get('name')}"
         failures = [failure.get("message") or "" for failure in case.iter("failure")]
         if failures:
             results.append(Case("failed", name, "\n".join(failures), seconds_of(case)))
@@ -90,7 +90,7 @@ def read(argument):
     junit, _, folder = argument.partition("=")
     results = []
     for process in read_junit(junit):
-        own = read_googletest(Path(folder) / f"{process.name}.xml", "") if folder else None
+        own = read_googletest(Path(folder) / f"{process.name}.xml") if folder else None
         if not own:
             results.append(process)
             continue

@@ -69,7 +69,7 @@ struct ShadowTuning {
         float spread_m = 0.0f;
         /// Distance from the camera at which that half-width has doubled, metres. 0: it is constant.
         float doubles_m = 0.0f;
-        /// Seed of poisson_rotated, poisson_stratified and the pcss filters.
+        /// Seed of poisson_rotated, poisson_stratified, pcss and exact_soft.
         FilterSeed seed = FilterSeed::world;
         /// Edge of a cell of FilterSeed::world, metres, above 0.
         float cell_m = 0.02f;

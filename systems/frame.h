@@ -90,8 +90,9 @@ public:
     /// Returns the labels of the last frame's debug view; empty without one.
     const std::vector<debug::Label>& debug_labels() const;
 
-    /// Reads the visibility of light `light` (index into snapshot().lights) in the last frame: viewport_px floats,
-    /// bottom row first, as --visibility in the README. Returns false if there is none.
+    /// Reads the visibility of light `light` (index into snapshot().lights) in the last frame: a float per pixel,
+    /// bottom row first. 1: lit. 0: shadowed, facing away or out of range. -1: no surface. Returns false if there is
+    /// none.
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
 
 private:

@@ -24,7 +24,7 @@ std::vector<std::string> what_follows(const gl::DeviceFacts& facts, const gl::De
                                    : "hardware device: times are taken by timer queries");
     all.push_back(
         formatted("maps: at most %u px flat, %u px a cube's face; "
-                  "larger wishes are cut to that",
+                  "larger requests are cut to that",
                   info.max_texture_px, info.max_cube_px));
     all.push_back(formatted("cube faces by cube_route=automatic: %s",
                             route_words(shadow::cube_route(CubeRoute::automatic, info, kFaces))));

@@ -8,8 +8,10 @@ add_test(NAME Prose.BreachesOnlyFall COMMAND Python3::Interpreter ${PROJECT_SOUR
 add_test(NAME Prose.ABreachIsFound COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/.ci/check_prose.py --self-test)
 add_test(NAME Summary.CountsWhatCtestReports
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/project/summary_test.py ${PROJECT_SOURCE_DIR}/.ci)
+add_test(NAME SamePictures.FindsWhatDiffers
+  COMMAND Python3::Interpreter ${CMAKE_CURRENT_SOURCE_DIR}/project/same_pictures_test.py ${PROJECT_SOURCE_DIR}/.ci)
 add_test(NAME Launcher.KeepsItsPromises
   COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/project/launcher_test.sh ${PROJECT_SOURCE_DIR}/gnomon)
 set_tests_properties(Arrows.EveryFileKeepsThem Arrows.AWrongOneIsFound Tables.CodeReadsTheirFacts Tables.AComparisonIsFound
-  Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports
+  Prose.BreachesOnlyFall Prose.ABreachIsFound Summary.CountsWhatCtestReports SamePictures.FindsWhatDiffers
   Launcher.KeepsItsPromises PROPERTIES LABELS unit TIMEOUT 60)
