@@ -50,6 +50,13 @@ endforeach()
 foreach(part components engine shaders systems)
   set_target_properties(gnomon_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
+# Core is an export of its own: whoever asks for it alone needs GLM alone. Its one header is <gnomon/core.h>.
+set_target_properties(gnomon_core PROPERTIES EXPORT_NAME core)
+target_include_directories(gnomon_core INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS gnomon_core EXPORT GnomonCoreTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
+install(FILES ${PROJECT_SOURCE_DIR}/include/gnomon/core.h DESTINATION ${GNOMON_INCLUDE_DIR} COMPONENT core)
+install(EXPORT GnomonCoreTargets NAMESPACE Gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR} COMPONENT core)
+
 install(TARGETS gnomon_engine gnomon_shaders EXPORT GnomonTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${GNOMON_INCLUDE_DIR})
