@@ -1,7 +1,6 @@
 #include "systems/core/results.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -72,10 +71,11 @@ glm::dmat4 map_in(const Convention& to, const ShadowView& view) {
     return map;
 }
 
-/// Returns the matrix from world space, of one from a view's anchor.
-glm::dmat4 from_world(const glm::dmat4& from_anchor, const glm::dvec3& anchor_ws_m) {
-    glm::dmat4 m = from_anchor;
-    m[3] = from_anchor * glm::dvec4(-anchor_ws_m, 1.0);
+/// Returns the matrix from world space, of one from a view's anchor: the same rounded numbers, so that both find the
+/// same texels.
+glm::dmat4 from_world(const glm::mat4& from_anchor, const glm::dvec3& anchor_ws_m) {
+    glm::dmat4 m(from_anchor);
+    m[3] = m * glm::dvec4(-anchor_ws_m, 1.0);
     return m;
 }
 
@@ -118,11 +118,10 @@ View view_of(const StageResults& stages, const ShadowView& from, const Conventio
     view.empty = from.lit;
     view.mirrored = is_cube(from) && convention.rows_down;
     view.anchor_ws_m = from.pose.anchor_ws_m;
-    const glm::dmat4 clip = clip_in(convention, from), map = map_in(convention, from);
-    view.clip_from_anchor = glm::mat4(clip);
-    view.map_from_anchor = glm::mat4(map);
-    view.clip_from_world = from_world(clip, view.anchor_ws_m);
-    view.map_from_world = from_world(map, view.anchor_ws_m);
+    view.clip_from_anchor = glm::mat4(clip_in(convention, from));
+    view.map_from_anchor = glm::mat4(map_in(convention, from));
+    view.clip_from_world = from_world(view.clip_from_anchor, view.anchor_ws_m);
+    view.map_from_world = from_world(view.map_from_anchor, view.anchor_ws_m);
     view.axis_u = from.pose.axis_u;
     view.axis_v = from.pose.axis_v;
     view.axis_back = from.pose.axis_back;
@@ -142,6 +141,17 @@ View view_of(const StageResults& stages, const ShadowView& from, const Conventio
     return view;
 }
 
+/// Returns false for maps of astronomic or atomic scenes, whose matrices no float holds.
+bool fits_floats(const View& view) {
+    double sum = view.edge_error_px;
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) {
+            sum += std::abs(static_cast<double>(view.clip_from_anchor[c][r]));
+            sum += std::abs(static_cast<double>(view.map_from_anchor[c][r]));
+        }
+    return std::isfinite(sum);
+}
+
 Status status_of(const StageResults& stages, std::uint32_t light) {
     const shadow::LightStatus& status = stages.statuses[light];
     const LightItem& item = stages.input.snapshot().lights[light];
@@ -159,7 +169,6 @@ LightFit light_of(const StageResults& stages, std::uint32_t light) {
     LightFit fit;
     fit.status = status_of(stages, light);
     if (!has_maps(fit.status)) return fit;
-    fit.views = range_of(choice.views);
     fit.receivers = range_of(choice.sets.receivers);
     fit.casters = range_of(choice.sets.casters);
     fit.map_px = request.map.resolution_px;
@@ -182,8 +191,18 @@ void write_results(const StageResults& stages, const Convention& convention, std
                    std::vector<View>& views) {
     lights.clear();
     views.clear();
-    for (std::uint32_t i = 0; i < stages.fitted.lights.size(); ++i) lights.push_back(light_of(stages, i));
-    for (const ShadowView& view : stages.fitted.views) views.push_back(view_of(stages, view, convention));
+    for (std::uint32_t i = 0; i < stages.fitted.lights.size(); ++i) {
+        LightFit& fit = lights.emplace_back(light_of(stages, i));
+        const auto first = static_cast<std::uint32_t>(views.size());
+        for (const ShadowView& view : stages.fitted.views_of(i)) views.push_back(view_of(stages, view, convention));
+        const auto made = std::span(views).subspan(first);
+        if (!std::all_of(made.begin(), made.end(), fits_floats)) {
+            views.resize(first);
+            fit = {};
+            fit.status = Status::fit_degenerate;
+        }
+        fit.views = {first, static_cast<std::uint32_t>(views.size()) - first};
+    }
 }
 
 }  // namespace gnomon::core
