@@ -9,8 +9,9 @@
 #include <memory>
 #include <span>
 
-/// Shadow maps for engines on any graphics API: where the maps lie, how large they are, what is drawn into each, and
-/// how far an edge may be off. Draws nothing and needs GLM alone (target Gnomon::core). docs/core.md is the guide.
+/// Shadow maps for engines on any graphics API: where the maps lie, how large they are, and what is drawn into each.
+/// Predicts how far an edge may be off. Draws nothing and needs GLM alone (target Gnomon::core); the guide is
+/// docs/core.md.
 ///
 /// The world is right-handed, in metres; angles are in radians. Suffixes name units and spaces: `_ws` world, `_px`
 /// pixels or texels of a map's edge, `_texel` lengths in texels. Matrices are `a_from_b` and multiply columns, as
@@ -73,7 +74,7 @@ inline constexpr std::size_t kMostCascades = 8;
 inline constexpr std::uint8_t kAllLayers = 0xff;
 
 /// What a light's shadow is to be. The defaults need no tuning. Invalid values are replaced by these, and the status
-/// says so.
+/// names them.
 struct Shadow {
     Filter filter = Filter::bilinear;
     float max_error_px = 0.0f;        // allowed error of an edge on screen; 0: 1, as far as usual sizes meet it
@@ -82,10 +83,10 @@ struct Shadow {
     std::uint32_t kernel_texel = 3;   // filters that say so: odd, 1 to 31
     float spread_texel = 2.0f;        // Filter::disk: 0 to 16
     DepthFormat depth_format = DepthFormat::d32f;
-    float near_m = 0.0f, far_m = 0.0f;  // depth range, metres from the light or along a sun's rays; 0: fitted
-    Fit fit = Fit::quantised;           // sun
-    Splits splits = Splits::practical;  // sun
-    float split_lambda = 0.7f;          // 0 (uniform) to 1 (logarithmic)
+    float near_m = 0.0f, far_m = 0.0f;               // spot and point: depth range, metres from the light; 0: fitted
+    Fit fit = Fit::quantised;                        // sun
+    Splits splits = Splits::practical;               // sun
+    float split_lambda = 0.7f;                       // 0 (uniform) to 1 (logarithmic)
     std::array<float, kMostCascades - 1> split_m{};  // Splits::manual: along the view, rising; 0 ends the list
     float blend = 0.1f;                              // share of a cascade that fades into the next one, 0 to 0.5
 };
@@ -180,25 +181,24 @@ struct Bias {
     /// Sides of a texel along `axis_u` and `axis_v`: metres, or metres per metre of distance along the view
     /// (perspective, cube_face).
     glm::dvec2 texel{0.0};
-    /// Half-width of the filter's footprint, and the rasteriser's snapping, texels. Filter::soft: without the penumbra,
-    /// whose half-width the lookup adds.
+    /// Half-width of the filter's footprint, and the rasteriser's snapping, texels. Filter::soft: without the penumbra;
+    /// the lookup adds its half-width.
     double reach_texel = 0.0;
     double depth = 0.0;        // constant part, in stored depth
     double depth_share = 0.0;  // part in proportion to the stored depth; 0 unless perspective and reversed
 };
 
 /// One map of a light: a cascade, a spot's view, a face of a cube. Draw its casters with clip_from_anchor or
-/// clip_from_world, both sides, without culling by the near plane: casters before it are clamped onto it (depth clamp).
+/// clip_from_world. Clamp depths instead of clipping at the near plane: casters before it cast all the same.
 struct View {
     std::uint32_t light = 0;  // index into Scene::lights
-    /// Cascade; face of a point's cube in the order +X -X +Y -Y +Z -Z; of a wide spot: ahead 0, around 1 to 4,
-    /// single 5.
+    /// Sun: cascade. Point: face of its cube in the order +X -X +Y -Y +Z -Z. Spot: 0; a wide one has five faces, the
+    /// one ahead first, and its single view 5 while it changes from one to the other.
     std::uint32_t layer = 0;
     ViewKind kind = ViewKind::orthographic;
-    bool stays = false;  // its place and its casters do not depend on what the cameras see now
-    bool empty = false;  // no caster darkens what is seen in it: treat it as lit, do not draw it
-    bool mirrored =
-        false;  // drawn as in a mirror: front faces appear clockwise (cube faces where Convention::rows_down)
+    bool stays = false;     // its place and its casters do not depend on what the cameras see now
+    bool empty = false;     // no caster darkens what is seen in it: treat it as lit, do not draw it
+    bool mirrored = false;  // drawn as in a mirror: front faces turn clockwise (cube faces, Convention::rows_down)
     glm::dvec3 anchor_ws_m{0.0};       // origin of the float matrices: subtract it in double, or as two floats
     glm::mat4 clip_from_anchor{1.0f};  // draws the map
     glm::mat4 map_from_anchor{1.0f};   // looks it up: (u, v, stored depth) after division by w, u and v in [0, 1]
@@ -215,8 +215,8 @@ struct View {
     double edge_error_px = 0.0;  // bound on the distance on screen between a shadow's edge and the true one
     Bias bias;
     std::uint32_t receivers = 0;  // number of visible receivers in it
-    std::uint32_t cameras =
-        0;          // a bit per index into Scene::cameras: those that look it up; all from the 32nd share one
+    /// Bits of the cameras that look it up, by index into Scene::cameras. All from the 32nd share the last.
+    std::uint32_t cameras = 0;
     Range casters;  // Fits::casters_of()
 };
 
@@ -263,10 +263,10 @@ public:
     ~Fits();
 
     std::span<const LightFit> lights() const;  // one per light of the scene, same order
-    std::span<const View> views() const;       // of all lights; those of a light are consecutive, near to far
+    std::span<const View> views() const;       // all lights' views, by light; cascades near to far
     std::span<const View> views_of(std::size_t light) const;
     /// Returns indices into Scene::boxes.
-    std::span<const std::uint32_t> casters_of(const View& view) const;     // to draw into it; each once, rising
+    std::span<const std::uint32_t> casters_of(const View& view) const;     // drawn into it: each once, rising
     std::span<const std::uint32_t> casters_of(std::size_t light) const;    // able to darken what is seen
     std::span<const std::uint32_t> receivers_of(std::size_t light) const;  // visible, and in the light's range
     std::uint32_t unusable_cameras() const;                                // passed over: numbers outside their ranges

@@ -141,7 +141,7 @@ View view_of(const StageResults& stages, const ShadowView& from, const Conventio
     return view;
 }
 
-/// Returns false for maps of astronomic or atomic scenes, whose matrices no float holds.
+/// Returns true if floats hold the view's numbers: not in astronomic or atomic scenes.
 bool fits_floats(const View& view) {
     double sum = view.edge_error_px;
     for (int c = 0; c < 4; ++c)

@@ -8,6 +8,7 @@
 #include "components/transform.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/flat_range.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/usable.h"
 #include "systems/shadow/frame/index_range.h"
@@ -79,13 +80,16 @@ LightShadow shadow_of(const Light& light) {
     return out;
 }
 
-ShadowTuning tuning_of(const Shadow& shadow) {
+ShadowTuning tuning_of(const Light& light) {
+    const Shadow& shadow = light.shadow;
     static_assert(kMostCascades == kMaxCascades);
     ShadowTuning out;
     out.kernel.size_texel = shadow.kernel_texel;
     out.kernel.spread_texel = shadow.spread_texel;
-    out.projection.near_m = shadow.near_m;
-    out.projection.far_m = shadow.far_m;
+    if (!light_facts(entry(kComponentKinds, light.kind)).parallel) {  // a sun's range starts at an eye of its own
+        out.projection.near_m = shadow.near_m;
+        out.projection.far_m = shadow.far_m;
+    }
     out.cascades.fit = entry(kFits, shadow.fit);
     out.cascades.splits = entry(kSplits, shadow.splits);
     out.cascades.split_lambda = shadow.split_lambda;
@@ -104,7 +108,7 @@ void SceneInput::take(const Scene& scene) {
 }
 
 /// Writes the instances and keeps the tree over their bounds: rebuilt for another number of boxes, else refitted to
-/// those that moved.
+/// the boxes that moved.
 void SceneInput::take_boxes(std::span<const Box> boxes) {
     std::vector<InstanceItem>& items = snapshot_.instances;
     const bool rebuilt = items.size() != boxes.size();
@@ -187,7 +191,7 @@ void SceneInput::take_lights(std::span<const Light> lights) {
         item.sun_radius_rad = numbers.sun_radius_rad;
         item.has_shadow = usable;
         item.shadow = shadow_of(taken);
-        item.tuning = tuning_of(taken.shadow);
+        item.tuning = tuning_of(taken);
     }
 }
 

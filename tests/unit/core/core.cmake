@@ -1,6 +1,4 @@
-# What needs Gnomon::core alone: .ci/check_core builds and runs the same files with other compilers.
-set(GNOMON_CORE_TESTS core_fits_test.cpp core_conventions_test.cpp core_bias_test.cpp core_status_test.cpp)
-list(TRANSFORM GNOMON_CORE_TESTS PREPEND ${CMAKE_CURRENT_LIST_DIR}/)
+include(${CMAKE_CURRENT_LIST_DIR}/core_tests.cmake)
 # The others compare with the system and with the shader's text, which they compile as C++.
 gnomon_tests(NAME unit_core LABEL unit SOURCES ${GNOMON_CORE_TESTS}
   core/core_stages_test.cpp core/core_shader_bias_test.cpp allocation_counter.cpp ../system/test_world.cpp)

@@ -22,7 +22,7 @@ const Api kApis[] = {{"OpenGL", kOpenGl},
                      {"Metal", kMetal},
                      {"WebGPU, near 0", {.reversed_depth = false, .rows_down = true}}};
 
-/// Where an API's own rules put a vertex: the texel's coordinates, and the depth that is stored.
+/// Computes where an API's own rules put a vertex: the texel's coordinates, and the depth that is stored.
 glm::dvec3 rasterised(const Convention& api, const glm::dvec4& clip) {
     const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
     const double from_top = api.clip_y_down ? 0.5 * (ndc.y + 1.0) : 0.5 * (1.0 - ndc.y);
@@ -130,7 +130,7 @@ TEST_F(CoreConventions, LetACubeBeLookedUpByDirection) {
     }
 }
 
-/// The float matrix finds points as well, wherever in the world the scene lies.
+/// Checks that the float matrix finds points as well, wherever in the world the scene lies.
 TEST_F(CoreConventions, KeepTheirPrecisionFarFromTheOrigin) {
     Random random(print_seed());
     for (const double away_m : {0.0, 1.0e6, 1.0e8}) {

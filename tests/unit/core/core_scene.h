@@ -51,7 +51,7 @@ struct OwnScene {
     }
 };
 
-/// Ground in tiles, pillars on it, one light of each kind above it: sun 0, spot 1, point 2.
+/// Makes ground in tiles, pillars on it, one light of each kind above it: sun 0, spot 1, point 2.
 inline OwnScene courtyard() {
     OwnScene own;
     own.add_camera({0.0, 4.0, 14.0}, {0.0, 0.0, 0.0});
@@ -120,7 +120,7 @@ inline bool holds(const glm::dvec3& place) {
     return place.x >= 0.0 && place.x <= 1.0 && place.y >= 0.0 && place.y <= 1.0 && place.z >= 0.0 && place.z <= 1.0;
 }
 
-/// Returns the view that serves a point, as docs/core.md says a lookup finds it; null: none.
+/// Returns the view that serves a point, as docs/core.md lets a lookup find it; null: none.
 inline const View* serving(std::span<const View> views, const LightFit& fit, const Camera& camera, const glm::dvec3& p) {
     const View* best = nullptr;
     double deepest = 0.0;

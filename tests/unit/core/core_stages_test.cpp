@@ -43,7 +43,7 @@ protected:
         system->commit(boxes_only, executed);
         return frame;
     }
-    /// The same world as an engine of its own would hand it over.
+    /// Returns the same world as an engine of its own would hand it over.
     OwnScene own_scene() const {
         OwnScene own;
         for (const InstanceItem& item : snapshot.instances) {
