@@ -1,5 +1,5 @@
-// Shadow maps for another API: Gnomon::core fits them, and this program prints what an engine on Vulkan, Direct3D,
-// Metal, WebGPU or OpenGL would upload and draw. It links GLM and nothing else.
+// Shadow maps for another API. Gnomon::core fits them, and this program prints what an engine would upload and draw: on
+// Vulkan, Direct3D, Metal, WebGPU or OpenGL. It links GLM and nothing else.
 #include <gnomon/core.h>
 
 #include <cstdio>
@@ -122,7 +122,7 @@ Yard make_yard() {
 // [scene]
 
 // [maps]
-/// What an engine does with one light's fit.
+/// Prints what an engine takes of one light's fit.
 void print_light(const char* name, const core::Fits& fits, std::size_t light) {
     const core::LightFit& fit = fits.lights()[light];
     std::printf("%s: %s: %s\n", name, core::to_text(fit.status), core::sentence(fit.status));
