@@ -218,6 +218,9 @@ struct View {
     /// Bits of the cameras that look it up, by index into Scene::cameras. All from the 32nd share the last.
     std::uint32_t cameras = 0;
     Range casters;  // Fits::casters_of()
+    /// Hash of the map's size and place, and of its list of casters. While it stays and none of these moved, what was
+    /// drawn into the map is still right. Never 0.
+    std::uint64_t content = 0;
 };
 
 /// What one light got.

@@ -5,6 +5,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
+#include "engine/core/signature.h"
 #include "systems/shadow/frame/depth_format.h"
 #include "systems/shadow/projection/cube_faces.h"
 #include "systems/shadow/projection/depth_rounding.h"
@@ -106,6 +107,16 @@ Bias bias_of(const ShadowView& view, const shadow::ShadowRequest& request, bool 
     return bias;
 }
 
+/// Returns the hash of what the map shows, apart from where its casters are.
+std::uint64_t content_of(const View& view, std::uint32_t map_px, std::span<const std::uint32_t> casters) {
+    Signature signature;
+    signature.add(std::uint64_t{map_px} << 32 | view.layer);
+    for (int i = 0; i < 16; ++i) signature.add(view.clip_from_anchor[i / 4][i % 4]);
+    for (int i = 0; i < 3; ++i) signature.add(view.anchor_ws_m[i]);
+    for (const std::uint32_t caster : casters) signature.add(std::uint64_t{caster});
+    return signature.value();
+}
+
 View view_of(const StageResults& stages, const ShadowView& from, const Convention& convention) {
     const shadow::ShadowRequest& request = stages.fitted.lights[from.light].request;
     View view;
@@ -138,6 +149,7 @@ View view_of(const StageResults& stages, const ShadowView& from, const Conventio
     view.receivers = from.receivers;
     view.cameras = stages.input.camera_mask(from.consumer_mask);
     view.casters = range_of(from.casters);
+    view.content = content_of(view, request.map.resolution_px, stages.fitted.casters_of(from));
     return view;
 }
 

@@ -178,6 +178,29 @@ TEST_P(CoreFits, RememberWhatTheyHoldByTheirHistory) {
     EXPECT_TRUE(again == history) << "equal inputs and histories";
 }
 
+TEST_P(CoreFits, NameTheirContent) {
+    OwnScene own = courtyard();
+    const auto contents = [&] {
+        fit_shadows(own.scene(), {}, history, fits);
+        std::vector<std::uint64_t> found;
+        for (const View& view : fits.views_of(light())) found.push_back(view.content);
+        return found;
+    };
+    contents();
+    const std::vector<std::uint64_t> before = contents();
+    ASSERT_FALSE(before.empty());
+    EXPECT_EQ(contents(), before) << "nothing moved";
+    EXPECT_EQ(std::count(before.begin(), before.end(), 0u), 0);
+    EXPECT_EQ(std::set<std::uint64_t>(before.begin(), before.end()).size(), before.size()) << "maps differ";
+    const std::uint32_t caster = fits.casters_of(fits.views_of(light()).front()).back();
+    own.boxes[caster].casts = false;
+    EXPECT_NE(contents(), before) << "a caster is gone";
+    own = courtyard();
+    own.lights[light()].position_ws_m.y += 0.5;
+    own.lights[light()].rotation_ws = looking(-own.lights[light()].position_ws_m);
+    EXPECT_NE(contents(), before) << "the light moved";
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, CoreFits, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point));
 
 TEST(CoreSuns, KeepTheirMapsWhileTheCameraMovesALittle) {

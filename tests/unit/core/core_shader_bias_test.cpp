@@ -28,6 +28,15 @@ struct AutomaticBias {
 
 #include "shaders/shadow/lookup/bias/automatic.glsl"
 };
+// The guide's, for shaders of engines on other APIs.
+using float2 = vec2;
+using float3 = vec3;
+struct GuideBias {
+    float2 texel;
+    double reach_texel = 0.0, depth = 0.0, depth_share = 0.0, near_m = 0.0, far_m = 0.0;
+    bool orthographic = false;
+#include "tests/unit/core/shadow_offset.hlsl"
+};
 #undef float
 #undef const
 #undef layout
@@ -66,6 +75,22 @@ core::Offset by_shader(const core::View& view, const glm::dvec3& p, const glm::d
     return {bias.along_normal_m, bias.depth};
 }
 
+/// Returns what the guide's shader computes, with a normal that is exact.
+core::Offset by_guide(const core::View& view, const glm::dvec3& p, const glm::dvec3& n) {
+    GuideBias guide;
+    guide.texel = vec2(view.bias.texel.x, view.bias.texel.y);
+    guide.reach_texel = view.bias.reach_texel;
+    guide.depth = view.bias.depth;
+    guide.depth_share = view.bias.depth_share;
+    guide.near_m = view.near_m;
+    guide.far_m = view.far_m;
+    guide.orthographic = view.kind == core::ViewKind::orthographic;
+    const glm::dvec3 d = glm::abs(p - view.anchor_ws_m);
+    const double error_m = AutomaticBias::kPositionRounding * (guide.orthographic ? d.x + d.y + d.z : glm::length(d));
+    const vec2 offset = guide.shadow_offset(turned(view, n), turned(view, p - view.eye_ws_m), error_m);
+    return {offset.x, offset.y};
+}
+
 /// Returns true if the two differ by less than the digits of the shader's constants.
 bool near(double a, double b) { return std::abs(a - b) <= 1e-7 * (std::abs(a) + std::abs(b)); }
 
@@ -95,6 +120,9 @@ TEST(CoreShaderBias, IsTheShadersOwn) {
             }
             EXPECT_TRUE(near(mine.along_normal_m, theirs.along_normal_m)) << mine.along_normal_m << ' ' << theirs.along_normal_m;
             EXPECT_TRUE(near(mine.depth, theirs.depth)) << mine.depth << ' ' << theirs.depth;
+            const core::Offset exact = core::offset_at(view, p, n, 0.0, 0.0), guide = by_guide(view, p, n);
+            EXPECT_TRUE(near(exact.along_normal_m, guide.along_normal_m)) << exact.along_normal_m << ' ' << guide.along_normal_m;
+            EXPECT_TRUE(near(exact.depth, guide.depth)) << exact.depth << ' ' << guide.depth;
             ++compared;
             steep += mine.along_normal_m > 0.0 ? 1 : 0;
         }
