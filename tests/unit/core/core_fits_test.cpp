@@ -19,16 +19,18 @@ struct Verdict {
 };
 
 /// Looks at points on the boxes' sides that a camera sees and the light reaches.
-Verdict judge(const OwnScene& own, std::uint32_t light, std::span<const View> views, const Fits& fits, Random& random) {
+Verdict judge(const OwnScene& own, std::uint32_t light, std::span<const View> views, const Fits& fits, Random& random,
+              std::size_t camera = 0) {
+    const Camera& eye = own.cameras[camera];
     Verdict verdict;
     for (const Box& receiver : own.boxes)
         for (int k = 0; k < 60; ++k) {
             glm::dvec3 p = random.inside(receiver.min_ws_m, receiver.max_ws_m);
             const int side = k % 3;
             p[side] = k % 2 == 0 ? receiver.max_ws_m[side] : receiver.min_ws_m[side];
-            if (!receiver.receives || !receiver.visible || !sees(own.cameras[0], p) || !reaches(own.lights[light], p)) continue;
+            if (!receiver.receives || !receiver.visible || !sees(eye, p) || !reaches(own.lights[light], p)) continue;
             const Way way = way_to(own.lights[light], p);
-            const View* view = serving(views, fits.lights()[light], own.cameras[0], p);
+            const View* view = serving(views, fits.lights()[light], eye, p);
             std::set<std::uint32_t> drawn;
             if (view) {
                 const auto casters = fits.casters_of(*view);
@@ -202,6 +204,63 @@ TEST_P(CoreFits, NameTheirContent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CoreFits, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point));
+
+/// Judges every light of a scene by every camera.
+void expect_right(const OwnScene& own, const Fits& fits, Random& random, int frame) {
+    for (std::uint32_t light = 0; light < own.lights.size(); ++light)
+        for (std::size_t camera = 0; camera < own.cameras.size(); ++camera) {
+            ASSERT_TRUE(has_maps(fits.lights()[light].status)) << light << ": " << to_text(fits.lights()[light].status);
+            const Verdict verdict = judge(own, light, fits.views_of(light), fits, random, camera);
+            EXPECT_TRUE(verdict.right()) << "frame " << frame << ", light " << light << ", camera " << camera << ": "
+                                         << verdict.outside << " outside, " << verdict.missing << " missing, "
+                                         << verdict.displaced << " displaced of " << verdict.points;
+            EXPECT_GT(verdict.blocked, 10) << light;
+        }
+}
+
+TEST(CoreLights, OfAnyShapeHoldWhatIsSeen) {
+    Random random(print_seed());
+    OwnScene own = courtyard();
+    own.lights.clear();
+    own.add_light(LightKind::spot, {3.0, 5.0, 3.0}, {});
+    own.add_light(LightKind::point, {900.0, 700.0, 400.0}, {}).range_m = 0.0f;
+    own.add_light(LightKind::directional, {20.0, 30.0, 10.0}, {}).shadow.cascades = 4;
+    own.add_light(LightKind::directional, {-20.0, 40.0, 10.0}, {}).shadow.fit = Fit::tight;
+    own.add_light(LightKind::directional, {-20.0, 40.0, -10.0}, {}).shadow.fit = Fit::stable;
+    History history;
+    Fits fits;
+    std::uint32_t most_layers = 0, both = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+        own.lights[0].outer_cone_rad = frame < 20 ? 1.0f : 1.2f;  // it gets faces, gradually
+        own.cameras[0].position_ws_m.z = 14.0 - 0.1 * frame;
+        fit_shadows(own.scene(), {}, history, fits);
+        expect_right(own, fits, random, frame);
+        most_layers = std::max(most_layers, fits.lights()[0].layers);
+        both += fits.lights()[0].faces_share > 0.0 && fits.lights()[0].faces_share < 1.0 ? 1 : 0;
+    }
+    EXPECT_EQ(most_layers, 6u) << "five faces and the single view";
+    EXPECT_GT(both, 4u);
+    EXPECT_EQ(fits.lights()[0].faces_share, 1.0);
+    EXPECT_FALSE(fits.lights()[1].cube) << "so far away one view looks at all";
+    EXPECT_EQ(fits.lights()[2].layers, 4u);
+}
+
+TEST(CoreLights, ServeSeveralCameras) {
+    Random random(print_seed());
+    OwnScene own = courtyard();
+    own.add_camera({-13.0, 5.0, 2.0}, {0.0, 0.0, 0.0});
+    own.add_camera({2.0, 18.0, -6.0}, {0.0, 0.0, -1.0});
+    own.cameras.back().projection = Projection::orthographic;
+    own.cameras.back().half_height_m = 6.0;
+    own.cameras.back().far_m = 1.0e5;
+    History history;
+    Fits fits;
+    fit_shadows(own.scene(), {}, history, fits);
+    expect_right(own, fits, random, 0);
+    std::uint32_t cameras = 0;
+    for (const View& view : fits.views()) cameras |= view.cameras;
+    EXPECT_EQ(cameras, 7u);
+}
 
 TEST(CoreSuns, KeepTheirMapsWhileTheCameraMovesALittle) {
     OwnScene own = courtyard();
