@@ -10,7 +10,7 @@ import tempfile
 from pathlib import Path
 
 MAX_LINES = 400
-PARTS = ("include", "components", "engine", "shaders", "systems", "sample_game", "bench", "tests")
+PARTS = ("components", "engine", "shaders", "systems", "include", "window", "examples", "sample_game", "bench", "tests")
 CODE = {".h", ".cpp"}
 COUNTED = CODE | {".glsl", ".vert", ".frag", ".geom", ".comp", ".py", ".cmake", ".sh"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
@@ -20,22 +20,28 @@ REGISTRY = "engine/ecs/registry.h"
 
 # First matching prefix decides: what a file there may include of the project's own files.
 ALLOWED = (
-    ("include/", ("gnomon/", "components/", "engine/core/")),
     ("components/", ("components/", "engine/ecs/entity.h")),
     ("engine/", ("engine/",)),
     ("shaders/", ("shaders/", "engine/")),
-    ("systems/", ("systems/", "gnomon/", "components/", "engine/", "shaders/bindings.h", "shaders/embedded.h")),
+    ("systems/", ("systems/", "components/", "engine/", "gnomon/", "shaders/bindings.h", "shaders/embedded.h")),
+    ("include/", ("gnomon/", "components/", "engine/core/")),
+    ("window/", ("gnomon/", "engine/")),
+    ("examples/", ("gnomon/",)),
     ("sample_game/", ("sample_game/", "systems/", "components/", "engine/", "shaders/")),
     ("bench/", ("",)),
     ("tests/", ("",)),
 )
 # Headers that the build makes, and the file that it makes each of.
 MADE = {"shaders/bindings.h": "shaders/common/bindings.glsl"}
+# The public headers: gnomon/core.h lies in this folder.
+PUBLIC = "include/"
+# Gnomon::core: the list of its files. These, and all that they include, know GLM and the standard library only.
+CORE_LIST, CORE_FILE = "cmake/core.cmake", re.compile(r"^  (\S+\.cpp)$", re.MULTILINE)
 # The registry is read by these alone; frame.* only hands it on to them.
 READS_REGISTRY = ("engine/ecs/", "systems/extract/", "systems/transform/", "systems/frame.", "sample_game/", "bench/", "tests/")
 # Stages that must not reach the registry by any detour either, so that another ECS can take its place.
 KNOWS_NO_REGISTRY = ("systems/shadow/", "systems/lighting/", "systems/extract/snapshot.h", "components/")
-CALLS_GL = ("engine/gl/", "tests/")
+CALLS_GL = ("engine/gl/", "window/", "examples/", "tests/")
 # Rooms of a folder in the order of the flow: a file may include those of its own room and of rooms before it. What lies in the
 # folder itself may include all of them.
 ROOMS = {
@@ -51,18 +57,18 @@ def is_standard(name):
     return "." not in name and "/" not in name
 
 
-def file_of(name):
-    """The file, from the project's root, that an include names."""
-    return "include/" + name if name.startswith("gnomon/") else MADE.get(name, name)
-
-
 def included(text):
     return [(mark == "<", name) for mark, name in INCLUDE.findall(text)]
 
 
+def place_of(name):
+    """Path of an included file of the project from its root."""
+    return PUBLIC + name if name.startswith("gnomon/") else MADE.get(name, name)
+
+
 def breaches_of_include(path, name, root):
     """Reasons why the file at `path` may not include the project's own `name`."""
-    if not (root / file_of(name)).is_file():
+    if not (root / place_of(name)).is_file():
         return [f"includes {name}, which is no path from the project's root"]
     found = []
     allowed = next(prefixes for part, prefixes in ALLOWED if path.startswith(part))
@@ -106,10 +112,27 @@ def reaches(path, goal, includes):
     return None
 
 
+def breaches_of_core(root, includes, libraries):
+    """Lines `path: breach` for files of Gnomon::core that reach a library beside GLM."""
+    listed = root / CORE_LIST
+    sources = CORE_FILE.findall(listed.read_text(encoding="utf-8")) if listed.is_file() else []
+    found, chains = [], {source: [source] for source in sources}
+    pending = list(sources)
+    while pending:
+        path = pending.pop()
+        for name in libraries.get(path, ()):
+            found.append(f"{path}: may not include <{name}>: Gnomon::core knows GLM only: {' -> '.join(chains[path])}")
+        for name in map(place_of, includes.get(path, ())):
+            if name not in chains:
+                chains[name] = [*chains[path], name]
+                pending.append(name)
+    return found + [f"{CORE_LIST}: lists {path}, which is no file" for path in sources if not (root / path).is_file()]
+
+
 def check(root):
     """Sorted lines `path: breach`."""
     files = sorted(p for part in PARTS for p in (root / part).rglob("*") if p.is_file() and p.suffix in COUNTED)
-    found, includes = [], {}
+    found, includes, libraries = [], {}, {}
     for file in files:
         path = file.relative_to(root).as_posix()
         text = file.read_text(encoding="utf-8", errors="replace")
@@ -119,7 +142,9 @@ def check(root):
             breaches.append(f"has {lines} lines, {MAX_LINES} are the limit")
         if file.suffix in CODE:
             own = [name for angled, name in included(text) if not angled]
-            includes[path] = [file_of(name) for name in own]
+            includes[path] = [place_of(name) for name in own]
+            libraries[path] = [name for angled, name in included(text)
+                               if angled and not is_standard(name) and not name.startswith(("glm/", "gnomon/"))]
             for name in own if not path.startswith(STRANGER) else ():
                 breaches += breaches_of_include(path, name, root) + breaches_of_order(path, name)
             for angled, name in included(text):
@@ -133,6 +158,7 @@ def check(root):
             if calls and not path.startswith(CALLS_GL):
                 breaches.append(f"may not call {', '.join(sorted(calls))}: only engine/gl calls OpenGL")
         found += [f"{path}: {breach}" for breach in breaches]
+    found += breaches_of_core(root, includes, libraries)
     for path in includes:
         if path.startswith(KNOWS_NO_REGISTRY):
             chain = reaches(path, REGISTRY, includes)
@@ -158,6 +184,10 @@ CLEAN = {
     "systems/shadow/publish/publish_lights.h": '#include "systems/shadow/fitting/fit_light.h"\n',
     "systems/shadow/shadow_system.h": '#include "systems/shadow/publish/publish_lights.h"\n',
     "systems/lighting/lighting.cpp": '#include "shaders/bindings.h"\n#include "shaders/embedded.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
+    "cmake/core.cmake": "set(SOURCES\n  systems/core/core.cpp\n)\n",
+    "include/gnomon/core.h": "#pragma once\n#include <glm/vec3.hpp>\n#include <span>\n",
+    "systems/core/core.cpp": '#include "gnomon/core.h"\n#include "systems/shadow/fitting/fit_light.h"\n',
+    "examples/core_only.cpp": "#include <gnomon/core.h>\n",
     "sample_game/main.cpp": '#include "engine/ecs/registry.h"\n#include "systems/extract/extract.h"\n',
     "tests/install_consumer/main.cpp": '#include "own.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
     "tests/gl/raw_test.cpp": '#include "systems/shadow/fitting/fit_light.h"\nvoid t() { glGetError(); }\n',
@@ -182,6 +212,12 @@ BREACHES = (
     ("systems/shadow/culling/receiver_caster_sets.cpp", '#include "systems/lighting/lighting.cpp"\n', "does not know who lights"),
     ("systems/shadow/culling/receiver_caster_sets.cpp", "void f() { glDrawArrays(4, 0, 3); }\n", "may not call glDrawArrays"),
     ("systems/lighting/shade.cpp", '#include "systems/shadow/fitting/fit_light.h"\n', "only systems/shadow/frame/lighting_inputs.h"),
+    ("include/gnomon/core.h", '#include "systems/extract/snapshot.h"\n', "may not include systems/"),
+    ("examples/core_only.cpp", '#include "systems/extract/snapshot.h"\n', "may not include systems/"),
+    ("systems/core/core.cpp", "#include <epoxy/gl.h>\n", "knows GLM only"),
+    ("systems/shadow/fitting/fit_light.h", "#include <tiny_gltf.h>\n", "core.cpp -> systems/shadow/fitting/fit_light.h"),
+    ("include/gnomon/core.h", "#include <GLFW/glfw3.h>\n", "knows GLM only"),
+    ("cmake/core.cmake", "set(SOURCES\n  systems/core/gone.cpp\n)\n", "which is no file"),
     ("engine/platform/window.cpp", "#include <epoxy/gl.h>\n", "only engine/gl calls"),
     ("sample_game/hud.cpp", "void f() {\n    ::glEnable(1);\n    glEnable (1);\n}\n", "may not call glEnable"),
     ("sample_game/main.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),

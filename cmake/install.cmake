@@ -1,10 +1,6 @@
 # What `cmake --install` puts where, so that another project finds it with find_package(Gnomon).
 # Headers keep their paths from the project's root, below include/gnomon: "systems/frame.h" is one name on both sides.
-include(GNUInstallDirs)
-include(CMakePackageConfigHelpers)
-
-set(GNOMON_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/gnomon)
-set(GNOMON_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon)
+include(cmake/install_core.cmake)
 
 # The engine's own parts (loader, executor) stay inside: their headers would drag tinygltf and OpenGL's along.
 set(GNOMON_ENGINE_HEADERS
@@ -62,10 +58,4 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/components ${PROJECT_SOURCE_DIR}/systems
 install(FILES ${PROJECT_BINARY_DIR}/generated/shaders/bindings.h DESTINATION ${GNOMON_INCLUDE_DIR}/shaders)
 add_custom_target(gnomon_installed DEPENDS gnomon_engine gnomon_shaders gnomon_systems)
 install(EXPORT GnomonTargets NAMESPACE Gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR})
-
-configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/GnomonConfig.cmake.in
-  ${PROJECT_BINARY_DIR}/GnomonConfig.cmake INSTALL_DESTINATION ${GNOMON_PACKAGE_DIR})
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/GnomonConfig.cmake ${PROJECT_BINARY_DIR}/GnomonConfigVersion.cmake
-  ${PROJECT_SOURCE_DIR}/cmake/find_libraries.cmake DESTINATION ${GNOMON_PACKAGE_DIR})
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon)
+install(FILES ${PROJECT_SOURCE_DIR}/cmake/find_libraries.cmake DESTINATION ${GNOMON_PACKAGE_DIR})

@@ -3,7 +3,7 @@ const float kUnitRoundoff = 5.9604645e-8;     // 2^-24, half a unit in the last 
 const float kRasterSnap_texel = 0.00390625;   // 1/256: vertices are snapped to 8 sub-texel bits
 const float kRebuiltRelative = 1.6e-7;        // error of a position rebuilt from depth, per metre of distance
 // The same of an orthographic view, per metre of its range: kOrthographicRounding
-// (systems/shadow/publish/publish_lights.cpp), and far - depth * range.
+// (systems/shadow/projection/depth_rounding.cpp), and far - depth * range.
 const float kFlatRebuiltRelative = 5.5 * kUnitRoundoff;
 // Rounding of the way into a map, metres per metre of coordinate sum: subtraction, axes, a matrix row (8u). It counts
 // 1.5 times for what lies sideways and is seen through the slope.

@@ -14,7 +14,7 @@
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/names.h"
 #include "systems/extract/scene_tree.h"
-#include "systems/extract/usable_light.h"
+#include "systems/extract/usable.h"
 
 namespace gnomon::embed {
 namespace {
@@ -43,9 +43,9 @@ bool put_field(T& field, const T& value) {
 }
 
 /// Returns whether the description is that of a light that can shine. Otherwise `fault` has the reason.
-bool usable(const LightDesc& desc, DropReason& fault) {
+bool can_shine(const LightDesc& desc, DropReason& fault) {
     fault = DropReason::absurd_light;
-    if (!is_usable(desc.light)) return false;
+    if (!gnomon::usable(desc.light)) return false;
     fault = DropReason::non_finite_transform;
     if (!is_finite(desc.position_m)) return false;
     fault = DropReason::zero_rotation;
@@ -157,7 +157,7 @@ void SceneStore::set_light(LightId id, const LightDesc& desc) {
     StoredLight* light = lights_.find(id);
     if (!light) return;
     DropReason fault;
-    if (light->desc.name != desc.name || usable(desc, fault) != (light->item != kNone)) lights_anew_ = true;
+    if (light->desc.name != desc.name || can_shine(desc, fault) != (light->item != kNone)) lights_anew_ = true;
     light->desc = desc;
     light->set = lights_set_ = true;
 }
@@ -284,7 +284,7 @@ void SceneStore::list_lights() {
         light.item = kNone;
         light.set = true;
         DropReason fault;
-        if (!usable(light.desc, fault)) return dropped_.push_back({{}, id, reason_code(fault)});
+        if (!can_shine(light.desc, fault)) return dropped_.push_back({{}, id, reason_code(fault)});
         light.item = static_cast<std::uint32_t>(snapshot_.lights.size());
         const auto was = std::find_if(before.begin(), before.end(),
                                       [&](const LightItem& item) { return item.entity == entity_of(id); });

@@ -9,20 +9,12 @@
 #include "systems/extract/camera_view.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"
-#include "systems/extract/usable_light.h"
+#include "systems/extract/usable.h"
 
 namespace gnomon {
 namespace {
 
 using Effect = LightsAndCameras::Effect;
-
-bool usable(const Camera& camera) {
-    if (!(camera.near_m < camera.far_m)) return false;
-    if (camera.projection == CameraProjection::orthographic)
-        return camera.half_height_m > 0.0 && std::isfinite(camera.half_height_m) && std::isfinite(camera.far_m) &&
-               std::isfinite(camera.near_m);
-    return camera.near_m > 0.0 && camera.fov_y_rad > 0.0 && camera.fov_y_rad < glm::pi<double>();
-}
 
 /// Writes a field. Returns true if its value changed, NaN included.
 template <class T>
@@ -89,7 +81,7 @@ Effect touch_light(const ecs::Registry& registry, ecs::Entity entity, const Worl
                    SceneSnapshot& snapshot) {
     LightItem* item = find(snapshot.lights, entity);
     const Light* light = registry.get<Light>(entity);
-    const bool wanted = light && world && is_usable(*light);
+    const bool wanted = light && world && usable(*light);
     if (wanted != (item != nullptr)) return Effect::listing;
     return item && put_light(registry, *light, *world, snapshot.version, *item) ? Effect::changed : Effect::none;
 }
@@ -130,7 +122,7 @@ void LightsAndCameras::list(const ecs::Registry& registry, glm::uvec2 viewport_p
     snapshot.consumers.clear();
     unusable_.clear();
     registry.each<Light, WorldTransform>([&](ecs::Entity e, const Light& light, const WorldTransform&) {
-        if (is_usable(light))
+        if (usable(light))
             snapshot.lights.emplace_back().entity = e;
         else
             unusable_.push_back({e, name_of(registry, e), DropReason::absurd_light});

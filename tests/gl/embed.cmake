@@ -1,4 +1,8 @@
 # gnomon::Shadows beside an engine with a renderer of its own.
 if(GNOMON_SAMPLE)
-  gnomon_tests(NAME gl_embed LABEL gl SOURCES embed_gl_test.cpp LIBRARIES gnomon_sample gnomon_oracle PkgConfig::EPOXY)
+  gnomon_tests(NAME gl_embed LABEL gl SOURCES
+    embed_drawables_gl_test.cpp
+    embed_gl_test.cpp
+    embed_views_gl_test.cpp
+    LIBRARIES gnomon_sample gnomon_oracle PkgConfig::EPOXY)
 endif()

@@ -35,3 +35,17 @@ foreach(program components_only three_lines own_ecs forward deferred)
   run(${WORK}/build/${program})
   message("${program}: ${output}")
 endforeach()
+
+# The whole package gives its core to a project that has GLM alone, and nothing to one that wants all of it.
+file(COPY ${SOURCE}/examples/core_only.cpp DESTINATION ${WORK}/stranger/core)
+set(glm_alone ${CMAKE_COMMAND} -S ${WORK}/stranger/core -B ${WORK}/core -G Ninja -DCMAKE_PREFIX_PATH=${WORK}/moved
+  -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER} -DCMAKE_DISABLE_FIND_PACKAGE_glfw3=ON
+  -DCMAKE_DISABLE_FIND_PACKAGE_PkgConfig=ON)
+run(${glm_alone})
+run(${CMAKE_COMMAND} --build ${WORK}/core)
+run(${WORK}/core/core_only)
+execute_process(COMMAND ${glm_alone} -DCOMPONENTS=systems RESULT_VARIABLE code OUTPUT_QUIET ERROR_QUIET)
+if(code EQUAL 0)
+  message(FATAL_ERROR "systems were found without GLFW")
+endif()
+message("core_only: built against the whole package with GLM alone")

@@ -1,4 +1,5 @@
 # A stranger's project against the installed library.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
   add_test(NAME Package.AStrangerBuildsAgainstTheInstalledCopy
     COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
@@ -6,10 +7,15 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
             -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/build_and_run.cmake)
   set_tests_properties(Package.AStrangerBuildsAgainstTheInstalledCopy PROPERTIES LABELS "e2e;long" TIMEOUT 600)
+  add_test(NAME Package.CoreIsFoundWithGlmAlone
+    COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
+            -DWORK=${CMAKE_CURRENT_BINARY_DIR}/core_consumer -DCOMPILER=${CMAKE_CXX_COMPILER}
+            -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}> -DPYTHON=${Python3_EXECUTABLE}
+            -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/core/build_and_run.cmake)
+  set_tests_properties(Package.CoreIsFoundWithGlmAlone PROPERTIES LABELS e2e TIMEOUT 300)
 endif()
 
 # The guides show that project's code, and nothing else.
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME Guides.ShowWhatTheStrangerBuilds
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/snippets.py ${PROJECT_SOURCE_DIR})
 add_test(NAME Guides.AChangedBlockIsFound

@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-BLOCK = re.compile(r"(<!-- (?P<file>\S+): (?P<name>[^\n]+?) -->\n```cpp\n)(?P<code>.*?)(```\n)", re.DOTALL)
+BLOCK = re.compile(r"(<!-- (?P<file>\S+): (?P<name>[^\n]+?) -->\n```(?:cpp|hlsl)\n)(?P<code>.*?)(```\n)", re.DOTALL)
 
 
 def region(text, name):

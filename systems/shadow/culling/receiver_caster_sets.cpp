@@ -8,7 +8,7 @@
 #include "systems/extract/light_facts.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/volumes.h"
-#include "systems/shadow/culling/lamp_offsets.h"
+#include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/nearest_receiver.h"
 #include "systems/shadow/culling/receiver_hull.h"
 #include "systems/shadow/culling/swept_volume.h"

@@ -7,7 +7,7 @@
 
 #include "engine/math/frustum.h"
 #include "systems/extract/light_facts.h"
-#include "systems/shadow/culling/lamp_offsets.h"
+#include "systems/shadow/culling/lamp_places.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/culling/view_casters.h"
 #include "systems/shadow/fitting/error_bound.h"

@@ -1,6 +1,6 @@
 #pragma once
 #include "components/shadow_tuning.h"
-#include "systems/shadow/frame/shadow_frame.h"
+#include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/projection/perspective_range.h"
 
 /// Replacement of the fitted depth range by ShadowTuning's near_m and far_m, metres from the light or from a sun's eye.

@@ -1,4 +1,4 @@
-#include "systems/extract/usable_light.h"
+#include "systems/extract/usable.h"
 
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-bool is_usable(const Light& light) {
+bool usable(const Light& light) {
     const bool numbers = std::isfinite(light.intensity) && light.intensity >= 0.0f && std::isfinite(light.range_m) &&
                          light.range_m >= 0.0f && light.colour.r >= 0.0f && light.colour.g >= 0.0f &&
                          light.colour.b >= 0.0f && std::isfinite(light.colour.r + light.colour.g + light.colour.b);
@@ -16,6 +16,14 @@ bool is_usable(const Light& light) {
     return !light_facts(light.kind).cone ||
            (light.outer_cone_rad > 0.0f && light.outer_cone_rad <= glm::half_pi<float>() * 1.000001f &&
             light.inner_cone_rad >= 0.0f && light.inner_cone_rad <= light.outer_cone_rad);
+}
+
+bool usable(const Camera& camera) {
+    if (!(camera.near_m < camera.far_m)) return false;
+    if (camera.projection == CameraProjection::orthographic)
+        return camera.half_height_m > 0.0 && std::isfinite(camera.half_height_m) && std::isfinite(camera.far_m) &&
+               std::isfinite(camera.near_m);
+    return camera.near_m > 0.0 && camera.fov_y_rad > 0.0 && camera.fov_y_rad < glm::pi<double>();
 }
 
 }  // namespace gnomon

@@ -1,0 +1,14 @@
+#pragma once
+#include "components/camera.h"
+#include "components/light.h"
+
+namespace gnomon {
+
+/// Returns true if the light's numbers have a meaning: finite, and within the ranges that Light states. Sizes of
+/// sources are cut to their ranges later and do not count.
+bool usable(const Light& light);
+
+/// Returns true if the camera's numbers have a meaning, within the ranges that Camera states.
+bool usable(const Camera& camera);
+
+}  // namespace gnomon

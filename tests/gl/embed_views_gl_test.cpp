@@ -1,0 +1,223 @@
+#include "tests/gl/embed_fixture.h"
+
+// Views of gnomon::Shadows: off-centre, flat, multisampled, several at once, and such as cannot be read.
+namespace gnomon {
+namespace {
+
+class EmbedScene : public EmbedTest {
+protected:
+    void SetUp() override {
+        EmbedTest::SetUp();
+        make_engine(Depths::usual_float);
+        view.normal_texture = engine->normals;
+    }
+    void add_lit_room() {
+        add_room();
+        add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});
+        look_from({0.5, 2.5, 4.0});
+    }
+};
+
+TEST_F(EmbedScene, WithoutItsCasterThereIsNoShadow) {
+    add(game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 12.0}, {12.0, 0.0, 0.0}));
+    const CasterId box = add(game::make_box({-0.8, 0.7, -0.5}, {0.8, 0.8, 0.5}));
+    add_shadowed(LightKind::point, {0.0, 3.0, 0.0});
+    look_from({0.5, 4.5, 4.0});
+    const std::vector<std::uint8_t> with = masked();
+    shadows->remove(box);
+    const std::vector<std::uint8_t> without = masked();
+    EXPECT_GT(differing(with, without), 1000u);
+    const std::size_t under_the_box = static_cast<std::size_t>(std::count(without.begin(), without.end(), 255));
+    EXPECT_GT(under_the_box, static_cast<std::size_t>(std::count(with.begin(), with.end(), 255)) + 1000);
+}
+
+TEST_F(EmbedScene, FollowsWhatMovesAndKeepsWhatStays) {
+    add_lit_room();
+    masked();
+    masked();
+    EXPECT_EQ(shadows->status().maps_drawn, 0u) << "nothing moved";
+    const auto mesh = shadows->add_mesh({.positions_m = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).positions,
+                                         .indices = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).indices});
+    const CasterId box = shadows->add_caster({.mesh = mesh.value(), .world_from_mesh = glm::translate(glm::dmat4(1.0), {0.6, 1.2, 0.3})});
+    const std::vector<std::uint8_t> first = masked();
+    EXPECT_GT(shadows->status().maps_drawn, 0u);
+    shadows->set_transform(box, glm::translate(glm::dmat4(1.0), {0.2, 1.4, 0.3}));
+    const std::vector<std::uint8_t> second = masked();
+    EXPECT_GT(shadows->status().maps_drawn, 0u);
+    EXPECT_GT(differing(first, second), 200u);
+    shadows->set_transform(box, glm::translate(glm::dmat4(1.0), {0.6, 1.2, 0.3}));
+    EXPECT_EQ(differing(masked(), first), 0u);
+}
+
+TEST_F(EmbedScene, LayersAreTheViewsLightsInItsOrder) {
+    add_room();
+    const LightId sun = add_shadowed(LightKind::directional, {1.5, 3.0, 1.0});
+    const LightId lamp = add_shadowed(LightKind::point, {-1.0, 2.5, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    const std::vector<std::uint8_t> of_sun = masked(0), of_lamp = masked(1);
+    EXPECT_GT(differing(of_sun, of_lamp), 1000u);
+    const LightId order[] = {lamp, sun, lamp};
+    view.lights = order;
+    EXPECT_EQ(differing(masked(0), of_lamp), 0u);
+    EXPECT_EQ(differing(masked(1), of_sun), 0u);
+    EXPECT_EQ(differing(masked(2), of_lamp), 0u);
+    shadows->remove(sun);
+    const std::vector<std::uint8_t> of_none = masked(1);
+    EXPECT_EQ(std::count(of_none.begin(), of_none.end(), 255), kWidth_px * kHeight_px) << "a light that is gone darkens nothing";
+    EXPECT_EQ(differing(masked(0), of_lamp), 0u);
+}
+
+TEST_F(EmbedScene, AnOffCentrePictureIsAPartOfTheWhole) {
+    add_lit_room();
+    const double top = kNear_m * std::tan(0.5 * kFov_rad), right = top * kWidth_px / kHeight_px;
+    const glm::dmat4 whole = glm::frustumRH_NO(-right, right, -top, top, kNear_m, 100.0);
+    // Half as wide and high about a place off the axis, so that each pixel is a quarter of one of the whole's.
+    const glm::dmat4 part = glm::frustumRH_NO(-0.25 * right, 0.75 * right, -0.75 * top, 0.25 * top, kNear_m, 100.0);
+    engine->own_projection = part;
+    const std::vector<std::uint8_t> seen = masked();
+    engine->own_projection = whole;
+    const std::vector<std::uint8_t> all = masked();
+    std::size_t compared = 0, other = 0;
+    for (int y = 0; y < kHeight_px; ++y)
+        for (int x = 0; x < kWidth_px; ++x) {
+            const int in_x = (x + 3 * kWidth_px / 4) / 2, in_y = (y + kHeight_px / 4) / 2;
+            if (in_x < 1 || in_x + 1 >= kWidth_px || in_y < 1 || in_y + 1 >= kHeight_px) continue;
+            const auto at = [&](int dx, int dy) { return all[static_cast<std::size_t>((in_y + dy) * kWidth_px + in_x + dx)]; };
+            const bool even = at(0, 0) == at(1, 0) && at(0, 0) == at(-1, 0) && at(0, 0) == at(0, 1) && at(0, 0) == at(0, -1) &&
+                              at(0, 0) == at(1, 1) && at(0, 0) == at(-1, -1) && at(0, 0) == at(1, -1) && at(0, 0) == at(-1, 1);
+            if (!even) continue;
+            ++compared;
+            other += seen[static_cast<std::size_t>(y * kWidth_px + x)] != at(0, 0);
+        }
+    EXPECT_GT(compared, 60000u);
+    EXPECT_LT(other, 60u) << "of " << compared << ": only thin features between the whole's pixels";
+}
+
+TEST_F(EmbedTest, EachSampleOfAMultisampledPictureHasALayer) {
+    make_engine(Depths::usual_float, 4);
+    others.push_back(std::make_unique<Engine>(Depths::usual_float));
+    Engine& plain = *others.front();
+    add_room();
+    add_shadowed(LightKind::point, {1.5, 3.0, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    draw_depths(view, *engine);
+    const Mask mask = shadows->render(view);
+    ASSERT_EQ(mask.samples, 4u);
+    ASSERT_EQ(mask.layers, 4u);
+    std::vector<std::vector<std::uint8_t>> samples;
+    for (std::uint32_t i = 0; i < 4; ++i) samples.push_back(layer_of(mask, i));
+    EXPECT_GT(differing(samples[0], samples[3]), 100u) << "edges lie elsewhere";
+    const auto places = gl::sample_positions(device(), engine->depth);
+    ASSERT_EQ(places.size(), 4u);
+    View single = view;
+    single.normal_texture = plain.normals;
+    for (std::size_t i = 0; i < 4; ++i) {
+        glm::dmat4 jittered = engine->projection();
+        jittered[2][0] += 2.0 * (places[i][0] - 0.5) / kWidth_px;
+        jittered[2][1] += 2.0 * (places[i][1] - 0.5) / kHeight_px;
+        plain.own_projection = jittered;
+        draw_depths(single, plain);
+        const Mask alone = shadows->render(single);
+        EXPECT_EQ(alone.samples, 1u);
+        EXPECT_LT(differing(layer_of(alone, 0), samples[i]), kFewPixels) << "sample " << i;
+    }
+}
+
+TEST_F(EmbedScene, ViewsAtOnceShowWhatEachShowsAlone) {
+    others.push_back(std::make_unique<Engine>(Depths::reversed));
+    add_lit_room();
+    draw_depths(view, *engine);
+    View from_behind = view;
+    from_behind.world_from_view = glm::inverse(glm::lookAt(glm::dvec3(-3.0, 2.0, -2.0), glm::dvec3(0.0, 0.5, 0.0), glm::dvec3(0.0, 1.0, 0.0)));
+    from_behind.normal_texture = others.front()->normals;
+    draw_depths(from_behind, *others.front());
+    const View both[] = {view, from_behind};
+    const auto masks = shadows->render(both);
+    ASSERT_EQ(masks.size(), 2u);
+    const std::vector<std::uint8_t> first = layer_of(masks[0], 0), second = layer_of(masks[1], 0);
+    EXPECT_GT(differing(first, second), 1000u);
+    EXPECT_LT(differing(layer_of(shadows->render(view), 0), first), kFewPixels);
+    EXPECT_LT(differing(layer_of(shadows->render(from_behind), 0), second), kFewPixels);
+}
+
+TEST_F(EmbedScene, AFlatViewIsThatOfTheFrame) {
+    add_room();
+    add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});
+    const glm::dvec3 at_m(2.0, 3.0, 4.0), to_m(0.0, 0.5, 0.0);
+    constexpr double kHalf_m = 1.5;
+    add_camera({.projection = CameraProjection::orthographic, .half_height_m = kHalf_m, .near_m = 0.1, .far_m = 30.0}, at_m, to_m - at_m);
+    view.world_from_view = glm::inverse(glm::lookAt(at_m, to_m, glm::dvec3(0.0, 1.0, 0.0)));
+    const double half_x = kHalf_m * kWidth_px / kHeight_px;
+    engine->own_projection = glm::orthoRH_NO(-half_x, half_x, -kHalf_m, kHalf_m, 0.1, 30.0);
+    const Difference d = compared(masked());
+    EXPECT_GT(d.dark, 2000u);
+    EXPECT_LT(d.share(), 0.0005) << d.other;
+}
+
+TEST_F(EmbedScene, WhatCannotBeReadHasAReasonAndHarmsNoOther) {
+    add_lit_room();
+    const std::vector<std::uint8_t> good = masked();
+    const auto failure = [&](auto change) {
+        View bad = view;
+        change(bad);
+        const View both[] = {bad, view};
+        const auto masks = shadows->render(both);
+        EXPECT_EQ(masks[0].texture, 0u);
+        EXPECT_LT(differing(layer_of(masks[1], 0), good), kFewPixels);
+        return std::string(masks[0].failure);
+    };
+    EXPECT_EQ(failure([](View& v) { v.depth_texture = 0; }), "view.depth");
+    EXPECT_EQ(failure([](View& v) { v.depth_texture = 4711; }), "view.depth");
+    EXPECT_EQ(failure([&](View& v) { v.depth_texture = engine->normals; }), "view.depth");
+    EXPECT_EQ(failure([](View& v) { v.normal_texture = 4711; }), "view.normals");
+    EXPECT_EQ(failure([](View& v) { v.size_px = {0, 10}; }), "view.size");
+    EXPECT_EQ(failure([](View& v) { v.size_px = {kWidth_px + 1, kHeight_px}; }), "view.depth");
+    EXPECT_EQ(failure([](View& v) { v.clip_from_view = glm::dmat4(std::numeric_limits<double>::quiet_NaN()); }), "view.projection");
+    EXPECT_EQ(failure([](View& v) { v.world_from_view[0][0] = std::numeric_limits<double>::infinity(); }), "view.projection");
+    EXPECT_EQ(failure([](View& v) { v.world_from_view *= 2.0; }), "view.projection");
+}
+
+TEST_F(EmbedScene, NothingAtAllIsNoFault) {
+    EXPECT_TRUE(shadows->render(std::span<const View>{}).empty());
+    look_from({0.5, 2.5, 4.0});
+    draw_depths(view, *engine);
+    const Mask mask = shadows->render(view);
+    EXPECT_EQ(mask.failure, "");
+    EXPECT_EQ(mask.layers, 0u);
+    EXPECT_FALSE(shadows->status(LightId{}).gpu_us);
+    EXPECT_EQ(shadows->visibility(LightId{}, {0.0, 0.0, 0.0}), 0.0f);
+}
+
+TEST_F(EmbedScene, ALightOfRaysGetsAFilteredMapAndSaysSo) {
+    add_room();
+    const LightId lamp = add_shadowed(LightKind::spot, {1.5, 3.0, 1.0}, {.filter = ShadowFilter::exact});
+    look_from({0.5, 2.5, 4.0});
+    const Difference d = compared(masked());
+    EXPECT_LT(d.share(), 0.0005) << d.other;
+    EXPECT_EQ(shadows->status(lamp).reason, Reason::rays_off);
+    EXPECT_EQ(shadows->status(lamp).state, LightState::degraded);
+    EXPECT_NE(shadows->status(lamp).filter, ShadowFilter::exact);
+}
+
+TEST_F(EmbedScene, ABudgetIsKeptAndSaid) {
+    add_lit_room();
+    masked();
+    const std::uint64_t bytes = shadows->status().bytes;
+    shadows->set_budget({.bytes = bytes / 5});
+    for (int frame = 0; frame < 3; ++frame) masked();
+    EXPECT_LE(shadows->status().bytes, bytes / 5);
+    EXPECT_GT(shadows->status().bytes, 0u);
+}
+
+TEST_F(EmbedScene, QueriesAgreeWithTheMask) {
+    add_room();
+    const LightId lamp = add_shadowed(LightKind::point, {1.5, 3.0, 1.0});
+    look_from({0.5, 2.5, 4.0});
+    masked();
+    EXPECT_EQ(shadows->visibility(lamp, {0.0, 2.0, 0.0}), 1.0f);
+    EXPECT_EQ(shadows->visibility(lamp, {0.0, 0.6, 0.0}), 0.0f) << "under the table";
+}
+
+}  // namespace
+}  // namespace gnomon
