@@ -4,5 +4,6 @@ if(GNOMON_SAMPLE)
     embed_drawables_gl_test.cpp
     embed_gl_test.cpp
     embed_views_gl_test.cpp
+    ../unit/allocation_counter.cpp
     LIBRARIES gnomon_sample gnomon_oracle PkgConfig::EPOXY)
 endif()

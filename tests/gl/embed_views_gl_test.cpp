@@ -1,4 +1,5 @@
 #include "tests/gl/embed_fixture.h"
+#include "tests/unit/allocation_counter.h"
 
 // Views of gnomon::Shadows: off-centre, flat, multisampled, several at once, and such as cannot be read.
 namespace gnomon {
@@ -208,6 +209,24 @@ TEST_F(EmbedScene, ABudgetIsKeptAndSaid) {
     for (int frame = 0; frame < 3; ++frame) masked();
     EXPECT_LE(shadows->status().bytes, bytes / 5);
     EXPECT_GT(shadows->status().bytes, 0u);
+}
+
+TEST_F(EmbedScene, AllocatesNothingOnceWarm) {
+    add_lit_room();
+    const auto mesh = shadows->add_mesh({.positions_m = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).positions,
+                                         .indices = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).indices});
+    const CasterId box = shadows->add_caster({.mesh = mesh.value()});
+    draw_depths(view, *engine);
+    const auto frame = [&](int i) {
+        shadows->set_transform(box, glm::translate(glm::dmat4(1.0), {0.1 * (i % 3), 1.2, 0.3}));
+        shadows->render(view);
+    };
+    for (int i = 0; i < 40; ++i) frame(i);
+    // OpenGL's implementation allocates in its own library and in its threads; what Gnomon calls it counts alone.
+    const std::size_t before = allocation_count();
+    for (int i = 0; i < 6; ++i) frame(i);
+    EXPECT_EQ(allocation_count() - before, 0u);
+    EXPECT_GT(shadows->status().maps_drawn, 0u) << "control: these frames drew";
 }
 
 TEST_F(EmbedScene, QueriesAgreeWithTheMask) {
