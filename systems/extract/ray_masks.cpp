@@ -1,5 +1,6 @@
 #include "systems/extract/ray_masks.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
@@ -59,8 +60,8 @@ std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
         if (mask.texels != kUnset) mask.chord_texel = mean_chord_texel(t, mask.alpha, mask.cutoff);
     }
     const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(RayMask) / sizeof(std::uint32_t)>>(mask);
-    places[index] = static_cast<std::uint32_t>(words_.size());
-    words_.insert(words_.end(), words.begin(), words.end());
+    places[index] = room_for(words.size());
+    std::copy(words.begin(), words.end(), words_.begin() + places[index]);
     return places[index];
 }
 
@@ -71,27 +72,55 @@ std::uint32_t RayMasks::texels_of(std::int32_t index) {
     const assets::Texture& texture = library_->textures[static_cast<std::size_t>(index)];
     const std::size_t texels = std::size_t{texture.width} * texture.height;
     if (first != kUnset || texels == 0 || texture.rgba.size() < 4 * texels) return first;
-    first = static_cast<std::uint32_t>(words_.size());
-    words_.resize(words_.size() + (texels + kTexelsPerWord - 1) / kTexelsPerWord, 0);
+    const std::size_t count = (texels + kTexelsPerWord - 1) / kTexelsPerWord;
+    first = room_for(count);
+    std::fill_n(words_.begin() + first, count, 0u);
     for (std::size_t i = 0; i < texels; ++i)
         words_[first + i / kTexelsPerWord] |= std::uint32_t{texture.rgba[4 * i + 3]} << (8 * (i % kTexelsPerWord));
     return first;
 }
 
 std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
-    uvs_.resize(library_->meshes.size(), kUnset);
-    if (uvs_[index] != kUnset) return uvs_[index];
-    uvs_[index] = static_cast<std::uint32_t>(words_.size());
+    if (uvs_.size() < library_->meshes.size()) uvs_.resize(library_->meshes.size());
+    if (uvs_[index].count > 0) return uvs_[index].first;
     const assets::Mesh& mesh = library_->meshes[index];
+    const std::uint32_t per_triangle = mesh.colours.empty() ? kWordsPerTriangle : kWordsWithColours;
+    const auto count = static_cast<std::uint32_t>(mesh.indices.size() / 3) * per_triangle;
+    uvs_[index] = {room_for(count), count};
+    std::uint32_t* word = words_.data() + uvs_[index].first;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::uint32_t* corners = &mesh.indices[i];
         for (std::size_t c = 0; c < 3; ++c)
             for (const float coordinate : {mesh.vertices[corners[c]].uv.x, mesh.vertices[corners[c]].uv.y})
-                words_.push_back(std::bit_cast<std::uint32_t>(coordinate));
+                *word++ = std::bit_cast<std::uint32_t>(coordinate);
         for (std::size_t c = 0; c < 3 && !mesh.colours.empty(); ++c)
-            words_.push_back(std::bit_cast<std::uint32_t>(mesh.colours[corners[c]].a));
+            *word++ = std::bit_cast<std::uint32_t>(mesh.colours[corners[c]].a);
     }
-    return uvs_[index];
+    return uvs_[index].first;
+}
+
+void RayMasks::forget(std::uint32_t mesh) {
+    if (mesh >= uvs_.size()) return;
+    ranges_.give(uvs_[mesh].first, uvs_[mesh].count);
+    uvs_[mesh] = {};
+    ranges_.resize(ranges_.end());
+    words_.resize(ranges_.places());
+}
+
+/// Returns the first of `count` words that are free, and marks them as changed.
+std::uint32_t RayMasks::room_for(std::size_t count) {
+    const auto words = static_cast<std::uint32_t>(count);
+    std::uint32_t first = ranges_.take(words);
+    if (first == RangeList::kNone) {
+        ranges_.resize(ranges_.end() + words);
+        first = ranges_.take(words);
+        words_.resize(ranges_.places());
+    }
+    if (!changes_.empty() && changes_.back().first + changes_.back().count == first)
+        changes_.back().count += words;
+    else if (words > 0)
+        changes_.push_back({first, words});
+    return first;
 }
 
 }  // namespace gnomon
