@@ -51,8 +51,6 @@ public:
     std::uint32_t capacity() const { return instance_capacity_; }
     /// Call it after each submission. `executed` false: the next updates repeat what the list was to upload.
     void submitted(bool executed);
-    /// Makes the next update() repeat the last upload. Call it after a failed submission.
-    void forget_uploads() { submitted(false); }
 
     /// Creates caster_triangles() and caster_masks() if missing. Call it in each frame with a light that reads them.
     /// Returns false without room on the device; retries after Retry::kFrames such frames.

@@ -30,6 +30,8 @@ bool MaskBuffer::follow(RayMasks& masks, gl::CommandList& list) {
         masks.forget_changes();
         return true;
     }
+    if (!array_.is_writable()) array_.reserve(0, list);
+    if (!array_.is_writable()) return false;
     const std::uint32_t used = array_.used();
     if (wanted > used && array_.take(wanted - used, true, list) == DeviceArrays::kNone) return false;
     if (wanted < used) array_.give(wanted, used - wanted);

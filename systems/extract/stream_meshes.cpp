@@ -8,6 +8,7 @@ namespace gnomon {
 
 void SceneMeshes::follow(std::size_t materials, gl::CommandList& list) {
     ++asked_;
+    const bool had_casters = static_cast<bool>(caster_triangles());
     const bool any_went = library_->version != seen_ && note_changes();
     if (!waiting_.empty()) place_waiting(materials, list);
     if (any_went) {
@@ -19,6 +20,7 @@ void SceneMeshes::follow(std::size_t materials, gl::CommandList& list) {
     unconfirmed_.insert(unconfirmed_.end(), unwritten_.begin(), unwritten_.end());
     unwritten_.clear();
     if (masks_ && !mask_buffer_.follow(*masks_, list)) drop_casters();
+    if (had_casters && !caster_triangles()) provide_caster_triangles();
 }
 
 /// Takes meshes away that went or were replaced, and lists those that came. Returns whether any went.
