@@ -24,6 +24,7 @@ void DeviceArrays::swap(DeviceArrays& other) noexcept {
     std::swap(ranges_, other.ranges_);
     std::swap(outgrown_, other.outgrown_);
     std::swap(made_, other.made_);
+    std::swap(unused_frames_, other.unused_frames_);
     std::swap(writable_, other.writable_);
 }
 
@@ -58,7 +59,10 @@ bool DeviceArrays::grow(std::uint64_t places, gl::CommandList& list) {
 
 void DeviceArrays::shrink(gl::CommandList& list) {
     const std::uint32_t end = ranges_.end(), places = ranges_.places();
-    if (!writable_ || places <= kLeastPlaces || end > places / 4) return;
+    const bool can_shrink = writable_ && places > kLeastPlaces && end <= places / 2;
+    unused_frames_ = can_shrink ? unused_frames_ + 1 : 0;
+    if (unused_frames_ < kHoldFrames) return;
+    unused_frames_ = 0;
     resize(std::bit_ceil(std::max(end, kLeastPlaces)), list);
 }
 

@@ -20,7 +20,7 @@ public:
     struct Array {
         const char* label = "";  // outlives the object
         std::uint32_t stride = 0;
-        bool texels = false;  // BufferDesc::texels
+        bool texels = false;        // BufferDesc::texels
         gl::BufferHandle buffer{};  // {0}: the array is missing, and is passed over
     };
 
@@ -35,7 +35,7 @@ public:
 
     /// Takes over a buffer with an element for each of places(), of BufferUse::updated unless !is_writable().
     void put(std::size_t array, const Array& with);
-    /// Starts anew with the first `used` places taken, in buffers that lists may write or not.
+    /// Starts again with the first `used` places taken, in buffers that lists may write or not.
     void start(std::uint32_t places, std::uint32_t used, bool writable);
 
     /// Takes places for `count` elements, and grows the buffers where needed: to a power of two, or less where the
@@ -44,8 +44,9 @@ public:
     void give(std::uint32_t first, std::uint32_t count) { ranges_.give(first, count); }
     /// Makes room for `count` more elements at once, as far as the device has it.
     void reserve(std::uint64_t count, gl::CommandList& list);
-    /// Shrinks buffers of which three quarters are unused at their end.
+    /// Shrinks buffers if their upper half was unused for kHoldFrames calls: call it once per frame.
     void shrink(gl::CommandList& list);
+    static constexpr std::uint32_t kHoldFrames = 60;  // as for maps (MapCache)
 
     template <class T>
     void write(std::size_t array, std::uint32_t first, std::span<const T> values, gl::CommandList& list) const {
@@ -76,6 +77,7 @@ private:
     std::vector<Array> arrays_;
     RangeList ranges_;
     std::vector<gl::BufferHandle> outgrown_, made_;
+    std::uint32_t unused_frames_ = 0;  // calls of shrink() since the upper half was in use
     bool writable_ = true;
 };
 

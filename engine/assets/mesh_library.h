@@ -7,8 +7,8 @@
 
 namespace gnomon::assets {
 
-/// Meshes, materials and textures that MeshRef components refer to. Fixed once a GpuScene has it, but for the functions
-/// below and materials and textures appended for them. Change it between frames, and while no other thread reads it.
+/// Meshes, materials and textures that MeshRef components refer to. Once a GpuScene has it, meshes change by the
+/// functions below alone; materials and textures may be appended. Change it between frames, while no thread reads it.
 struct MeshLibrary {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;  // Submesh::material indexes this

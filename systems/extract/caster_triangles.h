@@ -30,8 +30,8 @@ struct CasterTriangleList {
     std::vector<std::uint32_t> masks;       // RayMasks::words(); empty: no triangle is masked
 };
 
-/// Appends the triangles of a mesh at rest, of which the first is number `first` of the common index buffer. Adds what
-/// is missing to `masks`.
+/// Appends the triangles of a mesh at rest. `first`: number of its first triangle in the common index buffer. Adds
+/// what is missing to `masks`.
 void append_caster_triangles(const assets::MeshLibrary& library, std::uint32_t mesh, std::uint32_t first,
                              RayMasks& masks, std::vector<CasterTriangle>& triangles);
 

@@ -215,9 +215,8 @@ void Extractor::list_instances(const ecs::Registry& registry, const assets::Mesh
         const PoseItem* pose = pose_of(snapshot, item.mesh);
         if (pose) bent_.push_back(i);
         const bool placed = was && !(pose && pose->version == snapshot.version) && was->mesh == item.mesh &&
-                            was->mesh_version == item.mesh_version &&
-                            was->gpu_slot == item.gpu_slot && was->basis == item.basis &&
-                            was->translation_ws_m == item.translation_ws_m;
+                            was->mesh_version == item.mesh_version && was->gpu_slot == item.gpu_slot &&
+                            was->basis == item.basis && was->translation_ws_m == item.translation_ws_m;
         item.version = placed ? was->version : snapshot.version;
         const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers &&
                           was->casts == item.casts && was->cast_layers == item.cast_layers;
@@ -243,7 +242,7 @@ std::uint32_t Extractor::listed_at(ecs::Entity e) const {
     return e.index < instance_of_.size() ? instance_of_[e.index] : kNone;
 }
 
-/// Returns true if an instance shows another mesh than it did, or if meshes came that any dropped entity may wait for.
+/// Returns true if an instance shows another mesh than it did, or if a dropped entity may have its mesh now.
 bool Extractor::any_mesh_changed(const assets::MeshLibrary& library, std::span<const std::uint32_t> lacking,
                                  SceneSnapshot& snapshot) {
     const bool others_lack = !std::equal(lacking.begin(), lacking.end(), lacking_.begin(), lacking_.end());

@@ -49,7 +49,7 @@ public:
     /// on must not be drawn.
     bool update(const SceneSnapshot& snapshot, gl::CommandList& list);
     std::uint32_t capacity() const { return instance_capacity_; }
-    /// Call it after each submission. `executed` false: the next updates repeat what the list was to upload.
+    /// Notes the result of a submission; call it after each. `executed` false: the next updates repeat the uploads.
     void submitted(bool executed);
 
     /// Creates caster_triangles() and caster_masks() if missing. Call it in each frame with a light that reads them.

@@ -35,7 +35,7 @@ bool MaskBuffer::follow(RayMasks& masks, gl::CommandList& list) {
     const std::uint32_t used = array_.used();
     if (wanted > used && array_.take(wanted - used, true, list) == DeviceArrays::kNone) return false;
     if (wanted < used) array_.give(wanted, used - wanted);
-    if (wanted < used) array_.shrink(list);
+    array_.shrink(list);
     for (const RayMasks::Change& change : masks.changes()) {
         const std::uint32_t end = std::min(change.first + change.count, wanted);
         if (change.first < end) array_.write(0, change.first, words.subspan(change.first, end - change.first), list);

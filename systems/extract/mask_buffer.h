@@ -12,10 +12,11 @@ namespace gnomon {
 class MaskBuffer {
 public:
     MaskBuffer() = default;
-    /// `label`: outlives the object.
+    /// Prepares a buffer. `label` must outlive it.
     MaskBuffer(gl::Device& device, const char* label) : device_(&device), label_(label), array_(device) {}
 
-    /// Makes the buffer from all words. `is_fixed`: of exactly their size, and never changed. Returns false without room.
+    /// Makes the buffer from all words. `is_fixed`: of exactly their size, and never changed. Returns false without
+    /// room.
     bool make(std::span<const std::uint32_t> words, bool is_fixed);
     /// Follows words that came and went. Returns false without room: drop() it then.
     bool follow(RayMasks& masks, gl::CommandList& list);

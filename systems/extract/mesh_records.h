@@ -23,7 +23,7 @@ struct SubmeshRange {
     std::uint32_t material = 0;
 };
 
-/// Returns what of a mesh's range its library tells, without its place.
+/// Returns a mesh's range without its place.
 MeshRange range_of(const assets::MeshLibrary& library, const assets::Mesh& mesh);
 
 /// Returns the number of a mesh's triangles, and their indices.

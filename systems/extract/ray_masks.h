@@ -56,8 +56,8 @@ private:
 
     const assets::MeshLibrary* library_;
     std::vector<std::uint32_t> words_;
-    RangeList ranges_;             // of words_
-    std::vector<Change> changes_;  // neighbours are joined
+    RangeList ranges_;                                 // places in words_
+    std::vector<Change> changes_;                      // neighbours are joined
     std::vector<std::uint32_t> materials_, textures_;  // first word per material and texture; kUnset
     std::vector<std::uint32_t> coloured_;              // like materials_, for meshes with colours
     std::vector<Change> uvs_;                          // words per mesh; count 0: none

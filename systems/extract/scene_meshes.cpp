@@ -84,7 +84,7 @@ void SceneMeshes::add_range(std::uint32_t m, std::uint32_t first_vertex, std::ui
         held_.resize(m + std::size_t{1});
     }
     const assets::Mesh& mesh = library_->meshes[m];
-    held_[m] = {library_->version_of(m), first_vertex, static_cast<std::uint32_t>(mesh.vertices.size()),
+    held_[m] = {library_->version_of(m), first_vertex,       static_cast<std::uint32_t>(mesh.vertices.size()),
                 first_triangle,          triangles_of(mesh), true};
     MeshRange& range = ranges_[m];
     range = range_of(*library_, mesh);

@@ -18,8 +18,8 @@
 
 namespace gnomon {
 
-/// Shapes of a library's meshes in common buffers: vertices, triangles, and what filters read of them. Meshes keep their
-/// places while they live. Owns the buffers.
+/// Shapes of a library's meshes in common buffers: vertices, triangles, and what filters read of them. Meshes keep
+/// their places while they live. Owns the buffers.
 class SceneMeshes {
 public:
     SceneMeshes() = default;
@@ -29,14 +29,14 @@ public:
     /// Uploads all meshes, in buffers of exactly their size. `library` must outlive the object.
     gl::Failure create(gl::Device& device, const assets::MeshLibrary& library);
 
-    /// Follows changes of the library: records uploads of meshes that came, gives back places of those that went.
+    /// Follows changes of the library: records uploads of new meshes, frees the places of removed ones.
     /// `materials`: number of materials that the device has.
     void follow(std::size_t materials, gl::CommandList& list);
-    /// Records uploads of meshes whose pose changed.
+    /// Records uploads of meshes with a changed pose.
     void update_poses(const SceneSnapshot& snapshot, gl::CommandList& list);
     /// Notes that the recorded uploads were executed, or that they are to be repeated.
     void submitted(bool executed);
-    /// See GpuScene.
+    /// Creates the caster triangles and masks, as GpuScene::provide_caster_triangles().
     bool provide_caster_triangles();
 
     /// Returns meshes without room on the device, sorted.
@@ -88,7 +88,7 @@ private:
     std::vector<Bent>::iterator bent_at(std::uint32_t mesh);
     Bent* bent_of(std::uint32_t mesh);
     std::span<const CasterTriangle> caster_records(std::uint32_t mesh, RayMasks& masks);
-    bool note_changes();
+    void note_changes();
     void take_away(std::uint32_t mesh);
     void place_waiting(std::size_t materials, gl::CommandList& list);
     bool place(std::uint32_t mesh, bool may_grow, gl::CommandList& list);

@@ -61,7 +61,7 @@ struct LightItem {
 struct PoseItem {
     std::uint32_t mesh = 0;
     std::uint64_t mesh_version = 0;  // InstanceItem::mesh_version
-    bool skinned = false;            // joints alone place its instances, which then stand at origin_ws_m without rotation
+    bool skinned = false;  // joints alone place its instances, which then stand at origin_ws_m without rotation
     glm::dvec3 origin_ws_m{0.0};
     std::vector<glm::dmat4x3> joints = {};  // from mesh space at rest to the space of its instances
     std::vector<float> weights = {};        // one per target
@@ -89,7 +89,7 @@ struct InstanceItem {
     bool visible = true;
     bool mirrored = false;  // negative determinant
     bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
-    std::uint64_t version = 0;  // grows when mesh, place or pose changes, which maps depend on
+    std::uint64_t version = 0;       // grows when mesh, place or pose changes, which maps depend on
     std::uint64_t mesh_version = 0;  // assets::MeshLibrary::version_of(mesh): another mesh may take the number
 };
 

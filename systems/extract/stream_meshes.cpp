@@ -3,18 +3,16 @@
 
 #include "systems/extract/scene_meshes.h"
 
-/// Meshes that come and go: their places, uploads and what is repeated after a failure.
+/// Meshes that come and go: their places and uploads, and repetition after a failure.
 namespace gnomon {
 
 void SceneMeshes::follow(std::size_t materials, gl::CommandList& list) {
     ++asked_;
     const bool had_casters = static_cast<bool>(caster_triangles());
-    const bool any_went = library_->version != seen_ && note_changes();
+    if (library_->version != seen_) note_changes();
     if (!waiting_.empty()) place_waiting(materials, list);
-    if (any_went) {
-        vertex_arrays_.shrink(list);
-        triangle_arrays_.shrink(list);
-    }
+    if (is_streaming_) vertex_arrays_.shrink(list);
+    if (is_streaming_) triangle_arrays_.shrink(list);
     for (const std::uint32_t m : unwritten_)
         if (held_[m].placed) write(m, list);
     unconfirmed_.insert(unconfirmed_.end(), unwritten_.begin(), unwritten_.end());
@@ -23,25 +21,22 @@ void SceneMeshes::follow(std::size_t materials, gl::CommandList& list) {
     if (had_casters && !caster_triangles()) provide_caster_triangles();
 }
 
-/// Takes meshes away that went or were replaced, and lists those that came. Returns whether any went.
-bool SceneMeshes::note_changes() {
+/// Takes removed and replaced meshes away, and lists new ones.
+void SceneMeshes::note_changes() {
     if (!is_streaming_) drop_casters();  // they are made again with room for changes
     is_streaming_ = true;
     seen_ = library_->version;
     held_.resize(library_->meshes.size());
     ranges_.resize(library_->meshes.size());
-    bool any_went = false;
     for (std::uint32_t m = 0; m < held_.size(); ++m) {
         const std::uint64_t version = library_->version_of(m);
         const bool is_new = !held_[m].placed && held_[m].version == 0;  // pushed back by hand
         if (held_[m].version == version && !is_new) continue;
-        any_went |= held_[m].placed;
         take_away(m);
         held_[m].version = version;
         if (!library_->meshes[m].indices.empty()) waiting_.push_back(m);
     }
     std::sort(waiting_.begin(), waiting_.end());
-    return any_went;
 }
 
 void SceneMeshes::take_away(std::uint32_t m) {
@@ -73,7 +68,7 @@ void SceneMeshes::place_waiting(std::size_t materials, gl::CommandList& list) {
         if (!has_materials(m, materials)) return false;
         if (place(m, may_grow, list)) return true;
         if (may_grow) room_retry_.failed(asked_);
-        may_grow = false;  // a device without room is asked once per frame
+        may_grow = false;  // one refusal per frame is enough
         return false;
     });
 }
@@ -110,8 +105,7 @@ void SceneMeshes::write(std::uint32_t m, gl::CommandList& list) {
     vertex_arrays_.write(kVertices, held.first_vertex, std::span<const assets::Vertex>(vertices), list);
     texel_scratch_.clear();
     if (colours()) append_colours(mesh, texel_scratch_);
-    if (colours())
-        vertex_arrays_.write(kColours, held.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
+    if (colours()) vertex_arrays_.write(kColours, held.first_vertex, std::span<const glm::vec4>(texel_scratch_), list);
     triangle_arrays_.write(kIndices, held.first_triangle, whole_triangles(mesh), list);
     texel_scratch_.clear();
     append_plane_normals(vertices, mesh.indices, texel_scratch_);

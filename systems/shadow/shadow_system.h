@@ -112,8 +112,8 @@ private:
     DynamicCasters dynamic_casters_;
     FrameReuse frame_reuse_;
     StageWatch watch_;
-    bool reused_ = false;     // the last update() reused the frame before it
-    bool may_reuse_ = false;  // the next update() may reuse the last frame
+    bool reused_ = false;                           // the last update() reused the frame before it
+    bool may_reuse_ = false;                        // the next update() may reuse the last frame
     bool had_casters_ = false, had_masks_ = false;  // buffers of the scene that the last run of the stages found
 };
 

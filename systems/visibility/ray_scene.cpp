@@ -150,7 +150,7 @@ void RayScene::note_place(const SceneSnapshot& scene, const GpuScene& gpu, std::
                           held_->trees.mesh_version(mesh), pose_version(scene, mesh)};
 }
 
-/// Gives back the places of trees that went, or whose mesh was replaced. Returns whether there were any.
+/// Frees the places of trees of removed and replaced meshes. Returns whether there were any.
 bool RayScene::take_away_changed() {
     bool any = false;
     for (std::uint32_t mesh = 0; mesh < held_->places.size(); ++mesh) {
@@ -181,8 +181,8 @@ RayScene::Followed RayScene::follow_meshes(const SceneSnapshot& scene, const Gpu
         if (!place_mesh(scene, gpu, mesh, list)) return Followed::failed;
         any_came = true;
     }
-    if (any_went) nodes_.shrink(list);
-    if (any_went) triangles_.shrink(list);
+    nodes_.shrink(list);
+    triangles_.shrink(list);
     if (!masks_.follow(held_->masks, list)) return Followed::failed;
     held_->placed_trees = held_->trees.counts().trees;
     name_buffers();

@@ -35,7 +35,7 @@ public:
     bool update(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
     /// Frees everything, when no light uses rays.
     void release();
-    /// Call it after each submission. `executed` false: the next update() writes everything again.
+    /// Notes the result of a submission; call it after each. `executed` false: the next update() writes everything.
     void submitted(bool executed);
 
     /// Returns the buffers; {0} unless update() succeeded.
