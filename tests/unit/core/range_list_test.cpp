@@ -57,7 +57,7 @@ TEST(RangeList, NeverHandsAPlaceOutTwiceAndLosesNone) {
             };
             std::uint32_t lowest = 0;
             while (lowest + count <= used.size() && !free_run(lowest)) ++lowest;
-            if (count > 0) ASSERT_EQ(first, lowest + count <= used.size() ? lowest : RangeList::kNone);
+            if (count > 0) { ASSERT_EQ(first, lowest + count <= used.size() ? lowest : RangeList::kNone); }
             if (first == RangeList::kNone) {
                 used.resize(used.size() + number(30), false);
                 list.resize(static_cast<std::uint32_t>(used.size()));

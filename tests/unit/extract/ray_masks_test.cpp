@@ -59,7 +59,7 @@ TEST(MeanChord, CountsWhatTheMaterialLeaves) {
 /// A library of masked triangles: `count` in each mesh, all corners at u = the mesh's number.
 assets::MeshLibrary masked_library(std::initializer_list<std::uint32_t> counts) {
     assets::MeshLibrary library;
-    library.materials.push_back({.alpha_mode = assets::AlphaMode::mask});
+    library.materials.push_back({.name = "masked", .alpha_mode = assets::AlphaMode::mask});
     for (const std::uint32_t count : counts) {
         assets::Mesh mesh;
         mesh.vertices.resize(3);
