@@ -139,7 +139,7 @@ bool SceneMeshes::provide_caster_triangles() {
     std::vector<CasterTriangle> triangles(triangle_arrays_.places());
     RayMasks masks(*library_);
     for (std::uint32_t m = 0; m < held_.size(); ++m) {
-        if (!held_[m].placed) continue;
+        if (!is_current(m)) continue;
         const std::span<const CasterTriangle> records = caster_records(m, masks);
         std::copy(records.begin(), records.end(), triangles.begin() + held_[m].first_triangle);
     }
@@ -191,6 +191,7 @@ void SceneMeshes::upload(Bent& bent, gl::CommandList& list) {
 
 void SceneMeshes::update_poses(const SceneSnapshot& snapshot, gl::CommandList& list) {
     for (Bent& bent : bent_) {
+        if (!is_current(bent.mesh)) continue;
         const PoseItem* pose = pose_of(snapshot, bent.mesh);
         const std::uint64_t wanted = pose ? pose->version : 0;
         if (bent.version == wanted) continue;

@@ -84,6 +84,10 @@ private:
         std::vector<CasterTriangle> triangles;  // empty without caster triangles on the device
     };
 
+    /// Returns true if the mesh has its places, and is still the one in the library.
+    bool is_current(std::uint32_t mesh) const {
+        return held_[mesh].placed && held_[mesh].version == library_->version_of(mesh);
+    }
     void add_range(std::uint32_t mesh, std::uint32_t first_vertex, std::uint32_t first_triangle);
     std::vector<Bent>::iterator bent_at(std::uint32_t mesh);
     Bent* bent_of(std::uint32_t mesh);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <random>
 
 #include "tests/system/test_world.h"
@@ -39,7 +40,8 @@ inline assets::Mesh random_mesh(std::mt19937_64& random) {
     const auto number = [&](std::uint32_t most) { return std::uniform_int_distribution<std::uint32_t>(0, most)(random); };
     const float size = 0.2f + 0.1f * static_cast<float>(number(5));
     if (number(2) == 0) return scaled_mesh(number(1) == 0 ? kBox : kMixedBox, size);
-    return strip_mesh(1 + number(number(9) == 0 ? 60 : 8), 0.3f * size, number(1), number(3) == 0);
+    const std::uint32_t quads = 1 + number(number(9) == 0 ? 60 : 8);
+    return strip_mesh(quads, std::min(0.3f * size, 1.5f / static_cast<float>(quads)), number(1), number(3) == 0);
 }
 
 }  // namespace gnomon
