@@ -22,6 +22,7 @@ constexpr int kFrames = 300;
 constexpr std::size_t kMeshes = 1000, kMostAtOnce = 90;
 constexpr int kRest = 100;                  // longer than anything counts: maps, what was seen, unused halves of buffers
 constexpr std::size_t kMostHostGrowth_bytes = 1u << 20;
+/// Places along x. A map of a face of a lamp that reaches 3 m contains casters up to 4 m along its axis: 4 √3 m away.
 constexpr double kQuiet_m = -6.0, kBusy_m = 5.0;
 
 /// Buffers that hold meshes, and nothing else.
@@ -50,9 +51,9 @@ struct Streamed {
     }
     void add_lamp(bool busy, LightKind kind, ShadowFilter filter) {
         const std::string name = (busy ? "busy " : "quiet ") + std::to_string(static_cast<int>(kind)) + " " + std::to_string(static_cast<int>(filter));
-        const ecs::Entity lamp = world.add_light(kind, {busy ? kBusy_m : kQuiet_m, 2.5, 0}, name);
+        const ecs::Entity lamp = world.add_light(kind, {busy ? kBusy_m : kQuiet_m, 2, 0}, name);
         world.registry.patch<Transform>(lamp, [](Transform& t) { t.rotation = glm::dquat(glm::dvec3(-1.5707963, 0, 0)); });
-        world.registry.patch<Light>(lamp, [](Light& l) { l.range_m = 5.0f, l.outer_cone_rad = 0.6f, l.inner_cone_rad = 0.5f; });
+        world.registry.patch<Light>(lamp, [](Light& l) { l.range_m = 3.0f, l.outer_cone_rad = 0.6f, l.inner_cone_rad = 0.5f; });
         world.registry.patch<LightShadow>(lamp, [&](LightShadow& s) { s.filter = filter, s.resolution_px = 128; });
     }
     void place_residents(const std::vector<std::uint32_t>& meshes) {
