@@ -69,7 +69,7 @@ private:
     std::map<std::tuple<assets::TextureWrap, assets::TextureWrap, bool>, gl::SamplerHandle> samplers_;
     std::vector<MaterialInfo> materials_;
     std::vector<std::byte> scratch_;
-    std::size_t confirmed_ = 0;  // materials whose records are known to be on the device
+    std::size_t confirmed_ = 0;  // number of materials with a record that is known to be on the device
     bool any_unlit_ = false;
     float most_emissive_ = 0.0f;
     Retry retry_;

@@ -35,7 +35,7 @@ inline assets::Mesh strip_mesh(std::uint32_t quads, float side_m, std::uint32_t 
     return mesh;
 }
 
-/// Any mesh of materials 0 and 1 of the test library: opaque or masked, with colours or without, small or large.
+/// Returns a mesh of materials 0 and 1 of the test library: opaque or masked, with colours or without, small or large.
 inline assets::Mesh random_mesh(std::mt19937_64& random) {
     const auto number = [&](std::uint32_t most) { return std::uniform_int_distribution<std::uint32_t>(0, most)(random); };
     const float size = 0.2f + 0.1f * static_cast<float>(number(5));

@@ -19,7 +19,7 @@ using ::testing::IsEmpty;
 
 constexpr int kRest = static_cast<int>(shadow::DynamicCasters::kStaticFrames) + 2;
 
-/// A lamp that shines straight down on two metres around x.
+/// Adds a lamp that shines straight down on two metres around x.
 ecs::Entity add_down_light(TestWorld& world, double x_m, const std::string& name, ShadowFilter filter) {
     const ecs::Entity e = world.add_light(LightKind::spot, {x_m, 6, 0}, name);
     world.registry.patch<Transform>(e, [](Transform& t) { t.rotation = glm::quatLookAt(glm::dvec3(0, -1, 0), glm::dvec3(1, 0, 0)); });
@@ -192,7 +192,7 @@ TEST_P(StreamingFrames, RaysWriteTheTreesOfNewMeshesAlone) {
     EXPECT_EQ(written("ray triangles"), 60u * sizeof(rays::BvhTriangle));
 }
 
-/// Allocations of frames that add a mesh, that remove one, and that do neither, in a world of so many meshes.
+/// Allocations of frames that add a mesh, that remove one, and that do neither, in a world with `residents` other meshes.
 struct Allocations {
     std::size_t adding = 0, removing = 0, resting = 0;
 };

@@ -26,7 +26,7 @@ protected:
         ASSERT_TRUE(made) << to_line(made.error());
         gpu.emplace(std::move(made).value());
     }
-    /// A frame's worth of following. The list stays to be looked at.
+    /// Follows the library as a frame does. The list stays to be looked at.
     void follow(bool executed = true) {
         list.clear();
         gpu->update_meshes(list);

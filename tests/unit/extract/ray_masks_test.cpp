@@ -56,7 +56,7 @@ TEST(MeanChord, CountsWhatTheMaterialLeaves) {
     EXPECT_TRUE(std::isinf(mean_chord_texel(half, 1.0f, 0.0f))) << "a cutoff of 0 cuts nothing";
 }
 
-/// A library of masked triangles: `count` in each mesh, all corners at u = the mesh's number.
+/// Returns a library of masked triangles: `count` in each mesh, all corners at u = the mesh's number.
 assets::MeshLibrary masked_library(std::initializer_list<std::uint32_t> counts) {
     assets::MeshLibrary library;
     library.materials.push_back({.name = "masked", .alpha_mode = assets::AlphaMode::mask});
