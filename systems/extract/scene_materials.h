@@ -68,7 +68,6 @@ private:
     std::vector<gl::TextureHandle> textures_;  // white, then one per texture
     std::map<std::tuple<assets::TextureWrap, assets::TextureWrap, bool>, gl::SamplerHandle> samplers_;
     std::vector<MaterialInfo> materials_;
-    std::vector<std::byte> scratch_;
     std::size_t confirmed_ = 0;  // number of materials with a record that is known to be on the device
     bool any_unlit_ = false;
     float most_emissive_ = 0.0f;

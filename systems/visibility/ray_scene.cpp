@@ -19,15 +19,20 @@ std::uint64_t pose_version(const SceneSnapshot& scene, std::uint32_t mesh) {
     return pose ? pose->version : 0;
 }
 
-/// Makes a buffer with these values, of one element if there are none. `grows`: with room to a power of two.
+/// Makes a buffer with these values, of one element if there are none. `grows`: with room to a power of two, if the
+/// device has it.
 template <class T>
 bool start(gl::Device& device, DeviceArrays& arrays, const char* label, std::vector<T>& values, bool grows) {
     static_assert(sizeof(T) % gl::kTexelBytes == 0);
     const auto used = static_cast<std::uint32_t>(values.size());
-    const std::uint32_t least = grows ? std::bit_ceil(std::max(used, DeviceArrays::kLeastPlaces)) : 1u;
-    values.resize(std::max(used, least));
-    const gl::BufferDesc desc{label, values.size() * sizeof(T), gl::BufferUse::updated, true};
-    const gl::BufferHandle made = device.create_buffer(desc, std::as_bytes(std::span(values))).handle;
+    const auto make = [&](std::uint32_t places) {
+        values.resize(places);
+        const gl::BufferDesc desc{label, values.size() * sizeof(T), gl::BufferUse::updated, true};
+        return device.create_buffer(desc, std::as_bytes(std::span(values))).handle;
+    };
+    gl::BufferHandle made{};
+    if (grows) made = make(std::bit_ceil(std::max(used, DeviceArrays::kLeastPlaces)));
+    if (!made) made = make(std::max(used, 1u));
     arrays.put(0, {label, sizeof(T), true, made});
     arrays.start(static_cast<std::uint32_t>(values.size()), used, true);
     return static_cast<bool>(made);
