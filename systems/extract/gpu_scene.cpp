@@ -61,7 +61,7 @@ void GpuScene::release() {
 
 void GpuScene::update_meshes(gl::CommandList& list) {
     materials_.follow(list);
-    meshes_.follow(materials_.count(), list);
+    meshes_.follow(materials_, list);
 }
 
 bool GpuScene::update(const SceneSnapshot& snapshot, gl::CommandList& list) {

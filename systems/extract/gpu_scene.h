@@ -36,8 +36,8 @@ public:
     GpuScene& operator=(GpuScene&&) noexcept;
     ~GpuScene() { release(); }
 
-    /// Follows meshes that came to the library or went (MeshLibrary::add() and others), and materials and textures that
-    /// were appended. Records their uploads. Call it once per frame before the snapshot is filled, if the library may
+    /// Follows meshes, materials and textures that came to the library or went (MeshLibrary::add() and others). Records
+    /// their uploads. Call it once per frame before the snapshot is filled, if the library may
     /// have changed. The cost is that of the meshes that came, and a comparison per slot.
     void update_meshes(gl::CommandList& list);
     /// Returns meshes that the device has no room for, sorted. No snapshot may list instances of them. update_meshes()

@@ -40,9 +40,12 @@ RayMasks::Place RayMasks::place(std::uint32_t mesh, std::uint32_t triangle, std:
 }
 
 std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
-    std::vector<std::uint32_t>& places = coloured ? coloured_ : materials_;
-    places.resize(library_->materials.size(), kUnset);
-    if (places[index] != kUnset) return places[index];
+    std::vector<Words>& places = coloured ? coloured_ : materials_;
+    places.resize(library_->materials.size());
+    Words& place = places[index];
+    const std::uint64_t version = library_->material_versions.of(index);
+    if (place.count > 0 && place.version == version) return place.first;
+    ranges_.give(place.first, place.count);
     const assets::Material& material = library_->materials[index];
     RayMask mask{.cutoff = material.alpha_cutoff,
                  .alpha = material.base_colour.a,
@@ -60,24 +63,29 @@ std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
         if (mask.texels != kUnset) mask.chord_texel = mean_chord_texel(t, mask.alpha, mask.cutoff);
     }
     const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(RayMask) / sizeof(std::uint32_t)>>(mask);
-    places[index] = room_for(words.size());
-    std::copy(words.begin(), words.end(), words_.begin() + places[index]);
-    return places[index];
+    place = {room_for(words.size()), static_cast<std::uint32_t>(words.size()), version};
+    std::copy(words.begin(), words.end(), words_.begin() + place.first);
+    return place.first;
 }
 
 /// Returns the first word of a texture's texels. kUnset, which shaders read as no texture, if its data are incomplete.
 std::uint32_t RayMasks::texels_of(std::int32_t index) {
-    textures_.resize(library_->textures.size(), kUnset);
-    std::uint32_t& first = textures_[static_cast<std::size_t>(index)];
+    textures_.resize(library_->textures.size());
+    Words& place = textures_[static_cast<std::size_t>(index)];
     const assets::Texture& texture = library_->textures[static_cast<std::size_t>(index)];
+    const std::uint64_t version = library_->texture_versions.of(static_cast<std::uint32_t>(index));
+    if (place.count > 0 && place.version == version) return place.first;
+    ranges_.give(place.first, place.count);
+    place = {};
     const std::size_t texels = std::size_t{texture.width} * texture.height;
-    if (first != kUnset || texels == 0 || texture.rgba.size() < 4 * texels) return first;
+    if (texels == 0 || texture.rgba.size() < 4 * texels) return kUnset;
     const std::size_t count = (texels + kTexelsPerWord - 1) / kTexelsPerWord;
-    first = room_for(count);
-    std::fill_n(words_.begin() + first, count, 0u);
+    place = {room_for(count), static_cast<std::uint32_t>(count), version};
+    std::uint32_t* word = words_.data() + place.first;
+    std::fill_n(word, count, 0u);
     for (std::size_t i = 0; i < texels; ++i)
-        words_[first + i / kTexelsPerWord] |= std::uint32_t{texture.rgba[4 * i + 3]} << (8 * (i % kTexelsPerWord));
-    return first;
+        word[i / kTexelsPerWord] |= std::uint32_t{texture.rgba[4 * i + 3]} << (8 * (i % kTexelsPerWord));
+    return place.first;
 }
 
 std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
@@ -86,7 +94,7 @@ std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
     const assets::Mesh& mesh = library_->meshes[index];
     const std::uint32_t per_triangle = mesh.colours.empty() ? kWordsPerTriangle : kWordsWithColours;
     const auto count = static_cast<std::uint32_t>(mesh.indices.size() / 3) * per_triangle;
-    uvs_[index] = {room_for(count), count};
+    uvs_[index] = {room_for(count), count, library_->version_of(index)};
     std::uint32_t* word = words_.data() + uvs_[index].first;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::uint32_t* corners = &mesh.indices[i];

@@ -44,33 +44,51 @@ public:
     };
     /// Uploads all of a library, which must outlive the object.
     Failed create(gl::Device& device, const assets::MeshLibrary& library);
-    /// Adds materials and textures that were appended to the library, as far as the device has room.
+    /// Follows materials and textures that came to the library or went, as far as the device has room.
     void follow(gl::CommandList& list);
     /// Notes that the recorded uploads were executed, or that they are to be repeated.
     void submitted(bool executed);
 
-    std::size_t count() const { return materials_.size(); }
+    /// Returns true if the device has the material.
+    bool has(std::uint32_t material) const { return material < held_.size() && held_[material].held; }
     const MaterialInfo& material(std::uint32_t index) const { return materials_[index]; }
     bool any_unlit() const { return any_unlit_; }
     float most_emissive() const { return most_emissive_; }
     gl::BufferHandle uniforms() const { return uniforms_.buffer(0); }
 
 private:
-    gl::Failure add_texture(const assets::Texture& texture);
-    gl::Failure add_info(std::size_t material);
+    /// What of a slot of the library is on the device.
+    struct Held {
+        std::uint64_t version = 0;  // the library's, of the slot
+        bool held = false;
+    };
+    struct HeldTexture {
+        gl::TextureHandle texture{};  // {0}: it has no texels
+        Held state;
+    };
+    gl::Failure make_texture(std::size_t texture);
+    gl::Failure make_info(std::size_t material);
+    gl::Failure make_lacking(gl::CommandList& list);
     gl::Failure sampler_for(assets::TextureWrap u, assets::TextureWrap v, bool linear, gl::SamplerHandle& sampler);
+    void note_changes();
+    void note_lights();
     void write(std::size_t material, gl::CommandList& list);
     void release();
 
     gl::Device* device_ = nullptr;
     const assets::MeshLibrary* library_ = nullptr;
     DeviceArrays uniforms_;
-    std::vector<gl::TextureHandle> textures_;  // white, then one per texture
+    gl::TextureHandle white_{};
+    std::vector<HeldTexture> textures_;
+    std::vector<gl::TextureHandle> outgrown_;  // freed once the list was submitted
     std::map<std::tuple<assets::TextureWrap, assets::TextureWrap, bool>, gl::SamplerHandle> samplers_;
     std::vector<MaterialInfo> materials_;
-    std::size_t confirmed_ = 0;  // number of materials with a record that is known to be on the device
+    std::vector<Held> held_;  // by material
+    std::vector<std::size_t> unwritten_, unconfirmed_;
+    bool lacks_ = false;  // some material or texture is not on the device
     bool any_unlit_ = false;
     float most_emissive_ = 0.0f;
+    std::uint64_t seen_ = 0;
     Retry retry_;
     std::uint64_t asked_ = 0;
 };

@@ -13,6 +13,7 @@
 #include "systems/extract/mask_buffer.h"
 #include "systems/extract/mesh_records.h"
 #include "systems/extract/ray_masks.h"
+#include "systems/extract/scene_materials.h"
 #include "systems/extract/snapshot.h"
 #include "systems/retry.h"
 
@@ -29,9 +30,9 @@ public:
     /// Uploads all meshes, in buffers of exactly their size. `library` must outlive the object.
     gl::Failure create(gl::Device& device, const assets::MeshLibrary& library);
 
-    /// Follows changes of the library: records uploads of new meshes, frees the places of removed ones.
-    /// `materials`: number of materials that the device has.
-    void follow(std::size_t materials, gl::CommandList& list);
+    /// Follows changes of the library: records uploads of new meshes, frees the places of removed ones. A new mesh
+    /// lacks room until the device has its `materials`.
+    void follow(const SceneMaterials& materials, gl::CommandList& list);
     /// Records uploads of meshes with a changed pose.
     void update_poses(const SceneSnapshot& snapshot, gl::CommandList& list);
     /// Notes that the recorded uploads were executed, or that they are to be repeated.
@@ -94,9 +95,9 @@ private:
     std::span<const CasterTriangle> caster_records(std::uint32_t mesh, RayMasks& masks);
     void note_changes();
     void take_away(std::uint32_t mesh);
-    void place_waiting(std::size_t materials, gl::CommandList& list);
+    void place_waiting(const SceneMaterials& materials, gl::CommandList& list);
     bool place(std::uint32_t mesh, bool may_grow, gl::CommandList& list);
-    bool has_materials(std::uint32_t mesh, std::size_t materials) const;
+    bool has_materials(std::uint32_t mesh, const SceneMaterials& materials) const;
     bool provide_colours(const assets::Mesh& mesh, bool may_grow);
     void write(std::uint32_t mesh, gl::CommandList& list);
     void upload(Bent& bent, gl::CommandList& list);

@@ -6,7 +6,7 @@
 /// Meshes that come and go: their places and uploads, and repetition after a failure.
 namespace gnomon {
 
-void SceneMeshes::follow(std::size_t materials, gl::CommandList& list) {
+void SceneMeshes::follow(const SceneMaterials& materials, gl::CommandList& list) {
     ++asked_;
     const bool had_casters = static_cast<bool>(caster_triangles());
     if (library_->version != seen_) note_changes();
@@ -53,7 +53,7 @@ void SceneMeshes::take_away(std::uint32_t m) {
     ranges_[m] = {};
 }
 
-void SceneMeshes::place_waiting(std::size_t materials, gl::CommandList& list) {
+void SceneMeshes::place_waiting(const SceneMaterials& materials, gl::CommandList& list) {
     bool may_grow = room_retry_.due(asked_);
     if (may_grow) {
         std::uint64_t vertices = 0, triangles = 0;
@@ -73,10 +73,10 @@ void SceneMeshes::place_waiting(std::size_t materials, gl::CommandList& list) {
     });
 }
 
-bool SceneMeshes::has_materials(std::uint32_t m, std::size_t materials) const {
+bool SceneMeshes::has_materials(std::uint32_t m, const SceneMaterials& materials) const {
     const std::vector<assets::Submesh>& submeshes = library_->meshes[m].submeshes;
     return std::all_of(submeshes.begin(), submeshes.end(),
-                       [&](const assets::Submesh& submesh) { return submesh.material < materials; });
+                       [&](const assets::Submesh& submesh) { return materials.has(submesh.material); });
 }
 
 /// Takes places for a mesh. Returns false without room.

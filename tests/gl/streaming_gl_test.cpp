@@ -8,7 +8,7 @@
 namespace gnomon {
 namespace {
 
-constexpr std::uint32_t kTexels = 32, kMatt = 0, kLeaf = 1, kCut = 2;
+constexpr std::uint32_t kTexels = 32, kMatt = 0, kLate = 3;
 
 class StreamingPictures : public FrameTest {
 protected:
@@ -37,6 +37,11 @@ protected:
         for (std::uint32_t i = 0; i < kTexels * kTexels; ++i)
             made.rgba.insert(made.rgba.end(), {90, 150, 60, static_cast<std::uint8_t>((i / 2 + i / kTexels / 2) % every == 0 ? 0 : 255)});
         return made;
+    }
+    /// Adds a masked material with a texture of its own.
+    void add_late_leaf(std::uint32_t every) {
+        const auto dots = static_cast<std::int32_t>(library.add_texture(texture("more dots", every)));
+        EXPECT_EQ(library.add_material({.name = "late leaf", .base_colour_texture = dots, .metallic = 0.0f, .alpha_mode = assets::AlphaMode::mask, .double_sided = true}), kLate);
     }
     assets::Mesh any_mesh(std::mt19937_64& random) {
         const auto number = [&](std::uint32_t most) { return std::uniform_int_distribution<std::uint32_t>(0, most)(random); };
@@ -77,9 +82,13 @@ TEST_F(StreamingPictures, AreThoseOfASceneMadeAtOnce) {
     constexpr int kFrames = 48, kEach = 4;
     std::size_t removed = 0;
     for (int f = 0; f < kFrames; ++f) {
-        if (f == 20) {  // what comes later may bring materials and textures along
-            library.textures.push_back(texture("more dots", 5));
-            library.materials.push_back({.name = "late leaf", .base_colour_texture = 1, .metallic = 0.0f, .alpha_mode = assets::AlphaMode::mask, .double_sided = true});
+        if (f == 12) add_late_leaf(5);
+        if (f == 30) {  // another one in the same slots
+            for (const Streaming& streaming : living)
+                if (library.meshes[streaming.mesh].submeshes[0].material == kLate) library.replace(streaming.mesh, strip_mesh(2, 0.4f, kMatt, false));
+            library.remove_material(kLate);
+            library.remove_texture(1);
+            add_late_leaf(2);
         }
         for (int i = 0; i < kEach; ++i) {
             const std::uint32_t mesh = library.add(any_mesh(random));

@@ -9,9 +9,7 @@ namespace gnomon {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::Each;
 using ::testing::IsEmpty;
-using ::testing::VariantWith;
 
 class StreamingScene : public ::testing::Test {
 protected:
@@ -37,6 +35,11 @@ protected:
         const std::uint32_t m = library.add(std::move(mesh));
         follow();
         return m;
+    }
+    glm::vec4 colour_of(std::uint32_t material) const {
+        glm::vec4 colour(-1.0f);
+        std::memcpy(&colour, device.buffer_bytes(gpu->material_uniforms()).data() + gpu->material(material).uniform_offset, sizeof colour);
+        return colour;
     }
     std::uint64_t uploaded_bytes() const {
         std::uint64_t bytes = 0;
@@ -131,23 +134,49 @@ TEST_F(StreamingScene, CasterTrianglesAndMasksFollow) {
     EXPECT_EQ(expect_contents(device, *gpu), 9u);
 }
 
-TEST_F(StreamingScene, MaterialsAndTexturesAreAppended) {
-    assets::Texture leaves{.name = "leaves", .width = 4, .height = 4, .rgba = std::vector<std::uint8_t>(64, 200)};
-    library.textures.push_back(leaves);
-    library.materials.push_back({.name = "leaf", .base_colour = {1, 0.5f, 0.25f, 1}, .base_colour_texture = 0, .alpha_mode = assets::AlphaMode::mask});
+assets::Texture leaves(const char* name, std::uint8_t alpha, std::uint32_t side = 4) {
+    return {.name = name, .width = side, .height = side, .rgba = std::vector<std::uint8_t>(4 * side * side, alpha)};
+}
+
+TEST_F(StreamingScene, MaterialsAndTexturesComeWithTheirMeshes) {
     ASSERT_TRUE(gpu->provide_caster_triangles());
-    const std::uint32_t m = add(strip_mesh(3, 0.5f, 3, false));
+    const auto texture = static_cast<std::int32_t>(library.add_texture(leaves("leaves", 200)));
+    const std::uint32_t leaf = library.add_material({.name = "leaf", .base_colour = {1, 0.5f, 0.25f, 1}, .base_colour_texture = texture, .alpha_mode = assets::AlphaMode::mask});
+    const std::uint32_t m = add(strip_mesh(3, 0.5f, leaf, false));
     EXPECT_EQ(expect_contents(device, *gpu), 7u);
     const GpuScene::MaterialInfo& info = gpu->material(gpu->submesh(gpu->mesh(m).first_submesh).material);
     EXPECT_EQ(device.texture(info.texture)->label, "texture leaves");
     EXPECT_EQ(info.alpha_mode, assets::AlphaMode::mask);
-    const auto record = values_in<MaterialRecord>(device, gpu->material_uniforms(), 0, 1 + info.uniform_offset / sizeof(MaterialRecord) + 1);
-    std::array<float, 4> colour{};
-    std::memcpy(colour.data(), device.buffer_bytes(gpu->material_uniforms()).data() + info.uniform_offset, sizeof colour);
-    EXPECT_THAT(colour, ElementsAre(1.0f, 0.5f, 0.25f, 1.0f));
-    for (int i = 0; i < 100; ++i) library.materials.push_back({.name = "one of many", .metallic = 0.5f});
+    EXPECT_EQ(colour_of(leaf), glm::vec4(1.0f, 0.5f, 0.25f, 1.0f));
+    for (int i = 0; i < 100; ++i) library.add_material({.name = "one of many", .metallic = 0.5f});
     add(scaled_mesh(kBox, 1.0f));
     EXPECT_EQ(device.buffer(gpu->material_uniforms())->size, 128u * device.info().uniform_alignment);
+    EXPECT_EQ(colour_of(leaf), glm::vec4(1.0f, 0.5f, 0.25f, 1.0f)) << "copied";
+}
+
+TEST_F(StreamingScene, MaterialsAndTexturesGoAndOthersTakeTheirSlots) {
+    ASSERT_TRUE(gpu->provide_caster_triangles());
+    std::size_t living = 0;
+    for (std::uint8_t round = 1; round <= 20; ++round) {
+        const std::string name = "leaves " + std::to_string(round);
+        const float red = 0.01f * static_cast<float>(round);
+        const std::uint32_t texture = library.add_texture(leaves(name.c_str(), round, 4 + round % 3));
+        const std::uint32_t leaf = library.add_material({.name = "leaf", .base_colour = {red, 1, 1, 0.5f}, .base_colour_texture = static_cast<std::int32_t>(texture), .alpha_mode = assets::AlphaMode::mask});
+        EXPECT_EQ(texture, 0u);
+        EXPECT_EQ(leaf, 3u);
+        const std::uint32_t plain = add(strip_mesh(2, 0.5f, leaf, false)), coloured = add(strip_mesh(2, 0.5f, leaf, true));
+        EXPECT_EQ(expect_contents(device, *gpu), 8u) << "masks of this round's texture";
+        EXPECT_EQ(device.texture(gpu->material(leaf).texture)->label, "texture " + name);
+        EXPECT_EQ(colour_of(leaf).r, red);
+        if (round == 1) living = device.live_count();
+        EXPECT_EQ(device.live_count(), living);
+        for (const std::uint32_t m : {plain, coloured}) library.remove(m);
+        library.remove_material(leaf);
+        library.remove_texture(texture);
+        if (round % 2 == 0) follow();  // or all within a frame
+    }
+    follow();
+    EXPECT_EQ(device.live_count(), living - 1) << "the texture";
 }
 
 TEST_F(StreamingScene, WithoutRoomAMeshIsLackingAndOthersStay) {
@@ -161,8 +190,8 @@ TEST_F(StreamingScene, WithoutRoomAMeshIsLackingAndOthersStay) {
         ASSERT_TRUE(gpu->provide_caster_triangles());
         device.fail_label(label, gl::Failure::out_of_memory);
         const std::size_t living = device.live_count();
-        library.textures.push_back({.name = "late", .width = 1, .height = 1, .rgba = {1, 2, 3, 4}});
-        library.materials.push_back({.name = "late", .base_colour_texture = 0});
+        library.add_texture(leaves("late", 9));
+        library.add_material({.name = "late", .base_colour_texture = 0});
         const std::uint32_t m = add(strip_mesh(100, 0.1f, of_material ? 3 : 1, true));
         EXPECT_THAT(gpu->lacking_meshes(), ElementsAre(m));
         EXPECT_EQ(gpu->mesh(m).submesh_count, 0u);
@@ -204,16 +233,12 @@ TEST_F(StreamingScene, AListThatWasNotExecutedIsRepeated) {
     EXPECT_EQ(expect_contents(device, *gpu), 8u);
     // With it copies to grown buffers were lost.
     library.add(strip_mesh(200, 0.1f, 1, true));
-    library.materials.push_back({});
+    library.add_material({});
     follow(false);
     follow();
     ASSERT_TRUE(gpu->provide_caster_triangles());
     EXPECT_EQ(expect_contents(device, *gpu), 9u);
-    std::array<float, 4> colour{};
-    for (std::size_t m = 0; m < library.materials.size(); ++m) {
-        std::memcpy(colour.data(), device.buffer_bytes(gpu->material_uniforms()).data() + gpu->material(static_cast<std::uint32_t>(m)).uniform_offset, sizeof colour);
-        EXPECT_THAT(colour, Each(1.0f)) << m;
-    }
+    for (std::uint32_t m = 0; m < library.materials.size(); ++m) EXPECT_EQ(colour_of(m), glm::vec4(1.0f)) << m;
 }
 
 TEST_F(StreamingScene, AnyHistoryLeavesWhatTheLibraryHas) {
