@@ -19,7 +19,7 @@ std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::Subm
     const bool drawn = result.failure == gl::Failure::none;
     parts.shadows.commit(parts.scene, drawn);
     if (parts.lighting) parts.lighting->submitted(result.submission, drawn);
-    if (!drawn) parts.gpu.forget_uploads();
+    parts.gpu.submitted(drawn);
     if (!drawn) report.failure = result.failure;
     note_submission(parts, result.submission, learn_costs, report);
     std::vector<gl::Timing> timings = parts.device.take_timings();

@@ -39,7 +39,8 @@ void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
     report_.clear();
 
     const TransformReport& transforms = transforms_.update(world);
-    extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_);
+    gpu_scene_.update_meshes(commands_);
+    extractor_.update(world, library_, transforms, settings.viewport_px, snapshot_, gpu_scene_.lacking_meshes());
     report_.dropped = snapshot_.dropped;
     const bool held = frozen_.has_value() && settings.freeze_fits;
     if (!held) lighting_->collect_depths(feedback_.sampled_depths);

@@ -61,7 +61,8 @@ struct FrameSettings {
 /// order, write your own after frame.cpp's run(), which is all there is.
 class Frame {
 public:
-    /// Creates a frame. `device` and `library` must outlive it. `fit_history`: of the frame to continue after a lost
+    /// Creates a frame. `device` and `library` must outlive it. Between frames meshes may come to the library and go
+    /// (MeshLibrary::add(), replace(), remove()). `fit_history`: of the frame to continue after a lost
     /// context; pictures then continue bit for bit. Errors: "gpu.scene".
     static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library,
                                                  const shadow::History& fit_history = {});

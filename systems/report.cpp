@@ -196,6 +196,8 @@ const char* reason_code(DropReason reason) {
             return "absurd_camera";
         case DropReason::instances_full:
             return "instances_full";
+        case DropReason::meshes_full:
+            return "meshes_full";
     }
     return "unknown";
 }

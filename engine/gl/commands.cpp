@@ -142,7 +142,10 @@ struct Writer {
         return "Dispatch" + field("program", c.program) + field("groups_x", c.groups_x) + field("groups_y", c.groups_y);
     }
     std::string operator()(const CopyBuffer& c) const {
-        return "CopyBuffer" + field("source", c.source) + field("destination", c.destination);
+        std::string text = "CopyBuffer" + field("source", c.source) + field("destination", c.destination);
+        if (c.source_offset != 0) text += field("source_offset", c.source_offset);
+        if (c.destination_offset != 0) text += field("destination_offset", c.destination_offset);
+        return c.size == 0 ? text : text + field("size", c.size);
     }
     std::string operator()(const CopyTexture& c) const {
         return "CopyTexture" + field("source", c.source) + field("destination", c.destination) +

@@ -186,10 +186,11 @@ struct Dispatch {
     std::uint32_t groups_x = 1, groups_y = 1;
     bool operator==(const Dispatch&) const = default;
 };
-/// Copies a whole buffer to another of the same size, outside passes. Device::read_buffer reads the copy in a
-/// BufferUse::read_back buffer.
+/// Copies a buffer to another, outside passes. Size 0: the whole buffer, to one of the same size; Device::read_buffer
+/// reads the copy in a BufferUse::read_back buffer. Otherwise `size` bytes, to an updated buffer.
 struct CopyBuffer {
     BufferHandle source{}, destination{};
+    std::uint64_t source_offset = 0, destination_offset = 0, size = 0;
     bool operator==(const CopyBuffer&) const = default;
 };
 

@@ -27,7 +27,7 @@ enum class Misuse : std::uint8_t {
     dispatch_inside_pass,
     dispatch_of_nothing,  // no work groups
     copy_inside_pass,
-    copy_mismatch,         // different sizes or formats, source is destination, no such layer, or a fixed buffer
+    copy_mismatch,         // sizes, formats or ranges, source is destination, no such layer, or a fixed buffer
     read_of_other_buffer,  // not BufferUse::read_back, or a wrong size
     update_inside_pass,
     update_out_of_range,

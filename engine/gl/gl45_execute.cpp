@@ -186,10 +186,12 @@ public:
         const GlBuffer* source = find_object(objects_.buffers, c.source.id);
         const GlBuffer* destination = find_object(objects_.buffers, c.destination.id);
         if (in_pass_ || source == nullptr || destination == nullptr || source == destination ||
-            destination->desc.use == BufferUse::fixed || source->desc.size != destination->desc.size) {
+            !can_copy(c, source->desc, destination->desc)) {
             return note(Failure::invalid_value);
         }
-        glCopyNamedBufferSubData(source->name, destination->name, 0, 0, static_cast<GLsizeiptr>(source->desc.size));
+        glCopyNamedBufferSubData(source->name, destination->name, static_cast<GLintptr>(c.source_offset),
+                                 static_cast<GLintptr>(c.destination_offset),
+                                 static_cast<GLsizeiptr>(c.size == 0 ? source->desc.size : c.size));
         if (destination->desc.use == BufferUse::read_back) readbacks_.expect(c.destination.id);
     }
 

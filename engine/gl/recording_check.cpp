@@ -144,11 +144,11 @@ public:
         if (!known(objects_.buffers, c.destination.id, "destination") || !source_known) return;
         const RecordedBuffer& source = objects_.buffers.at(c.source.id);
         RecordedBuffer& destination = objects_.buffers.at(c.destination.id);
-        if (c.source == c.destination || destination.desc.use == BufferUse::fixed ||
-            source.bytes.size() != destination.bytes.size()) {
+        if (c.source == c.destination || !can_copy(c, source.desc, destination.desc))
             return find(Misuse::copy_mismatch, destination.desc.label);
-        }
-        destination.bytes = source.bytes;
+        std::copy_n(source.bytes.begin() + static_cast<std::ptrdiff_t>(c.source_offset),
+                    c.size == 0 ? source.bytes.size() : c.size,
+                    destination.bytes.begin() + static_cast<std::ptrdiff_t>(c.destination_offset));
         destination.unread = destination.desc.use == BufferUse::read_back;
         destination.copied_at = submission_;
     }

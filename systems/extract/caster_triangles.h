@@ -5,6 +5,7 @@
 
 #include "engine/assets/mesh_library.h"
 #include "engine/assets/mesh_topology.h"
+#include "systems/extract/ray_masks.h"
 
 namespace gnomon {
 
@@ -28,6 +29,11 @@ struct CasterTriangleList {
     std::vector<CasterTriangle> triangles;  // in the order of the common index buffer
     std::vector<std::uint32_t> masks;       // RayMasks::words(); empty: no triangle is masked
 };
+
+/// Appends the triangles of a mesh at rest. `first`: number of its first triangle in the common index buffer. Adds
+/// what is missing to `masks`.
+void append_caster_triangles(const assets::MeshLibrary& library, std::uint32_t mesh, std::uint32_t first,
+                             RayMasks& masks, std::vector<CasterTriangle>& triangles);
 
 /// Collects all triangles of a library at rest. Neighbours belong to the same mesh; both are opaque.
 CasterTriangleList caster_triangles_of(const assets::MeshLibrary& library);

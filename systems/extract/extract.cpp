@@ -84,6 +84,12 @@ void list_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     for (const assets::Mesh& mesh : library.meshes) snapshot.shapes.push_back(has_shape(mesh) ? mesh.shape : nullptr);
 }
 
+/// Lets go of the shapes of meshes that went.
+void free_shapes(const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
+    for (std::size_t m = 0; m < snapshot.shapes.size(); ++m)
+        if (snapshot.shapes[m] != library.meshes[m].shape) snapshot.shapes[m] = nullptr;
+}
+
 /// Limits the range of orthographic cameras to the visible scene.
 void narrow_flat_views(const ecs::Registry& registry, std::vector<glm::dvec3>& scratch, SceneSnapshot& snapshot) {
     for (ConsumerItem& consumer : snapshot.consumers) {
@@ -140,10 +146,17 @@ void Extractor::list_instance(const ecs::Registry& registry, const assets::MeshL
         return;
     }
     const assets::Mesh& mesh = library.meshes[ref.mesh];
-    if (mesh.indices.empty()) return;
+    if (mesh.indices.empty() && !library.is_removed(ref.mesh)) return;
+    const bool lacks = std::binary_search(lacking_.begin(), lacking_.end(), ref.mesh);
+    if (mesh.indices.empty() || lacks) {
+        unusable_.push_back(
+            {entity, name_of(registry, entity), lacks ? DropReason::meshes_full : DropReason::unknown_mesh});
+        return;
+    }
     InstanceItem item;
     item.entity = entity;
     item.mesh = ref.mesh;
+    item.mesh_version = library.version_of(ref.mesh);
     put_marks(registry, ref, item);
     if (!place(item, *registry.get<WorldTransform>(entity), mesh, pose_of(snapshot, ref.mesh))) {
         unusable_.push_back({entity, name_of(registry, entity), DropReason::zero_scale});
@@ -202,8 +215,8 @@ void Extractor::list_instances(const ecs::Registry& registry, const assets::Mesh
         const PoseItem* pose = pose_of(snapshot, item.mesh);
         if (pose) bent_.push_back(i);
         const bool placed = was && !(pose && pose->version == snapshot.version) && was->mesh == item.mesh &&
-                            was->gpu_slot == item.gpu_slot && was->basis == item.basis &&
-                            was->translation_ws_m == item.translation_ws_m;
+                            was->mesh_version == item.mesh_version && was->gpu_slot == item.gpu_slot &&
+                            was->basis == item.basis && was->translation_ws_m == item.translation_ws_m;
         item.version = placed ? was->version : snapshot.version;
         const bool same = placed && was->receives == item.receives && was->receive_layers == item.receive_layers &&
                           was->casts == item.casts && was->cast_layers == item.cast_layers;
@@ -227,6 +240,23 @@ void Extractor::list_views(const ecs::Registry& registry, const TransformReport&
 
 std::uint32_t Extractor::listed_at(ecs::Entity e) const {
     return e.index < instance_of_.size() ? instance_of_[e.index] : kNone;
+}
+
+/// Returns true if an instance shows another mesh than it did, or if a dropped entity may have its mesh now.
+bool Extractor::any_mesh_changed(const assets::MeshLibrary& library, std::span<const std::uint32_t> lacking,
+                                 SceneSnapshot& snapshot) {
+    const bool others_lack = !std::equal(lacking.begin(), lacking.end(), lacking_.begin(), lacking_.end());
+    if (others_lack) lacking_.assign(lacking.begin(), lacking.end());
+    if (library.version == library_version_) return others_lack;
+    library_version_ = library.version;
+    free_shapes(library, snapshot);
+    const auto is_other = [&](const auto& item) { return item.mesh_version != library.version_of(item.mesh); };
+    const auto waits = [](const DroppedEntity& dropped) {
+        return dropped.reason == DropReason::unknown_mesh || dropped.reason == DropReason::meshes_full;
+    };
+    return others_lack || std::any_of(unusable_.begin(), unusable_.end(), waits) ||
+           std::any_of(snapshot.poses.begin(), snapshot.poses.end(), is_other) ||
+           std::any_of(snapshot.instances.begin(), snapshot.instances.end(), is_other);
 }
 
 /// Returns true if a written entity became an instance or stopped being one. Reasons: scaled to nothing or back, or
@@ -317,9 +347,10 @@ Extractor::Touched Extractor::touch(const ecs::Registry& registry, const assets:
 }
 
 void Extractor::update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
-                       glm::uvec2 viewport_px, SceneSnapshot& snapshot) {
+                       glm::uvec2 viewport_px, SceneSnapshot& snapshot, std::span<const std::uint32_t> lacking) {
     snapshot.changed_instances.clear();
     Lists anew = read_all(registry);
+    anew.instances |= any_mesh_changed(library, lacking, snapshot);
     anew.instances |= !started_ || transforms.quarantined != quarantined_;
     const bool resized = viewport_px != viewport_px_;
     if (resized) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <span>
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
@@ -18,9 +19,10 @@ class Extractor {
 public:
     /// Updates the snapshot. `viewport_px`: size of the picture, both > 0. Meshes are indices in `library`. The cost is
     /// proportional to the changes: written components are updated in place. Added or removed instances rebuild all
-    /// lists, lights and cameras only their own. An unchanged scene costs nothing.
+    /// lists, lights and cameras only their own. An unchanged scene costs nothing. `lacking`: meshes that the device
+    /// does not have (GpuScene::lacking_meshes()); their instances are dropped.
     void update(ecs::Registry& registry, const assets::MeshLibrary& library, const TransformReport& transforms,
-                glm::uvec2 viewport_px, SceneSnapshot& snapshot);
+                glm::uvec2 viewport_px, SceneSnapshot& snapshot, std::span<const std::uint32_t> lacking = {});
 
 private:
     struct Cursors {
@@ -44,6 +46,8 @@ private:
                        SceneSnapshot& snapshot);
     void assign_slots(SceneSnapshot& snapshot);
     std::uint32_t listed_at(ecs::Entity e) const;
+    bool any_mesh_changed(const assets::MeshLibrary& library, std::span<const std::uint32_t> lacking,
+                          SceneSnapshot& snapshot);
     bool any_came_or_went(const ecs::Registry& registry, const SceneSnapshot& snapshot) const;
     Touched touch(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot);
     bool touch_bent(const assets::MeshLibrary& library, SceneSnapshot& snapshot);
@@ -64,6 +68,8 @@ private:
     std::vector<DroppedEntity> unusable_;         // found while making the lists
     std::vector<QuarantinedEntity> quarantined_;  // as last seen
     std::vector<glm::dvec3> corners_ws_m_;        // scratch
+    std::vector<std::uint32_t> lacking_;          // as last seen
+    std::uint64_t library_version_ = 0;
     glm::uvec2 viewport_px_{0, 0};
     bool started_ = false;
 };

@@ -92,8 +92,11 @@ void PoseExtractor::list(const ecs::Registry& registry, const assets::MeshLibrar
             std::for_each(skin->joints.begin(), skin->joints.end(), mark);
         while (old != before.end() && old->mesh < source.mesh) ++old;
         PoseItem& pose = snapshot.poses.emplace_back();
-        if (old != before.end() && old->mesh == source.mesh) pose = std::move(*old);
+        const std::uint64_t mesh_version = library.version_of(source.mesh);
+        const bool same = old != before.end() && old->mesh == source.mesh && old->mesh_version == mesh_version;
+        if (same) pose = std::move(*old);
         pose.mesh = source.mesh;
+        pose.mesh_version = mesh_version;
     }
     update(registry, library, snapshot);
 }

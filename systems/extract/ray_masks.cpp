@@ -1,5 +1,6 @@
 #include "systems/extract/ray_masks.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <limits>
@@ -39,9 +40,12 @@ RayMasks::Place RayMasks::place(std::uint32_t mesh, std::uint32_t triangle, std:
 }
 
 std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
-    std::vector<std::uint32_t>& places = coloured ? coloured_ : materials_;
-    places.resize(library_->materials.size(), kUnset);
-    if (places[index] != kUnset) return places[index];
+    std::vector<Words>& places = coloured ? coloured_ : materials_;
+    places.resize(library_->materials.size());
+    Words& place = places[index];
+    const std::uint64_t version = library_->material_versions.of(index);
+    if (place.count > 0 && place.version == version) return place.first;
+    ranges_.give(place.first, place.count);
     const assets::Material& material = library_->materials[index];
     RayMask mask{.cutoff = material.alpha_cutoff,
                  .alpha = material.base_colour.a,
@@ -59,39 +63,72 @@ std::uint32_t RayMasks::mask_of(std::uint32_t index, bool coloured) {
         if (mask.texels != kUnset) mask.chord_texel = mean_chord_texel(t, mask.alpha, mask.cutoff);
     }
     const auto words = std::bit_cast<std::array<std::uint32_t, sizeof(RayMask) / sizeof(std::uint32_t)>>(mask);
-    places[index] = static_cast<std::uint32_t>(words_.size());
-    words_.insert(words_.end(), words.begin(), words.end());
-    return places[index];
+    place = {room_for(words.size()), static_cast<std::uint32_t>(words.size()), version};
+    std::copy(words.begin(), words.end(), words_.begin() + place.first);
+    return place.first;
 }
 
 /// Returns the first word of a texture's texels. kUnset, which shaders read as no texture, if its data are incomplete.
 std::uint32_t RayMasks::texels_of(std::int32_t index) {
-    textures_.resize(library_->textures.size(), kUnset);
-    std::uint32_t& first = textures_[static_cast<std::size_t>(index)];
+    textures_.resize(library_->textures.size());
+    Words& place = textures_[static_cast<std::size_t>(index)];
     const assets::Texture& texture = library_->textures[static_cast<std::size_t>(index)];
+    const std::uint64_t version = library_->texture_versions.of(static_cast<std::uint32_t>(index));
+    if (place.count > 0 && place.version == version) return place.first;
+    ranges_.give(place.first, place.count);
+    place = {};
     const std::size_t texels = std::size_t{texture.width} * texture.height;
-    if (first != kUnset || texels == 0 || texture.rgba.size() < 4 * texels) return first;
-    first = static_cast<std::uint32_t>(words_.size());
-    words_.resize(words_.size() + (texels + kTexelsPerWord - 1) / kTexelsPerWord, 0);
+    if (texels == 0 || texture.rgba.size() < 4 * texels) return kUnset;
+    const std::size_t count = (texels + kTexelsPerWord - 1) / kTexelsPerWord;
+    place = {room_for(count), static_cast<std::uint32_t>(count), version};
+    std::uint32_t* word = words_.data() + place.first;
+    std::fill_n(word, count, 0u);
     for (std::size_t i = 0; i < texels; ++i)
-        words_[first + i / kTexelsPerWord] |= std::uint32_t{texture.rgba[4 * i + 3]} << (8 * (i % kTexelsPerWord));
-    return first;
+        word[i / kTexelsPerWord] |= std::uint32_t{texture.rgba[4 * i + 3]} << (8 * (i % kTexelsPerWord));
+    return place.first;
 }
 
 std::uint32_t RayMasks::uvs_of(std::uint32_t index) {
-    uvs_.resize(library_->meshes.size(), kUnset);
-    if (uvs_[index] != kUnset) return uvs_[index];
-    uvs_[index] = static_cast<std::uint32_t>(words_.size());
+    if (uvs_.size() < library_->meshes.size()) uvs_.resize(library_->meshes.size());
+    if (uvs_[index].count > 0) return uvs_[index].first;
     const assets::Mesh& mesh = library_->meshes[index];
+    const std::uint32_t per_triangle = mesh.colours.empty() ? kWordsPerTriangle : kWordsWithColours;
+    const auto count = static_cast<std::uint32_t>(mesh.indices.size() / 3) * per_triangle;
+    uvs_[index] = {room_for(count), count, library_->version_of(index)};
+    std::uint32_t* word = words_.data() + uvs_[index].first;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const std::uint32_t* corners = &mesh.indices[i];
         for (std::size_t c = 0; c < 3; ++c)
             for (const float coordinate : {mesh.vertices[corners[c]].uv.x, mesh.vertices[corners[c]].uv.y})
-                words_.push_back(std::bit_cast<std::uint32_t>(coordinate));
+                *word++ = std::bit_cast<std::uint32_t>(coordinate);
         for (std::size_t c = 0; c < 3 && !mesh.colours.empty(); ++c)
-            words_.push_back(std::bit_cast<std::uint32_t>(mesh.colours[corners[c]].a));
+            *word++ = std::bit_cast<std::uint32_t>(mesh.colours[corners[c]].a);
     }
-    return uvs_[index];
+    return uvs_[index].first;
+}
+
+void RayMasks::forget(std::uint32_t mesh) {
+    if (mesh >= uvs_.size()) return;
+    ranges_.give(uvs_[mesh].first, uvs_[mesh].count);
+    uvs_[mesh] = {};
+    ranges_.resize(ranges_.end());
+    words_.resize(ranges_.places());
+}
+
+/// Returns the first of `count` words that are free, and marks them as changed.
+std::uint32_t RayMasks::room_for(std::size_t count) {
+    const auto words = static_cast<std::uint32_t>(count);
+    std::uint32_t first = ranges_.take(words);
+    if (first == RangeList::kNone) {
+        ranges_.resize(ranges_.end() + words);
+        first = ranges_.take(words);
+        words_.resize(ranges_.places());
+    }
+    if (!changes_.empty() && changes_.back().first + changes_.back().count == first)
+        changes_.back().count += words;
+    else if (words > 0)
+        changes_.push_back({first, words});
+    return first;
 }
 
 }  // namespace gnomon

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
+#include "engine/core/range_list.h"
 
 namespace gnomon {
 
@@ -34,19 +35,37 @@ public:
     };
     /// Returns the place of a triangle's mask for a mesh and material; adds what is missing.
     Place place(std::uint32_t mesh, std::uint32_t triangle, std::uint32_t material);
+    /// Frees the texture coordinates of a mesh that went or was replaced. Other words keep their places. Words of a
+    /// removed material or texture are freed when another one takes its slot.
+    void forget(std::uint32_t mesh);
 
     std::span<const std::uint32_t> words() const { return words_; }
+    /// Words that were added since the last forget_changes().
+    struct Change {
+        std::uint32_t first = 0, count = 0;
+    };
+    std::span<const Change> changes() const { return changes_; }
+    void forget_changes() { changes_.clear(); }
 
 private:
     static constexpr std::uint32_t kUnset = ~0u;
     std::uint32_t mask_of(std::uint32_t material, bool coloured);
     std::uint32_t texels_of(std::int32_t texture);
     std::uint32_t uvs_of(std::uint32_t mesh);
+    std::uint32_t room_for(std::size_t count);
+
+    /// Words of a material, texture or mesh. Count 0: none.
+    struct Words {
+        std::uint32_t first = 0, count = 0;
+        std::uint64_t version = 0;  // the library's, of the slot
+    };
 
     const assets::MeshLibrary* library_;
     std::vector<std::uint32_t> words_;
-    std::vector<std::uint32_t> materials_, textures_, uvs_;  // first word per material, texture and mesh; kUnset
-    std::vector<std::uint32_t> coloured_;                    // like materials_, for meshes with colours
+    RangeList ranges_;                                    // places in words_
+    std::vector<Change> changes_;                         // neighbours are joined
+    std::vector<Words> materials_, coloured_, textures_;  // the second: of materials, for meshes with colours
+    std::vector<Words> uvs_;                              // by mesh
 };
 
 }  // namespace gnomon

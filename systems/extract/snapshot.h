@@ -60,6 +60,7 @@ struct LightItem {
 /// Pose of a deformable mesh (assets::Mesh::deformer) in this frame.
 struct PoseItem {
     std::uint32_t mesh = 0;
+    std::uint64_t mesh_version = 0;  // InstanceItem::mesh_version
     bool skinned = false;  // joints alone place its instances, which then stand at origin_ws_m without rotation
     glm::dvec3 origin_ws_m{0.0};
     std::vector<glm::dmat4x3> joints = {};  // from mesh space at rest to the space of its instances
@@ -89,7 +90,8 @@ struct InstanceItem {
     bool mirrored = false;  // negative determinant
     bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
     bool drawable = false;  // the engine draws it: its mesh has bounds and no triangles
-    std::uint64_t version = 0;  // grows when mesh, place or pose changes, which maps depend on
+    std::uint64_t version = 0;       // grows when mesh, place or pose changes, which maps depend on
+    std::uint64_t mesh_version = 0;  // assets::MeshLibrary::version_of(mesh): another mesh may take the number
 };
 
 /// Returns true if the instance casts under this light (first function), or receives its shadows (second).
@@ -110,6 +112,7 @@ enum class DropReason : std::uint8_t {
     absurd_light,
     absurd_camera,
     instances_full,  // the device has no record for it: neither drawn nor casting
+    meshes_full,     // the device has no room for its mesh: neither drawn nor casting
 };
 const char* reason_code(DropReason reason);
 

@@ -17,6 +17,7 @@ std::uint64_t LightingSystem::surfaces_signature(const shadow::LightingInputs& i
         const InstanceItem& item = scene.instances[i];
         s.add((std::uint64_t{item.gpu_slot} << 32) | item.mesh);
         s.add(item.version);
+        s.add(item.mesh_version);
         const std::uint64_t layers = item.receives ? item.receive_layers : 0u;
         s.add(layers * 4 + (item.mirrored ? 2u : 0u) + (item.folded ? 1u : 0u));
     }

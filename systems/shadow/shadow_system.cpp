@@ -126,12 +126,14 @@ const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gp
     BudgetLimits limits = limits_of(settings.budget);
     limits.bytes = std::min(limits.bytes, maps_.available());
     const bool budget_unchanged = !budget_.is_moved_by(limits, cost_calibration_.factors());
-    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && maps_.stay();
+    reused_ = std::exchange(may_reuse_, false) && unchanged && budget_unchanged && has_buffers(gpu) && maps_.stay();
     if (reused_) {
         keep_all(frame_.maps, frame_.updates);
     } else {
         budget_.begin(limits, cost_calibration_.factors());
         run_stages(scene, gpu, settings, {list, report, frame_.cpu_us});
+        had_casters_ = static_cast<bool>(gpu.caster_triangles());
+        had_masks_ = static_cast<bool>(gpu.caster_masks());
     }
     report.still = reused_;
     report.rays = rays_.report();
@@ -226,6 +228,11 @@ bool ShadowSystem::wants_sampled_depths(const SceneSnapshot& scene) const {
     return shadow::wants_sampled_depths(scene, frame_.fitted, frame_.statuses);
 }
 
+/// Returns false if a buffer was lost that the last frame's lookups read, when meshes came or went.
+bool ShadowSystem::has_buffers(const GpuScene& gpu) const {
+    return (!had_casters_ || gpu.caster_triangles()) && (!had_masks_ || gpu.caster_masks());
+}
+
 /// Returns true if another run of the stages on an unchanged scene would have the same results. Then the history is
 /// unchanged, no light has economy disabled, no failed operation is due for a retry, and no view is skipped for rays.
 /// maps_ reports its own retries (MapCache::stay).
@@ -247,7 +254,7 @@ bool ShadowSystem::is_settled(const SceneSnapshot& scene) const {
 void ShadowSystem::commit(const SceneSnapshot& scene, bool executed) {
     const bool takes_turns = budget_.limits().ns != BudgetLimits::kNone;
     commit_maps(scene, drawn_views(frame_), {executed, takes_turns}, maps_);
-    if (!executed) rays_.forget_uploads();
+    rays_.submitted(executed);
     may_reuse_ = executed && (reused_ || is_settled(scene));
     std::swap(history_, frame_.next_history);
 }

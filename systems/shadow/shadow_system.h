@@ -89,6 +89,7 @@ private:
     void run_stages(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings, const PassOutputs& out);
     void finish(std::string_view stage) const;
     bool is_settled(const SceneSnapshot& scene) const;
+    bool has_buffers(const GpuScene& gpu) const;
     bool samplers_ready(std::span<const ShadowRequest> requests);
     bool moment_sampler_ready(const PrefilterSettings& settings);
     bool update_rays(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list);
@@ -117,8 +118,9 @@ private:
     DynamicCasters dynamic_casters_;
     FrameReuse frame_reuse_;
     StageWatch watch_;
-    bool reused_ = false;     // the last update() reused the frame before it
-    bool may_reuse_ = false;  // the next update() may reuse the last frame
+    bool reused_ = false;                           // the last update() reused the frame before it
+    bool may_reuse_ = false;                        // the next update() may reuse the last frame
+    bool had_casters_ = false, had_masks_ = false;  // buffers of the scene that the last run of the stages found
 };
 
 }  // namespace gnomon::shadow

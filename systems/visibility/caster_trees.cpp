@@ -18,13 +18,24 @@ void CasterTrees::list_meshes(const SceneSnapshot& scene) {
         tree.bvh = rays::MeshBvh(library_->meshes[item.mesh], vertices_of(scene, item.mesh), library_->materials);
         const PoseItem* pose = pose_of(scene, item.mesh);
         tree.pose_version = pose ? pose->version : 0;
+        tree.mesh_version = library_->version_of(item.mesh);
         tree.kept = true;
         ++counts_.builds;
     }
 }
 
+/// Frees the trees of meshes that went or were replaced. Returns true if the library changed.
+bool CasterTrees::forget_changed() {
+    if (library_version_ == library_->version) return false;
+    library_version_ = library_->version;
+    for (std::uint32_t mesh = 0; mesh < trees_.size(); ++mesh)
+        if (trees_[mesh].kept && trees_[mesh].mesh_version != library_->version_of(mesh)) trees_[mesh] = {};
+    return true;
+}
+
 void CasterTrees::update(const SceneSnapshot& scene) {
-    const bool counted = scene.version != 0 && !trees_.empty();
+    const bool changed = forget_changed();
+    const bool counted = scene.version != 0 && !trees_.empty() && !changed;
     if (counted && scene.version == version_) return;
     counts_ = {};
     if (!counted || scene.list_version == 0 || scene.list_version != list_version_) list_meshes(scene);

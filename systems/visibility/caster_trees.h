@@ -22,8 +22,8 @@ public:
         : library_(&library), of_(of) {}
 
     /// Updates the trees of all casting (or visible) meshes in `scene`, in their poses. Builds missing trees and refits
-    /// those with a changed pose. Costs nothing if the scene's version is unchanged, and a look at each pose if its
-    /// list_version is.
+    /// those with a changed pose. Frees those of meshes that went. Costs nothing if the versions of scene and library
+    /// are unchanged, and a look at each pose if the scene's list_version is.
     void update(const SceneSnapshot& scene);
 
     /// Returns a mesh's tree; null if no instance casts it (or shows it). Valid until the next update().
@@ -31,6 +31,8 @@ public:
         return mesh < trees_.size() && trees_[mesh].kept ? &trees_[mesh].bvh : nullptr;
     }
     const assets::MeshLibrary& library() const { return *library_; }
+    /// Returns the version of the mesh that a kept tree is of.
+    std::uint64_t mesh_version(std::uint32_t mesh) const { return trees_[mesh].mesh_version; }
 
     struct Counts {
         std::size_t trees = 0, triangles = 0, bytes = 0;
@@ -42,8 +44,10 @@ private:
     struct Tree {
         rays::MeshBvh bvh;
         std::uint64_t pose_version = 0;
+        std::uint64_t mesh_version = 0;  // MeshLibrary::version_of()
         bool kept = false;
     };
+    bool forget_changed();
     void list_meshes(const SceneSnapshot& scene);
     std::span<const assets::Vertex> vertices_of(const SceneSnapshot& scene, std::uint32_t mesh);
 
@@ -55,7 +59,7 @@ private:
     TreesOf of_;
     std::vector<Tree> trees_;           // by mesh; empty before the first update()
     std::vector<assets::Vertex> bent_;  // scratch
-    std::uint64_t version_ = 0, list_version_ = 0;
+    std::uint64_t version_ = 0, list_version_ = 0, library_version_ = 0;
     Counts counts_;
 };
 

@@ -1,6 +1,7 @@
 #include "systems/visibility/ray_scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <span>
 
 namespace gnomon::visibility {
@@ -18,11 +19,23 @@ std::uint64_t pose_version(const SceneSnapshot& scene, std::uint32_t mesh) {
     return pose ? pose->version : 0;
 }
 
+/// Makes a buffer with these values, of one element if there are none. `grows`: with room to a power of two, if the
+/// device has it.
 template <class T>
-gl::BufferHandle filled(gl::Device& device, const char* label, const std::vector<T>& values) {
+bool start(gl::Device& device, DeviceArrays& arrays, const char* label, std::vector<T>& values, bool grows) {
     static_assert(sizeof(T) % gl::kTexelBytes == 0);
-    const gl::BufferDesc desc{label, values.size() * sizeof(T), gl::BufferUse::updated, true};
-    return device.create_buffer(desc, std::as_bytes(std::span(values))).handle;
+    const auto used = static_cast<std::uint32_t>(values.size());
+    const auto make = [&](std::uint32_t places) {
+        values.resize(places);
+        const gl::BufferDesc desc{label, values.size() * sizeof(T), gl::BufferUse::updated, true};
+        return device.create_buffer(desc, std::as_bytes(std::span(values))).handle;
+    };
+    gl::BufferHandle made{};
+    if (grows) made = make(std::bit_ceil(std::max(used, DeviceArrays::kLeastPlaces)));
+    if (!made) made = make(std::max(used, 1u));
+    arrays.put(0, {label, sizeof(T), true, made});
+    arrays.start(static_cast<std::uint32_t>(values.size()), used, true);
+    return static_cast<bool>(made);
 }
 
 }  // namespace
@@ -33,14 +46,17 @@ RayScene::Held::Held(gl::Device& device, const assets::MeshLibrary& library)
       top_buffer(device, "ray tree of instances", true),
       instance_buffer(device, "ray instances", true) {}
 
+/// Lets go of the meshes' buffers; submitted() frees them.
 void RayScene::free_meshes() {
-    for (const gl::BufferHandle buffer : {buffers_.nodes, buffers_.triangles, buffers_.masks}) device_.destroy(buffer);
+    nodes_.drop(0);
+    triangles_.drop(0);
+    masks_.drop();
     buffers_ = {};
-    if (held_) held_->mesh_bytes = 0;
 }
 
 void RayScene::release() {
     free_meshes();
+    submitted(true);
     held_.reset();
     report_ = {};
     asked_ = 0;
@@ -48,16 +64,34 @@ void RayScene::release() {
     forgotten_ = false;
 }
 
+void RayScene::submitted(bool executed) {
+    nodes_.submitted();
+    triangles_.submitted();
+    masks_.submitted();
+    forgotten_ |= !executed;
+}
+
+void RayScene::name_buffers() {
+    buffers_.nodes = nodes_.buffer(0);
+    buffers_.triangles = triangles_.buffer(0);
+    buffers_.masks = masks_.handle();
+}
+
 bool RayScene::update(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     if (!retry_.due(++asked_)) return false;
     if (!held_) held_.emplace(device_, gpu.library());
     held_->trees.update(scene);
-    const bool made = buffers_.nodes && !forgotten_ && held_->placed_trees == held_->trees.counts().trees;
+    const bool is_streaming = gpu.library().version != 0;
+    const bool has_all = is_streaming || held_->placed_trees == held_->trees.counts().trees;
+    const bool made = buffers_.nodes && !forgotten_ && has_all;
     report_.meshes_written = 0;
     report_.instances_written = false;
     bool ready = made || make_meshes(scene, gpu);
+    Followed followed = Followed::same;
+    if (ready && made && is_streaming) followed = follow_meshes(scene, gpu, list);
+    ready = ready && followed != Followed::failed;
     if (ready && made) rewrite_bent(scene, gpu, list);
-    ready = ready && write_instances(scene, !made, list);
+    ready = ready && write_instances(scene, !made || followed == Followed::changed, list);
     if (!ready) free_meshes();
     if (!ready) retry_.failed(asked_);
     if (ready) forgotten_ = false;
@@ -82,49 +116,108 @@ void RayScene::take_triangles(const GpuScene& gpu, std::uint32_t mesh) {
 /// Uploads all meshes' trees, one after the other.
 bool RayScene::make_meshes(const SceneSnapshot& scene, const GpuScene& gpu) {
     free_meshes();
-    const std::size_t meshes = gpu.library().meshes.size();
-    held_->places.assign(meshes, {});
-    held_->pose_versions.assign(meshes, 0);
+    submitted(true);  // no list of this frame names them
+    const assets::MeshLibrary& library = gpu.library();
+    const bool is_streaming = library.version != 0;
+    held_->places.assign(library.meshes.size(), {});
+    held_->taken.assign(library.meshes.size(), {});
     held_->placed_trees = held_->trees.counts().trees;
+    if (is_streaming) held_->masks = RayMasks(library);
     held_->scratch.clear();
     std::vector<rays::BvhNode> nodes;
-    for (std::uint32_t mesh = 0; mesh < meshes; ++mesh) {
+    for (std::uint32_t mesh = 0; mesh < library.meshes.size(); ++mesh) {
         const rays::MeshBvh* tree = held_->trees.tree(mesh);
         if (!tree || tree->nodes().empty()) continue;
-        held_->places[mesh] = {static_cast<std::uint32_t>(nodes.size()),
-                               static_cast<std::uint32_t>(tree->nodes().size()),
-                               static_cast<std::uint32_t>(held_->scratch.size()),
-                               tree->box(),
-                               {}};
-        held_->pose_versions[mesh] = pose_version(scene, mesh);
-        const bool bends = gpu.library().meshes[mesh].deformer != nullptr;
-        if (!bends) held_->places[mesh].tree = tree->nodes();
+        note_place(scene, gpu, mesh, static_cast<std::uint32_t>(nodes.size()),
+                   static_cast<std::uint32_t>(held_->scratch.size()));
         nodes.insert(nodes.end(), tree->nodes().begin(), tree->nodes().end());
-        nodes.resize(held_->places[mesh].first_node + most_nodes(*tree, bends));
+        nodes.resize(std::size_t{held_->places[mesh].first_node} + held_->taken[mesh].nodes);
         take_triangles(gpu, mesh);
     }
-    if (nodes.empty()) nodes.emplace_back();  // a buffer must have a size
-    if (held_->scratch.empty()) held_->scratch.emplace_back();
     const std::span<const std::uint32_t> words = held_->masks.words();
-    held_->mesh_bytes =
-        nodes.size() * sizeof(rays::BvhNode) + held_->scratch.size() * sizeof(rays::BvhTriangle) + words.size_bytes();
-    buffers_.nodes = filled(device_, "ray trees of meshes", nodes);
-    if (buffers_.nodes) buffers_.triangles = filled(device_, "ray triangles", held_->scratch);
-    if (buffers_.triangles && !words.empty())
-        buffers_.masks =
-            device_.create_buffer({"ray masks", words.size_bytes(), gl::BufferUse::fixed}, std::as_bytes(words)).handle;
+    const bool has_trees = start(device_, nodes_, "ray trees of meshes", nodes, is_streaming) &&
+                           start(device_, triangles_, "ray triangles", held_->scratch, is_streaming);
+    const bool has_all = has_trees && (words.empty() || masks_.make(words, !is_streaming));
+    held_->masks.forget_changes();
     held_->scratch = {};
-    return buffers_.triangles && (words.empty() || buffers_.masks);
+    name_buffers();
+    return has_all;
+}
+
+/// Writes down where a mesh's tree lies, and what it is of.
+void RayScene::note_place(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t mesh, std::uint32_t first_node,
+                          std::uint32_t first_slot) {
+    const rays::MeshBvh& tree = *held_->trees.tree(mesh);
+    const bool bends = gpu.library().meshes[mesh].deformer != nullptr;
+    held_->places[mesh] = {first_node, static_cast<std::uint32_t>(tree.nodes().size()), first_slot, tree.box(), {}};
+    if (!bends) held_->places[mesh].tree = tree.nodes();
+    held_->taken[mesh] = {most_nodes(tree, bends), static_cast<std::uint32_t>(tree.triangles().size()),
+                          held_->trees.mesh_version(mesh), pose_version(scene, mesh)};
+}
+
+/// Frees the places of trees of removed and replaced meshes. Returns whether there were any.
+bool RayScene::take_away_changed() {
+    bool any = false;
+    for (std::uint32_t mesh = 0; mesh < held_->places.size(); ++mesh) {
+        MeshTreePlace& place = held_->places[mesh];
+        Taken& taken = held_->taken[mesh];
+        const bool stays = held_->trees.tree(mesh) && taken.mesh_version == held_->trees.mesh_version(mesh);
+        if (place.nodes == 0 || stays) continue;
+        nodes_.give(place.first_node, taken.nodes);
+        triangles_.give(place.first_slot, taken.triangles);
+        held_->masks.forget(mesh);
+        place = {};
+        taken = {};
+        any = true;
+    }
+    return any;
+}
+
+/// Follows meshes that came and went.
+RayScene::Followed RayScene::follow_meshes(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
+    const std::size_t meshes = gpu.library().meshes.size();
+    held_->places.resize(meshes);
+    held_->taken.resize(meshes);
+    const bool any_went = take_away_changed();
+    bool any_came = false;
+    for (std::uint32_t mesh = 0; mesh < meshes; ++mesh) {
+        const rays::MeshBvh* tree = held_->trees.tree(mesh);
+        if (!tree || tree->nodes().empty() || held_->places[mesh].nodes > 0) continue;
+        if (!place_mesh(scene, gpu, mesh, list)) return Followed::failed;
+        any_came = true;
+    }
+    nodes_.shrink(list);
+    triangles_.shrink(list);
+    if (!masks_.follow(held_->masks, list)) return Followed::failed;
+    held_->placed_trees = held_->trees.counts().trees;
+    name_buffers();
+    return any_went || any_came ? Followed::changed : Followed::same;
+}
+
+/// Takes places for a mesh's tree, and writes it. Returns false without room.
+bool RayScene::place_mesh(const SceneSnapshot& scene, const GpuScene& gpu, std::uint32_t mesh, gl::CommandList& list) {
+    const rays::MeshBvh& tree = *held_->trees.tree(mesh);
+    const std::uint32_t nodes = most_nodes(tree, gpu.library().meshes[mesh].deformer != nullptr);
+    const std::uint32_t first_node = nodes_.take(nodes, true, list);
+    const std::uint32_t first_slot = triangles_.take(static_cast<std::uint32_t>(tree.triangles().size()), true, list);
+    if (first_node == DeviceArrays::kNone || first_slot == DeviceArrays::kNone) return false;
+    note_place(scene, gpu, mesh, first_node, first_slot);
+    held_->scratch.clear();
+    take_triangles(gpu, mesh);
+    nodes_.write(0, first_node, tree.nodes(), list);
+    triangles_.write(0, first_slot, std::span<const rays::BvhTriangle>(held_->scratch), list);
+    ++report_.meshes_written;
+    return true;
 }
 
 void RayScene::rewrite_bent(const SceneSnapshot& scene, const GpuScene& gpu, gl::CommandList& list) {
     for (const PoseItem& pose : scene.poses) {
         const rays::MeshBvh* tree = held_->trees.tree(pose.mesh);
-        if (!tree || tree->nodes().empty() || held_->pose_versions[pose.mesh] == pose.version) continue;
+        if (!tree || tree->nodes().empty() || held_->taken[pose.mesh].pose_version == pose.version) continue;
         MeshTreePlace& place = held_->places[pose.mesh];
         place.nodes = static_cast<std::uint32_t>(tree->nodes().size());
         place.box = tree->box();
-        held_->pose_versions[pose.mesh] = pose.version;
+        held_->taken[pose.mesh].pose_version = pose.version;
         held_->scratch.clear();
         take_triangles(gpu, pose.mesh);
         list.update(buffers_.nodes, std::uint64_t{place.first_node} * sizeof(rays::BvhNode), tree->nodes());
@@ -169,7 +262,8 @@ bool RayScene::write_instances(const SceneSnapshot& scene, bool all, gl::Command
 }
 
 void RayScene::count() {
-    report_.bytes = held_->mesh_bytes + held_->top_buffer.bytes() + held_->instance_buffer.bytes();
+    report_.bytes = nodes_.bytes() + triangles_.bytes() + masks_.bytes() + held_->top_buffer.bytes() +
+                    held_->instance_buffer.bytes();
     report_.host_bytes = held_->trees.counts().bytes + held_->instances.bytes() + held_->masks.words().size_bytes();
     report_.triangles = held_->trees.counts().triangles;
     report_.instances = held_->instances.instances();

@@ -16,4 +16,9 @@ if(GNOMON_SAMPLE)
     budget_gl_test.cpp
     ../economy/both_ways.cpp
     LIBRARIES gnomon_bench_parts)
+  # Meshes that come and go.
+  gnomon_tests(NAME gl_streaming LABEL gl SOURCES
+    streaming_gl_test.cpp
+    ../system/test_world.cpp
+    LIBRARIES gnomon_sample)
 endif()

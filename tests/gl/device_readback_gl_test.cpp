@@ -63,6 +63,16 @@ TEST_F(DeviceReadback, WhatShadersWroteIsClearedInTheListsOrder) {
     }
 }
 
+TEST_F(DeviceReadback, APartOfABufferIsCopiedToItsPlaceAndNothingElseChanges) {
+    gl::CommandList list = doubling();
+    list.add(gl::CopyBuffer{fixed_buffer<std::uint32_t>({70, 80}), counts, 4, 8, 4});
+    list.add(gl::CopyBuffer{counts, back});
+    run(list);
+    device().finish();
+    EXPECT_EQ(read_back(), Readback::done);
+    EXPECT_THAT(values, ElementsAre(2u, 4u, 80u, 8u));
+}
+
 TEST_F(DeviceReadback, ComesInTimeWithoutAFinishIfOneAsksAgain) {
     run(doubling());
     Readback state = Readback::pending;
@@ -122,6 +132,10 @@ TEST_F(DeviceReadback, MisuseIsLeftOutAndTold) {
     EXPECT_EQ(refused(gl::CopyBuffer{counts, {999}}), Failure::invalid_value);
     EXPECT_EQ(refused(gl::CopyBuffer{counts, fixed_buffer<std::uint32_t>({1, 2, 3, 4})}), Failure::invalid_value);
     EXPECT_EQ(refused(gl::CopyBuffer{fixed_buffer<std::uint32_t>({1}), counts}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{fixed_buffer<std::uint32_t>({1}), counts, 0, 4, 4}), Failure::none);
+    EXPECT_EQ(refused(gl::CopyBuffer{fixed_buffer<std::uint32_t>({1}), counts, 0, kBytes, 4}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{fixed_buffer<std::uint32_t>({1}), counts, 4, 0, 4}), Failure::invalid_value);
+    EXPECT_EQ(refused(gl::CopyBuffer{counts, back, 0, 0, 4}), Failure::invalid_value) << "read back as a whole";
     EXPECT_EQ(refused(gl::UpdateBuffer{back, 0, 0, 0}), Failure::invalid_value);
 }
 

@@ -6,7 +6,8 @@ if(GNOMON_SAMPLE)
     system/test_world.cpp system/fault_scenes.cpp gl/failing_gl.cpp gl/every_gl_call_fails_test.cpp
     soak/soak_world.cpp gl/context_loss_gl_test.cpp)
 endif()
-gnomon_tests(NAME system_soak LABEL system SOURCES soak/soak_world.cpp system/test_world.cpp system/soak_test.cpp)
+gnomon_tests(NAME system_soak LABEL system SOURCES soak/soak_world.cpp system/test_world.cpp system/soak_test.cpp
+  system/streaming_soak_test.cpp)
 gnomon_tests(NAME gl_soak LABEL gl TIMEOUT 1800 SOURCES soak/soak_world.cpp system/test_world.cpp gl/soak_gl_test.cpp)
 gnomon_tests(NAME gl_bad_days LABEL gl SOURCES system/test_world.cpp gl/out_of_memory_gl_test.cpp)
 # The executable when its context is lost under it.

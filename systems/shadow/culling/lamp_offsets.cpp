@@ -142,6 +142,7 @@ glm::dvec3 LampOffsets::place_of(const SceneSnapshot& scene, const GpuScene& gpu
         const InstanceItem& item = scene.instances[i];
         signature.add(std::uint64_t{item.entity.version} << 32 | item.entity.index);
         signature.add(item.version);
+        signature.add(item.mesh_version);
         any = true;
     });
     if (!any) return light.position_ws_m;

@@ -51,7 +51,18 @@ std::uint64_t CasterTopologies::bytes_of(const CasterTopology& surface) {
            (surface.opaque.capacity() + surface.masked.capacity()) * sizeof(std::uint32_t);
 }
 
+/// Frees the surfaces of meshes that went or were replaced.
+void CasterTopologies::forget_changed(const assets::MeshLibrary& library) {
+    library_version_ = library.version;
+    for (std::uint32_t mesh = 0; mesh < kept_.size(); ++mesh) {
+        if (!kept_[mesh].made || kept_[mesh].mesh_version == library.version_of(mesh)) continue;
+        bytes_ -= bytes_of(kept_[mesh].surface);
+        kept_[mesh] = {};
+    }
+}
+
 const CasterTopology& CasterTopologies::of(const GpuScene& gpu, std::uint32_t mesh) {
+    if (library_version_ != gpu.library().version) forget_changed(gpu.library());
     if (kept_.size() < gpu.mesh_count()) kept_.resize(gpu.mesh_count());
     Kept& kept = kept_[mesh];
     const GpuScene::MeshShape shape = gpu.shape(mesh);
@@ -62,6 +73,7 @@ const CasterTopology& CasterTopologies::of(const GpuScene& gpu, std::uint32_t me
     }
     kept.made = true;
     kept.version = shape.version;
+    kept.mesh_version = shape.mesh_version;
     return kept.surface;
 }
 

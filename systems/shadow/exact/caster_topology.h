@@ -24,8 +24,8 @@ struct CasterTopology {
     glm::dvec3 reach_ms{0.0};                   // the largest coordinate of any vertex, along each axis
 };
 
-/// Surfaces of all meshes that exact lights needed. Made on first use, and again after a mesh bent. Uses no memory
-/// before.
+/// Surfaces of all meshes that exact lights needed. Made on first use, and again after a mesh bent or
+/// another one took its number. Uses no memory before.
 class CasterTopologies {
 public:
     /// Returns the surface as the device has it now. Valid until the next call.
@@ -40,13 +40,14 @@ public:
 private:
     struct Kept {
         CasterTopology surface;
-        std::uint64_t version = 0;  // MeshShape::version
+        std::uint64_t version = 0, mesh_version = 0;  // MeshShape's
         bool made = false;
     };
+    void forget_changed(const assets::MeshLibrary& library);
     static std::uint64_t bytes_of(const CasterTopology& surface);
 
     std::vector<Kept> kept_;  // by mesh
-    std::uint64_t bytes_ = 0;
+    std::uint64_t bytes_ = 0, library_version_ = 0;
 };
 
 }  // namespace gnomon::shadow

@@ -39,7 +39,7 @@ void count_static_frames(const SceneSnapshot& scene, const FittedViews& fitted, 
         casters.add(light.shape_version);
         for (const ShadowView& view : views)
             for (const std::uint32_t c : fitted.casters_of(view)) {
-                casters.add(std::uint64_t{scene.instances[c].gpu_slot});
+                casters.add(scene.instances[c].gpu_slot | scene.instances[c].mesh_version << 32);
                 casters.add(scene.instances[c].version);
             }
         const bool same = entry.rays.casters == casters.value() && light.tuning.reuse.economy && !budget_active;

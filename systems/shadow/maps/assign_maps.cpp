@@ -34,7 +34,7 @@ ContentSignature content_signature(const ShadowView& view, std::uint32_t size_px
     const std::uint64_t placement = s.value();
     const auto add = [&](std::span<const std::uint32_t> group) {
         for (const std::uint32_t i : group) {
-            s.add(std::uint64_t{scene.instances[i].gpu_slot});
+            s.add(scene.instances[i].gpu_slot | scene.instances[i].mesh_version << 32);
             s.add(scene.instances[i].version);
         }
     };

@@ -17,6 +17,7 @@ struct ShownCaster {
     math::Aabb bounds_ws;
     std::uint64_t bends_since = 0;  // PoseItem::since of its mesh's pose; 0: it does not bend
     double bent_m = 0.0;            // PoseItem::bent_m
+    std::uint64_t mesh_version = 0;
 };
 
 /// Casters that a layer shows, for lights with maps that may be kept.

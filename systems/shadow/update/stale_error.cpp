@@ -71,7 +71,7 @@ void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters
         const InstanceItem& item = scene.instances[i];
         const Pose pose = read(pose_of(scene, item.mesh));
         shown.moving.push_back({item.gpu_slot, item.mesh, item.version, item.basis, item.translation_ws_m,
-                                item.bounds_ws, pose.since, pose.bent_m});
+                                item.bounds_ws, pose.since, pose.bent_m, item.mesh_version});
     }
 }
 
@@ -99,7 +99,8 @@ Staleness staleness(const SceneSnapshot& scene, const ShadowView& view, const Sh
     for (std::size_t i = 0; i < moving.size(); ++i) {
         const InstanceItem& now = scene.instances[moving[i]];
         const ShownCaster& then = shown.moving[i];
-        if (now.gpu_slot != then.gpu_slot || now.mesh != then.mesh) return kUnknownStaleness;
+        const bool same = now.gpu_slot == then.gpu_slot && now.mesh == then.mesh;
+        if (!same || now.mesh_version != then.mesh_version) return kUnknownStaleness;
         const CasterShift shift = caster_shift(view, then, now, pose_of(scene, now.mesh));
         if (!(shift.any_m < kInfinity && shift.across < kInfinity)) return kUnknownStaleness;
         most = {std::max(most.any_m, shift.any_m), std::max(most.across, shift.across)};

@@ -56,5 +56,41 @@ TEST(MeanChord, CountsWhatTheMaterialLeaves) {
     EXPECT_TRUE(std::isinf(mean_chord_texel(half, 1.0f, 0.0f))) << "a cutoff of 0 cuts nothing";
 }
 
+/// Returns a library of masked triangles: `count` in each mesh, all corners at u = the mesh's number.
+assets::MeshLibrary masked_library(std::initializer_list<std::uint32_t> counts) {
+    assets::MeshLibrary library;
+    library.materials.push_back({.name = "masked", .alpha_mode = assets::AlphaMode::mask});
+    for (const std::uint32_t count : counts) {
+        assets::Mesh mesh;
+        mesh.vertices.resize(3);
+        for (assets::Vertex& vertex : mesh.vertices) vertex.uv.x = static_cast<float>(library.meshes.size());
+        for (std::uint32_t i = 0; i < 3 * count; ++i) mesh.indices.push_back(i % 3);
+        library.meshes.push_back(std::move(mesh));
+    }
+    return library;
+}
+
+TEST(RayMasks, ReuseTheWordsOfMeshesThatWentAndLeaveOthersInPlace) {
+    assets::MeshLibrary library = masked_library({4, 4, 4});
+    RayMasks masks(library);
+    const RayMasks::Place first = masks.place(0, 0, 0), second = masks.place(1, 0, 0), third = masks.place(2, 0, 0);
+    const std::size_t words = masks.words().size();
+    masks.forget_changes();
+    masks.forget(1);
+    library.replace(1, masked_library({3}).meshes[0]);
+    const RayMasks::Place again = masks.place(1, 0, 0);
+    EXPECT_EQ(again.uvs, second.uvs);
+    EXPECT_EQ(again.mask, second.mask);
+    EXPECT_EQ(masks.words()[again.uvs], 0u) << "the new mesh's own u of 0";
+    EXPECT_EQ(masks.words().size(), words);
+    ASSERT_EQ(masks.changes().size(), 1u);
+    EXPECT_EQ(masks.changes()[0].first, second.uvs);
+    EXPECT_EQ(masks.changes()[0].count, 3u * 6);
+    EXPECT_EQ(masks.place(0, 0, 0).uvs, first.uvs);
+    masks.forget(2);
+    EXPECT_EQ(masks.words().size(), third.uvs - 6) << "ends with the last mesh; the second is 6 words shorter";
+    EXPECT_NE(first.uvs, second.uvs);
+}
+
 }  // namespace
 }  // namespace gnomon

@@ -1,3 +1,5 @@
+#include <cstring>
+
 #include "tests/unit/gl/recording_fixture.h"
 
 namespace gnomon::gl {
@@ -158,6 +160,21 @@ TEST_F(RecordingReadback, GivesWhatWasCopiedOnceAndThenNothing) {
     EXPECT_EQ(two.state, Readback::done);
     EXPECT_THAT(two.values, ElementsAre(7u, 8u));
     EXPECT_EQ(read_two(device, back).state, Readback::empty);
+}
+
+TEST_F(RecordingReadback, APartOfABufferIsCopiedToItsPlaceAndNothingElseChanges) {
+    const BufferHandle larger = device.create_buffer({.label = "larger", .size = 16}, {}).handle;
+    const std::array<std::uint32_t, 4> before = {1, 2, 3, 4};
+    CommandList list;
+    list.update(larger, 0, std::span<const std::uint32_t>{before});
+    const std::array<std::uint32_t, 2> values = {70, 80};
+    list.update(source, 0, std::span<const std::uint32_t>{values});
+    list.add(CopyBuffer{source, larger, 4, 8, 4});
+    EXPECT_THAT(misuses_of(list), IsEmpty());
+    std::array<std::uint32_t, 4> after{};
+    ASSERT_EQ(device.buffer_bytes(larger).size(), sizeof after);
+    std::memcpy(after.data(), device.buffer_bytes(larger).data(), sizeof after);
+    EXPECT_THAT(after, ElementsAre(1u, 2u, 80u, 4u));
 }
 
 TEST_F(RecordingReadback, CanBeLateAndIsInTimeAfterFinish) {

@@ -161,6 +161,19 @@ TEST_F(RecordingMisuse, CopiesFitTheirBuffersAndStandOutsidePasses) {
     EXPECT_THAT(of({CopyBuffer{back, indices}}), ElementsAre(Misuse::copy_mismatch)) << "indices are fixed";
 }
 
+TEST_F(RecordingMisuse, CopiesOfPartsFitBothBuffersAndGoToUpdatedOnes) {
+    const BufferHandle large = device.create_buffer({.label = "large", .size = 64}, {}).handle;
+    EXPECT_THAT(of({CopyBuffer{items, large, 0, 48, 16}}), IsEmpty()) << "another size is no matter";
+    EXPECT_THAT(of({CopyBuffer{items, large, 0, 52, 16}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({CopyBuffer{items, large, 4, 0, 16}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({CopyBuffer{items, large, ~std::uint64_t{0}, 0, 16}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({CopyBuffer{large, large, 0, 32, 16}}), ElementsAre(Misuse::copy_mismatch));
+    EXPECT_THAT(of({CopyBuffer{large, read_back(64), 0, 0, 16}}), ElementsAre(Misuse::copy_mismatch))
+        << "only whole copies are read back";
+    EXPECT_THAT(of({CopyBuffer{large, indices, 0, 0, 4}}), ElementsAre(Misuse::copy_mismatch)) << "indices are fixed";
+    EXPECT_THAT(of({pass(), CopyBuffer{items, large, 0, 0, 16}, EndPass{}}), ElementsAre(Misuse::copy_inside_pass));
+}
+
 TEST_F(RecordingMisuse, TexturesAreCopiedLayerByLayerToTheirLikeOutsidePasses) {
     const TextureDesc cube{"cube", TextureKind::cube, Format::d32f, 8, 8};
     const auto made = [&](const TextureDesc& desc) { return device.create_texture(desc, {}).handle; };
