@@ -191,14 +191,15 @@ struct ShadowsOptions {
 /// any time between. The context must be current in every call, and when the object is destroyed.
 class Shadows {
 public:
-    /// Creates the system for the current context. Errors: "gl.version" (below 4.5 core).
+    /// Creates the system for the current context. Errors: "gl.version" (below 4.5 core), "gpu.scene" (no memory).
     static Result<std::unique_ptr<Shadows>> create(const ShadowsOptions& options = {});
     ~Shadows();
     Shadows(const Shadows&) = delete;
     Shadows& operator=(const Shadows&) = delete;
 
     /// Adds a mesh. Cost: in proportion to its triangles. Errors: "mesh.empty", "mesh.index", "mesh.position",
-    /// "mesh.mask" (sizes do not fit), "mesh.memory".
+    /// "mesh.mask" (sizes do not fit). Where the device has no room for it, its casters are in dropped() until there
+    /// is.
     Result<MeshId> add_mesh(const MeshDesc& mesh);
     /// Removes a mesh. Casters that still have it are dropped until they are removed or have another.
     void remove(MeshId mesh);

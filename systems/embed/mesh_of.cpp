@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "engine/assets/mesh_shape.h"
 #include "engine/assets/mesh_topology.h"
@@ -25,13 +26,11 @@ std::uint32_t add_mask(const MeshDesc& desc, assets::MeshLibrary& library) {
     for (const std::uint8_t alpha : desc.mask.alpha) texture.rgba.insert(texture.rgba.end(), {255, 255, 255, alpha});
     assets::Material material;
     material.name = desc.name;
-    material.base_colour_texture = static_cast<std::int32_t>(library.textures.size());
+    material.base_colour_texture = static_cast<std::int32_t>(library.add_texture(std::move(texture)));
     material.alpha_mode = assets::AlphaMode::mask;
     material.alpha_cutoff = desc.mask.cutoff;
     material.double_sided = desc.two_sided;
-    library.textures.push_back(std::move(texture));
-    library.materials.push_back(std::move(material));
-    return static_cast<std::uint32_t>(library.materials.size() - 1);
+    return library.add_material(std::move(material));
 }
 
 }  // namespace
@@ -43,7 +42,7 @@ assets::MeshLibrary empty_library() {
     return library;
 }
 
-Result<assets::Mesh> mesh_of(const MeshDesc& desc, assets::MeshLibrary& library) {
+Result<std::uint32_t> add_mesh(const MeshDesc& desc, assets::MeshLibrary& library) {
     if (desc.positions_m.empty() || desc.indices.empty() || desc.indices.size() % 3 != 0)
         return mesh_error(desc, "has no triangles, or indices that are no multiple of three", "mesh.empty");
     if (std::any_of(desc.indices.begin(), desc.indices.end(), [&](auto i) { return i >= desc.positions_m.size(); }))
@@ -70,7 +69,16 @@ Result<assets::Mesh> mesh_of(const MeshDesc& desc, assets::MeshLibrary& library)
     mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), material}};
     mesh.topology = assets::analyse_topology(mesh);
     mesh.shape = assets::shape_of(mesh);
-    return mesh;
+    return library.add(std::move(mesh));
+}
+
+void remove_mesh(std::uint32_t mesh, assets::MeshLibrary& library) {
+    const std::uint32_t material = library.meshes[mesh].submeshes.front().material;
+    library.remove(mesh);
+    if (material == kOneSided || material == kTwoSided) return;
+    const std::int32_t texture = library.materials[material].base_colour_texture;
+    library.remove_material(material);
+    library.remove_texture(static_cast<std::uint32_t>(texture));
 }
 
 }  // namespace gnomon::embed

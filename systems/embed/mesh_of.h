@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "engine/assets/mesh_library.h"
 #include "engine/core/result.h"
 #include "gnomon/shadows.h"
@@ -11,8 +13,11 @@ inline constexpr std::uint32_t kOneSided = 0, kTwoSided = 1;
 /// Returns a library with those two materials and no mesh.
 assets::MeshLibrary empty_library();
 
-/// Makes a mesh of a description, and appends the material and the texture of its mask to the library. Errors as
+/// Adds a mesh to the library, and before it the material and the texture of its mask. Returns its index. Errors as
 /// Shadows::add_mesh().
-Result<assets::Mesh> mesh_of(const MeshDesc& desc, assets::MeshLibrary& library);
+Result<std::uint32_t> add_mesh(const MeshDesc& desc, assets::MeshLibrary& library);
+
+/// Removes a mesh that add_mesh() added, and what it added for it.
+void remove_mesh(std::uint32_t mesh, assets::MeshLibrary& library);
 
 }  // namespace gnomon::embed

@@ -87,15 +87,17 @@ SceneStore::SceneStore() : library_(empty_library()) {
 }
 
 Result<MeshId> SceneStore::add_mesh(const MeshDesc& desc) {
-    auto mesh = mesh_of(desc, library_);
+    const auto mesh = embed::add_mesh(desc, library_);
     if (!mesh) return mesh.error();
-    library_.meshes.push_back(std::move(mesh).value());
-    ++meshes_version_;
-    return meshes_.add(static_cast<std::uint32_t>(library_.meshes.size() - 1));
+    return meshes_.add(mesh.value());
 }
 
 void SceneStore::remove(MeshId mesh) {
-    if (meshes_.remove(mesh)) instances_anew_ = true;
+    const std::uint32_t* index = meshes_.find(mesh);
+    if (!index) return;
+    remove_mesh(*index, library_);
+    meshes_.remove(mesh);
+    instances_anew_ = true;
 }
 
 CasterId SceneStore::add_caster(const CasterDesc& desc) {
@@ -197,12 +199,14 @@ DropReason SceneStore::fault_of(const Caster& caster) const {
         return math::is_finite(box) && !math::is_empty(box) ? DropReason::instances_full
                                                             : DropReason::non_finite_transform;
     }
-    if (!meshes_.find(desc.mesh)) return DropReason::unknown_mesh;
+    const std::uint32_t* mesh = meshes_.find(desc.mesh);
+    if (!mesh) return DropReason::unknown_mesh;
+    if (std::binary_search(lacking_.begin(), lacking_.end(), *mesh)) return DropReason::meshes_full;
     if (!is_finite(desc.world_from_mesh)) return DropReason::non_finite_transform;
     const std::optional<glm::dmat3> basis = drawable_basis(glm::dmat3(desc.world_from_mesh));
     if (!basis) return DropReason::zero_scale;
-    const math::Aabb box = math::transformed(library_.meshes[*meshes_.find(desc.mesh)].bounds_ms, *basis,
-                                             glm::dvec3(desc.world_from_mesh[3]));
+    const math::Aabb box =
+        math::transformed(library_.meshes[*mesh].bounds_ms, *basis, glm::dvec3(desc.world_from_mesh[3]));
     return math::is_finite(box) && !math::is_empty(box) ? DropReason::instances_full : DropReason::zero_scale;
 }
 
@@ -218,6 +222,7 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
         item.translation_ws_m = math::centre(item.bounds_ws);
     } else {
         item.mesh = *meshes_.find(desc.mesh);
+        item.mesh_version = library_.version_of(item.mesh);
         item.basis = *drawable_basis(glm::dmat3(desc.world_from_mesh));
         item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
         item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
@@ -317,8 +322,12 @@ bool SceneStore::put_consumers(std::span<const ConsumerItem> consumers) {
     return any;
 }
 
-void SceneStore::update(std::span<const ConsumerItem> consumers) {
+void SceneStore::update(std::span<const ConsumerItem> consumers, std::span<const std::uint32_t> lacking) {
     snapshot_.changed_instances.clear();
+    if (!std::equal(lacking.begin(), lacking.end(), lacking_.begin(), lacking_.end())) {
+        lacking_.assign(lacking.begin(), lacking.end());
+        instances_anew_ = true;
+    }
     ++snapshot_.version;
     bool any = put_consumers(consumers);
     if (lights_anew_) list_lights();

@@ -29,13 +29,12 @@ public:
     void tune(LightId light, const ShadowTuning& tuning);
     void remove(LightId light);
 
-    /// Applies what was set, for these cameras. Without a change the snapshot's version stays.
-    void update(std::span<const ConsumerItem> consumers);
+    /// Applies what was set, for these cameras. `lacking`: meshes that the device has no room for, sorted; their
+    /// casters are dropped. Without a change the snapshot's version stays.
+    void update(std::span<const ConsumerItem> consumers, std::span<const std::uint32_t> lacking = {});
 
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const assets::MeshLibrary& library() const { return library_; }
-    /// Returns a count that grows with every mesh that came.
-    std::uint64_t meshes_version() const { return meshes_version_; }
     std::span<const Dropped> dropped() const { return dropped_; }
     /// Returns the light's index in the snapshot; kNone if the handle names no usable light.
     std::uint32_t light_index(LightId light) const;
@@ -76,7 +75,7 @@ private:
     SceneSnapshot snapshot_;
     std::vector<CasterId> changed_;  // casters with `moved` or `marked`
     std::vector<Dropped> dropped_;
-    std::uint64_t meshes_version_ = 0;
+    std::vector<std::uint32_t> lacking_;
     bool instances_anew_ = true, lights_anew_ = true, lights_set_ = false;
 };
 

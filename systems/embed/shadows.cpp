@@ -85,10 +85,14 @@ std::string_view code(gl::Failure failure) { return failure == gl::Failure::none
 }  // namespace
 
 struct Shadows::State {
-    State(std::unique_ptr<gl::Device> gl_device, const ShadowsOptions& wanted)
+    State(std::unique_ptr<gl::Device> gl_device, std::unique_ptr<embed::SceneStore> scene, GpuScene on_device,
+          const ShadowsOptions& wanted)
         : options(wanted),
           device(std::move(gl_device)),
+          store_owner(std::move(scene)),
+          store(*store_owner),
           programs(*device),
+          gpu(std::move(on_device)),
           shadows(*device),
           trees(store.library()),
           queries(trees) {
@@ -103,7 +107,6 @@ struct Shadows::State {
     }
     bool wants_times() const { return options.time_gpu || options.budget.gpu_ms > 0.0f; }
 
-    bool provide_scene();
     void take_view(const View& view, std::size_t index);
     void list_layers(const View& view, ViewState& state) const;
     void draw_drawables();
@@ -112,11 +115,11 @@ struct Shadows::State {
     void fill_masks(std::size_t count);
 
     ShadowsOptions options;
-    embed::SceneStore store;
     std::unique_ptr<gl::Device> device;
+    std::unique_ptr<embed::SceneStore> store_owner;  // its library stays where it is
+    embed::SceneStore& store;
     lighting::LightPrograms programs;
-    std::optional<GpuScene> gpu;
-    std::uint64_t meshes_on_gpu = ~std::uint64_t{0};
+    GpuScene gpu;
     shadow::ShadowSystem shadows;
     std::vector<std::unique_ptr<ViewState>> views;
     std::vector<ConsumerItem> consumers;
@@ -131,19 +134,6 @@ struct Shadows::State {
     visibility::CasterTrees trees;
     visibility::LightQueries queries;
 };
-
-/// Puts the meshes on the device. Returns false without room.
-bool Shadows::State::provide_scene() {
-    if (gpu && meshes_on_gpu == store.meshes_version()) return true;
-    auto made = GpuScene::create(*device, store.library());
-    if (!made) {
-        status.failure = "out_of_memory";
-        return static_cast<bool>(gpu);
-    }
-    gpu.emplace(std::move(made).value());
-    meshes_on_gpu = store.meshes_version();
-    return true;
-}
 
 /// Takes one view's camera and textures. A view that cannot be read has a failure, and is no consumer.
 void Shadows::State::take_view(const View& view, std::size_t index) {
@@ -198,7 +188,7 @@ void Shadows::State::record_masks() {
     gl::Failure worst = gl::Failure::none;
     for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
         ViewState& view = *views[consumer_views[c]];
-        view.mask.record({frame.inputs[c], store.snapshot(), *gpu, view.picture, view.layers}, commands, outcome);
+        view.mask.record({frame.inputs[c], store.snapshot(), gpu, view.picture, view.layers}, commands, outcome);
         view.failure = code(outcome.failure);
         if (outcome.failure != gl::Failure::none) worst = outcome.failure;
     }
@@ -235,7 +225,7 @@ void Shadows::State::submit() {
     const gl::SubmitResult result = device->submit(commands);
     timed.submitted(result.submission, report);
     const bool learn_costs = options.budget.gpu_ms > 0.0f;
-    timed.tell(after_submission({*device, store.snapshot(), *gpu, shadows}, result, learn_costs, report), report);
+    timed.tell(after_submission({*device, store.snapshot(), gpu, shadows}, result, learn_costs, report), report);
     if (report.gpu_us) gpu_us = report.gpu_us;
     if (result.failure != gl::Failure::none) status.failure = code(result.failure);
 }
@@ -258,7 +248,11 @@ Result<std::unique_ptr<Shadows>> Shadows::create(const ShadowsOptions& options) 
         sink = [message = options.message](gl::MessageSeverity, std::string_view text) { message(text); };
     auto device = gl::make_gl45_device(std::move(sink), {.keeps_state = true});
     if (!device) return device.error();
-    return std::unique_ptr<Shadows>(new Shadows(std::make_unique<State>(std::move(device).value(), options)));
+    auto store = std::make_unique<embed::SceneStore>();
+    auto scene = GpuScene::create(*device.value(), store->library());
+    if (!scene) return scene.error();
+    return std::unique_ptr<Shadows>(new Shadows(
+        std::make_unique<State>(std::move(device).value(), std::move(store), std::move(scene).value(), options)));
 }
 
 Shadows::Shadows(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -298,19 +292,18 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     while (s.views.size() < views.size()) s.views.push_back(std::make_unique<ViewState>(*s.device, s.programs));
     s.programs.next_frame();
     for (std::size_t i = 0; i < views.size(); ++i) s.take_view(views[i], i);
-    s.store.update(s.consumers);
+    s.gpu.update_meshes(s.commands);
+    s.store.update(s.consumers, s.gpu.lacking_meshes());
     for (std::size_t i = 0; i < views.size(); ++i) s.list_layers(views[i], *s.views[i]);
-    if (s.provide_scene()) {
-        const SceneSnapshot& scene = s.store.snapshot();
-        if (!s.gpu->update(scene, s.commands)) s.status.failure = "instances_full";
-        const Budget& budget = s.options.budget;
-        const shadow::ShadowSettings settings{.budget = {budget.bytes, budget.gpu_ms}, .rays = false};
-        s.shadows.update(scene, *s.gpu, settings, s.commands, s.report);
-        s.record_masks();
-        s.shadows.report(scene, s.outcome, s.report);
-        s.draw_drawables();
-        s.submit();
-    }
+    const SceneSnapshot& scene = s.store.snapshot();
+    if (!s.gpu.update(scene, s.commands)) s.status.failure = "instances_full";
+    const Budget& budget = s.options.budget;
+    const shadow::ShadowSettings settings{.budget = {budget.bytes, budget.gpu_ms}, .rays = false};
+    s.shadows.update(scene, s.gpu, settings, s.commands, s.report);
+    s.record_masks();
+    s.shadows.report(scene, s.outcome, s.report);
+    s.draw_drawables();
+    s.submit();
     s.fill_masks(views.size());
     s.status.still = s.report.still;
     for (const LightReport& light : s.report.lights) {

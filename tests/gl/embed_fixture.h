@@ -167,6 +167,7 @@ protected:
         game::append(placed, shape, world_from_mesh);
         place(add_analysed(placed));
         engine->add(placed.positions, placed.indices);
+        room.push_back({placed.positions, placed.indices});
         for (const auto& other : others) other->add(placed.positions, placed.indices);
         const auto mesh = shadows->add_mesh({.name = "shape", .positions_m = placed.positions, .indices = placed.indices});
         EXPECT_TRUE(mesh) << to_line(mesh.error());
@@ -240,6 +241,11 @@ protected:
 
     std::unique_ptr<Engine> engine;
     std::vector<std::unique_ptr<Engine>> others;  // that draw the same meshes
+    struct Room {
+        std::vector<glm::vec3> positions;
+        std::vector<std::uint32_t> indices;
+    };
+    std::vector<Room> room;  // all that add() placed
     std::unique_ptr<Shadows> shadows;
     std::vector<std::string> said;
     View view;

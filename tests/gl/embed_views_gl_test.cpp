@@ -211,6 +211,50 @@ TEST_F(EmbedScene, ABudgetIsKeptAndSaid) {
     EXPECT_GT(shadows->status().bytes, 0u);
 }
 
+TEST_F(EmbedScene, MeshesThatComeAndGoLeaveNothingBehind) {
+    add_lit_room();
+    struct Piece {
+        MeshId mesh;
+        CasterId caster;
+    };
+    const auto add_piece = [](Shadows& to, int i) {
+        const game::Shape shape = i % 2 == 0 ? game::make_box({-0.2, 0.0, -0.2}, {0.2, 0.1 + 0.05 * (i % 5), 0.2})
+                                             : game::make_sphere(0.1 + 0.02 * (i % 7), 12, 8);
+        const auto mesh = to.add_mesh({.positions_m = shape.positions, .indices = shape.indices});
+        EXPECT_TRUE(mesh);
+        const glm::dvec3 at_m(0.4 * (i % 6) - 1.0, 1.0, 0.5 * (i % 4) - 0.8);
+        return Piece{mesh.value(), to.add_caster({.mesh = mesh.value(), .world_from_mesh = glm::translate(glm::dmat4(1.0), at_m)})};
+    };
+    constexpr int kFrames = 60, kAlive = 5;
+    std::vector<Piece> pieces;
+    for (int i = 0; i < kFrames; ++i) {
+        pieces.push_back(add_piece(*shadows, i));
+        if (i >= kAlive) {
+            shadows->remove(pieces[static_cast<std::size_t>(i - kAlive)].caster);
+            shadows->remove(pieces[static_cast<std::size_t>(i - kAlive)].mesh);
+        }
+        draw_depths(view, *engine);
+        EXPECT_EQ(shadows->render(view).failure, "");
+        EXPECT_GT(shadows->status().maps_drawn, 0u) << i;
+        EXPECT_TRUE(shadows->dropped().empty());
+    }
+    const std::vector<std::uint8_t> streamed = masked();
+    // A caster without its mesh is named, and the others stay.
+    shadows->remove(pieces.back().mesh);
+    masked();
+    ASSERT_EQ(shadows->dropped().size(), 1u);
+    EXPECT_EQ(shadows->dropped().front().caster, pieces.back().caster);
+    EXPECT_EQ(shadows->dropped().front().reason, "unknown_mesh");
+    // The same pieces in a scene that never had any other.
+    auto fresh = Shadows::create();
+    ASSERT_TRUE(fresh);
+    std::swap(shadows, fresh.value());
+    for (const Room& piece : room) shadows->add_caster({.mesh = shadows->add_mesh({.positions_m = piece.positions, .indices = piece.indices}).value()});
+    shadows->add_light({.light = {.kind = LightKind::spot, .outer_cone_rad = 0.9f}, .position_m = {1.5, 3.0, 1.0}, .direction = {-1.5, -3.0, -1.0}});
+    for (int i = kFrames - kAlive; i < kFrames; ++i) add_piece(*shadows, i);
+    EXPECT_EQ(differing(masked(), streamed), 0u);
+}
+
 TEST_F(EmbedScene, AllocatesNothingOnceWarm) {
     add_lit_room();
     const auto mesh = shadows->add_mesh({.positions_m = game::make_box({0.0, 0.0, 0.0}, {0.5, 0.5, 0.5}).positions,
