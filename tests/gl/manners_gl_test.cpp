@@ -323,7 +323,7 @@ void main() { result = vec4(texelFetch(maps[0], ivec2(0), 0).rg, texelFetch(maps
 TEST(SpiedGlSelfTest, KnowsEveryFunctionThatTheExecutorCalls) {
     const std::regex call("(?:epoxy_|\\b)(gl[A-Z]\\w+)(?=\\(|[,>])");
     std::set<std::string> called;
-    for (const auto& file : std::filesystem::directory_iterator(source_path("engine/gl"))) {
+    for (const auto& file : std::filesystem::directory_iterator(test::source_folder() / "engine/gl")) {
         std::ifstream in(file.path());
         const std::string text((std::istreambuf_iterator<char>(in)), {});
         for (std::sregex_iterator at(text.begin(), text.end(), call), end; at != end; ++at) called.insert((*at)[1]);
