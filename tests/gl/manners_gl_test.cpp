@@ -2,102 +2,19 @@
 #include <gmock/gmock.h>
 
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iostream>
-#include <iterator>
-#include <regex>
-#include <set>
 
-#include "engine/gl/device_gl45.h"
-#include "engine/platform/context.h"
 #include "tests/gl/gl_state_record.h"
+#include "tests/gl/manners_fixture.h"
 #include "tests/gl/spied_gl.h"
-#include "tests/source_paths.h"
 
-// Errors, messages, queries and debug groups of an engine that shares its context; and what keeping state costs.
+// Errors, messages, queries and debug groups of an engine that shares its context.
 namespace gnomon {
 namespace {
 
-using ::testing::Contains;
 using ::testing::Each;
-using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-using ::testing::StartsWith;
-
-using Heard = std::vector<std::string>;
-void GLAPIENTRY hear(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* text, const void* to) {
-    if (type == GL_DEBUG_TYPE_ERROR) const_cast<Heard*>(static_cast<const Heard*>(to))->emplace_back(text);
-}
-
-/// A context of an engine whose callback hears errors, and a device that shares it.
-class Manners : public ::testing::Test {
-protected:
-    void SetUp() override {
-        auto made = platform::make_headless_context(true);
-        ASSERT_TRUE(made) << to_line(made.error());
-        context = std::move(made).value();
-        glEnable(GL_DEBUG_OUTPUT);
-        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-        glDebugMessageCallback(hear, &heard);
-        make(true);
-    }
-    void TearDown() override {
-        device.reset();
-        EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR}) << "an error leaked out";
-        context.reset();
-    }
-    void make(bool keeps_state, gl::MessageSink sink = {}) {
-        device.reset();
-        auto made = gl::make_gl45_device(std::move(sink), {.keeps_state = keeps_state});
-        ASSERT_TRUE(made);
-        device = std::move(made).value();
-        colour = device->create_texture({.label = "colour", .width = 4, .height = 4}, {}).handle;
-        target = device->create_target({.label = "target", .colours = {{colour}}}).handle;
-        program = device->create_program({.label = "program", .vertex = kVertex, .fragment = kFragment}).handle;
-        uniforms = device->create_buffer({.label = "uniforms", .size = 256}, {}).handle;
-        ASSERT_TRUE(colour && target && program && uniforms);
-    }
-    /// One pass with one draw.
-    gl::CommandList small_list() const {
-        gl::CommandList list;
-        list.add(gl::BeginPass{.target = target, .viewport = {0, 0, 4, 4}, .clear_colour = true});
-        list.add(gl::SetPipeline{{.program = program}});
-        list.add(gl::BindUniforms{1, uniforms, 0, 256});
-        list.add(gl::DrawTriangle{});
-        list.add(gl::EndPass{});
-        return list;
-    }
-    /// A list that raises an error of OpenGL's own: copies between sample counts do not exist.
-    gl::CommandList erroneous_list() {
-        GLuint name = 0;
-        glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &name);
-        glTextureStorage2DMultisample(name, 4, GL_RGBA8, 4, 4, GL_TRUE);
-        const auto samples = gl::import_texture(*device, name, {.width = 4, .height = 4});
-        EXPECT_TRUE(samples);
-        gl::CommandList list;
-        list.add(gl::CopyTexture{samples, colour, 0});
-        return list;
-    }
-
-    static constexpr const char* kVertex = R"(#version 450 core
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0); }
-)";
-    static constexpr const char* kFragment = R"(#version 450 core
-layout(std140, binding = 1) uniform Block { vec4 value; };
-layout(location = 0) out vec4 result;
-void main() { result = value; }
-)";
-    Heard heard;
-    std::unique_ptr<platform::Context> context;
-    std::unique_ptr<gl::Device> device;
-    gl::TextureHandle colour;
-    gl::TargetHandle target;
-    gl::ProgramHandle program;
-    gl::BufferHandle uniforms;
-};
 
 struct ErrorRow {
     const char* name;
@@ -208,6 +125,15 @@ TEST_F(Manners, AnEmptyStackOfGroupsBelowOpenOnesBecomesAnInvalidOperation) {
     glPopDebugGroup();
 }
 
+TEST_F(Manners, WhatCannotBeGivenBackIsNoErrorOfTheList) {
+    const GLuint last = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &kVertex);
+    glUseProgram(last);
+    glDeleteProgram(last);  // lives as long as it is in use
+    EXPECT_EQ(device->submit(small_list()).failure, gl::Failure::none);
+    EXPECT_EQ(glIsProgram(last), GL_FALSE);
+    EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+}
+
 TEST_F(Manners, TheSinkHearsTheDevicesCallsAndTheEngineItsOwn) {
     Heard sunk;
     make(true, [&](gl::MessageSeverity severity, std::string_view text) {
@@ -243,7 +169,7 @@ TEST_F(Manners, GroupsOfTheEngineLeaveRoomForFewOfTheDevice) {
 
 class EngineTimer : public Manners {
 protected:
-    /// A timed list while a timer of the engine's runs.
+    /// Submits a timed list while a timer of the engine's runs.
     gl::Failure submit_timed() {
         device->set_timing(gl::TimingMode::query);
         gl::CommandList list;
@@ -318,95 +244,6 @@ void main() { result = vec4(texelFetch(maps[0], ivec2(0), 0).rg, texelFetch(maps
         EXPECT_EQ(static_cast<GLuint>(bound), white[i]);
     }
     glDeleteTextures(2, white.data());
-}
-
-TEST(SpiedGlSelfTest, KnowsEveryFunctionThatTheExecutorCalls) {
-    const std::regex call("(?:epoxy_|\\b)(gl[A-Z]\\w+)(?=\\(|[,>])");
-    std::set<std::string> called;
-    for (const auto& file : std::filesystem::directory_iterator(test::source_folder() / "engine/gl")) {
-        std::ifstream in(file.path());
-        const std::string text((std::istreambuf_iterator<char>(in)), {});
-        for (std::sregex_iterator at(text.begin(), text.end(), call), end; at != end; ++at) called.insert((*at)[1]);
-    }
-    EXPECT_GT(called.size(), 100u);
-    const std::vector<std::string> spied = SpiedGl::names();
-    EXPECT_EQ(called, std::set<std::string>(spied.begin(), spied.end()));
-}
-
-/// What a list costs in calls of OpenGL.
-class CostOfManners : public Manners {
-protected:
-    std::vector<std::string> calls_of(const gl::CommandList& list) {
-        SpiedGl gl;
-        EXPECT_EQ(device->submit(list).failure, gl::Failure::none);
-        return gl.take();
-    }
-    static std::size_t queries(const std::vector<std::string>& calls) {
-        return count_calls(calls, "glGet") + count_calls(calls, "glIs");
-    }
-    /// The small list with textures at a number of units.
-    gl::CommandList binding(std::uint32_t units) {
-        gl::CommandList list;
-        for (std::uint32_t unit = 0; unit < units; ++unit) list.add(gl::BindTexture{unit, colour, {}});
-        for (const gl::Command& command : small_list().commands) list.add(command);
-        return list;
-    }
-};
-
-TEST_F(CostOfManners, AListThatDrawsNothingChangesNothing) {
-    EXPECT_THAT(calls_of({}), Each(::testing::AnyOf(StartsWith("glGetError"), StartsWith("glGetGraphicsReset"),
-                                                    StartsWith("glIsEnabled"), StartsWith("glGetPointerv"))));
-    gl::CommandList upload;
-    upload.update<std::uint32_t>(uniforms, 0, std::vector<std::uint32_t>(4));
-    calls_of(upload);  // the loader looks functions up at their first call
-    const auto calls = calls_of(upload);
-    EXPECT_EQ(calls.size(), calls_of({}).size() + 1);
-    EXPECT_THAT(calls, Contains(StartsWith("glNamedBufferSubData")));
-}
-
-TEST_F(CostOfManners, ATextureCostsTwoQueriesItsBindingAndItsReturn) {
-    const auto one = calls_of(binding(1)), five = calls_of(binding(5));
-    EXPECT_EQ(queries(five), queries(one) + 4 * 2);
-    EXPECT_EQ(count_calls(five, "glBindTexture("), 5u * 2);
-    EXPECT_EQ(count_calls(five, "glActiveTexture"), 4u + 5 + 1) << "to bind, to give back, and the engine's";
-    EXPECT_EQ(count_calls(five, "glBindSampler"), 0u) << "no sampler was bound, and none is";
-}
-
-TEST_F(CostOfManners, StateThatIsAsNeededIsNotSet) {
-    const auto first = calls_of(small_list());
-    std::cout << "small list: " << first.size() << " calls, " << queries(first) << " of them queries\n";
-    // The engine's state is the default: only what a list cannot do without differs.
-    EXPECT_EQ(count_calls(first, "glEnable") + count_calls(first, "glDisable"), 2u * 4)
-        << "dithering, seamless cubes, point size, encoding";
-    EXPECT_EQ(count_calls(first, "glClipControl"), 2u);
-    for (const char* same : {"glPolygonMode", "glColorMask", "glBlend", "glDepthRange", "glCullFace", "glFrontFace",
-                             "glBindTexture", "glLineWidth", "glProvokingVertex"})
-        EXPECT_EQ(count_calls(first, same), 0u) << same;
-    const auto again = calls_of(small_list());
-    EXPECT_EQ(again, first) << "a list costs the same every time";
-    glDisable(GL_DITHER);
-    EXPECT_EQ(calls_of(small_list()).size(), first.size() - 2) << "what the engine has off is not switched";
-}
-
-TEST_F(CostOfManners, WithoutTheOptionTheCallsAreThese) {
-    make(false);
-    calls_of(small_list());
-    const std::vector<std::string> reset = {"glDisable x21",   "glEnable x2",    "glClipControl",
-                                            "glDepthRange",    "glPolygonMode",  "glColorMask",
-                                            "glBlendEquation", "glUseProgram",   "glBindVertexArray",
-                                            "glBindTextures",  "glBindSamplers", "glBindBuffersBase x2"};
-    std::vector<std::string> wanted = {"glGetGraphicsResetStatus", "glGetError"};
-    wanted.insert(wanted.end(), reset.begin(), reset.end());
-    for (const char* name :
-         {"glBindFramebuffer", "glEnable", "glViewport", "glDisable", "glClearBufferfv", "glUseProgram", "glDisable",
-          "glCullFace", "glFrontFace", "glDisable", "glDepthFunc", "glDepthMask", "glDisable x2", "glBlendEquation",
-          "glBindBufferRange", "glBindVertexArray", "glDrawArrays"})
-        wanted.emplace_back(name);
-    wanted.insert(wanted.end(), reset.begin(), reset.end());
-    for (const char* name : {"glVertexArrayVertexBuffer x2", "glVertexArrayElementBuffer", "glBindFramebuffer",
-                             "glGetError", "glGetGraphicsResetStatus"})
-        wanted.emplace_back(name);
-    EXPECT_EQ(names_of(calls_of(small_list())), wanted);
 }
 
 }  // namespace

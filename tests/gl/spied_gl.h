@@ -20,7 +20,7 @@ public:
     std::vector<std::string> take();
 };
 
-/// Counts the calls of functions whose names begin like this.
+/// Counts the calls of functions with names that begin like this.
 std::size_t count_calls(const std::vector<std::string>& calls, std::string_view name);
 
 /// Returns the names of the functions in order, repeated ones once with their number: "glDisable x21".

@@ -11,7 +11,7 @@ namespace {
 
 constexpr GLsizeiptr kBuffer_bytes = 1 << 16;
 
-// Subroutine 1 of each stage is not the one that a program starts with.
+// A program starts with subroutine 0 of each stage.
 constexpr const char* kVertex = R"(#version 450 core
 subroutine float Choice();
 layout(location = 0) subroutine uniform Choice choice;
