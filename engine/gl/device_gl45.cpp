@@ -207,10 +207,9 @@ public:
         const std::uint64_t submission = submissions_++;
         if (lost()) return {Failure::context_lost, submission};
         drop_gl_errors();
-        const Failure misuse = execute(list, submission, objects_, *state_, timers_, readbacks_);
-        const Failure error = take_gl_error();
+        const Failure failure = execute(list, submission, objects_, *state_, timers_, readbacks_);
         if (lost()) return {Failure::context_lost, submission};
-        return {error == Failure::none ? misuse : error, submission};
+        return {failure, submission};
     }
 
     bool read_texture(TextureHandle handle, std::uint32_t layer, std::span<std::byte> out) override {

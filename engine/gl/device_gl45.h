@@ -37,8 +37,7 @@ unsigned gl_name(const Device& gl45_device, BufferHandle buffer);
 unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 
 /// Lets command lists use a texture of the engine's own, for example its depth buffer. The engine keeps ownership, and
-/// deletes it after the handle was destroyed, which deletes nothing. Returns {0} if the texture is not what `desc`
-/// says.
+/// deletes it after the handle was destroyed, which deletes nothing. Returns {0} if the texture differs from `desc`.
 /// - A multisampled texture counts as flat or array. Shaders read it as sampler2DMS; it is neither copied nor read
 /// back.
 /// - Where no sampler is bound, reads are exact whatever its parameters are (nearest, clamped, no comparison).

@@ -30,8 +30,8 @@ public:
         for (const Command& command : list_.commands) std::visit(*this, command);
         if (!timers_.abandon() || open_groups_ != 0 || in_pass_) note(Failure::invalid_value);
         for (; open_groups_ > 0; --open_groups_) pop_group();
-        state_.end_list();
-        return failure_;
+        const Failure error = state_.end_list();
+        return error == Failure::none ? failure_ : error;
     }
 
     void operator()(const BeginGroup& c) {

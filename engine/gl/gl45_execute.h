@@ -6,8 +6,8 @@
 
 namespace gnomon::gl {
 
-/// Executes a list in a state that GlState defines and gives back. Skips misused commands and then returns
-/// invalid_value.
+/// Executes a list in a state that GlState defines and gives back. Returns OpenGL's error, or
+/// invalid_value if it skipped misused commands.
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
                 GlTimers& timers, GlReadbacks& readbacks);
 

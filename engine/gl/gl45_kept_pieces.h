@@ -120,7 +120,7 @@ struct LineWidth {
     static void write(GLfloat width) { glLineWidth(width); }
 };
 
-/// Viewport, depth range and scissor box of viewport 0, the only one that lists draw through.
+/// Viewport, depth range and scissor box of viewport 0. Lists draw through no other.
 struct Viewport {
     using Value = std::array<GLfloat, 4>;
     static Value read() {

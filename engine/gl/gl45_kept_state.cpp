@@ -113,6 +113,7 @@ void KeptSubroutines::write() {
 KeptState::KeptState(const GlFixtures& fixtures) : GlState(fixtures) {
     static_assert(kFixed.size() == kCapabilities && kTargetRows.size() == kTargets);
     for (std::size_t i = 0; i < kCapabilities; ++i) capabilities_[i] = Kept(Capability{kFixed[i].first});
+    for (GLuint i = 0; i < kViewports; ++i) scissor_tests_[i] = Kept(IndexedCapability{GL_SCISSOR_TEST, i});
     for (GLuint i = 0; i < colours_.size(); ++i) {
         colours_[i] = {Kept(IndexedCapability{GL_BLEND, i}), Kept(BlendEquation{i}), Kept(BlendFunction{i}),
                        Kept(ColourMask{i})};
@@ -136,16 +137,18 @@ void KeptState::begin_list() {
     inputs_ = nullptr;
 }
 
-void KeptState::end_list() {
+Failure KeptState::end_list() {
     if (has_meshes_) drop_meshes();
+    const Failure error = take_gl_error();  // what cannot be given back is no error of the list
     restore_bindings();
     restore_pieces();
     restore_program();
+    return error;
 }
 
 std::size_t KeptState::group_limit() {
     if (group_limit_ == 0) {
-        GLint depth = 1;  // of the engine's own groups; the default one counts
+        GLint depth = 1;  // engine's own groups and the default one
         glGetIntegerv(GL_DEBUG_GROUP_STACK_DEPTH, &depth);
         const std::size_t taken = static_cast<std::size_t>(std::max(depth, 1)) - 1;
         group_limit_ = 1 + fixtures_.group_depth - std::min(taken, fixtures_.group_depth);
@@ -162,6 +165,8 @@ void KeptState::set_enabled(GLenum capability, bool on) {
 void KeptState::set_fixed_state() {
     if (std::exchange(fixed_, true)) return;
     for (std::size_t i = 0; i < kCapabilities; ++i) capabilities_[i].set(kFixed[i].second);
+    // Mesa 22 draws nothing through a viewport without a test while another one has it.
+    for (Kept<IndexedCapability>& test : scissor_tests_) test.set(false);
     clip_.set({GL_LOWER_LEFT, GL_ZERO_TO_ONE});
     depth_range_.set({0.0, 1.0});
     polygon_mode_.set(GL_FILL);
@@ -183,7 +188,7 @@ void KeptState::begin_pass(GLuint framebuffer, std::size_t colours, const Rect& 
 
 void KeptState::set_scissor(const Rect& rect) {
     scissor_ = rect;
-    scissor_test_.set(rect.width > 0);
+    scissor_tests_[0].set(rect.width > 0);
     if (rect.width > 0) scissor_box_.set({rect.x, rect.y, rect.width, rect.height});
 }
 
@@ -241,7 +246,7 @@ void KeptState::set_depth_range(float near_depth, float far_depth) {
 
 void KeptState::begin_blit() {
     set_fixed_state();
-    scissor_test_.set(false);
+    scissor_tests_[0].set(false);
     set_enabled(GL_FRAMEBUFFER_SRGB, false);
 }
 
@@ -320,7 +325,7 @@ void KeptState::restore_pieces() {
         colour.function.restore();
         colour.mask.restore();
     }
-    scissor_test_.restore();
+    for (Kept<IndexedCapability>& test : scissor_tests_) test.restore();
     clip_.restore();
     depth_range_.restore();
     viewport_.restore();

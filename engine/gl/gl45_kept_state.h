@@ -27,7 +27,7 @@ public:
     explicit KeptState(const GlFixtures& fixtures);
 
     void begin_list() override;
-    void end_list() override;
+    Failure end_list() override;
     std::size_t group_limit() override;
     void begin_pass(GLuint framebuffer, std::size_t colours, const Rect& viewport) override;
     void set_scissor(const Rect& rect) override;
@@ -45,7 +45,7 @@ public:
     void bind_meshes(GLuint vertices, GLuint items, GLuint indices) override;
 
 private:
-    static constexpr std::size_t kTargets = 11, kCapabilities = 31;
+    static constexpr std::size_t kTargets = 11, kCapabilities = 31, kViewports = 16;
     struct Unit {
         std::array<Kept<TextureBinding>, kTargets> textures;
         Kept<SamplerBinding> sampler;
@@ -67,7 +67,7 @@ private:
     void restore_pieces();
 
     std::array<Kept<Capability>, kCapabilities> capabilities_;
-    Kept<IndexedCapability> scissor_test_{IndexedCapability{GL_SCISSOR_TEST, 0}};
+    std::array<Kept<IndexedCapability>, kViewports> scissor_tests_;
     Kept<ClipControl> clip_;
     Kept<DepthRange> depth_range_;
     Kept<Viewport> viewport_;
@@ -91,7 +91,7 @@ private:
     std::size_t group_limit_ = 0;  // 0: not yet known
     std::size_t colour_count_ = 0;
     GlBlend blend_;
-    const GlProgram* inputs_ = nullptr;  // program in use whose inputs have not been looked at
+    const GlProgram* inputs_ = nullptr;  // program in use, until its free inputs are unbound
     bool fixed_ = false;                 // the state that lists do not set is set
     bool paused_feedback_ = false;       // transform feedback, to be resumed
     bool has_meshes_ = false;

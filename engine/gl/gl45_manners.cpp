@@ -105,7 +105,7 @@ GlCall::~GlCall() {
     drop_gl_errors();
     if (installed_) glDebugMessageCallback(reinterpret_cast<GLDEBUGPROC>(callback_), user_);
     if (errors_.any()) {
-        output_.set(false);  // nobody hears of the same error twice
+        output_.set(false);  // its callback has heard of them before
         errors_.raise_again();
     }
     synchronous_.restore();

@@ -92,10 +92,11 @@ void GlState::begin_list() {
     reset();
 }
 
-void GlState::end_list() {
+Failure GlState::end_list() {
     reset();
     drop_meshes();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return take_gl_error();
 }
 
 void GlState::begin_pass(GLuint framebuffer, std::size_t, const Rect& viewport) {

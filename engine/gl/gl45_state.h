@@ -15,7 +15,8 @@ public:
 
     const GlFixtures& fixtures() const { return fixtures_; }
     virtual void begin_list();
-    virtual void end_list();
+    /// Returns the error that the list raised.
+    virtual Failure end_list();
     /// Returns how many debug groups a list may open.
     virtual std::size_t group_limit() { return fixtures_.group_depth; }
 

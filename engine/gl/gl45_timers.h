@@ -13,7 +13,7 @@ namespace gnomon::gl {
 /// Times spans of GPU work as the mode requires. Private to the executor.
 class GlTimers {
 public:
-    /// With `keeps_state`, times come from a stamp at either end, which a GL_TIME_ELAPSED query of the engine's allows.
+    /// Makes timers. If `keeps_state`, times come from a stamp at either end, so that the engine's own may run.
     explicit GlTimers(bool keeps_state) : keeps_state_(keeps_state) {}
     GlTimers(const GlTimers&) = delete;
     GlTimers& operator=(const GlTimers&) = delete;

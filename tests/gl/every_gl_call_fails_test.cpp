@@ -46,7 +46,7 @@ protected:
     }
     /// The rule of the error, or nothing.
     std::string make(Gpu& gpu) {
-        auto device = gl::make_gl45_device({});
+        auto device = gl::make_gl45_device({}, {.keeps_state = keeps_state});
         if (!device) return device.error().rule;
         gpu.device = std::move(device).value();
         auto frame = Frame::create(*gpu.device, *scene.library);
@@ -87,6 +87,7 @@ protected:
     void play(std::uint64_t call, bool lasting) {
         SCOPED_TRACE("call " + std::to_string(call) + (lasting ? " and all later ones" : ""));
         const std::int64_t names = gl->live_names();
+        keeps_state = lasting;  // each way to set state meets one way to fail
         Gpu gpu;
         gl->begin(GetParam(), call, lasting);
         const std::string refusal = make(gpu);
@@ -123,6 +124,7 @@ protected:
     }
 
     FaultScene scene = sampled_courtyard_scene();
+    bool keeps_state = false;  // option of the device
     std::unique_ptr<platform::Context> context;
     std::vector<Picture> sound;   // by frame
     std::optional<FailingGl> gl;  // once all of OpenGL that is used has been called

@@ -12,6 +12,13 @@
 
 namespace gnomon {
 
+/// Switches the option of all devices in these tests; gl_device_kept sets it.
+#ifdef GNOMON_KEPT_STATE
+inline constexpr bool kKeepsState = true;
+#else
+inline constexpr bool kKeepsState = false;
+#endif
+
 /// In tests' names and traces.
 inline const char* kind_name(LightKind kind) {
     return kind == LightKind::directional ? "sun" : kind == LightKind::spot ? "spot" : "point";
@@ -25,9 +32,10 @@ protected:
         auto made_context = platform::make_headless_context(true);
         ASSERT_TRUE(made_context) << to_line(made_context.error());
         context_ = std::move(made_context).value();
-        auto made_device = gl::make_gl45_device([this](gl::MessageSeverity severity, std::string_view text) {
+        const auto sink = [this](gl::MessageSeverity severity, std::string_view text) {
             if (severity >= gl::MessageSeverity::medium) messages_.emplace_back(text);
-        });
+        };
+        auto made_device = gl::make_gl45_device(sink, {.keeps_state = kKeepsState});
         ASSERT_TRUE(made_device) << to_line(made_device.error());
         device_ = std::move(made_device).value();
     }

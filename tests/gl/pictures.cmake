@@ -11,6 +11,9 @@ if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_manners LABEL gl SOURCES
     gl_state_record.cpp
     kept_state_gl_test.cpp
+    manners_cost_gl_test.cpp
+    manners_gl_test.cpp
+    spied_gl.cpp
     unusual_gl_state.cpp
     LIBRARIES gnomon_sample gnomon_shaders PkgConfig::EPOXY)
 endif()

@@ -11,7 +11,7 @@ namespace {
 
 constexpr GLsizeiptr kBuffer_bytes = 1 << 16;
 
-// Subroutine 1 of each stage is not the one that a program starts with.
+// A program starts with subroutine 0 of each stage.
 constexpr const char* kVertex = R"(#version 450 core
 subroutine float Choice();
 layout(location = 0) subroutine uniform Choice choice;
@@ -42,7 +42,7 @@ void choose_second_subroutines() {
     glUniformSubroutinesuiv(GL_FRAGMENT_SHADER, 1, &second);
 }
 
-void hear(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text, const void* to) {
+void hear_complaint(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text, const void* to) {
     if (severity == GL_DEBUG_SEVERITY_HIGH || severity == GL_DEBUG_SEVERITY_MEDIUM)
         const_cast<std::vector<std::string>*>(static_cast<const std::vector<std::string>*>(to))->emplace_back(text);
 }
@@ -65,7 +65,7 @@ UnusualGlState::UnusualGlState(EngineWork work) : work_(work) {
     glDebugMessageCallback(nullptr, nullptr);
     for (int i = 0; i < 2; ++i) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 7, -1, "the engine's");
     if (work == EngineWork::feedback) {
-        glDebugMessageCallback(hear, &complaints_);
+        glDebugMessageCallback(hear_complaint, &complaints_);
         glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     }
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});

@@ -5,8 +5,9 @@
 
 namespace gnomon {
 
-/// What an engine was doing when it calls Gnomon: its own program with transform feedback and queries running, messages
-/// going to its callback; or a pipeline of separable programs, messages going to the log.
+/// Work of an engine at the time when it calls Gnomon.
+/// - feedback: its own program with transform feedback and queries running, messages going to its callback
+/// - pipeline: separable programs, messages going to the log
 enum class EngineWork { feedback, pipeline };
 
 /// Sets every piece of the current context's state to a legal value that is not its default, with objects of its own.

@@ -1,0 +1,115 @@
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <regex>
+#include <set>
+
+#include "tests/gl/manners_fixture.h"
+#include "tests/gl/spied_gl.h"
+#include "tests/source_paths.h"
+
+// What keeping the state of a shared context costs, in calls of OpenGL; and that the calls without it are as they were.
+namespace gnomon {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Each;
+using ::testing::StartsWith;
+
+TEST(SpiedGlSelfTest, KnowsEveryFunctionThatTheExecutorCalls) {
+    const std::regex call("(?:epoxy_|\\b)(gl[A-Z]\\w+)(?=\\(|[,>])");
+    std::set<std::string> called;
+    for (const auto& file : std::filesystem::directory_iterator(test::source_folder() / "engine/gl")) {
+        std::ifstream in(file.path());
+        const std::string text((std::istreambuf_iterator<char>(in)), {});
+        for (std::sregex_iterator at(text.begin(), text.end(), call), end; at != end; ++at) called.insert((*at)[1]);
+    }
+    EXPECT_GT(called.size(), 100u);
+    const std::vector<std::string> spied = SpiedGl::names();
+    EXPECT_EQ(called, std::set<std::string>(spied.begin(), spied.end()));
+}
+
+/// What a list costs in calls of OpenGL.
+class CostOfManners : public Manners {
+protected:
+    std::vector<std::string> calls_of(const gl::CommandList& list) {
+        SpiedGl gl;
+        for (int i = 0; i < 2; ++i) {
+            gl.take();  // the loader looks functions up at their first call
+            EXPECT_EQ(device->submit(list).failure, gl::Failure::none);
+        }
+        return gl.take();
+    }
+    static std::size_t queries(const std::vector<std::string>& calls) {
+        return count_calls(calls, "glGet") + count_calls(calls, "glIs");
+    }
+    /// Returns the small list with textures at a number of units.
+    gl::CommandList binding(std::uint32_t units) {
+        gl::CommandList list;
+        for (std::uint32_t unit = 0; unit < units; ++unit) list.add(gl::BindTexture{unit, colour, {}});
+        for (const gl::Command& command : small_list().commands) list.add(command);
+        return list;
+    }
+};
+
+TEST_F(CostOfManners, AListThatDrawsNothingChangesNothing) {
+    EXPECT_THAT(calls_of({}), Each(::testing::AnyOf(StartsWith("glGetError"), StartsWith("glGetGraphicsReset"),
+                                                    StartsWith("glIsEnabled"), StartsWith("glGetPointerv"))));
+    gl::CommandList upload;
+    upload.update<std::uint32_t>(uniforms, 0, std::vector<std::uint32_t>(4));
+    const auto calls = calls_of(upload);
+    EXPECT_EQ(calls.size(), calls_of({}).size() + 1);
+    EXPECT_THAT(calls, Contains(StartsWith("glNamedBufferSubData")));
+}
+
+TEST_F(CostOfManners, ATextureCostsTwoQueriesItsBindingAndItsReturn) {
+    const auto one = calls_of(binding(1)), five = calls_of(binding(5));
+    EXPECT_EQ(queries(five), queries(one) + 4 * 2);
+    EXPECT_EQ(count_calls(five, "glBindTexture("), 5u * 2);
+    EXPECT_EQ(count_calls(five, "glActiveTexture"), 4u + 5 + 1) << "to bind, to give back, and the engine's";
+    EXPECT_EQ(count_calls(five, "glBindSampler"), 0u) << "no sampler was bound, and none is";
+}
+
+TEST_F(CostOfManners, StateThatIsAsNeededIsNotSet) {
+    const auto first = calls_of(small_list());
+    std::cout << "small list: " << first.size() << " calls, " << queries(first) << " of them queries\n";
+    // The engine's state is the default: only what a list cannot do without differs.
+    EXPECT_EQ(count_calls(first, "glEnable") + count_calls(first, "glDisable"), 2u * 4)
+        << "dithering, seamless cubes, point size, encoding";
+    EXPECT_EQ(count_calls(first, "glClipControl"), 2u);
+    for (const char* same : {"glPolygonMode", "glColorMask", "glBlend", "glDepthRange", "glCullFace", "glFrontFace",
+                             "glBindTexture", "glLineWidth", "glProvokingVertex"})
+        EXPECT_EQ(count_calls(first, same), 0u) << same;
+    const auto again = calls_of(small_list());
+    EXPECT_EQ(again, first) << "a list costs the same every time";
+    glDisable(GL_DITHER);
+    EXPECT_EQ(calls_of(small_list()).size(), first.size() - 2) << "what the engine has off is not switched";
+}
+
+TEST_F(CostOfManners, WithoutTheOptionTheCallsAreThese) {
+    make(false);
+    std::cout << "small list without the option: " << calls_of(small_list()).size() << " calls\n";
+    const std::vector<std::string> reset = {"glDisable x21",   "glEnable x2",    "glClipControl",
+                                            "glDepthRange",    "glPolygonMode",  "glColorMask",
+                                            "glBlendEquation", "glUseProgram",   "glBindVertexArray",
+                                            "glBindTextures",  "glBindSamplers", "glBindBuffersBase x2"};
+    std::vector<std::string> wanted = {"glGetGraphicsResetStatus", "glGetError"};
+    wanted.insert(wanted.end(), reset.begin(), reset.end());
+    for (const char* name :
+         {"glBindFramebuffer", "glEnable", "glViewport", "glDisable", "glClearBufferfv", "glUseProgram", "glDisable",
+          "glCullFace", "glFrontFace", "glDisable", "glDepthFunc", "glDepthMask", "glDisable x2", "glBlendEquation",
+          "glBindBufferRange", "glBindVertexArray", "glDrawArrays"})
+        wanted.emplace_back(name);
+    wanted.insert(wanted.end(), reset.begin(), reset.end());
+    for (const char* name : {"glVertexArrayVertexBuffer x2", "glVertexArrayElementBuffer", "glBindFramebuffer",
+                             "glGetError", "glGetGraphicsResetStatus"})
+        wanted.emplace_back(name);
+    EXPECT_EQ(names_of(calls_of(small_list())), wanted);
+}
+
+}  // namespace
+}  // namespace gnomon
