@@ -217,7 +217,7 @@ int main(int argc, char** argv) {
     if (SDL_Init(SDL_INIT_VIDEO) != 0) return fail_sdl("SDL does not start");
     const std::string_view driver = SDL_GetCurrentVideoDriver();
     if (options.frames == 0 && (driver == "offscreen" || driver == "dummy"))  // SDL's choice where it finds no display
-        return fail({"no display: a window that nobody sees would never be closed"});
+        return fail({"there is no display: --headless, or --frames N, draws without one"});
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
     SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);

@@ -6,9 +6,14 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
             -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/build_and_run.cmake)
   set_tests_properties(Package.AStrangerBuildsAgainstTheInstalledCopy PROPERTIES LABELS "e2e;long" TIMEOUT 600)
+  find_package(Python3 REQUIRED COMPONENTS Interpreter)
+  add_test(NAME Package.ExamplesRunAgainstTheInstalledCopy
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/examples/run_examples.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
+            ${CMAKE_CURRENT_BINARY_DIR}/examples_consumer ${CMAKE_CXX_COMPILER} $<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>)
+  set_tests_properties(Package.ExamplesRunAgainstTheInstalledCopy PROPERTIES LABELS e2e TIMEOUT 600)
 endif()
 
-# The guides show that project's code, and nothing else.
+# The guides show that project's code and that of examples/, and nothing else.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 add_test(NAME Guides.ShowWhatTheStrangerBuilds
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/snippets.py ${PROJECT_SOURCE_DIR})
