@@ -54,7 +54,7 @@ constexpr const char* kEveryPixel = R"(#version 450 core
 void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.5, 1.0); })";
 constexpr const char* kLighting = R"(#version 450 core
 layout(location = 0) uniform mat4 world_from_clip;
-layout(location = 1) uniform vec4 lights[4];    // xyz: position; w: 0 for the sun, whose xyz points toward it
+layout(location = 1) uniform vec4 lights[4];    // xyz: position, or the way to the sun, where w is 0
 layout(location = 5) uniform vec3 colours[4];
 layout(binding = 0) uniform sampler2D surface_depth;
 layout(binding = 1) uniform sampler2D surface_normal;

@@ -47,7 +47,7 @@ void main() {})";
 constexpr const char* kForward = R"(#version 450 core
 in vec3 place;
 layout(location = 2) uniform vec3 base_colour;
-layout(location = 3) uniform vec4 lights[3];    // xyz: position; w: 0 for the sun, whose xyz points toward it
+layout(location = 3) uniform vec4 lights[3];    // xyz: position, or the way to the sun, where w is 0
 layout(location = 6) uniform vec3 colours[3];
 layout(binding = 0) uniform sampler2DArray shadow_mask;
 layout(location = 0) out vec4 colour;

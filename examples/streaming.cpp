@@ -1,5 +1,4 @@
-// A world without end: cells of it, each a mesh of its own and some with a lamp, come and go around a camera that
-// moves.
+// A world without end: its cells come and go around a camera that moves. Each is a mesh of its own, and some have a lamp.
 //
 // Meshes, casters and lights are added and removed between frames. Positions are double: this world begins a thousand
 // kilometres from its origin, and the engine draws relative to the camera.
@@ -53,7 +52,7 @@ void main() {})";
 constexpr const char* kForward = R"(#version 450 core
 in vec3 place;
 layout(location = 2) uniform int light_count;
-layout(location = 3) uniform vec4 lights[16];    // seen from the camera; w: 0 for the sun, whose xyz points toward it
+layout(location = 3) uniform vec4 lights[16];    // seen from the camera: position, or the way to the sun, where w is 0
 layout(binding = 0) uniform sampler2DArray shadow_mask;
 layout(location = 0) out vec4 colour;
 void main() {
