@@ -67,19 +67,21 @@ void main() {})";
 constexpr const char* kForward = R"(#version 450 core
 in vec3 place;
 layout(location = 2) uniform vec3 base_colour;
-layout(location = 3) uniform vec4 lights[8];    // xyz: position; w: 0 for the sun, whose xyz points toward it
+layout(location = 3) uniform vec4 lights[8];    // xyz: position, or the way to the sun, where w is 0
 layout(location = 11) uniform vec3 colours[8];
 layout(binding = 0) uniform sampler2DArray shadow_mask;
 layout(location = 0) out vec4 colour;
 void main() {
     vec3 normal = normalize(cross(dFdx(place), dFdy(place)));
     vec3 sum = vec3(0.03);
+    // [shader]
     for (int i = 0; i < 8; ++i) {
         vec3 way = lights[i].w == 0.0 ? lights[i].xyz : lights[i].xyz - place;
         float falloff = lights[i].w == 0.0 ? 1.0 : 1.0 / (1.0 + dot(way, way));
         float visible = texelFetch(shadow_mask, ivec3(gl_FragCoord.xy, i), 0).r;
         sum += colours[i] * (visible * falloff * max(dot(normal, normalize(way)), 0.0));
     }
+    // [shader]
     colour = vec4(base_colour * sum, 1.0);
 })";
 
@@ -142,6 +144,7 @@ int main(int argc, char** argv) {
     const GLuint depth_only = make_program(kVertex, kDepthOnly), forward = make_program(kVertex, kForward);
 
     // Gnomon gets the mesh, a caster per entity, and the lights.
+    // [hand over]
     auto created = gnomon::Shadows::create();
     if (!created) return fail(created.error());
     gnomon::Shadows& shadows = *created.value();
@@ -149,12 +152,15 @@ int main(int argc, char** argv) {
     if (!mesh) return fail(mesh.error());
     for (Entity& entity : world)
         entity.caster = shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = entity.place});
+    // [hand over]
     std::vector<gnomon::LightId> lights;
     std::vector<glm::vec4> light_places;
     std::vector<glm::vec3> light_colours;
     const auto add_light = [&](gnomon::LightKind kind, const glm::dvec3& at, const glm::dvec3& toward,
                                const glm::vec3& colour) {
+        // [light]
         lights.push_back(shadows.add_light({.light = {.kind = kind}, .position_m = at, .direction = toward - at}));
+        // [light]
         light_places.emplace_back(glm::vec3(at), kind == gnomon::LightKind::directional ? 0.0f : 1.0f);
         light_colours.push_back(colour);
     };
@@ -175,22 +181,26 @@ int main(int argc, char** argv) {
         const glm::dmat4 clip_from_view = glm::perspective(0.9, static_cast<double>(size.x) / size.y, 0.1, 100.0);
         const glm::mat4 clip_from_world(clip_from_view * view_from_world);
 
+        // [move]
         for (Entity& entity : world) {
             const double angle = 6.2832 * entity.turns_per_s * time_s;
             entity.place = glm::rotate(entity.home, angle, glm::dvec3(0.0, 1.0, 0.0));
             shadows.set_transform(entity.caster, entity.place);  // costs nothing where it stayed
         }
+        // [move]
 
         glEnable(GL_DEPTH_TEST);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         draw(depth_only, world, box, clip_from_world);
 
+        // [mask]
         const gnomon::Mask mask = shadows.render({.world_from_view = glm::inverse(view_from_world),
                                                   .clip_from_view = clip_from_view,
                                                   .depth_texture = window.value()->depth_texture(),
                                                   .size_px = size,
                                                   .lights = lights});
         if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
+        // [mask]
 
         glDepthFunc(GL_EQUAL);
         glEnable(GL_FRAMEBUFFER_SRGB);
@@ -202,10 +212,12 @@ int main(int argc, char** argv) {
         glDepthFunc(GL_LESS);
         if (const auto shown = window.value()->end_frame(); !shown) return fail(shown.error());
     }
+    // [status]
     for (std::size_t i = 0; i < lights.size(); ++i) {
         const gnomon::LightStatus status = shadows.status(lights[i]);
         std::printf("light %zu: %s, %s %u maps, %.1f MB\n", i, to_text(status.state), reason_code(status.reason),
                     status.maps, static_cast<double>(status.bytes) / 1.0e6);
     }
+    // [status]
     return 0;
 }

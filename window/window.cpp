@@ -50,6 +50,25 @@ void Window::State::release_picture() {
     framebuffer = colour = depth = 0;
 }
 
+Result<bool> write_screenshot(unsigned colour_texture, const std::string& file) {
+    GLint width = 0, height = 0;
+    glGetTextureLevelParameteriv(colour_texture, 0, GL_TEXTURE_WIDTH, &width);
+    glGetTextureLevelParameteriv(colour_texture, 0, GL_TEXTURE_HEIGHT, &height);
+    const auto rows = static_cast<std::size_t>(height), row = static_cast<std::size_t>(width) * 4;
+    std::vector<std::uint8_t> rgba(row * rows), flipped(rgba.size());
+    glGetTextureImage(colour_texture, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
+    for (std::size_t y = 0; y < rows; ++y)
+        std::copy_n(rgba.data() + y * row, row, flipped.data() + (rows - 1 - y) * row);
+    for (std::size_t i = 3; i < flipped.size(); i += 4) flipped[i] = 255;  // a picture on a screen is opaque
+    const std::vector<std::uint8_t> png =
+        encode_png(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), flipped);
+    std::FILE* to = std::fopen(file.c_str(), "wb");
+    const bool written = to != nullptr && std::fwrite(png.data(), 1, png.size(), to) == png.size();
+    const bool closed = to == nullptr || std::fclose(to) == 0;
+    if (!written || !closed) return Error{"cannot write the screenshot", file, {}, "output.write"};
+    return true;
+}
+
 Result<std::unique_ptr<Window>> Window::open(const WindowOptions& options) {
     auto state = std::make_unique<State>();
     state->options = options;
@@ -99,18 +118,7 @@ Result<bool> Window::end_frame() {
         s.window->present();
     }
     if (!s.is_last() || s.options.screenshot.empty()) return true;
-    const std::size_t row = std::size_t{s.size_px.x} * 4;
-    std::vector<std::uint8_t> rgba(row * s.size_px.y), flipped(rgba.size());
-    glGetTextureImage(s.colour, 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()), rgba.data());
-    for (std::size_t y = 0; y < s.size_px.y; ++y)
-        std::copy_n(rgba.data() + y * row, row, flipped.data() + (s.size_px.y - 1 - y) * row);
-    for (std::size_t i = 3; i < flipped.size(); i += 4) flipped[i] = 255;  // a picture on a screen is opaque
-    const std::vector<std::uint8_t> png = encode_png(s.size_px.x, s.size_px.y, flipped);
-    std::FILE* file = std::fopen(s.options.screenshot.c_str(), "wb");
-    const bool written = file != nullptr && std::fwrite(png.data(), 1, png.size(), file) == png.size();
-    const bool closed = file == nullptr || std::fclose(file) == 0;
-    if (!written || !closed) return Error{"cannot write the screenshot", s.options.screenshot, {}, "output.write"};
-    return true;
+    return write_screenshot(s.colour, s.options.screenshot);
 }
 
 glm::uvec2 Window::size_px() const { return state_->size_px; }

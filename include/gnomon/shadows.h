@@ -236,8 +236,9 @@ public:
     /// Lists what the last render() had to leave out.
     std::span<const Dropped> dropped() const;
 
-    /// Returns the share of a light that reaches a place, 0 to 1, for gameplay: by rays to the casters as they are now,
-    /// independent of views and maps. `radius_m`: size of what receives; 0: a point.
+    /// Returns the share of a light that reaches a place, 0 to 1, for gameplay. Rays decide, independent of views and
+    /// maps. Casters and lights are as the last render() took them; it may have had no views. `radius_m`: size of what
+    /// receives; 0: a point.
     float visibility(LightId light, const glm::dvec3& position_m, double radius_m = 0.0);
 
 private:

@@ -24,6 +24,10 @@ struct WindowOptions {
 /// its message is the usage.
 Result<WindowOptions> window_options(int argc, const char* const* argv, std::string_view title);
 
+/// Writes a GL_TEXTURE_2D with channels of 8 bits as an opaque PNG. Row 0 is the lowest, as OpenGL draws. Colours are
+/// written as they are stored. Error: "output.write".
+Result<bool> write_screenshot(unsigned colour_texture, const std::string& file);
+
 /// Window, or picture without one. The context is current on the creating thread until it is destroyed.
 class Window {
 public:

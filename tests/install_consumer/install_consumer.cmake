@@ -13,9 +13,13 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
             -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}> -DPYTHON=${Python3_EXECUTABLE}
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/core/build_and_run.cmake)
   set_tests_properties(Package.CoreIsFoundWithGlmAlone PROPERTIES LABELS e2e TIMEOUT 300)
+  add_test(NAME Package.ExamplesRunAgainstTheInstalledCopy
+    COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/examples/run_examples.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
+            ${CMAKE_CURRENT_BINARY_DIR}/examples_consumer ${CMAKE_CXX_COMPILER} $<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>)
+  set_tests_properties(Package.ExamplesRunAgainstTheInstalledCopy PROPERTIES LABELS e2e TIMEOUT 600)
 endif()
 
-# The guides show that project's code, and nothing else.
+# The guides show that project's code and that of examples/, and nothing else.
 add_test(NAME Guides.ShowWhatTheStrangerBuilds
   COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/snippets.py ${PROJECT_SOURCE_DIR})
 add_test(NAME Guides.AChangedBlockIsFound
