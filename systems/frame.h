@@ -38,7 +38,7 @@ struct FrameSettings {
     glm::uvec2 viewport_px{1280, 720};
     std::optional<float> exposure_ev;  // EV100; empty: automatic
     bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
-    bool rays = true;                  // false: lights whose filter traces rays get a filtered map instead
+    bool rays = true;                  // false: lights with rays get a filtered map instead
     bool present = false;              // copy the picture to the window at the end
     /// Block at the end of a frame for what the GPU measures (CascadeSplits::sampled; automatic exposure with faint
     /// lights). Every run then draws the same pictures. Otherwise nothing blocks, and measurements arrive some frames

@@ -43,7 +43,7 @@ unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer);
 /// - Where no sampler is bound, reads are exact whatever its parameters are (nearest, clamped, no comparison).
 /// - Its swizzle and its depth-stencil mode apply.
 TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDesc& desc);
-/// Texture of the context, whoever made it.
+/// Texture of the context: Gnomon's or the engine's.
 struct EngineTexture {
     TextureDesc desc;
     std::uint32_t samples = 1;  // above 1: multisampled
@@ -59,9 +59,9 @@ std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, un
 /// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);
 
-/// Calls draw() with a target bound as lists draw casters into it: viewport, clip depths of [0, 1], depth test
-/// `greater` with writes, depth clamp; without culling, blending, scissor and colour writes. Afterwards that state is
-/// as it was. Returns false without calling it if the target is unknown.
+/// Calls draw() with a target bound, as lists draw casters into it. Set are the viewport, clip depths of [0, 1], depth
+/// test `greater` with writes, and depth clamp. Culling, blending, scissor and colour writes are off. Afterwards that
+/// state is as it was. Returns false without calling it if the target is unknown.
 bool draw_into(Device& gl45_device, TargetHandle target, const Rect& viewport, const std::function<void()>& draw);
 
 /// Counts the objects that live on this device (leak checks), imported ones included.

@@ -5,7 +5,7 @@
 
 namespace gnomon::gl {
 
-/// As draw_into() in device_gl45.h.
+/// Implements draw_into() of device_gl45.h.
 void draw_into(const GlTarget& target, const Rect& viewport, const std::function<void()>& draw);
 
 }  // namespace gnomon::gl

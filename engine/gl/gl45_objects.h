@@ -81,7 +81,7 @@ void delete_buffer(const GlBuffer& buffer);
 /// Takes an object that someone else made and goes on owning. invalid_value: it is not what `desc` describes.
 Made<GlTexture> adopt_texture(GLuint name, const TextureDesc& desc);
 Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc);
-/// As describe_texture() and sample_positions() in device_gl45.h.
+/// Returns the results of describe_texture() and sample_positions() of device_gl45.h.
 std::optional<EngineTexture> described(GLuint name);
 std::vector<std::array<float, 2>> places_of_samples(GLuint name);
 Made<GlProgram> make_program(const ProgramDesc& desc);

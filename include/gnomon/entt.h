@@ -10,7 +10,7 @@ namespace gnomon {
 
 /// Keeps casters and lights in step with a registry of EnTT's interface: on_construct, on_update, on_destroy, valid and
 /// try_get. Listens to three components and touches nothing else; sync() costs in proportion to what changed.
-/// Traits says how to read the engine's components:
+/// Traits reads the engine's components:
 /// - `Transform`, `Caster`, `Light`: the components' types
 /// - `static glm::dmat4 world(const Transform&)`: the entity's place
 /// - `static CasterDesc caster(const Caster&)`: all but world_from_mesh
@@ -31,7 +31,7 @@ public:
     EnttBridge(const EnttBridge&) = delete;
     EnttBridge& operator=(const EnttBridge&) = delete;
 
-    /// Announces an entity whose components were changed in place, without a signal.
+    /// Announces an entity with components that were changed in place, without a signal.
     void touch(Entity entity) { touched_.push_back(entity); }
 
     /// Hands over what changed. Call it once per frame, before Shadows::render().

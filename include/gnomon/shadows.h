@@ -61,13 +61,13 @@ struct CasterDesc {
     ShadowLayers receive_layers = kAllShadowLayers;
 };
 
-/// View of a light's map into which an engine draws a caster with code of its own. When it is called, the map is bound
-/// with its viewport, and the depth test, clip depths of [0, 1] and what else a depth pass needs are set; culling is
-/// off. Draw with any program that gives gl_Position = clip_from_world * position and whose fragment shader has no
-/// output. That state is reset afterwards; what else the draw changes stays changed.
+/// View of a light's map into which an engine draws a caster with code of its own. The map is bound, with its viewport.
+/// Depth test, clip depths of [0, 1] and all else that a depth pass needs are set; culling is off. Draw with any
+/// program that gives gl_Position = clip_from_world * position; its fragment shader needs no output. That state is
+/// reset afterwards. Other state that the draw changes stays changed.
 struct DrawableView {
     glm::mat4 clip_from_world{1.0f};   // exact enough near the world's origin
-    glm::mat4 clip_from_anchor{1.0f};  // of positions minus anchor_m, subtracted in double: exact anywhere
+    glm::mat4 clip_from_anchor{1.0f};  // takes positions minus anchor_m, subtracted in double: exact anywhere
     glm::dvec3 anchor_m{0.0};
     std::uint32_t size_px = 0;  // edge of the map
     LightId light;
@@ -79,7 +79,7 @@ struct Bounds {
 };
 
 /// Caster that the engine draws: wind, terrain, tessellation, GPU skinning, particles. Filters that read triangles
-/// treat it by depth, as docs/embedding.md says. Visibility queries do not see it.
+/// treat it by depth (docs/embedding.md). Visibility queries do not see it.
 struct DrawableDesc {
     std::string_view name = {};
     std::function<void(const DrawableView&)> draw = {};  // called within render(), for each map that shows it
@@ -170,11 +170,11 @@ struct RenderStatus {
     std::uint32_t maps_drawn = 0, draws = 0;
     std::uint64_t bytes = 0;       // memory of all maps
     double cpu_us = 0.0;           // time of the call
-    std::optional<double> gpu_us;  // of all that it submitted; empty: not measured yet
-    std::string_view failure;      // of the device, its code; empty: none
+    std::optional<double> gpu_us;  // time of all that it submitted; empty: not measured yet
+    std::string_view failure;      // code of the device's failure; empty: none
 };
 
-/// Limits on all shadows together. Over a limit, the least visible lights get less, and their status says so.
+/// Limits on all shadows together. Over a limit, the least visible lights get less, and their status has the reason.
 struct Budget {
     std::uint64_t bytes = 0;  // memory of maps; 0: no limit
     float gpu_ms = 0.0f;      // time per frame, as measured on this device; 0: no limit

@@ -235,8 +235,8 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
     item.version = caster.version;
 }
 
-/// Applies changed casters in place. Returns false if one became usable or stopped being so: the list is then made
-/// anew.
+/// Applies changed casters in place. Returns false if one became usable or
+/// stopped being so: the list has to be made again.
 bool SceneStore::put_changes() {
     const auto lacks = [&](CasterId id) {
         const Caster* caster = casters_.find(id);

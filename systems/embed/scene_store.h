@@ -10,8 +10,9 @@
 
 namespace gnomon::embed {
 
-/// Scene behind gnomon::Shadows: what was added, as the snapshot that all stages read. update() applies what was set
-/// since the last one; its cost is in proportion to that, and to the scene only where casters came or went.
+/// Scene behind gnomon::Shadows: what was added, as the snapshot that all stages read. `update` applies what was set
+/// since the last one, at a cost in proportion to that. Where casters came or went, the cost is in proportion to the
+/// scene.
 class SceneStore {
 public:
     SceneStore();
@@ -46,9 +47,9 @@ public:
 
 private:
     struct Caster {
-        CasterDesc desc;                                     // of a drawable: all but its mesh and place
+        CasterDesc desc;                                     // for a drawable, mesh and place are unused
         std::function<void(const DrawableView&)> draw = {};  // empty: it has a mesh
-        Bounds bounds = {};                                  // of a drawable
+        Bounds bounds = {};                                  // box of a drawable
         std::uint32_t instance = kNone;                      // index in the snapshot; kNone: unusable
         std::uint64_t version = 0;                           // InstanceItem::version
         bool moved = true;                                   // its mesh or place was set since the last update

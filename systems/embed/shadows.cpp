@@ -45,7 +45,7 @@ namespace {
 using embed::Imported;
 using embed::ViewState;
 
-/// Imports a texture if it is not the one that was imported last. Returns {0} if it is no flat texture of that size.
+/// Imports a texture, unless it was imported last. Returns {0} if it is no flat texture of that size.
 gl::TextureHandle import(gl::Device& device, unsigned name, glm::uvec2 least_px, Imported& held) {
     const std::optional<gl::EngineTexture> texture = gl::describe_texture(device, name);
     const bool fits = texture && texture->desc.kind == gl::TextureKind::flat && texture->desc.width >= least_px.x &&
@@ -58,7 +58,7 @@ gl::TextureHandle import(gl::Device& device, unsigned name, glm::uvec2 least_px,
     return held.handle;
 }
 
-/// Sets where the samples of a picture's pixels lie. Asks the device only where the texture changed.
+/// Sets where the samples of a picture's pixels lie. Queries the device only after a change of the texture.
 void put_samples(const gl::Device& device, const Imported& depth, lighting::DepthPicture& picture) {
     if (depth.texture.samples < 2) return picture.samples.clear();
     if (picture.samples.size() == depth.texture.samples) return;

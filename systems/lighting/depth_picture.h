@@ -11,7 +11,7 @@ namespace gnomon::lighting {
 struct PictureLens {
     bool orthographic = false;
     glm::dvec2 half{1.0};   // half extents: tangents (perspective) or metres (orthographic)
-    glm::dvec2 shift{0.0};  // of the picture's middle from the view's axis, in half extents
+    glm::dvec2 shift{0.0};  // from the view's axis to the picture's middle, in half extents
     /// Distance along the view of a depth d, metres: scale / (d + offset) (perspective) or scale * d + offset
     /// (orthographic).
     double scale = 1.0, offset = 0.0;

@@ -20,8 +20,8 @@ struct LightProgram {
     bool unshadowed = false;
 };
 
-/// Returns the program of a light whose own row is unavailable, because of `lacks`: one tap of its map, otherwise the
-/// light without shadow.
+/// Returns a program in place of a light's own row, for the reason `lacks`: one tap of its map, otherwise the light
+/// without shadow.
 LightProgram fallback_program(LightPrograms& programs, const shadow::LightingLight& light, ShaderPass output,
                               Reason lacks);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnitRoundoff = 0x1p-24;
 
-/// Rounding of an imported depth's way to a distance, in units of 2^-24 of what is added: the rasteriser's
+/// Roundings between an imported depth and its distance, in units of 2^-24 of what is added. They are the rasteriser's
 /// interpolation, the format, the offset as a float, the sum and the quotient.
 constexpr double kImportRoundings = 5.0;
 

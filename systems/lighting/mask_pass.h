@@ -52,7 +52,7 @@ public:
     /// Layer without a light: it is 1 everywhere.
     static constexpr std::uint32_t kNoLight = ~0u;
 
-    /// Records the mask. Pixels without a surface, and those that the light does not reach, are 0. Lights without a
+    /// Records the mask. Pixels without a surface or out of the light's reach are 0. Lights without a
     /// shadow are 1. Returns false without room on the device: nothing is recorded, and outcome.failure has the reason.
     /// Lights that fall back are in outcome.failures.
     bool record(const MaskInputs& in, gl::CommandList& list, shadow::LightingOutcome& outcome);

@@ -4,7 +4,7 @@
 namespace gnomon {
 namespace {
 
-/// A fence of grass: cards with many rows, which bend.
+/// Makes a fence of grass: cards with many rows, which bend.
 game::Shape grass() {
     game::Shape shape;
     constexpr int kRows = 12;

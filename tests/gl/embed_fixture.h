@@ -104,7 +104,7 @@ void main() { normal = vec4(normalize(cross(dFdx(place), dFdy(place))), 0.0); })
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         for (std::size_t i = 0; i < meshes_.size(); ++i) draw_one(i, glm::mat4(clip_from_world));
     }
-    /// The projection with which depths are drawn.
+    /// Returns the projection with which depths are drawn.
     glm::dmat4 projection() const {
         if (own_projection) return *own_projection;
         const double half_y = std::tan(0.5 * kFov_rad), half_x = half_y * kWidth_px / kHeight_px;
@@ -173,7 +173,7 @@ protected:
         EXPECT_TRUE(mesh) << to_line(mesh.error());
         return shadows->add_caster({.mesh = mesh.value()});
     }
-    /// A ground with a table, a bar and a card on it.
+    /// Adds a ground with a table, a bar and a card on it.
     void add_room() {
         add(game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 12.0}, {12.0, 0.0, 0.0}));
         add(game::make_box({-0.8, 0.7, -0.5}, {0.8, 0.8, 0.5}));
@@ -224,7 +224,7 @@ protected:
         std::size_t surfaces = 0, dark = 0, lit = 0, other = 0;  // pixels; other: the mask is not the frame's visibility
         double share() const { return static_cast<double>(other) / static_cast<double>(surfaces); }
     };
-    /// Compares a mask with what Gnomon's own frame says of the same pixels.
+    /// Compares a mask with what Gnomon's own frame shows at the same pixels.
     Difference compared(const std::vector<std::uint8_t>& mask, std::uint32_t light = 0) {
         draw();
         const std::vector<float> truth = visibility(light);

@@ -1,5 +1,5 @@
 // Surfaces of another renderer's picture as light passes read them, from its depth buffer and, where it has them, its
-// normals. MULTISAMPLED: both have samples, of which one is taken.
+// normals. MULTISAMPLED: both have samples; one of them is read.
 #include "common/bindings.glsl"
 #include "common/octahedral.glsl"
 #include "common/pixel_ray.glsl"
@@ -15,7 +15,7 @@ layout(binding = kImportedNormalUnit) uniform sampler2D imported_normals;
 // C++ twin: ImportRecord in systems/lighting/mask_pass.h.
 layout(std140, binding = kImportBlock) uniform ImportBlock {
     vec4 depth;      // x, y: see imported_distance(); z: depth where there is no surface
-    ivec4 normals;   // x: 0: none; 1: components of [-1, 1]; 2: of [0, 1]. y: layers whose shadows fall on the surfaces.
+    ivec4 normals;   // x: 0: none; 1: components of [-1, 1]; 2: of [0, 1]. y: layers of the shadows that fall on the surfaces.
                      // z: 1: along the camera's axes, 0: the world's. w: sample
 } imported;
 layout(location = 0) out vec4 normals_out;
@@ -47,8 +47,8 @@ float depth_at(ivec2 pixel) {
 
 vec3 position_at(ivec2 pixel, float depth) { return position_seen_at(pixel, imported_distance(depth)); }
 
-// Returns the difference of positions along one axis of the picture, on the side where depth goes on as a plane's does:
-// depth is linear over the pixels of a plane. The other side may show another surface.
+// Returns the difference of positions along one axis of the picture. Depth is linear over the pixels of a plane: the
+// side where it goes on so is taken, since the other may show another surface.
 vec3 tangent(ivec2 pixel, float depth, ivec2 step) {
     float before = depth_at(pixel - step), after = depth_at(pixel + step);
     float bend_before = abs(2.0 * before - depth_at(pixel - 2 * step) - depth);

@@ -35,7 +35,7 @@ struct Traits {
     }
 };
 
-/// Stands for Shadows, and counts what it is told.
+/// Stands for Shadows, and counts its calls.
 struct Told {
     std::map<std::uint32_t, CasterDesc> casters;
     std::map<std::uint32_t, LightDesc> lights;
@@ -135,7 +135,7 @@ TEST_F(EnttBridgeTest, TakesWhatWasThereBeforeByTouch) {
         late.sync();
         EXPECT_EQ(shadows.casters.size(), 1u);
     }
-    filled.patch<Place>(entity, [](Place&) {});  // nobody listens any more
+    filled.patch<Place>(entity, [](Place&) {});  // no bridge listens now
 }
 
 }  // namespace
