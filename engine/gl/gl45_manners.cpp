@@ -1,5 +1,7 @@
 #include "engine/gl/gl45_manners.h"
 
+#include <limits>
+
 #include "engine/gl/gl45_objects.h"
 
 namespace gnomon::gl {
@@ -29,7 +31,7 @@ void raise_stack_underflow() {
 void raise_out_of_memory() {
     GLuint buffer = 0;
     glCreateBuffers(1, &buffer);
-    glNamedBufferData(buffer, GLsizeiptr{1} << 62, nullptr, GL_STATIC_DRAW);
+    glNamedBufferData(buffer, std::numeric_limits<GLsizeiptr>::max() / 2, nullptr, GL_STATIC_DRAW);
     glDeleteBuffers(1, &buffer);
 }
 

@@ -1,8 +1,6 @@
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
 
-#include <optional>
-
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
 #include "tests/gl/frame_fixture.h"

@@ -10,7 +10,9 @@
 
 #include "tests/gl/manners_fixture.h"
 #include "tests/gl/spied_gl.h"
+#include "tests/gl/unusual_gl_state.h"
 #include "tests/source_paths.h"
+#include "tests/unit/allocation_counter.h"
 
 // What keeping the state of a shared context costs, in calls of OpenGL; and that the calls without it are as they were.
 namespace gnomon {
@@ -77,6 +79,7 @@ TEST_F(CostOfManners, ATextureCostsTwoQueriesItsBindingAndItsReturn) {
 TEST_F(CostOfManners, StateThatIsAsNeededIsNotSet) {
     const auto first = calls_of(small_list());
     std::cout << "small list: " << first.size() << " calls, " << queries(first) << " of them queries\n";
+    EXPECT_LE(first.size(), 100u) << "docs/embedding.md states 96";
     // The engine's state is the default: only what a list cannot do without differs.
     EXPECT_EQ(count_calls(first, "glEnable") + count_calls(first, "glDisable"), 2u * 4)
         << "dithering, seamless cubes, point size, encoding";
@@ -88,6 +91,19 @@ TEST_F(CostOfManners, StateThatIsAsNeededIsNotSet) {
     EXPECT_EQ(again, first) << "a list costs the same every time";
     glDisable(GL_DITHER);
     EXPECT_EQ(calls_of(small_list()).size(), first.size() - 2) << "what the engine has off is not switched";
+}
+
+TEST_F(CostOfManners, NothingIsAllocatedOnceWarm) {
+    const UnusualGlState engine(EngineWork::pipeline);
+    const gl::CommandList list = binding(5);
+    std::size_t first = 0, warm = 0;
+    for (int i = 0; i < 20; ++i) {
+        const std::size_t before = allocation_count();
+        EXPECT_EQ(device->submit(list).failure, gl::Failure::none);
+        (i < 3 ? first : warm) += allocation_count() - before;
+    }
+    EXPECT_GT(first, 0u) << "the engine's subroutines are kept somewhere";
+    EXPECT_EQ(warm, 0u);
 }
 
 TEST_F(CostOfManners, WithoutTheOptionTheCallsAreThese) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 
 #include "tests/gl/gl_state_record.h"
 #include "tests/gl/manners_fixture.h"
@@ -30,7 +31,7 @@ void blit_nothing() {
 void fill_memory() {
     GLuint buffer = 0;
     glCreateBuffers(1, &buffer);
-    glNamedBufferData(buffer, GLsizeiptr{1} << 61, nullptr, GL_STATIC_DRAW);
+    glNamedBufferData(buffer, std::numeric_limits<GLsizeiptr>::max() / 4, nullptr, GL_STATIC_DRAW);
     glDeleteBuffers(1, &buffer);
 }
 void open_too_many_groups() {

@@ -15,5 +15,6 @@ if(GNOMON_SAMPLE)
     manners_gl_test.cpp
     spied_gl.cpp
     unusual_gl_state.cpp
+    ../unit/allocation_counter.cpp
     LIBRARIES gnomon_sample gnomon_shaders PkgConfig::EPOXY)
 endif()

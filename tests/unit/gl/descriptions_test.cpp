@@ -38,10 +38,11 @@ TEST(BufferDescriptions, WhatIsReadBackBeginsEmpty) {
     EXPECT_EQ(check_buffer({.size = 4, .use = BufferUse::updated}, 4), Failure::none);
 }
 
-TEST(Formats, OnlyTheThreeDepthFormatsAreDepthAndTravelAsFloats) {
-    for (int i = 0; i <= static_cast<int>(Format::d32f); ++i) {
+TEST(Formats, OnlyTheFiveDepthFormatsAreDepthAndTravelAsFloats) {
+    for (int i = 0; i <= static_cast<int>(Format::d32f_s8); ++i) {
         const auto format = static_cast<Format>(i);
-        const bool depth = format == Format::d16 || format == Format::d24 || format == Format::d32f;
+        const bool depth = format == Format::d16 || format == Format::d24 || format == Format::d32f ||
+                           format == Format::d24_s8 || format == Format::d32f_s8;
         EXPECT_EQ(is_depth(format), depth) << to_text(format);
         EXPECT_EQ(transfer_bytes(format), depth ? 4u : texel_bytes(format)) << to_text(format);
         EXPECT_GT(texel_bytes(format), 0u);
