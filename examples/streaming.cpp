@@ -242,6 +242,7 @@ int main(int argc, char** argv) {
             }
 
         glEnable(GL_DEPTH_TEST);
+        glEnable(GL_FRAMEBUFFER_SRGB);
         glClearColor(0.03f, 0.04f, 0.06f, 1.0f);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         draw(depth_only, cells, view_from_world, clip_from_view);
@@ -252,7 +253,6 @@ int main(int argc, char** argv) {
                                                   .lights = lights});
         if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
         glDepthFunc(GL_EQUAL);
-        glEnable(GL_FRAMEBUFFER_SRGB);
         glBindTextureUnit(0, mask.texture);
         glProgramUniform1i(forward, 2, static_cast<GLint>(lights.size()));
         glProgramUniform4fv(forward, 3, static_cast<GLsizei>(seen_lights.size()), &seen_lights[0].x);
