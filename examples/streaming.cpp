@@ -1,4 +1,5 @@
-// A world without end: its cells come and go around a camera that moves. Each is a mesh of its own, and some have a lamp.
+// A world without end: its cells come and go around a camera that moves. Each is a mesh of its own, and some have a
+// lamp.
 //
 // Meshes, casters and lights are added and removed between frames. Positions are double: this world begins a thousand
 // kilometres from its origin, and the engine draws relative to the camera.
@@ -84,7 +85,11 @@ GLuint make_program(const char* vertex, const char* fragment) {
         glDeleteShader(shader);
     }
     glLinkProgram(program);
-    return program;
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return program;
+    std::fprintf(stderr, "a shader does not compile here\n");
+    std::exit(2);
 }
 
 // Appends a box as triangles without indices.
