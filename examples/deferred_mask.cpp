@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <vector>
@@ -95,7 +96,11 @@ GLuint make_program(const char* vertex, const char* fragment) {
         glDeleteShader(shader);
     }
     glLinkProgram(program);
-    return program;
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return program;
+    std::fprintf(stderr, "a shader does not compile here\n");
+    std::exit(2);
 }
 
 GLuint make_texture(GLenum format, glm::uvec2 size_px) {

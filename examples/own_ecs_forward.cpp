@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>
 
@@ -94,9 +95,14 @@ GLuint make_program(const char* vertex, const char* fragment) {
         glShaderSource(shader, 1, &texts[i], nullptr);
         glCompileShader(shader);
         glAttachShader(program, shader);
+        glDeleteShader(shader);
     }
     glLinkProgram(program);
-    return program;
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return program;
+    std::fprintf(stderr, "a shader does not compile here\n");
+    std::exit(2);
 }
 
 void draw(GLuint program, const std::vector<Entity>& entities, const BoxMesh& box, const glm::mat4& clip_from_world) {

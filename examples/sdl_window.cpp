@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 #include <string>
 #include <string_view>
@@ -72,7 +73,11 @@ GLuint make_program(const char* vertex, const char* fragment) {
         glDeleteShader(shader);
     }
     glLinkProgram(program);
-    return program;
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return program;
+    std::fprintf(stderr, "a shader does not compile here\n");
+    std::exit(2);
 }
 
 // A box of edge 1, as triangles without indices.

@@ -1,4 +1,5 @@
-// A world without end: its cells come and go around a camera that moves. Each is a mesh of its own, and some have a lamp.
+// A world without end: its cells come and go around a camera that moves. Each is a mesh of its own, and some have a
+// lamp.
 //
 // Meshes, casters and lights are added and removed between frames. Positions are double: this world begins a thousand
 // kilometres from its origin, and the engine draws relative to the camera.
@@ -84,7 +85,11 @@ GLuint make_program(const char* vertex, const char* fragment) {
         glDeleteShader(shader);
     }
     glLinkProgram(program);
-    return program;
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return program;
+    std::fprintf(stderr, "a shader does not compile here\n");
+    std::exit(2);
 }
 
 // Appends a box as triangles without indices.
@@ -242,6 +247,7 @@ int main(int argc, char** argv) {
             }
 
         glEnable(GL_DEPTH_TEST);
+        glEnable(GL_FRAMEBUFFER_SRGB);
         glClearColor(0.03f, 0.04f, 0.06f, 1.0f);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         draw(depth_only, cells, view_from_world, clip_from_view);
@@ -252,7 +258,6 @@ int main(int argc, char** argv) {
                                                   .lights = lights});
         if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
         glDepthFunc(GL_EQUAL);
-        glEnable(GL_FRAMEBUFFER_SRGB);
         glBindTextureUnit(0, mask.texture);
         glProgramUniform1i(forward, 2, static_cast<GLint>(lights.size()));
         glProgramUniform4fv(forward, 3, static_cast<GLsizei>(seen_lights.size()), &seen_lights[0].x);

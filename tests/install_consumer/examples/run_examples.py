@@ -15,9 +15,10 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 WIDTH, HEIGHT = 320, 180
 SIZE = ["--size", "%dx%d" % (WIDTH, HEIGHT)]
-LEVELS = 12         # of 255, by which a shadow is darker at least
-MOST_HEADERS = 15   # of Gnomon's that an example includes, directly or not
-MOST_LINES = 60     # of first_shadow, and of own_ecs_forward that speak of Gnomon
+LEVELS = 12             # of 255, by which a shadow is darker at least
+MOST_HEADERS = 15       # of Gnomon's that an example includes, directly or not
+MOST_LINES = 60         # of first_shadow, and of own_ecs_forward that speak of Gnomon
+MOST_DIFFERENT = 0.001  # of the pixels: along edges, where a light's map has another size or place
 FRAMES = {"streaming": 24}
 # Share of the picture that lies in shadow: least and most. Places in the picture's width and height: in shadow, and lit.
 PICTURES = {
@@ -63,9 +64,21 @@ def copy_without_shadows(examples, into):
         file.write_text(text, encoding="utf-8")
 
 
-def draw(program, picture, *flags, wrapper=()):
+def add_late_start(examples):
+    """streaming_late: it begins where `streaming` is in its last frame, with all that is near there and nothing else."""
+    text = (examples / "streaming.cpp").read_text(encoding="utf-8")
+    late, count = re.subn(r"(way_m = kSpeed_m_s) \* (window\.value\(\)->time_s\(\))",
+                          r"\1 * (\2 + %d / 60.0)" % (FRAMES["streaming"] - 1), text)
+    if count != 1:
+        raise Wrong("streaming.cpp sets its way %d times" % count)
+    (examples / "streaming_late.cpp").write_text(late, encoding="utf-8")
+    with open(examples / "CMakeLists.txt", "a", encoding="utf-8") as file:
+        file.write("gnomon_example(streaming_late Gnomon::systems Gnomon::window PkgConfig::EPOXY)\n")
+
+
+def draw(program, picture, *flags, wrapper=(), frames=None):
     """Runs an example. Returns its picture and what it printed."""
-    frames = FRAMES.get(program.name, 2)
+    frames = frames or FRAMES.get(program.name, 2)
     done = run(*wrapper, program, *SIZE, "--frames", frames, "--screenshot", picture, *flags)
     return Picture(picture), done.stdout
 
@@ -118,6 +131,15 @@ def check_streaming(text):
         raise Wrong("streaming: no cells came and went:\n%s" % text)
 
 
+def check_late_start(streamed, late):
+    """What came in time, and what went, leaves the picture of a program that begins there."""
+    pixels = range(0, 4 * WIDTH * HEIGHT, 4)
+    different = sum(max(abs(streamed.rgba[i + c] - late.rgba[i + c]) for c in range(3)) > LEVELS for i in pixels)
+    if different > MOST_DIFFERENT * len(pixels):
+        raise Wrong("streaming: %d pixels differ from those of a program that begins there" % different)
+    return different
+
+
 def reaches(place, lamp):
     """Whether a segment reaches a lamp past the pillars of visibility_queries.cpp."""
     for i in range(9):
@@ -162,7 +184,7 @@ def must_fail(check, *arguments):
         check(*arguments)
     except Wrong:
         return
-    raise Wrong("%s%s finds nothing wrong where there is no shadow" % (check.__name__, arguments[:1]))
+    raise Wrong("%s finds nothing wrong in its control" % check.__name__)
 
 
 def check_failures(program):
@@ -195,6 +217,7 @@ def main(build_folder, source, work, compiler, launcher=""):
     run("cmake", "--install", build_folder, "--prefix", work / "first")
     (work / "first").rename(prefix)
     shutil.copytree(source / "examples", work / "examples")
+    add_late_start(work / "examples")
     copy_without_shadows(source / "examples", work / "unshadowed")
     for name in ("examples", "unshadowed"):
         build(work / name, work / (name + "_build"), prefix, compiler, launcher)
@@ -222,6 +245,9 @@ def main(build_folder, source, work, compiler, launcher=""):
     again, text = draw(programs / "streaming", work / "again.png", "--headless")
     if again.rgba != drawn["streaming"][0].rgba or text != drawn["streaming"][2]:
         raise Wrong("streaming: another run draws or prints something else")
+    late, _ = draw(programs / "streaming_late", work / "late.png", "--headless", frames=1)
+    print("streaming: %d pixels differ where another begins" % check_late_start(again, late))
+    must_fail(check_late_start, draw(programs / "streaming", work / "early.png", "--headless", frames=1)[0], late)
 
     plan, text = draw(programs / "visibility_queries", work / "visibility_queries.png", "--headless")
     _, free = draw(work / "unshadowed_build/visibility_queries", work / "visibility_queries_unshadowed.png", "--headless")
