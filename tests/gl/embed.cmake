@@ -3,7 +3,10 @@ if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_embed LABEL gl SOURCES
     embed_drawables_gl_test.cpp
     embed_gl_test.cpp
+    embed_state_gl_test.cpp
     embed_views_gl_test.cpp
+    gl_state_record.cpp
+    unusual_gl_state.cpp
     ../unit/allocation_counter.cpp
     LIBRARIES gnomon_sample gnomon_oracle PkgConfig::EPOXY)
 endif()
