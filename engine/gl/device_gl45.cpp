@@ -8,6 +8,7 @@
 #include "engine/gl/gl45_execute.h"
 #include "engine/gl/gl45_objects.h"
 #include "engine/gl/gl45_readbacks.h"
+#include "engine/gl/gl45_shared_layers.h"
 #include "engine/gl/gl45_timers.h"
 #include "engine/gl/validate.h"
 
@@ -117,7 +118,14 @@ public:
         const Failure checked = check_texture(desc, info_, pixels.size());
         if (checked != Failure::none) return refused<TextureHandle>(checked, desc.label);
         if (lost()) return refused<TextureHandle>(Failure::context_lost, desc.label);
+        if (desc.shared)
+            return keep<TextureHandle>(objects_.textures, shared_.make(desc, info_.max_layers, objects_, next_id_));
         return keep<TextureHandle>(objects_.textures, make_texture(desc, pixels));
+    }
+    SharedLayers shared_layers(TextureHandle h) const override {
+        const GlTexture* texture = find_object(objects_.textures, h.id);
+        return texture == nullptr ? SharedLayers{}
+                                  : SharedLayers{{texture->array}, texture->first_layer, texture->desc.width};
     }
     Created<SamplerHandle> create_sampler(const SamplerDesc& desc) override {
         if (lost()) return refused<SamplerHandle>(Failure::context_lost, desc.label);
@@ -140,7 +148,12 @@ public:
     }
 
     void destroy(TextureHandle h) override {
-        remove(objects_.textures, h.id, [](const GlTexture& texture) { glDeleteTextures(1, &texture.name); });
+        const auto at = objects_.textures.find(h.id);
+        if (at == objects_.textures.end()) return;
+        const GlTexture texture = std::move(at->second);
+        glDeleteTextures(1, &texture.name);
+        objects_.textures.erase(at);
+        shared_.release(texture, objects_);
     }
     void destroy(SamplerHandle h) override {
         remove(objects_.samplers, h.id, [](GLuint name) { glDeleteSamplers(1, &name); });
@@ -232,6 +245,7 @@ private:
     DeviceInfo info_;
     GlFixtures fixtures_;
     GlObjects objects_;
+    SharedArrays shared_;
     GlTimers timers_;
     GlReadbacks readbacks_;
     std::uint32_t next_id_ = 1;

@@ -31,15 +31,6 @@ GLint gl_wrap(Wrap wrap) {
     return GL_NONE;
 }
 
-/// Sets exact reads for textures without a sampler: nearest, clamped.
-void set_plain_sampling(GLuint name) {
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-}
-
 void upload(const GlTexture& texture, std::span<const std::byte> pixels) {
     const TextureDesc& desc = texture.desc;
     const GlFormat format = gl_format(desc.format);
@@ -118,6 +109,14 @@ GlFormat gl_format(Format format) {
     return {};
 }
 
+void set_plain_sampling(GLuint name) {
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
+}
+
 void drop_gl_errors() {
     for (int i = 0; i < kMaxErrors && glGetError() != GL_NO_ERROR; ++i) {
     }
@@ -161,7 +160,7 @@ void set_gl_label(GLenum kind, GLuint name, const std::string& label) {
 
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels) {
     drop_gl_errors();
-    GlTexture texture{0, desc};
+    GlTexture texture{0, desc, 0, 0};
     glCreateTextures(gl_kind(desc.kind), 1, &texture.name);
     const auto mips = static_cast<GLsizei>(mip_count(desc));
     const auto width = static_cast<GLsizei>(desc.width), height = static_cast<GLsizei>(desc.height);

@@ -12,6 +12,8 @@ namespace gnomon::gl {
 struct GlTexture {
     GLuint name = 0;
     TextureDesc desc;
+    std::uint32_t array = 0;        // id of the shared array that has its layers; 0: it has its own
+    std::uint32_t first_layer = 0;  // in that array
 };
 struct GlBuffer {
     GLuint name = 0;
@@ -60,6 +62,8 @@ struct Made {
     std::string log = {};
 };
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels);
+/// Sets exact reads for a texture without a sampler: nearest, clamped.
+void set_plain_sampling(GLuint name);
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
 void delete_buffer(const GlBuffer& buffer);

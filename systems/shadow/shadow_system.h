@@ -74,6 +74,10 @@ public:
     /// Sets the function that is called after each stage, for tests and tools. Empty: none.
     void watch_stages(StageWatch watch) { watch_ = std::move(watch); }
 
+    /// Lets one program look up all lights (systems/lookup): see MapCache::share_layers(). Call it before the first
+    /// update().
+    void share_layers() { maps_.share_layers(); }
+
     const visibility::RayScene& rays() const { return rays_; }
     const MapCache& maps() const { return maps_; }
     const ContributionCulling& contribution_culling() const { return contribution_culling_; }

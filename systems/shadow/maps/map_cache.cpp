@@ -1,6 +1,7 @@
 #include "systems/shadow/maps/map_cache.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 #include "systems/shadow/frame/cpu_timer.h"
@@ -175,6 +176,7 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     const bool triangles = has_triangles(made.storage), sheets = made.storage.conservative_bounds;
     gl::TextureDesc shown = sheets ? bounds_descs_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
+    shown.shared = desc.shared && !sheets;  // the map that is peeled has one of its own
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
     Reason reason = Reason::none;
     if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
@@ -201,6 +203,11 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
 
 bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached) {
     gl::TextureDesc desc = map_desc(light, request);
+    if (shares_layers_) {
+        desc.width = desc.height =
+            std::min(std::bit_ceil(std::max(desc.width, kLeastSharedEdge_px)), device_.info().max_texture_px);
+        desc.shared = true;
+    }
     const FilterStorage& storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = cached.desc;
     if (cached.texture &&
@@ -351,6 +358,7 @@ bool MapCache::provide_static_copy(CachedMap& map) const {
     if (frame_ < still.retry_frame) return false;
     gl::TextureDesc desc = map.desc;
     desc.label += ", still";
+    desc.shared = false;
     const bool fits = limit_ == kNoLimit || bytes() + static_copy_bytes(map) <= limit_;
     if (fits) yield_spare(static_copy_bytes(map));
     if (fits) still.texture = device_.create_texture(desc, {}).handle;

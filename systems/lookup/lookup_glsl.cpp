@@ -1,0 +1,378 @@
+#include "systems/lookup/lookup_glsl.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "engine/gl/glsl_library.h"
+#include "engine/gl/shader_source.h"
+#include "shaders/embedded.h"
+#include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/light_kinds.h"
+
+namespace gnomon::lookup {
+namespace {
+
+using shadow::FilterRow;
+using shadow::MapReading;
+using Names = std::set<std::string, std::less<>>;
+
+constexpr std::string_view kCascadesFile = "shadow/lookup/kinds/directional.glsl";
+constexpr std::string_view kCubeFile = "shadow/lookup/kinds/point.glsl";
+
+constexpr std::array kUsualFilters = {ShadowFilter::hard,    ShadowFilter::hardware_2x2, ShadowFilter::pcf_bilinear,
+                                      ShadowFilter::poisson, ShadowFilter::sharp_4x4,    ShadowFilter::triangles,
+                                      ShadowFilter::pcss};
+
+/// Returns what stands in the place of names of the shaders of one light: the light's record, its row's flags, and
+/// what reads its map.
+const std::map<std::string, std::string, std::less<>>& replaced_names() {
+    static const std::map<std::string, std::string, std::less<>> kReplaced = {
+        {"light", "gnomon_lights[gnomon_light]"},
+        {"camera", "gnomon_camera"},
+        {"kIsSun", "gnomon_is_sun"},
+        {"kIsSpot", "gnomon_is_spot"},
+        {"kReadsDepths", "gnomon_reads_depths"},
+        {"kReadsTaps", "(!gnomon_reads_depths)"},
+        {"kReadsMoments", "false"},
+        {"kFootprint", "false"},
+        {"kFades", "true"},
+        {"kManualBias", "true"},
+        {"kAsksRays", "false"},
+        {"SHADOW_REACH_TEXEL", "gnomon_reach_texel"},
+        {"map_edge_px", "gnomon_map_edge_px"},
+        {"shared_depth", "gnomon_shared_depth"},
+        {"shared_depths", "gnomon_shared_depths"},
+        {"shared_id", "gnomon_shared_id"},
+        {"shared_ids", "gnomon_shared_ids"},
+        {"caster_triangles", "gnomon_caster_triangles"},
+        {"instance_texels", "gnomon_instance_texels"},
+        {"ray_masks", "gnomon_ray_masks"},
+        {"gl_FragCoord", "gnomon_pixel"},
+    };
+    return kReplaced;
+}
+
+/// Adds the shaders of one row to a library.
+Result<gl::GlslNames> add_row(gl::GlslLibrary& library, std::string_view kind_file, const FilterRow& filter) {
+    std::string text = "#include \"common/camera_block.glsl\"\n#include \"lighting/lights/light_sample.glsl\"\n";
+    for (const std::string_view file : {kind_file, filter.file, std::string_view("shadow/lookup/light_vector.glsl"),
+                                        std::string_view("shadow/lookup/shadow_layers.glsl")})
+        text.append("#include \"").append(file).append("\"\n");
+    std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
+    files.push_back({"row.glsl", text});
+    const bool linear = filter.reading == MapReading::compare_linear;
+    const std::vector<std::string> defines = {"SHADOW_FLAT_MAP \"shadow/lookup/maps/flat_shared.glsl\"",
+                                              "SHADOW_CUBE_MAP \"shadow/lookup/maps/cube_shared.glsl\"",
+                                              "RAY_MASKS \"ray_tracing/alpha_mask.glsl\"",
+                                              std::string("SHADOW_LINEAR_TAPS ") + (linear ? "1" : "0")};
+    const auto expanded = gl::expand_shader(files, "row.glsl", defines);
+    if (!expanded) return expanded.error();
+    return library.add(expanded.value());
+}
+
+/// Names of the functions that one text calls.
+struct Rows {
+    std::vector<gl::GlslNames> kinds;     // by LookupKind, from cascades on
+    std::vector<std::string> flat, cube;  // shadow_filter() by filter
+};
+
+/// A template's text, in which $name$ stands for a value.
+std::string filled(std::string_view text, const std::map<std::string, std::string, std::less<>>& values) {
+    std::string out;
+    while (!text.empty()) {
+        const std::size_t open = text.find('$');
+        out.append(text.substr(0, open));
+        if (open == std::string_view::npos) break;
+        const std::size_t close = text.find('$', open + 1);
+        const auto value = values.find(text.substr(open + 1, close - open - 1));
+        if (value != values.end()) out.append(value->second);
+        text.remove_prefix(close + 1);
+    }
+    return out;
+}
+
+/// Appends a statement that runs only if `condition` holds. It is a loop, because software devices run both sides of an
+/// if in full, but no round of a loop that is not needed.
+void add_only_if(const std::string& condition, const std::string& statement, std::string& text) {
+    text.append("    for (int once = ").append(condition).append(" ? 1 : 0; once > 0; --once) ").append(statement);
+    text.append("\n");
+}
+
+constexpr std::string_view kRecords = R"(
+struct gnomon_Light {$light$
+    ivec4 row;      // x: kind of lookup; y: number of the filter; z: 1: a sun; 2: a spot; 4: reads depths
+    ivec4 place;    // x: unit of its depths; y: first layer; z: unit of its triangles; w: first layer
+    vec4 sizes;     // x: reach of the filter, texels; y: edge of the map, texels
+};
+struct gnomon_Camera {$camera$
+};
+layout(std430, binding = $records$) readonly buffer gnomon_Records {
+    gnomon_Camera gnomon_camera;
+    ivec4 gnomon_counts;   // x: lights
+    gnomon_Light gnomon_lights[];
+};
+layout(std430, binding = $masks$) readonly buffer gnomon_Masks { uint gnomon_ray_masks[]; };
+layout(binding = $instances$) uniform usamplerBuffer gnomon_instance_texels;
+layout(binding = $triangles$) uniform usamplerBuffer gnomon_caster_triangles;
+vec2 gnomon_pixel = vec2(0.5);
+int gnomon_light = 0;   // the light that is looked up, and what its record says
+bool gnomon_is_sun = false, gnomon_is_spot = false, gnomon_reads_depths = false;
+float gnomon_reach_texel = 0.0, gnomon_map_edge_px = 1.0;
+ivec4 gnomon_place = ivec4(0);
+
+void gnomon_take(int light) {
+    gnomon_light = light;
+    ivec4 row = gnomon_lights[light].row;
+    gnomon_is_sun = (row.z & 1) != 0;
+    gnomon_is_spot = (row.z & 2) != 0;
+    gnomon_reads_depths = (row.z & 4) != 0;
+    gnomon_reach_texel = gnomon_lights[light].sizes.x;
+    gnomon_map_edge_px = gnomon_lights[light].sizes.y;
+    gnomon_place = gnomon_lights[light].place;
+}
+)";
+
+constexpr std::string_view kFlat = R"(
+float gnomon_flat_visibility(vec3 position, vec3 normal, float error_m) {
+    ivec4 row = gnomon_lights[gnomon_light].row;
+    float reach_texel = gnomon_reads_depths ? 0.0 : gnomon_reach_texel;
+    float visible = 1.0, share = 1.0;
+    int lookup = 0;
+    do {
+        $point$ point;
+$points$        float found = 1.0;
+        for (int dark = $may_be_dark$(point) ? 1 : 0; dark > 0; --dark) {
+            if ($on_plane$()) point = $move$(point, normal);
+            if (gnomon_reads_depths) point.slope = $slope$(point, normal);
+            point.normal = normal;
+            point.error_m = error_m;
+$filters$        }
+        bool fades_into = row.x == 3 ? $cone_into$(point) : $cascade_into$(point);
+        if (lookup > 0 && !fades_into) share = 0.0;
+        visible = mix(visible, found, share);
+        float next = row.x == 3 ? $cone_share$(point, reach_texel) : $cascade_share$(point, reach_texel);
+        share = lookup == 0 ? next : 0.0;
+        ++lookup;
+    } while (share > 0.0);
+    return visible;
+}
+)";
+
+constexpr std::string_view kCube = R"(
+float gnomon_cube_visibility(vec3 position, vec3 normal, float error_m) {
+    ivec4 row = gnomon_lights[gnomon_light].row;
+    float reach_texel = gnomon_reads_depths ? 0.0 : gnomon_reach_texel;
+    float found = 1.0;
+    $point$ point = $shadow_point$(0, position, normal, error_m, reach_texel);
+    for (int dark = $may_be_dark$(point) ? 1 : 0; dark > 0; --dark) {
+        if ($on_plane$()) point = $move$(point, normal);
+        if (gnomon_reads_depths) point.slope = $slope$(point, normal);
+        point.normal = normal;
+        point.error_m = error_m;
+$filters$    }
+    return found;
+}
+)";
+
+constexpr std::string_view kEntries = R"(
+int gnomon_light_count() { return gnomon_counts.x; }
+
+bool gnomon_takes_shadow(int light, int layers) {
+    gnomon_light = light;
+    return $takes_shadow$(float(layers));
+}
+
+float gnomon_visibility_of_taken(vec3 position, vec3 normal, float error_m, bool reached) {
+    int kind = reached ? gnomon_lights[gnomon_light].row.x : 0;
+    float visible = reached ? 1.0 : 0.0;
+    for (int once = kind >= 1 && kind <= 3 ? 1 : 0; once > 0; --once) visible = gnomon_flat_visibility(position, normal, error_m);
+    for (int once = kind == 4 ? 1 : 0; once > 0; --once) visible = gnomon_cube_visibility(position, normal, error_m);
+    return visible;
+}
+
+float gnomon_visibility(int light, vec3 position, vec3 normal, float error_m) {
+    gnomon_take(light);
+    bool reached = !$unreached$(normal, $light_at$(position));
+    return gnomon_visibility_of_taken(position, normal, error_m, reached);
+}
+
+float gnomon_visibility(int light, vec3 position, vec3 normal) {
+    const float kFloatRounding = 1.0e-6;
+    return gnomon_visibility(light, position, normal, kFloatRounding * length(position));
+}
+
+float gnomon_visibility(int light, vec3 position) {
+    gnomon_take(light);
+    vec3 to_light = $toward_light$(position);
+    bool reached = $light_at$(position).reaches && dot(to_light, to_light) > 0.0;
+    return gnomon_visibility_of_taken(position, normalize(to_light), 0.0, reached);
+}
+)";
+
+/// Returns the functions that read shared arrays: a loop per unit, of which one runs (see add_only_if()). No
+/// array of samplers: its index would have to be the same for all of a draw's pixels.
+std::string readers(const LookupUnits& units, const std::string& four_triangles) {
+    std::string text;
+    const auto name = [](const char* of, std::uint32_t i) { return std::string("gnomon_") + of + std::to_string(i); };
+    for (std::uint32_t i = 0; i < units.depths; ++i)
+        text += "layout(binding = " + std::to_string(units.first_depths + i) + ") uniform sampler2DArray " +
+                name("depths_", i) + ";\n";
+    for (std::uint32_t i = 0; i < units.triangles; ++i)
+        text += "layout(binding = " + std::to_string(units.first_triangles + i) + ") uniform usampler2DArray " +
+                name("ids_", i) + ";\n";
+    const auto add = [&](const std::string& head, const std::string& result, bool depths, const auto& statement) {
+        text += head + " {\n    at.z += float(gnomon_place." + (depths ? "y" : "w") + ");\n    " + result + ";\n";
+        for (std::uint32_t i = 0; i < (depths ? units.depths : units.triangles); ++i)
+            add_only_if(std::string("gnomon_place.") + (depths ? "x" : "z") + " == " + std::to_string(i),
+                        statement(name(depths ? "depths_" : "ids_", i)), text);
+        text += "    return found;\n}\n";
+    };
+    using Text = const std::string&;
+    add("float gnomon_shared_depth(vec3 at)", "float found = 0.0", true,
+        [](Text unit) { return "found = textureLod(" + unit + ", at, 0.0).x;"; });
+    add("vec4 gnomon_shared_depths(vec3 at)", "vec4 found = vec4(0.0)", true,
+        [](Text unit) { return "found = textureGather(" + unit + ", at);"; });
+    add("uvec2 gnomon_shared_id(vec3 at)", "uvec2 found = uvec2(0u)", false,
+        [](Text unit) { return "found = textureLod(" + unit + ", at, 0.0).xy;"; });
+    add(four_triangles + " gnomon_shared_ids(vec3 at)",
+        four_triangles + " found;\n    found.instance = found.triangle = uvec4(0u)", false, [](Text unit) {
+            return "{ found.instance = textureGather(" + unit + ", at, 0); found.triangle = textureGather(" + unit +
+                   ", at, 1); }";
+        });
+    return text;
+}
+
+Error refused(const char* rule, const char* what) { return {what, {}, {}, rule}; }
+
+std::string filter_calls(const std::vector<std::string>& filters) {
+    std::string text;
+    for (std::size_t i = 0; i < filters.size(); ++i)
+        add_only_if("row.y == " + std::to_string(i), "found = " + filters[i] + "(point);", text);
+    return text;
+}
+
+}  // namespace
+
+LookupUnits units_of(const LookupBindings& bindings) {
+    LookupUnits units;
+    const std::uint32_t maps = bindings.texture_unit_count - std::min(kTexelUnits, bindings.texture_unit_count);
+    units.triangles = maps / 2;
+    units.depths = maps - units.triangles;
+    units.first_depths = bindings.first_texture_unit;
+    units.first_triangles = units.first_depths + units.depths;
+    units.first_texels = units.first_triangles + units.triangles;
+    return units;
+}
+
+bool can_evaluate(ShadowFilter filter) {
+    const FilterRow& row = shadow::filter_row(filter);
+    return row.moments == nullptr && row.rays == nullptr;
+}
+
+std::span<const ShadowFilter> usual_filters() { return kUsualFilters; }
+
+ShadowFilter nearest_filter(ShadowFilter filter, std::span<const ShadowFilter> filters) {
+    const FilterRow& wanted = shadow::filter_row(filter);
+    const auto distance = [&](ShadowFilter other) {
+        const FilterRow& row = shadow::filter_row(other);
+        if (row.id == wanted.id) return 0;
+        // A prefiltered map's blur is that of a square of blended taps.
+        const bool blends = wanted.moments != nullptr || wanted.reading == MapReading::compare_linear;
+        int apart = 1 + (row.width == wanted.width ? 0 : 8);
+        apart += (row.reading == MapReading::compare_linear) == blends ? 0 : 2;
+        apart += (row.reading == MapReading::depths) == (wanted.reading == MapReading::depths) ? 0 : 4;
+        // Maps of other filters have no triangles.
+        return apart + (row.storage.triangle_ids ? 32 : 0);
+    };
+    return *std::min_element(filters.begin(), filters.end(),
+                             [&](ShadowFilter a, ShadowFilter b) { return distance(a) < distance(b); });
+}
+
+LookupKind lookup_kind(const shadow::ShaderKey& row) {
+    if (row.kind_file == shadow::kWarpedSunFile) return LookupKind::warped_cascades;
+    if (row.kind_file == shadow::kPerspectiveFile) return LookupKind::cone;
+    if (row.kind_file == kCascadesFile) return LookupKind::cascades;
+    return row.kind_file == kCubeFile ? LookupKind::cube : LookupKind::none;
+}
+
+Result<std::string> lookup_glsl(const LookupBindings& bindings, std::span<const ShadowFilter> filters) {
+    if (bindings.texture_unit_count < kLeastTextureUnits)
+        return refused("lookup.bindings", "lookups of all lights need more texture units");
+    if (filters.empty() || !std::all_of(filters.begin(), filters.end(), can_evaluate))
+        return refused("lookup.filters", "lookups of all lights have filters that read depths alone");
+    gl::GlslLibrary library("gnomon_", replaced_names());
+    Rows rows;
+    const FilterRow& plain = shadow::filter_row(filters.front());
+    for (const std::string_view file : {kCascadesFile, shadow::kWarpedSunFile, shadow::kPerspectiveFile, kCubeFile}) {
+        auto names = add_row(library, file, plain);
+        if (!names) return names.error();
+        rows.kinds.push_back(std::move(names).value());
+    }
+    for (const ShadowFilter filter : filters)
+        for (const bool cube : {false, true}) {
+            const auto names =
+                add_row(library, cube ? kCubeFile : shadow::kPerspectiveFile, shadow::filter_row(filter));
+            if (!names) return names.error();
+            (cube ? rows.cube : rows.flat).push_back(names.value().at("shadow_filter"));
+        }
+    const auto name = [&](LookupKind kind, const char* of) {
+        return rows.kinds[static_cast<std::size_t>(kind) - 1].at(of);
+    };
+    const LookupUnits units = units_of(bindings);
+    const std::string four_triangles = name(LookupKind::cone, "FourTriangles");
+
+    const Names first = {name(LookupKind::cone, "ViewRecord"), name(LookupKind::cone, "kMaxViews"), four_triangles};
+    std::string text = library.text(first);
+    text += filled(kRecords, {{"light", library.members("LightBlock")},
+                              {"camera", library.members("CameraBlock")},
+                              {"records", std::to_string(bindings.first_storage_binding)},
+                              {"masks", std::to_string(bindings.first_storage_binding + 1)},
+                              {"instances", std::to_string(units.first_texels)},
+                              {"triangles", std::to_string(units.first_texels + 1)}});
+    text += readers(units, four_triangles);
+
+    std::string points;
+    Names roots;
+    for (const LookupKind kind : {LookupKind::cascades, LookupKind::warped_cascades, LookupKind::cone}) {
+        add_only_if("row.x == " + std::to_string(static_cast<int>(kind)),
+                    "point = " + name(kind, "shadow_point") + "(lookup, position, normal, error_m, reach_texel);",
+                    points);
+        roots.insert(name(kind, "shadow_point"));
+    }
+    const auto common = [&](LookupKind kind) {
+        std::map<std::string, std::string, std::less<>> values;
+        for (const auto& [key, of] : {std::pair("point", "ShadowPoint"),
+                                      {"may_be_dark", "may_be_dark"},
+                                      {"on_plane", "compares_on_plane"},
+                                      {"move", "on_receiver_plane"},
+                                      {"slope", "shadow_slope"},
+                                      {"shadow_point", "shadow_point"},
+                                      {"takes_shadow", "takes_shadow"},
+                                      {"unreached", "is_unreached"},
+                                      {"light_at", "light_at"},
+                                      {"toward_light", "toward_light"}}) {
+            values[key] = name(kind, of);
+            roots.insert(values[key]);
+        }
+        return values;
+    };
+    auto flat = common(LookupKind::cone), cube = common(LookupKind::cube);
+    for (const auto& [key, kind] : {std::pair("cone", LookupKind::cone), {"cascade", LookupKind::cascades}}) {
+        flat[std::string(key) + "_into"] = name(kind, "shadow_fades_into");
+        flat[std::string(key) + "_share"] = name(kind, "shadow_fade_share");
+        roots.insert({name(kind, "shadow_fades_into"), name(kind, "shadow_fade_share")});
+    }
+    flat["points"] = points;
+    flat["filters"] = filter_calls(rows.flat);
+    cube["filters"] = filter_calls(rows.cube);
+    for (const auto* of : {&rows.flat, &rows.cube}) roots.insert(of->begin(), of->end());
+    text += library.text(roots, first);
+    text += filled(kFlat, flat) + filled(kCube, cube) + filled(kEntries, flat);
+    return text;
+}
+
+}  // namespace gnomon::lookup

@@ -1,0 +1,61 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "components/light_shadow.h"
+#include "engine/core/result.h"
+#include "systems/shadow/frame/shader_key.h"
+
+/// One GLSL text that looks up any number of lights.
+namespace gnomon::lookup {
+
+/// Numbers of bindings, which the engine chooses. They are written into the text.
+struct LookupBindings {
+    std::uint32_t first_texture_unit = 0;
+    std::uint32_t texture_unit_count = 14;    // two for buffers that are read as texels, the others for maps
+    std::uint32_t first_storage_binding = 0;  // and the next: kStorageBindings in all
+    bool operator==(const LookupBindings&) const = default;
+};
+inline constexpr std::uint32_t kStorageBindings = 2;  // records of the lights; masks of casters
+inline constexpr std::uint32_t kTexelUnits = 2;       // instances; the casters' triangles
+inline constexpr std::uint32_t kLeastTextureUnits = kTexelUnits + 2;
+
+/// Units for shared arrays: of depths first, then of the triangles that texels show, then the buffers read as texels.
+struct LookupUnits {
+    std::uint32_t depths = 0, triangles = 0;  // number of units
+    std::uint32_t first_depths = 0, first_triangles = 0, first_texels = 0;
+};
+LookupUnits units_of(const LookupBindings& bindings);
+
+/// Filters that a text may have: all that read a map's depths.
+bool can_evaluate(ShadowFilter filter);
+/// Filters of a text where none are chosen. They stand for all others (nearest_filter()).
+std::span<const ShadowFilter> usual_filters();
+/// Returns the filter among `filters` that comes nearest to another one: in how wide it blurs, then in how it measures
+/// edges. `filters` is not empty.
+ShadowFilter nearest_filter(ShadowFilter filter, std::span<const ShadowFilter> filters);
+
+/// Kinds of lookups, as records number them. none: all is lit.
+enum class LookupKind : std::uint8_t { none, cascades, warped_cascades, cone, cube };
+/// Returns the kind of a row with a map.
+LookupKind lookup_kind(const shadow::ShaderKey& row);
+
+/// Returns the text, without #version (it needs 4.30). An engine pastes it into any of its shaders. The same arguments
+/// give the same text: no light that comes, goes or changes requires another. All its top-level names begin with
+/// `gnomon_`. For engines:
+/// - `int gnomon_light_count()`: number of lights;
+/// - `float gnomon_visibility(int light, vec3 position, vec3 normal, float error_m)`: the fraction of the light that
+///   reaches a surface; 0 where it faces away or lies outside range and cone. `position`: from the camera, in the
+///   world's axes, metres. `normal`: geometric, unit, facing the viewer. `error_m`: how far off the position may be;
+/// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the same for positions as exact as floats are;
+/// - `float gnomon_visibility(int light, vec3 position)`: the same for a place without a surface: fog, particles;
+/// - `bool gnomon_takes_shadow(int light, int layers)`: whether its shadows fall on receivers of these layers;
+/// - `vec2 gnomon_pixel`: the pixel, which filters with noise by pixel read: gl_FragCoord.xy.
+/// Errors: bindings with too few units, filters that are empty or that can_evaluate() denies (rule "lookup.bindings",
+/// "lookup.filters").
+Result<std::string> lookup_glsl(const LookupBindings& bindings,
+                                std::span<const ShadowFilter> filters = usual_filters());
+
+}  // namespace gnomon::lookup

@@ -1,0 +1,185 @@
+#include "systems/lookup/lookup_table.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "systems/shadow/request/filter_table.h"
+
+namespace gnomon::lookup {
+namespace {
+
+using shadow::FilterRow;
+using shadow::LightingLight;
+
+constexpr std::string_view kSun = "LIGHT_DIRECTIONAL", kSpot = "LIGHT_SPOT";
+
+/// Returns the filter with that file; null: none has.
+const FilterRow* filter_of(std::string_view file) {
+    const auto rows = shadow::filter_table();
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const FilterRow& r) { return r.file == file; });
+    return row == rows.end() ? nullptr : &*row;
+}
+
+}  // namespace
+
+const char* to_text(LookupStatus status) {
+    switch (status) {
+        case LookupStatus::own_filter:
+            return "it is looked up by its own filter";
+        case LookupStatus::nearest_filter:
+            return "it is looked up by the nearest filter that the text has";
+        case LookupStatus::unshadowed:
+            return "it has no shadow in this frame";
+        case LookupStatus::rays_alone:
+            return "it has rays alone, which only a mask can use";
+        case LookupStatus::not_shared:
+            return "its map lies in no shared array";
+        case LookupStatus::no_unit:
+            return "the text has too few texture units for its map";
+    }
+    return "";
+}
+
+int LookupTable::Units::unit_of(gl::TextureHandle array) const {
+    const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.array == array; });
+    return unit == units.end() ? -1 : static_cast<int>(unit - units.begin());
+}
+
+/// Keeps the array's unit, if it has one.
+void LookupTable::Units::mark(gl::TextureHandle array) {
+    const int unit = array ? unit_of(array) : -1;
+    if (unit >= 0) units[static_cast<std::size_t>(unit)].used = true;
+}
+
+/// Returns the array's unit. Gives it an unused one if it has none; -1: none is left.
+int LookupTable::Units::take(gl::TextureHandle array) {
+    if (!array) return -1;
+    if (const int unit = unit_of(array); unit >= 0) return unit;
+    const auto unit = std::find_if(units.begin(), units.end(), [](const Unit& u) { return !u.used; });
+    if (unit == units.end()) return -1;
+    *unit = {array, true};
+    return static_cast<int>(unit - units.begin());
+}
+
+LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, std::span<const ShadowFilter> filters)
+    : device_(device),
+      bindings_(bindings),
+      filters_(filters.begin(), filters.end()),
+      buffer_(device, "lights to look up") {
+    const LookupUnits units = units_of(bindings);
+    depths_ = {units.first_depths, std::vector<Units::Unit>(units.depths)};
+    triangles_ = {units.first_triangles, std::vector<Units::Unit>(units.triangles)};
+}
+
+LookupTable::~LookupTable() { device_.destroy(sampler_); }
+
+/// Finds how a light can be looked up, whatever its array's unit.
+LookupTable::Found LookupTable::find(const LightingLight& light) const {
+    Found found;
+    const bool has_map = !light.plain.row.filter_file.empty() && static_cast<bool>(light.plain.map);
+    const FilterRow* own = filter_of(light.row.filter_file);
+    if (!own) return found;
+    if (!has_map || (light.row.rays && !light.row.sheets)) {
+        if (light.row.rays) found.outcome.status = LookupStatus::rays_alone;
+        return found;
+    }
+    found.depths = device_.shared_layers(light.plain.map);
+    if (!found.depths.array) {
+        found.outcome.status = LookupStatus::not_shared;
+        return found;
+    }
+    ShadowFilter filter = nearest_filter(own->id, filters_);
+    if (light.row.triangles && filter == own->id) found.triangles = device_.shared_layers(light.triangles);
+    const bool lacks = shadow::filter_row(filter).storage.triangle_ids && !found.triangles.array;
+    if (lacks) return found;
+    const FilterRow& row = shadow::filter_row(filter);
+    const bool keeps_reach = filter == own->id || row.width == shadow::FilterWidth::size;
+    found.reach_texel = keeps_reach ? light.row.reach_texel : row.reach_texel;
+    found.outcome = {filter == own->id ? LookupStatus::own_filter : LookupStatus::nearest_filter, filter};
+    return found;
+}
+
+void LookupTable::write(const LightingLight& light, const Found& found, LookupOutcome& outcome, LookupRecord& record) {
+    record = {};
+    record.light = light.record;
+    outcome = found.outcome;
+    const bool sun = light.row.kind_define == kSun, spot = light.row.kind_define == kSpot;
+    record.row.z = (sun ? 1 : 0) + (spot ? 2 : 0);
+    if (outcome.filter == ShadowFilter::automatic) return;
+    const int depths = depths_.take(found.depths.array);
+    const int triangles = found.triangles.array ? triangles_.take(found.triangles.array) : 0;
+    if (depths < 0 || triangles < 0) {
+        outcome = {LookupStatus::no_unit, ShadowFilter::automatic};
+        return;
+    }
+    const bool reads_depths = shadow::filter_row(outcome.filter).reading == shadow::MapReading::depths;
+    record.row.x = static_cast<int>(lookup_kind(light.plain.row));
+    record.row.y = static_cast<int>(std::find(filters_.begin(), filters_.end(), outcome.filter) - filters_.begin());
+    record.row.z += reads_depths ? 4 : 0;
+    record.place = {depths, static_cast<int>(found.depths.first), triangles, static_cast<int>(found.triangles.first)};
+    record.sizes = {found.reach_texel, static_cast<float>(found.depths.width), 0.0f, 0.0f};
+}
+
+bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list) {
+    if (!sampler_)
+        sampler_ =
+            device_.create_sampler({"lookup depths", false, false, false, gl::Wrap::border, gl::Wrap::border}).handle;
+    const std::size_t count = inputs.lights.size();
+    for (Units* units : {&depths_, &triangles_})
+        for (Units::Unit& unit : units->units) unit.used = false;
+    found_.clear();
+    for (const LightingLight& light : inputs.lights) {
+        found_.push_back(find(light));
+        depths_.mark(found_.back().depths.array);
+        triangles_.mark(found_.back().triangles.array);
+    }
+    outcomes_.resize(count);
+    bytes_.resize(sizeof(LookupHead) + count * sizeof(LookupRecord));
+    const LookupHead head{inputs.camera, {static_cast<int>(count), 0, 0, 0}};
+    std::memcpy(bytes_.data(), &head, sizeof head);
+    for (std::size_t i = 0; i < count; ++i) {
+        LookupRecord record;
+        write(inputs.lights[i], found_[i], outcomes_[i], record);
+        std::memcpy(bytes_.data() + sizeof head + i * sizeof record, &record, sizeof record);
+    }
+    for (Units* units : {&depths_, &triangles_})
+        for (Units::Unit& unit : units->units)
+            if (!unit.used) unit.array = {};
+    const gl::BufferHandle before = buffer_.handle();
+    if (!sampler_ || !buffer_.reserve(bytes_.size())) {
+        uploaded_.clear();
+        return false;
+    }
+    if (buffer_.handle() != before || bytes_ != uploaded_) {
+        list.update(buffer_.handle(), 0, std::span<const std::byte>(bytes_));
+        uploaded_ = bytes_;
+    }
+    list_bindings(gpu);
+    return true;
+}
+
+void LookupTable::list_bindings(const GpuScene& gpu) {
+    textures_.clear();
+    for (const Units* units : {&depths_, &triangles_})
+        for (std::size_t i = 0; i < units->units.size(); ++i)
+            textures_.push_back({units->first + static_cast<std::uint32_t>(i), units->units[i].array,
+                                 units == &depths_ ? sampler_ : gl::SamplerHandle{}});
+    const std::uint32_t first = units_of(bindings_).first_texels;
+    texels_.clear();
+    texels_.push_back({first, gpu.instances()});
+    texels_.push_back({first + 1, gpu.caster_triangles()});
+    storage_.clear();
+    storage_.push_back({bindings_.first_storage_binding, buffer_.handle()});
+    storage_.push_back({bindings_.first_storage_binding + 1, gpu.caster_masks()});
+}
+
+void LookupTable::bind(gl::CommandList& list) const {
+    for (const LookupTexture& texture : textures_)
+        if (texture.texture) list.add(gl::BindTexture{texture.unit, texture.texture, texture.sampler});
+    for (const LookupTexels& texels : texels_)
+        if (texels.buffer) list.add(gl::BindTexels{texels.unit, texels.buffer});
+    for (const LookupStorage& storage : storage_)
+        if (storage.buffer) list.add(gl::BindStorage{storage.binding, storage.buffer});
+}
+
+}  // namespace gnomon::lookup

@@ -1,0 +1,132 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/gl/commands.h"
+#include "engine/gl/device.h"
+#include "systems/extract/gpu_scene.h"
+#include "systems/growing_buffer.h"
+#include "systems/lookup/lookup_glsl.h"
+#include "systems/shadow/frame/lighting_inputs.h"
+
+namespace gnomon::lookup {
+
+/// One light for the text of lookup_glsl(); matches gnomon_Light there (std430).
+struct LookupRecord {
+    shadow::LightRecord light;
+    glm::ivec4 row{0};    // x: LookupKind; y: number of the filter in the text; z: 1: a sun, 2: a spot, 4: reads depths
+    glm::ivec4 place{0};  // x: unit of its depths, from 0; y: first layer; z: unit of its triangles; w: first layer
+    glm::vec4 sizes{0.0f};  // x: reach of the filter; y: edge of the map, texels
+};
+static_assert(sizeof(LookupRecord) == sizeof(shadow::LightRecord) + 48);
+
+/// What stands before the records.
+struct LookupHead {
+    shadow::CameraRecord camera;
+    glm::ivec4 counts{0};  // x: number of lights
+};
+static_assert(sizeof(LookupHead) % 16 == 0);
+
+/// How the text looks a light up.
+enum class LookupStatus : std::uint8_t {
+    own_filter,      // as its own row would
+    nearest_filter,  // with another filter, as the text has not its own
+    unshadowed,      // it has no shadow in this frame: lit
+    rays_alone,      // it has no map, only rays: lit; a mask has its shadow
+    not_shared,      // its map lies in no shared array (ShadowSystem::share_layers()): lit
+    no_unit          // the text has too few texture units for its array: lit; a mask has its shadow
+};
+/// Returns one sentence on it.
+const char* to_text(LookupStatus status);
+
+struct LookupOutcome {
+    LookupStatus status = LookupStatus::unshadowed;
+    ShadowFilter filter = ShadowFilter::automatic;  // that looks it up; automatic: none does
+    bool operator==(const LookupOutcome&) const = default;
+};
+
+/// A shared array at a unit, and a buffer as texels or as storage.
+struct LookupTexture {
+    std::uint32_t unit = 0;
+    gl::TextureHandle texture{};
+    gl::SamplerHandle sampler{};
+};
+struct LookupTexels {
+    std::uint32_t unit = 0;
+    gl::BufferHandle buffer{};
+};
+struct LookupStorage {
+    std::uint32_t binding = 0;
+    gl::BufferHandle buffer{};
+};
+
+/// Records of all lights of one camera's view for the text of lookup_glsl(), and what to bind for it. The text's
+/// program may stay bound: only bindings change. Owns its buffer.
+class LookupTable {
+public:
+    /// `bindings` and `filters`: as the text has them.
+    LookupTable(gl::Device& device, const LookupBindings& bindings,
+                std::span<const ShadowFilter> filters = usual_filters());
+    ~LookupTable();
+    LookupTable(const LookupTable&) = delete;
+    LookupTable& operator=(const LookupTable&) = delete;
+
+    /// Writes the records of the lights of `inputs`, light by light, and records their upload if they changed. Call it
+    /// after ShadowSystem::update(), before the list is submitted. Returns false if the device has no room: the text
+    /// must not be used then. Allocates nothing once its lists have grown.
+    bool update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list);
+    /// Makes the next update() upload all. Call it after a failed submission.
+    void forget_upload() { uploaded_.clear(); }
+
+    /// One entry per light of the last update().
+    std::span<const LookupOutcome> outcomes() const { return outcomes_; }
+
+    /// What to bind after the last update(), for engines that call OpenGL themselves (gl::gl_name(),
+    /// gl::gl_texels_name()).
+    std::span<const LookupTexture> textures() const { return textures_; }
+    std::span<const LookupTexels> texels() const { return texels_; }
+    std::span<const LookupStorage> storage() const { return storage_; }
+    /// Records the same as commands.
+    void bind(gl::CommandList& list) const;
+
+private:
+    /// Arrays at a range of units. An array keeps its unit while any light needs it.
+    struct Units {
+        std::uint32_t first = 0;
+        struct Unit {
+            gl::TextureHandle array{};
+            bool used = false;
+        };
+        std::vector<Unit> units;
+        int unit_of(gl::TextureHandle array) const;
+        void mark(gl::TextureHandle array);
+        int take(gl::TextureHandle array);
+    };
+
+    struct Found {
+        gl::SharedLayers depths, triangles;
+        LookupOutcome outcome;
+        float reach_texel = 0.0f;
+    };
+    Found find(const shadow::LightingLight& light) const;
+    void write(const shadow::LightingLight& light, const Found& found, LookupOutcome& outcome, LookupRecord& record);
+    void list_bindings(const GpuScene& gpu);
+
+    gl::Device& device_;
+    LookupBindings bindings_;
+    std::vector<ShadowFilter> filters_;
+    Units depths_, triangles_;
+    gl::SamplerHandle sampler_{};
+    GrowingBuffer buffer_;
+    std::vector<Found> found_;
+    std::vector<std::byte> bytes_, uploaded_;
+    std::vector<LookupOutcome> outcomes_;
+    std::vector<LookupTexture> textures_;
+    std::vector<LookupTexels> texels_;
+    std::vector<LookupStorage> storage_;
+};
+
+}  // namespace gnomon::lookup
