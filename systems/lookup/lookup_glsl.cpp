@@ -23,9 +23,8 @@ using Names = std::set<std::string, std::less<>>;
 constexpr std::string_view kCascadesFile = "shadow/lookup/kinds/directional.glsl";
 constexpr std::string_view kCubeFile = "shadow/lookup/kinds/point.glsl";
 
-constexpr std::array kUsualFilters = {ShadowFilter::hard,    ShadowFilter::hardware_2x2, ShadowFilter::pcf_bilinear,
-                                      ShadowFilter::poisson, ShadowFilter::sharp_4x4,    ShadowFilter::triangles,
-                                      ShadowFilter::pcss};
+constexpr std::array kUsualFilters = {ShadowFilter::triangles, ShadowFilter::pcss, ShadowFilter::pcf_bilinear,
+                                      ShadowFilter::pcf_grid};
 
 /// Returns what stands in the place of names of the shaders of one light: the light's record, its row's flags, and
 /// what reads its map.
@@ -105,7 +104,7 @@ void add_only_if(const std::string& condition, const std::string& statement, std
 constexpr std::string_view kRecords = R"(
 struct gnomon_Light {$light$
     ivec4 row;      // x: kind of lookup; y: number of the filter; z: 1: a sun; 2: a spot; 4: reads depths
-    ivec4 place;    // x: unit of its depths; y: first layer; z: unit of its triangles; w: first layer
+    ivec4 place;    // x: unit; y: first layer of its depths; z: first layer of its triangles
     vec4 sizes;     // x: reach of the filter, texels; y: edge of the map, texels
 };
 struct gnomon_Camera {$camera$
@@ -189,8 +188,11 @@ bool gnomon_takes_shadow(int light, int layers) {
 float gnomon_visibility_of_taken(vec3 position, vec3 normal, float error_m, bool reached) {
     int kind = reached ? gnomon_lights[gnomon_light].row.x : 0;
     float visible = reached ? 1.0 : 0.0;
-    for (int once = kind >= 1 && kind <= 3 ? 1 : 0; once > 0; --once) visible = gnomon_flat_visibility(position, normal, error_m);
-    for (int once = kind == 4 ? 1 : 0; once > 0; --once) visible = gnomon_cube_visibility(position, normal, error_m);
+    for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit) {
+        bool here = gnomon_place.x == gnomon_unit;
+        for (int once = here && kind >= 1 && kind <= 3 ? 1 : 0; once > 0; --once) visible = gnomon_flat_visibility(position, normal, error_m);
+        for (int once = here && kind == 4 ? 1 : 0; once > 0; --once) visible = gnomon_cube_visibility(position, normal, error_m);
+    }
     return visible;
 }
 
@@ -213,38 +215,34 @@ float gnomon_visibility(int light, vec3 position) {
 }
 )";
 
-/// Returns the functions that read shared arrays: a loop per unit, of which one runs (see add_only_if()). No
-/// array of samplers: its index would have to be the same for all of a draw's pixels.
-std::string readers(const LookupUnits& units, const std::string& four_triangles) {
-    std::string text;
-    const auto name = [](const char* of, std::uint32_t i) { return std::string("gnomon_") + of + std::to_string(i); };
-    for (std::uint32_t i = 0; i < units.depths; ++i)
-        text += "layout(binding = " + std::to_string(units.first_depths + i) + ") uniform sampler2DArray " +
-                name("depths_", i) + ";\n";
-    for (std::uint32_t i = 0; i < units.triangles; ++i)
-        text += "layout(binding = " + std::to_string(units.first_triangles + i) + ") uniform usampler2DArray " +
-                name("ids_", i) + ";\n";
-    const auto add = [&](const std::string& head, const std::string& result, bool depths, const auto& statement) {
-        text += head + " {\n    at.z += float(gnomon_place." + (depths ? "y" : "w") + ");\n    " + result + ";\n";
-        for (std::uint32_t i = 0; i < (depths ? units.depths : units.triangles); ++i)
-            add_only_if(std::string("gnomon_place.") + (depths ? "x" : "z") + " == " + std::to_string(i),
-                        statement(name(depths ? "depths_" : "ids_", i)), text);
-        text += "    return found;\n}\n";
-    };
-    using Text = const std::string&;
-    add("float gnomon_shared_depth(vec3 at)", "float found = 0.0", true,
-        [](Text unit) { return "found = textureLod(" + unit + ", at, 0.0).x;"; });
-    add("vec4 gnomon_shared_depths(vec3 at)", "vec4 found = vec4(0.0)", true,
-        [](Text unit) { return "found = textureGather(" + unit + ", at);"; });
-    add("uvec2 gnomon_shared_id(vec3 at)", "uvec2 found = uvec2(0u)", false,
-        [](Text unit) { return "found = textureLod(" + unit + ", at, 0.0).xy;"; });
-    add(four_triangles + " gnomon_shared_ids(vec3 at)",
-        four_triangles + " found;\n    found.instance = found.triangle = uvec4(0u)", false, [](Text unit) {
-            return "{ found.instance = textureGather(" + unit + ", at, 0); found.triangle = textureGather(" + unit +
-                   ", at, 1); }";
-        });
-    return text;
+/// Functions that read shared arrays. gnomon_unit is the number of a loop that all of a draw's pixels run in step: an
+/// index into samplers must be the same for all.
+constexpr std::string_view kReaders = R"(
+const int gnomon_kUnits = $units$;
+layout(binding = $depths$) uniform sampler2DArray gnomon_depths[gnomon_kUnits];
+layout(binding = $ids$) uniform usampler2DArray gnomon_ids[gnomon_kUnits];
+int gnomon_unit = 0;
+
+float gnomon_shared_depth(vec3 at) {
+    return textureLod(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_place.y)), 0.0).x;
 }
+
+vec4 gnomon_shared_depths(vec3 at) {
+    return textureGather(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_place.y)));
+}
+
+uvec2 gnomon_shared_id(vec3 at) {
+    return textureLod(gnomon_ids[gnomon_unit], vec3(at.xy, at.z + float(gnomon_place.z)), 0.0).xy;
+}
+
+$four$ gnomon_shared_ids(vec3 at) {
+    vec3 place = vec3(at.xy, at.z + float(gnomon_place.z));
+    $four$ found;
+    found.instance = textureGather(gnomon_ids[gnomon_unit], place, 0);
+    found.triangle = textureGather(gnomon_ids[gnomon_unit], place, 1);
+    return found;
+}
+)";
 
 Error refused(const char* rule, const char* what) { return {what, {}, {}, rule}; }
 
@@ -259,12 +257,10 @@ std::string filter_calls(const std::vector<std::string>& filters) {
 
 LookupUnits units_of(const LookupBindings& bindings) {
     LookupUnits units;
-    const std::uint32_t maps = bindings.texture_unit_count - std::min(kTexelUnits, bindings.texture_unit_count);
-    units.triangles = maps / 2;
-    units.depths = maps - units.triangles;
+    units.arrays = (bindings.texture_unit_count - std::min(kTexelUnits, bindings.texture_unit_count)) / 2;
     units.first_depths = bindings.first_texture_unit;
-    units.first_triangles = units.first_depths + units.depths;
-    units.first_texels = units.first_triangles + units.triangles;
+    units.first_triangles = units.first_depths + units.arrays;
+    units.first_texels = units.first_triangles + units.arrays;
     return units;
 }
 
@@ -275,21 +271,31 @@ bool can_evaluate(ShadowFilter filter) {
 
 std::span<const ShadowFilter> usual_filters() { return kUsualFilters; }
 
-ShadowFilter nearest_filter(ShadowFilter filter, std::span<const ShadowFilter> filters) {
+FilterChoice choose_filter(ShadowFilter filter, std::span<const ShadowFilter> filters) {
+    const auto has = [&](ShadowFilter f) { return std::find(filters.begin(), filters.end(), f) != filters.end(); };
+    if (has(filter)) return {.filter = filter, .alike = true};
+    if (filter == ShadowFilter::hard && has(ShadowFilter::pcf_grid))
+        return {.filter = ShadowFilter::pcf_grid, .alike = true, .one_tap = true};
+    if (filter == ShadowFilter::hardware_2x2 && has(ShadowFilter::pcf_bilinear))
+        return {.filter = ShadowFilter::pcf_bilinear, .alike = true, .one_tap = true};
+    if (filter == ShadowFilter::sharp_4x4 && has(ShadowFilter::pcss))
+        return {.filter = ShadowFilter::pcss, .alike = true, .without_source = true};
     const FilterRow& wanted = shadow::filter_row(filter);
     const auto distance = [&](ShadowFilter other) {
         const FilterRow& row = shadow::filter_row(other);
-        if (row.id == wanted.id) return 0;
         // A prefiltered map's blur is that of a square of blended taps.
         const bool blends = wanted.moments != nullptr || wanted.reading == MapReading::compare_linear;
-        int apart = 1 + (row.width == wanted.width ? 0 : 8);
+        int apart = row.width == wanted.width ? 0 : 8;
         apart += (row.reading == MapReading::compare_linear) == blends ? 0 : 2;
         apart += (row.reading == MapReading::depths) == (wanted.reading == MapReading::depths) ? 0 : 4;
-        // Maps of other filters have no triangles.
         return apart + (row.storage.triangle_ids ? 32 : 0);
     };
-    return *std::min_element(filters.begin(), filters.end(),
-                             [&](ShadowFilter a, ShadowFilter b) { return distance(a) < distance(b); });
+    const ShadowFilter nearest = *std::min_element(
+        filters.begin(), filters.end(), [&](ShadowFilter a, ShadowFilter b) { return distance(a) < distance(b); });
+    const bool fixed = wanted.width == shadow::FilterWidth::fixed;
+    return {.filter = nearest,
+            .one_tap = fixed && shadow::filter_row(nearest).width == shadow::FilterWidth::size,
+            .without_source = wanted.width != shadow::FilterWidth::source};
 }
 
 LookupKind lookup_kind(const shadow::ShaderKey& row) {
@@ -333,7 +339,10 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, std::span<const 
                               {"masks", std::to_string(bindings.first_storage_binding + 1)},
                               {"instances", std::to_string(units.first_texels)},
                               {"triangles", std::to_string(units.first_texels + 1)}});
-    text += readers(units, four_triangles);
+    text += filled(kReaders, {{"units", std::to_string(units.arrays)},
+                              {"depths", std::to_string(units.first_depths)},
+                              {"ids", std::to_string(units.first_triangles)},
+                              {"four", four_triangles}});
 
     std::string points;
     Names roots;

@@ -22,20 +22,31 @@ inline constexpr std::uint32_t kStorageBindings = 2;  // records of the lights; 
 inline constexpr std::uint32_t kTexelUnits = 2;       // instances; the casters' triangles
 inline constexpr std::uint32_t kLeastTextureUnits = kTexelUnits + 2;
 
-/// Units for shared arrays: of depths first, then of the triangles that texels show, then the buffers read as texels.
+/// Units for shared arrays: of depths first, then as many of the triangles that texels show, then the buffers read as
+/// texels.
 struct LookupUnits {
-    std::uint32_t depths = 0, triangles = 0;  // number of units
+    std::uint32_t arrays = 0;  // of depths, and as many of triangles
     std::uint32_t first_depths = 0, first_triangles = 0, first_texels = 0;
 };
 LookupUnits units_of(const LookupBindings& bindings);
 
 /// Filters that a text may have: all that read a map's depths.
 bool can_evaluate(ShadowFilter filter);
-/// Filters of a text where none are chosen. They stand for all others (nearest_filter()).
+/// Filters of a text where none are chosen. With what they stand for they look up `hard`, `hardware_2x2`, `pcf_grid`,
+/// `pcf_bilinear`, `sharp_4x4`, `triangles` and `pcss` as these are, and others by the nearest of them.
 std::span<const ShadowFilter> usual_filters();
-/// Returns the filter among `filters` that comes nearest to another one: in how wide it blurs, then in how it measures
-/// edges. `filters` is not empty.
-ShadowFilter nearest_filter(ShadowFilter filter, std::span<const ShadowFilter> filters);
+
+/// How a text looks up a light of some filter.
+struct FilterChoice {
+    ShadowFilter filter = ShadowFilter::automatic;  // of the text
+    bool alike = false;                             // to the same result
+    bool one_tap = false;                           // by a single tap of it
+    bool without_source = false;                    // as if the light were a point
+    bool operator==(const FilterChoice&) const = default;
+};
+/// Returns it: the filter itself, else one that comes to the same, else the one that comes nearest in how wide it blurs
+/// and in how it measures edges. `filters` is not empty. No other filter's maps have the triangles of `triangles`.
+FilterChoice choose_filter(ShadowFilter filter, std::span<const ShadowFilter> filters);
 
 /// Kinds of lookups, as records number them. none: all is lit.
 enum class LookupKind : std::uint8_t { none, cascades, warped_cascades, cone, cube };

@@ -34,31 +34,12 @@ const char* to_text(LookupStatus status) {
             return "it has rays alone, which only a mask can use";
         case LookupStatus::not_shared:
             return "its map lies in no shared array";
+        case LookupStatus::no_filter:
+            return "the text has no filter for its map";
         case LookupStatus::no_unit:
             return "the text has too few texture units for its map";
     }
     return "";
-}
-
-int LookupTable::Units::unit_of(gl::TextureHandle array) const {
-    const auto unit = std::find_if(units.begin(), units.end(), [&](const Unit& u) { return u.array == array; });
-    return unit == units.end() ? -1 : static_cast<int>(unit - units.begin());
-}
-
-/// Keeps the array's unit, if it has one.
-void LookupTable::Units::mark(gl::TextureHandle array) {
-    const int unit = array ? unit_of(array) : -1;
-    if (unit >= 0) units[static_cast<std::size_t>(unit)].used = true;
-}
-
-/// Returns the array's unit. Gives it an unused one if it has none; -1: none is left.
-int LookupTable::Units::take(gl::TextureHandle array) {
-    if (!array) return -1;
-    if (const int unit = unit_of(array); unit >= 0) return unit;
-    const auto unit = std::find_if(units.begin(), units.end(), [](const Unit& u) { return !u.used; });
-    if (unit == units.end()) return -1;
-    *unit = {array, true};
-    return static_cast<int>(unit - units.begin());
 }
 
 LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, std::span<const ShadowFilter> filters)
@@ -66,9 +47,7 @@ LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, std
       bindings_(bindings),
       filters_(filters.begin(), filters.end()),
       buffer_(device, "lights to look up") {
-    const LookupUnits units = units_of(bindings);
-    depths_ = {units.first_depths, std::vector<Units::Unit>(units.depths)};
-    triangles_ = {units.first_triangles, std::vector<Units::Unit>(units.triangles)};
+    units_.resize(units_of(bindings).arrays);
 }
 
 LookupTable::~LookupTable() { device_.destroy(sampler_); }
@@ -88,15 +67,46 @@ LookupTable::Found LookupTable::find(const LightingLight& light) const {
         found.outcome.status = LookupStatus::not_shared;
         return found;
     }
-    ShadowFilter filter = nearest_filter(own->id, filters_);
-    if (light.row.triangles && filter == own->id) found.triangles = device_.shared_layers(light.triangles);
-    const bool lacks = shadow::filter_row(filter).storage.triangle_ids && !found.triangles.array;
-    if (lacks) return found;
-    const FilterRow& row = shadow::filter_row(filter);
-    const bool keeps_reach = filter == own->id || row.width == shadow::FilterWidth::size;
+    found.choice = choose_filter(own->id, filters_);
+    const FilterRow& row = shadow::filter_row(found.choice.filter);
+    if (row.storage.triangle_ids) found.triangles = device_.shared_layers(light.triangles);
+    if (row.storage.triangle_ids && !found.triangles.array) {
+        found.outcome.status = LookupStatus::no_filter;
+        return found;
+    }
+    const bool keeps_reach = found.choice.alike || row.width == shadow::FilterWidth::size;
     found.reach_texel = keeps_reach ? light.row.reach_texel : row.reach_texel;
-    found.outcome = {filter == own->id ? LookupStatus::own_filter : LookupStatus::nearest_filter, filter};
+    found.outcome = {found.choice.alike ? LookupStatus::own_filter : LookupStatus::nearest_filter, row.id};
     return found;
+}
+
+/// Frees units whose arrays no light needs in this frame.
+void LookupTable::keep_units() {
+    for (Unit& unit : units_) {
+        unit.reads_depths = unit.reads_triangles = false;
+        for (const Found& found : found_) {
+            const bool same = found.depths.array && found.depths.array == unit.depths;
+            unit.reads_depths = unit.reads_depths || same;
+            unit.reads_triangles = unit.reads_triangles || (same && found.triangles.array == unit.triangles);
+        }
+        if (!unit.reads_depths) unit.depths = {};
+        if (!unit.reads_triangles) unit.triangles = {};
+    }
+}
+
+/// Returns the unit of these arrays; -1: none is left. `triangles`: {0} where none are read.
+int LookupTable::take_unit(gl::TextureHandle depths, gl::TextureHandle triangles) {
+    const auto serves = [&](const Unit& unit) {
+        const bool fits = !triangles || !unit.triangles || unit.triangles == triangles;
+        return unit.depths == depths && fits;
+    };
+    auto unit = std::find_if(units_.begin(), units_.end(), serves);
+    if (unit == units_.end())
+        unit = std::find_if(units_.begin(), units_.end(), [](const Unit& u) { return !u.depths; });
+    if (unit == units_.end()) return -1;
+    unit->depths = depths;
+    if (triangles) unit->triangles = triangles;
+    return static_cast<int>(unit - units_.begin());
 }
 
 void LookupTable::write(const LightingLight& light, const Found& found, LookupOutcome& outcome, LookupRecord& record) {
@@ -106,17 +116,18 @@ void LookupTable::write(const LightingLight& light, const Found& found, LookupOu
     const bool sun = light.row.kind_define == kSun, spot = light.row.kind_define == kSpot;
     record.row.z = (sun ? 1 : 0) + (spot ? 2 : 0);
     if (outcome.filter == ShadowFilter::automatic) return;
-    const int depths = depths_.take(found.depths.array);
-    const int triangles = found.triangles.array ? triangles_.take(found.triangles.array) : 0;
-    if (depths < 0 || triangles < 0) {
+    const int unit = take_unit(found.depths.array, found.triangles.array);
+    if (unit < 0) {
         outcome = {LookupStatus::no_unit, ShadowFilter::automatic};
         return;
     }
+    if (found.choice.one_tap) record.light.filtering = {1, 1, 0, record.light.filtering.w};
+    if (found.choice.without_source) record.light.radiance.w = 0.0f;
     const bool reads_depths = shadow::filter_row(outcome.filter).reading == shadow::MapReading::depths;
     record.row.x = static_cast<int>(lookup_kind(light.plain.row));
     record.row.y = static_cast<int>(std::find(filters_.begin(), filters_.end(), outcome.filter) - filters_.begin());
     record.row.z += reads_depths ? 4 : 0;
-    record.place = {depths, static_cast<int>(found.depths.first), triangles, static_cast<int>(found.triangles.first)};
+    record.place = {unit, static_cast<int>(found.depths.first), static_cast<int>(found.triangles.first), 0};
     record.sizes = {found.reach_texel, static_cast<float>(found.depths.width), 0.0f, 0.0f};
 }
 
@@ -125,14 +136,9 @@ bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& g
         sampler_ =
             device_.create_sampler({"lookup depths", false, false, false, gl::Wrap::border, gl::Wrap::border}).handle;
     const std::size_t count = inputs.lights.size();
-    for (Units* units : {&depths_, &triangles_})
-        for (Units::Unit& unit : units->units) unit.used = false;
     found_.clear();
-    for (const LightingLight& light : inputs.lights) {
-        found_.push_back(find(light));
-        depths_.mark(found_.back().depths.array);
-        triangles_.mark(found_.back().triangles.array);
-    }
+    for (const LightingLight& light : inputs.lights) found_.push_back(find(light));
+    keep_units();
     outcomes_.resize(count);
     bytes_.resize(sizeof(LookupHead) + count * sizeof(LookupRecord));
     const LookupHead head{inputs.camera, {static_cast<int>(count), 0, 0, 0}};
@@ -142,9 +148,6 @@ bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& g
         write(inputs.lights[i], found_[i], outcomes_[i], record);
         std::memcpy(bytes_.data() + sizeof head + i * sizeof record, &record, sizeof record);
     }
-    for (Units* units : {&depths_, &triangles_})
-        for (Units::Unit& unit : units->units)
-            if (!unit.used) unit.array = {};
     const gl::BufferHandle before = buffer_.handle();
     if (!sampler_ || !buffer_.reserve(bytes_.size())) {
         uploaded_.clear();
@@ -160,14 +163,14 @@ bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& g
 
 void LookupTable::list_bindings(const GpuScene& gpu) {
     textures_.clear();
-    for (const Units* units : {&depths_, &triangles_})
-        for (std::size_t i = 0; i < units->units.size(); ++i)
-            textures_.push_back({units->first + static_cast<std::uint32_t>(i), units->units[i].array,
-                                 units == &depths_ ? sampler_ : gl::SamplerHandle{}});
-    const std::uint32_t first = units_of(bindings_).first_texels;
+    const LookupUnits units = units_of(bindings_);
+    for (std::uint32_t i = 0; i < units.arrays; ++i) {
+        textures_.push_back({units.first_depths + i, units_[i].depths, sampler_});
+        textures_.push_back({units.first_triangles + i, units_[i].triangles, {}});
+    }
     texels_.clear();
-    texels_.push_back({first, gpu.instances()});
-    texels_.push_back({first + 1, gpu.caster_triangles()});
+    texels_.push_back({units.first_texels, gpu.instances()});
+    texels_.push_back({units.first_texels + 1, gpu.caster_triangles()});
     storage_.clear();
     storage_.push_back({bindings_.first_storage_binding, buffer_.handle()});
     storage_.push_back({bindings_.first_storage_binding + 1, gpu.caster_masks()});

@@ -18,7 +18,7 @@ namespace gnomon::lookup {
 struct LookupRecord {
     shadow::LightRecord light;
     glm::ivec4 row{0};    // x: LookupKind; y: number of the filter in the text; z: 1: a sun, 2: a spot, 4: reads depths
-    glm::ivec4 place{0};  // x: unit of its depths, from 0; y: first layer; z: unit of its triangles; w: first layer
+    glm::ivec4 place{0};  // x: unit, from 0; y: first layer of its depths; z: first layer of its triangles
     glm::vec4 sizes{0.0f};  // x: reach of the filter; y: edge of the map, texels
 };
 static_assert(sizeof(LookupRecord) == sizeof(shadow::LightRecord) + 48);
@@ -32,11 +32,12 @@ static_assert(sizeof(LookupHead) % 16 == 0);
 
 /// How the text looks a light up.
 enum class LookupStatus : std::uint8_t {
-    own_filter,      // as its own row would
+    own_filter,      // as by its own row
     nearest_filter,  // with another filter, as the text has not its own
     unshadowed,      // it has no shadow in this frame: lit
     rays_alone,      // it has no map, only rays: lit; a mask has its shadow
     not_shared,      // its map lies in no shared array (ShadowSystem::share_layers()): lit
+    no_filter,       // the text has only filters that need triangles, which its map has not: lit
     no_unit          // the text has too few texture units for its array: lit; a mask has its shadow
 };
 /// Returns one sentence on it.
@@ -44,7 +45,7 @@ const char* to_text(LookupStatus status);
 
 struct LookupOutcome {
     LookupStatus status = LookupStatus::unshadowed;
-    ShadowFilter filter = ShadowFilter::automatic;  // that looks it up; automatic: none does
+    ShadowFilter filter = ShadowFilter::automatic;  // of the text, that looks it up; automatic: none does
     bool operator==(const LookupOutcome&) const = default;
 };
 
@@ -93,32 +94,28 @@ public:
     void bind(gl::CommandList& list) const;
 
 private:
-    /// Arrays at a range of units. An array keeps its unit while any light needs it.
-    struct Units {
-        std::uint32_t first = 0;
-        struct Unit {
-            gl::TextureHandle array{};
-            bool used = false;
-        };
-        std::vector<Unit> units;
-        int unit_of(gl::TextureHandle array) const;
-        void mark(gl::TextureHandle array);
-        int take(gl::TextureHandle array);
+    /// Array of depths at a unit, and at the unit beside it the array of triangles that its texels show. They keep it
+    /// while any light needs them.
+    struct Unit {
+        gl::TextureHandle depths{}, triangles{};
+        bool reads_depths = false, reads_triangles = false;  // in this frame
     };
-
     struct Found {
         gl::SharedLayers depths, triangles;
+        FilterChoice choice;
         LookupOutcome outcome;
         float reach_texel = 0.0f;
     };
     Found find(const shadow::LightingLight& light) const;
     void write(const shadow::LightingLight& light, const Found& found, LookupOutcome& outcome, LookupRecord& record);
+    void keep_units();
+    int take_unit(gl::TextureHandle depths, gl::TextureHandle triangles);
     void list_bindings(const GpuScene& gpu);
 
     gl::Device& device_;
     LookupBindings bindings_;
     std::vector<ShadowFilter> filters_;
-    Units depths_, triangles_;
+    std::vector<Unit> units_;
     gl::SamplerHandle sampler_{};
     GrowingBuffer buffer_;
     std::vector<Found> found_;
