@@ -155,11 +155,27 @@ std::string GlslLibrary::free_name(const std::string& name) const {
     return free;
 }
 
+void GlslLibrary::call_elements(std::vector<GlslToken>& tokens) const {
+    for (const Elements& elements : elements_)
+        for (std::size_t at = 0; at + 3 < tokens.size(); ++at) {
+            const bool is_element = tokens[at].is(elements.object) && tokens[at + 1].is(".") &&
+                                    tokens[at + 2].is(elements.array) && tokens[at + 3].is("[");
+            if (!is_element || (at > 0 && tokens[at - 1].is("."))) continue;
+            tokens[after_bracket(tokens, at + 3) - 1].text = ")";
+            tokens[at + 3].text = "(";
+            tokens[at].text = elements.function;
+            tokens.erase(tokens.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                         tokens.begin() + static_cast<std::ptrdiff_t>(at) + 3);
+        }
+}
+
 Result<GlslNames> GlslLibrary::add(std::string_view text) {
     const auto read = glsl_tokens(text);
     if (!read) return read.error();
+    std::vector<GlslToken> all = read.value();
+    call_elements(all);
     GlslNames names;
-    Tokens rest = read.value();
+    Tokens rest = all;
     while (!rest.empty()) {
         const Tokens tokens = rest.first(declaration_length(rest));
         rest = rest.subspan(tokens.size());
@@ -222,19 +238,24 @@ Result<GlslNames> GlslLibrary::add(std::string_view text) {
     return names;
 }
 
-std::string GlslLibrary::members(std::string_view block) const {
+std::vector<GlslLibrary::Member> GlslLibrary::members(std::string_view block) const {
+    std::vector<Member> members;
     const auto found = blocks_.find(block);
-    if (found == blocks_.end()) return {};
-    std::vector<GlslToken> tokens = found->second;
-    bool is_type = true;
-    for (GlslToken& token : tokens) {
-        const bool renames = is_type && by_name_.contains(prefix_ + token.text);
-        const bool is_size =
-            by_name_.contains(prefix_ + token.text) && &token != tokens.data() && (&token - 1)->is("[");
-        if (renames || is_size) token.text = prefix_ + token.text;
-        is_type = token.is(";");
+    if (found == blocks_.end()) return members;
+    Tokens rest = found->second;
+    while (!rest.empty()) {
+        std::size_t length = 0;
+        while (length < rest.size() && !rest[length].is(";")) ++length;
+        bool ignored = false;
+        const std::size_t type = after_qualifiers(rest.first(length), ignored);
+        if (type + 1 < length) {
+            const std::string final = prefix_ + rest[type].text;
+            members.push_back({by_name_.contains(final) ? final : rest[type].text, rest[type + 1].text,
+                               type + 2 < length && rest[type + 2].is("[")});
+        }
+        rest = rest.subspan(std::min(length + 1, rest.size()));
     }
-    return glsl_text(tokens);
+    return members;
 }
 
 /// Returns which declarations names need, directly or not.

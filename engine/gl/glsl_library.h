@@ -1,9 +1,9 @@
 #pragma once
-#include <functional>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/core/result.h"
@@ -26,13 +26,24 @@ public:
     GlslLibrary(std::string prefix, std::map<std::string, std::string, std::less<>> replaced)
         : prefix_(std::move(prefix)), replaced_(std::move(replaced)) {}
 
+    /// Makes elements of an array into calls: `object`.`array`[i] becomes `function`(i). Call it before add().
+    void replace_elements(std::string object, std::string array, std::string function) {
+        elements_.push_back({std::move(object), std::move(array), std::move(function)});
+    }
+
     /// Adds a text with its includes resolved (expand_shader()). Returns its names.
     /// Errors: those of glsl_tokens(); overloads and prototypes, and blocks or samplers that are not replaced (rule
     /// "glsl.library").
     Result<GlslNames> add(std::string_view text);
 
-    /// Returns the members of a dropped block, as they stand between its braces; empty if there was none of that name.
-    std::string members(std::string_view block) const;
+    /// Member of a block: final name of its type, its own name.
+    struct Member {
+        std::string type, name;
+        bool is_array = false;
+        bool operator==(const Member&) const = default;
+    };
+    /// Returns the members of a dropped block; none if there was none of that name.
+    std::vector<Member> members(std::string_view block) const;
 
     /// Returns the declarations that `roots` (final names) need, in order, without those that `before` need.
     std::string text(const std::set<std::string, std::less<>>& roots,
@@ -45,11 +56,17 @@ private:
         std::vector<GlslToken> tokens;
     };
 
+    struct Elements {
+        std::string object, array, function;
+    };
+
+    void call_elements(std::vector<GlslToken>& tokens) const;
     std::vector<bool> needed(const std::set<std::string, std::less<>>& roots) const;
     std::string free_name(const std::string& name) const;
 
     std::string prefix_;
     std::map<std::string, std::string, std::less<>> replaced_;
+    std::vector<Elements> elements_;
     std::vector<Declaration> declarations_;
     std::map<std::string, std::size_t, std::less<>> by_contents_;  // into declarations_
     std::map<std::string, std::size_t, std::less<>> by_name_;      // final name, into declarations_

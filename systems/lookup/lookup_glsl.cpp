@@ -10,6 +10,7 @@
 #include "engine/gl/glsl_library.h"
 #include "engine/gl/shader_source.h"
 #include "shaders/embedded.h"
+#include "systems/lookup/lookup_record.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 
@@ -30,7 +31,7 @@ constexpr std::array kUsualFilters = {ShadowFilter::triangles, ShadowFilter::pcs
 /// what reads its map.
 const std::map<std::string, std::string, std::less<>>& replaced_names() {
     static const std::map<std::string, std::string, std::less<>> kReplaced = {
-        {"light", "gnomon_lights[gnomon_light]"},
+        {"light", "gnomon_light"},
         {"camera", "gnomon_camera"},
         {"kIsSun", "gnomon_is_sun"},
         {"kIsSpot", "gnomon_is_spot"},
@@ -101,43 +102,81 @@ void add_only_if(const std::string& condition, const std::string& statement, std
     text.append("\n");
 }
 
+/// The record of one light, read as texels for the reason in common/instance_buffer.glsl. gnomon_view() reads only what
+/// its caller uses.
 constexpr std::string_view kRecords = R"(
-struct gnomon_Light {$light$
-    ivec4 row;      // x: kind of lookup; y: number of the filter; z: 1: a sun; 2: a spot; 4: reads depths
-    ivec4 place;    // x: unit; y: first layer of its depths; z: first layer of its triangles
-    vec4 sizes;     // x: reach of the filter, texels; y: edge of the map, texels
+struct gnomon_Light {
+$light$    ivec4 row;     // x: kind of lookup; y: number of the filter; z: 1: a sun; 2: a spot; 4: reads depths
+    ivec4 place;   // x: unit; y: first layer of its depths; z: first layer of its triangles
+    vec4 sizes;    // x: reach of the filter, texels; y: edge of the map, texels
 };
-struct gnomon_Camera {$camera$
-};
-layout(std430, binding = $records$) readonly buffer gnomon_Records {
-    gnomon_Camera gnomon_camera;
-    ivec4 gnomon_counts;   // x: lights
-    gnomon_Light gnomon_lights[];
-};
-layout(std430, binding = $masks$) readonly buffer gnomon_Masks { uint gnomon_ray_masks[]; };
+struct gnomon_Camera {
+$camera$};
+const int gnomon_kHeadTexels = $head_texels$, gnomon_kLightTexels = $light_texels$, gnomon_kViewTexels = 9;
+layout(binding = $records$) uniform usamplerBuffer gnomon_records;
 layout(binding = $instances$) uniform usamplerBuffer gnomon_instance_texels;
 layout(binding = $triangles$) uniform usamplerBuffer gnomon_caster_triangles;
+layout(std430, binding = $masks$) restrict readonly buffer gnomon_Masks { uint gnomon_ray_masks[]; };
 vec2 gnomon_pixel = vec2(0.5);
-int gnomon_light = 0;   // the light that is looked up, and what its record says
+gnomon_Light gnomon_light;   // the light that is looked up
+gnomon_Camera gnomon_camera;
+int gnomon_first_view = 0;   // texel of its first view
 bool gnomon_is_sun = false, gnomon_is_spot = false, gnomon_reads_depths = false;
 float gnomon_reach_texel = 0.0, gnomon_map_edge_px = 1.0;
-ivec4 gnomon_place = ivec4(0);
+
+vec4 gnomon_floats(int texel) { return uintBitsToFloat(texelFetch(gnomon_records, texel)); }
+
+ivec4 gnomon_ints(int texel) { return ivec4(texelFetch(gnomon_records, texel)); }
+
+mat4 gnomon_matrix(int texel) {
+    return mat4(gnomon_floats(texel), gnomon_floats(texel + 1), gnomon_floats(texel + 2), gnomon_floats(texel + 3));
+}
+
+$view$ gnomon_view(int i) {
+    int texel = gnomon_first_view + gnomon_kViewTexels * i;
+    return $view$(gnomon_matrix(texel), gnomon_floats(texel + 4), gnomon_floats(texel + 5), gnomon_floats(texel + 6),
+                  gnomon_floats(texel + 7), gnomon_floats(texel + 8));
+}
 
 void gnomon_take(int light) {
-    gnomon_light = light;
-    ivec4 row = gnomon_lights[light].row;
+    int texel = gnomon_kHeadTexels + gnomon_kLightTexels * light;
+    gnomon_first_view = texel + $members$;
+    int last = texel + gnomon_kLightTexels - 3;
+    gnomon_light = gnomon_Light($load_light$gnomon_ints(last), gnomon_ints(last + 1), gnomon_floats(last + 2));
+    gnomon_camera = gnomon_Camera($load_camera$);
+    ivec4 row = gnomon_light.row;
     gnomon_is_sun = (row.z & 1) != 0;
     gnomon_is_spot = (row.z & 2) != 0;
     gnomon_reads_depths = (row.z & 4) != 0;
-    gnomon_reach_texel = gnomon_lights[light].sizes.x;
-    gnomon_map_edge_px = gnomon_lights[light].sizes.y;
-    gnomon_place = gnomon_lights[light].place;
+    gnomon_reach_texel = gnomon_light.sizes.x;
+    gnomon_map_edge_px = gnomon_light.sizes.y;
 }
 )";
 
+/// Members of a block, and the text that reads them one after the other.
+struct BlockText {
+    std::string members, loads;
+    std::uint32_t texels = 0;
+};
+
+/// Returns it for a block's members before its first array. `at`: the texel of the first, in GLSL.
+BlockText block_text(std::span<const gl::GlslLibrary::Member> members, const std::string& at) {
+    BlockText text;
+    for (const auto& member : members) {
+        if (member.is_array) break;
+        text.members.append("    ").append(member.type).append(" ").append(member.name).append(";\n");
+        const bool matrix = member.type == "mat4";
+        text.loads.append(text.loads.empty() ? "" : ", ");
+        text.loads.append(matrix ? "gnomon_matrix(" : member.type == "ivec4" ? "gnomon_ints(" : "gnomon_floats(");
+        text.loads.append(at).append(" + ").append(std::to_string(text.texels)).append(")");
+        text.texels += matrix ? 4 : 1;
+    }
+    return text;
+}
+
 constexpr std::string_view kFlat = R"(
 float gnomon_flat_visibility(vec3 position, vec3 normal, float error_m) {
-    ivec4 row = gnomon_lights[gnomon_light].row;
+    ivec4 row = gnomon_light.row;
     float reach_texel = gnomon_reads_depths ? 0.0 : gnomon_reach_texel;
     float visible = 1.0, share = 1.0;
     int lookup = 0;
@@ -163,7 +202,7 @@ $filters$        }
 
 constexpr std::string_view kCube = R"(
 float gnomon_cube_visibility(vec3 position, vec3 normal, float error_m) {
-    ivec4 row = gnomon_lights[gnomon_light].row;
+    ivec4 row = gnomon_light.row;
     float reach_texel = gnomon_reads_depths ? 0.0 : gnomon_reach_texel;
     float found = 1.0;
     $point$ point = $shadow_point$(0, position, normal, error_m, reach_texel);
@@ -178,18 +217,18 @@ $filters$    }
 )";
 
 constexpr std::string_view kEntries = R"(
-int gnomon_light_count() { return gnomon_counts.x; }
+int gnomon_light_count() { return gnomon_ints(gnomon_kHeadTexels - 1).x; }
 
 bool gnomon_takes_shadow(int light, int layers) {
-    gnomon_light = light;
+    gnomon_take(light);
     return $takes_shadow$(float(layers));
 }
 
 float gnomon_visibility_of_taken(vec3 position, vec3 normal, float error_m, bool reached) {
-    int kind = reached ? gnomon_lights[gnomon_light].row.x : 0;
+    int kind = reached ? gnomon_light.row.x : 0;
     float visible = reached ? 1.0 : 0.0;
     for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit) {
-        bool here = gnomon_place.x == gnomon_unit;
+        bool here = gnomon_light.place.x == gnomon_unit;
         for (int once = here && kind >= 1 && kind <= 3 ? 1 : 0; once > 0; --once) visible = gnomon_flat_visibility(position, normal, error_m);
         for (int once = here && kind == 4 ? 1 : 0; once > 0; --once) visible = gnomon_cube_visibility(position, normal, error_m);
     }
@@ -224,19 +263,19 @@ layout(binding = $ids$) uniform usampler2DArray gnomon_ids[gnomon_kUnits];
 int gnomon_unit = 0;
 
 float gnomon_shared_depth(vec3 at) {
-    return textureLod(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_place.y)), 0.0).x;
+    return textureLod(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)), 0.0).x;
 }
 
 vec4 gnomon_shared_depths(vec3 at) {
-    return textureGather(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_place.y)));
+    return textureGather(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)));
 }
 
 uvec2 gnomon_shared_id(vec3 at) {
-    return textureLod(gnomon_ids[gnomon_unit], vec3(at.xy, at.z + float(gnomon_place.z)), 0.0).xy;
+    return textureLod(gnomon_ids[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.z)), 0.0).xy;
 }
 
 $four$ gnomon_shared_ids(vec3 at) {
-    vec3 place = vec3(at.xy, at.z + float(gnomon_place.z));
+    vec3 place = vec3(at.xy, at.z + float(gnomon_light.place.z));
     $four$ found;
     found.instance = textureGather(gnomon_ids[gnomon_unit], place, 0);
     found.triangle = textureGather(gnomon_ids[gnomon_unit], place, 1);
@@ -311,6 +350,7 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, std::span<const 
     if (filters.empty() || !std::all_of(filters.begin(), filters.end(), can_evaluate))
         return refused("lookup.filters", "lookups of all lights have filters that read depths alone");
     gl::GlslLibrary library("gnomon_", replaced_names());
+    library.replace_elements("light", "views", "gnomon_view");
     Rows rows;
     const FilterRow& plain = shadow::filter_row(filters.front());
     for (const std::string_view file : {kCascadesFile, shadow::kWarpedSunFile, shadow::kPerspectiveFile, kCubeFile}) {
@@ -331,14 +371,22 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, std::span<const 
     const LookupUnits units = units_of(bindings);
     const std::string four_triangles = name(LookupKind::cone, "FourTriangles");
 
-    const Names first = {name(LookupKind::cone, "ViewRecord"), name(LookupKind::cone, "kMaxViews"), four_triangles};
+    const Names first = {name(LookupKind::cone, "ViewRecord"), four_triangles};
     std::string text = library.text(first);
-    text += filled(kRecords, {{"light", library.members("LightBlock")},
-                              {"camera", library.members("CameraBlock")},
-                              {"records", std::to_string(bindings.first_storage_binding)},
-                              {"masks", std::to_string(bindings.first_storage_binding + 1)},
-                              {"instances", std::to_string(units.first_texels)},
-                              {"triangles", std::to_string(units.first_texels + 1)}});
+    const BlockText light = block_text(library.members("LightBlock"), "texel");
+    const BlockText camera = block_text(library.members("CameraBlock"), "0");
+    text += filled(kRecords, {{"light", light.members},
+                              {"camera", camera.members},
+                              {"head_texels", std::to_string(camera.texels + 1)},
+                              {"light_texels", std::to_string(sizeof(LookupRecord) / gl::kTexelBytes)},
+                              {"records", std::to_string(units.first_texels)},
+                              {"instances", std::to_string(units.first_texels + 1)},
+                              {"triangles", std::to_string(units.first_texels + 2)},
+                              {"masks", std::to_string(bindings.storage_binding)},
+                              {"view", name(LookupKind::cone, "ViewRecord")},
+                              {"members", std::to_string(light.texels)},
+                              {"load_light", light.loads + ", "},
+                              {"load_camera", camera.loads}});
     text += filled(kReaders, {{"units", std::to_string(units.arrays)},
                               {"depths", std::to_string(units.first_depths)},
                               {"ids", std::to_string(units.first_triangles)},

@@ -14,12 +14,11 @@ namespace gnomon::lookup {
 /// Numbers of bindings, which the engine chooses. They are written into the text.
 struct LookupBindings {
     std::uint32_t first_texture_unit = 0;
-    std::uint32_t texture_unit_count = 14;    // two for buffers that are read as texels, the others for maps
-    std::uint32_t first_storage_binding = 0;  // and the next: kStorageBindings in all
+    std::uint32_t texture_unit_count = 15;  // three for buffers that are read as texels, the others for maps
+    std::uint32_t storage_binding = 0;      // one, for masks of casters
     bool operator==(const LookupBindings&) const = default;
 };
-inline constexpr std::uint32_t kStorageBindings = 2;  // records of the lights; masks of casters
-inline constexpr std::uint32_t kTexelUnits = 2;       // instances; the casters' triangles
+inline constexpr std::uint32_t kTexelUnits = 3;  // records of the lights; instances; the casters' triangles
 inline constexpr std::uint32_t kLeastTextureUnits = kTexelUnits + 2;
 
 /// Units for shared arrays: of depths first, then as many of the triangles that texels show, then the buffers read as

@@ -46,7 +46,7 @@ LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, std
     : device_(device),
       bindings_(bindings),
       filters_(filters.begin(), filters.end()),
-      buffer_(device, "lights to look up") {
+      buffer_(device, "lights to look up", true) {
     units_.resize(units_of(bindings).arrays);
 }
 
@@ -169,11 +169,11 @@ void LookupTable::list_bindings(const GpuScene& gpu) {
         textures_.push_back({units.first_triangles + i, units_[i].triangles, {}});
     }
     texels_.clear();
-    texels_.push_back({units.first_texels, gpu.instances()});
-    texels_.push_back({units.first_texels + 1, gpu.caster_triangles()});
+    texels_.push_back({units.first_texels, buffer_.handle()});
+    texels_.push_back({units.first_texels + 1, gpu.instances()});
+    texels_.push_back({units.first_texels + 2, gpu.caster_triangles()});
     storage_.clear();
-    storage_.push_back({bindings_.first_storage_binding, buffer_.handle()});
-    storage_.push_back({bindings_.first_storage_binding + 1, gpu.caster_masks()});
+    storage_.push_back({bindings_.storage_binding, gpu.caster_masks()});
 }
 
 void LookupTable::bind(gl::CommandList& list) const {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec4.hpp>
 #include <span>
 #include <vector>
 
@@ -10,25 +9,10 @@
 #include "systems/extract/gpu_scene.h"
 #include "systems/growing_buffer.h"
 #include "systems/lookup/lookup_glsl.h"
+#include "systems/lookup/lookup_record.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lookup {
-
-/// One light for the text of lookup_glsl(); matches gnomon_Light there (std430).
-struct LookupRecord {
-    shadow::LightRecord light;
-    glm::ivec4 row{0};    // x: LookupKind; y: number of the filter in the text; z: 1: a sun, 2: a spot, 4: reads depths
-    glm::ivec4 place{0};  // x: unit, from 0; y: first layer of its depths; z: first layer of its triangles
-    glm::vec4 sizes{0.0f};  // x: reach of the filter; y: edge of the map, texels
-};
-static_assert(sizeof(LookupRecord) == sizeof(shadow::LightRecord) + 48);
-
-/// What stands before the records.
-struct LookupHead {
-    shadow::CameraRecord camera;
-    glm::ivec4 counts{0};  // x: number of lights
-};
-static_assert(sizeof(LookupHead) % 16 == 0);
 
 /// How the text looks a light up.
 enum class LookupStatus : std::uint8_t {

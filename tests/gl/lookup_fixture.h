@@ -20,8 +20,8 @@ class LookupTest : public HeldFrameTest {
 protected:
     /// Units and bindings that the surfaces leave free.
     static constexpr lookup::LookupBindings kBindings{.first_texture_unit = 7,
-                                                      .texture_unit_count = 14,
-                                                      .first_storage_binding = 3};
+                                                      .texture_unit_count = 15,
+                                                      .storage_binding = 3};
     static constexpr std::uint32_t kResultBinding = 6, kPlaceBinding = 5;
 
     void TearDown() override {

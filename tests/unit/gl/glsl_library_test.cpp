@@ -115,10 +115,20 @@ TEST(GlslLibrary, BlocksAndSamplersAreReplacedWithTheirNames) {
                                    "layout(binding = 3) uniform sampler2D map;\nlayout(std430, binding = 1) readonly buffer Words { uint words[]; };\n"
                                    "float look(vec2 at) { return texture(map, at).x + light.views[kN - 1].a + float(words[0]); }\n");
     ASSERT_TRUE(names) << to_line(names.error());
-    EXPECT_EQ(library.members("Block"), "g_View views[g_kN]; vec4 light;");
+    using Member = GlslLibrary::Member;
+    EXPECT_THAT(library.members("Block"), ::testing::ElementsAre(Member{"g_View", "views", true}, Member{"vec4", "light", false}));
+    EXPECT_THAT(library.members("None"), ::testing::IsEmpty());
     const std::string text = library.text({"g_look"});
     EXPECT_THAT(text, HasSubstr("texture(maps, at).x + lights[at].views[g_kN - 1].a + float(all_words[0])"));
     EXPECT_THAT(text, Not(HasSubstr("uniform")));
+}
+
+TEST(GlslLibrary, ElementsBecomeCalls) {
+    GlslLibrary library("g_", {{"light", "lamp"}});
+    library.replace_elements("light", "views", "view_at");
+    const auto names = library.add("float near(int i) { return light.views[light.views[i].next[2] + 1].near + a.light.views[3] + light.size[0]; }\n");
+    ASSERT_TRUE(names) << to_line(names.error());
+    EXPECT_EQ(library.text({"g_near"}), "float g_near(int i) { return view_at(view_at(i).next[2] + 1).near + a.light.views[3] + lamp.size[0]; }\n");
 }
 
 TEST(GlslLibrary, WhatItCannotJoinItSays) {
