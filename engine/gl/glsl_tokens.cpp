@@ -239,7 +239,7 @@ private:
 
 /// Returns whether two tokens would become one without a blank between: names, numbers, or symbols such as - and -.
 bool would_join(char last, char next) {
-    if (continues_name(last) || last == '.') return continues_name(next) || (last == '.' && next == '.');
+    if (continues_name(last)) return continues_name(next);
     return std::string_view("+-<>=!&|^*/%").find(last) != std::string_view::npos &&
            symbol_length(std::string{last, next}) > 1;
 }

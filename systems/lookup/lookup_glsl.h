@@ -1,56 +1,11 @@
 #pragma once
-#include <cstdint>
-#include <span>
 #include <string>
-#include <vector>
 
-#include "components/light_shadow.h"
 #include "engine/core/result.h"
-#include "systems/shadow/frame/shader_key.h"
+#include "systems/lookup/lookup_rows.h"
 
 /// One GLSL text that looks up any number of lights.
 namespace gnomon::lookup {
-
-/// Numbers of bindings, which the engine chooses. They are written into the text.
-struct LookupBindings {
-    std::uint32_t first_texture_unit = 0;
-    std::uint32_t texture_unit_count = 15;  // three for buffers that are read as texels, the others for maps
-    std::uint32_t storage_binding = 0;      // one, for masks of casters
-    bool operator==(const LookupBindings&) const = default;
-};
-inline constexpr std::uint32_t kTexelUnits = 3;  // records of the lights; instances; the casters' triangles
-inline constexpr std::uint32_t kLeastTextureUnits = kTexelUnits + 2;
-
-/// Units for shared arrays: of depths first, then as many of the triangles that texels show, then the buffers read as
-/// texels.
-struct LookupUnits {
-    std::uint32_t arrays = 0;  // of depths, and as many of triangles
-    std::uint32_t first_depths = 0, first_triangles = 0, first_texels = 0;
-};
-LookupUnits units_of(const LookupBindings& bindings);
-
-/// Filters that a text may have: all that read a map's depths.
-bool can_evaluate(ShadowFilter filter);
-/// Filters of a text where none are chosen. With what they stand for they look up `hard`, `hardware_2x2`, `pcf_grid`,
-/// `pcf_bilinear`, `sharp_4x4`, `triangles` and `pcss` as these are, and others by the nearest of them.
-std::span<const ShadowFilter> usual_filters();
-
-/// How a text looks up a light of some filter.
-struct FilterChoice {
-    ShadowFilter filter = ShadowFilter::automatic;  // of the text
-    bool alike = false;                             // to the same result
-    bool one_tap = false;                           // by a single tap of it
-    bool without_source = false;                    // as if the light were a point
-    bool operator==(const FilterChoice&) const = default;
-};
-/// Returns it: the filter itself, else one that comes to the same, else the one that comes nearest in how wide it blurs
-/// and in how it measures edges. `filters` is not empty. No other filter's maps have the triangles of `triangles`.
-FilterChoice choose_filter(ShadowFilter filter, std::span<const ShadowFilter> filters);
-
-/// Kinds of lookups, as records number them. none: all is lit.
-enum class LookupKind : std::uint8_t { none, cascades, warped_cascades, cone, cube };
-/// Returns the kind of a row with a map.
-LookupKind lookup_kind(const shadow::ShaderKey& row);
 
 /// Returns the text, without #version (it needs 4.30). An engine pastes it into any of its shaders. The same arguments
 /// give the same text: no light that comes, goes or changes requires another. All its top-level names begin with
@@ -61,11 +16,12 @@ LookupKind lookup_kind(const shadow::ShaderKey& row);
 ///   world's axes, metres. `normal`: geometric, unit, facing the viewer. `error_m`: how far off the position may be;
 /// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the same for positions as exact as floats are;
 /// - `float gnomon_visibility(int light, vec3 position)`: the same for a place without a surface: fog, particles;
+/// - `gnomon_uniform_visibility()` of each: faster, where all invocations that call it look up the same light at once
+///   (dynamically uniform), as in a loop over all lights. In a loop over the lights of a cluster they may not;
 /// - `bool gnomon_takes_shadow(int light, int layers)`: whether its shadows fall on receivers of these layers;
 /// - `vec2 gnomon_pixel`: the pixel, which filters with noise by pixel read: gl_FragCoord.xy.
-/// Errors: bindings with too few units, filters that are empty or that can_evaluate() denies (rule "lookup.bindings",
-/// "lookup.filters").
-Result<std::string> lookup_glsl(const LookupBindings& bindings,
-                                std::span<const ShadowFilter> filters = usual_filters());
+/// Errors: bindings with too few units; filters that are empty or that can_evaluate() denies, or no kind (rule
+/// "lookup.bindings", "lookup.rows").
+Result<std::string> lookup_glsl(const LookupBindings& bindings, const LookupRows& rows = {});
 
 }  // namespace gnomon::lookup

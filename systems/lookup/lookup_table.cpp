@@ -34,19 +34,21 @@ const char* to_text(LookupStatus status) {
             return "it has rays alone, which only a mask can use";
         case LookupStatus::not_shared:
             return "its map lies in no shared array";
-        case LookupStatus::no_filter:
-            return "the text has no filter for its map";
+        case LookupStatus::no_row:
+            return "the text has no row for its map";
         case LookupStatus::no_unit:
             return "the text has too few texture units for its map";
     }
     return "";
 }
 
-LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, std::span<const ShadowFilter> filters)
+LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, const LookupRows& rows)
     : device_(device),
       bindings_(bindings),
-      filters_(filters.begin(), filters.end()),
+      filters_(rows.filters.begin(), rows.filters.end()),
+      rows_(rows),
       buffer_(device, "lights to look up", true) {
+    rows_.filters = filters_;
     units_.resize(units_of(bindings).arrays);
 }
 
@@ -67,11 +69,16 @@ LookupTable::Found LookupTable::find(const LightingLight& light) const {
         found.outcome.status = LookupStatus::not_shared;
         return found;
     }
-    found.choice = choose_filter(own->id, filters_);
+    // Without masks, its masked triangles would be taken for whole ones.
+    const bool whole = light.row.ray_masks && !rows_.masks;
+    found.choice = choose_filter(whole ? ShadowFilter::sharp_4x4 : own->id, filters_);
+    found.choice.alike = found.choice.alike && !whole;
     const FilterRow& row = shadow::filter_row(found.choice.filter);
     if (row.storage.triangle_ids) found.triangles = device_.shared_layers(light.triangles);
-    if (row.storage.triangle_ids && !found.triangles.array) {
-        found.outcome.status = LookupStatus::no_filter;
+    const bool lacks = row.storage.triangle_ids && !found.triangles.array;
+    if (lacks || !has_kind(rows_, lookup_kind(light.plain.row))) {
+        found = {};
+        found.outcome.status = LookupStatus::no_row;
         return found;
     }
     const bool keeps_reach = found.choice.alike || row.width == shadow::FilterWidth::size;
@@ -115,6 +122,7 @@ void LookupTable::write(const LightingLight& light, const Found& found, LookupOu
     outcome = found.outcome;
     const bool sun = light.row.kind_define == kSun, spot = light.row.kind_define == kSpot;
     record.row.z = (sun ? 1 : 0) + (spot ? 2 : 0);
+    record.place.x = -1;
     if (outcome.filter == ShadowFilter::automatic) return;
     const int unit = take_unit(found.depths.array, found.triangles.array);
     if (unit < 0) {

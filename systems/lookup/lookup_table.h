@@ -8,8 +8,8 @@
 #include "engine/gl/device.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/growing_buffer.h"
-#include "systems/lookup/lookup_glsl.h"
 #include "systems/lookup/lookup_record.h"
+#include "systems/lookup/lookup_rows.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::lookup {
@@ -21,7 +21,7 @@ enum class LookupStatus : std::uint8_t {
     unshadowed,      // it has no shadow in this frame: lit
     rays_alone,      // it has no map, only rays: lit; a mask has its shadow
     not_shared,      // its map lies in no shared array (ShadowSystem::share_layers()): lit
-    no_filter,       // the text has only filters that need triangles, which its map has not: lit
+    no_row,          // the text has no row for its kind, or only filters that its map does not serve: lit
     no_unit          // the text has too few texture units for its array: lit; a mask has its shadow
 };
 /// Returns one sentence on it.
@@ -52,9 +52,8 @@ struct LookupStorage {
 /// program may stay bound: only bindings change. Owns its buffer.
 class LookupTable {
 public:
-    /// `bindings` and `filters`: as the text has them.
-    LookupTable(gl::Device& device, const LookupBindings& bindings,
-                std::span<const ShadowFilter> filters = usual_filters());
+    /// `bindings` and `rows`: as the text has them.
+    LookupTable(gl::Device& device, const LookupBindings& bindings, const LookupRows& rows = {});
     ~LookupTable();
     LookupTable(const LookupTable&) = delete;
     LookupTable& operator=(const LookupTable&) = delete;
@@ -99,6 +98,7 @@ private:
     gl::Device& device_;
     LookupBindings bindings_;
     std::vector<ShadowFilter> filters_;
+    LookupRows rows_;  // its filters are filters_
     std::vector<Unit> units_;
     gl::SamplerHandle sampler_{};
     GrowingBuffer buffer_;

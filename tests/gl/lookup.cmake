@@ -1,6 +1,6 @@
 # One program for all lights.
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_lookup LABEL gl SOURCES
-    lookup_gl_test.cpp lookup_tmp_gl_test.cpp
+    lookup_gl_test.cpp
     LIBRARIES gnomon_sample gnomon_shaders gnomon_oracle PkgConfig::EPOXY)
 endif()

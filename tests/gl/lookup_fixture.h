@@ -31,23 +31,22 @@ protected:
     }
 
     /// Makes the parts of a frame, with maps in shared arrays, and the text.
-    void start(const std::vector<ShadowFilter>& filters = {}) {
+    void start(const lookup::LookupRows& rows = {}) {
         auto made = GpuScene::create(device(), library);
         ASSERT_TRUE(made);
         scene = std::make_unique<GpuScene>(std::move(made).value());
         shadows = std::make_unique<shadow::ShadowSystem>(device());
         shadows->share_layers();
         lighting = std::make_unique<lighting::LightingSystem>(device());
-        const auto chosen = filters.empty() ? lookup::usual_filters() : std::span<const ShadowFilter>(filters);
-        auto written = lookup::lookup_glsl(kBindings, chosen);
+        auto written = lookup::lookup_glsl(kBindings, rows);
         ASSERT_TRUE(written) << to_line(written.error());
         text = std::move(written).value();
-        table = std::make_unique<lookup::LookupTable>(device(), kBindings, chosen);
+        table = std::make_unique<lookup::LookupTable>(device(), kBindings, rows);
     }
 
     /// A program that looks all lights up at every surface. `call`: the lookup of `light` at `surface`.
     gl::ProgramHandle surface_program(const std::string& call =
-                                          "gnomon_visibility(light, surface.position_ca, surface.geometric_normal, "
+                                          "gnomon_uniform_visibility(light, surface.position_ca, surface.geometric_normal, "
                                           "surface.error_m)") {
         const std::string main =
             "#include \"lighting/gbuffer/gbuffer_read.glsl\"\n" + text +

@@ -1,6 +1,4 @@
 #include "tests/gl/lookup_fixture.h"
-#include <chrono>
-#include <cstdio>
 
 /// All lights of a view in one draw, by one program (systems/lookup), against the lighting's own pass per light.
 namespace gnomon {
@@ -59,26 +57,9 @@ protected:
 
 TEST_F(AllLights, OfEveryKindInOneDrawAreSeenAsByTheirOwnPass) {
     add_eight();
-    const auto s0 = std::chrono::steady_clock::now();
     start();
-    const auto s1 = std::chrono::steady_clock::now();
     run();
-    const auto t0 = std::chrono::steady_clock::now();
     const gl::ProgramHandle program = surface_program();
-    device().finish();
-    const auto t1 = std::chrono::steady_clock::now();
-    looked_up(program);
-    const auto t2 = std::chrono::steady_clock::now();
-    looked_up(program);
-    const auto t3 = std::chrono::steady_clock::now();
-    for (unsigned i = 0; i < 8; ++i) recorded(i);
-    const auto t4 = std::chrono::steady_clock::now();
-    for (unsigned i = 0; i < 8; ++i) recorded(i);
-    const auto t5 = std::chrono::steady_clock::now();
-    const auto ms = [](auto a, auto b) { return std::chrono::duration<double, std::milli>(b - a).count(); };
-    printf("start %g run %g\n", ms(s0, s1), ms(s1, t0));
-    printf("text %zu bytes; link %g first %g second %g; recorded first %g second %g\n", text.size(), ms(t0, t1), ms(t1, t2), ms(t2, t3), ms(t3, t4), ms(t4, t5));
-    FILE* f = fopen("/tmp/h6_text.glsl", "w"); fputs(text.c_str(), f); fclose(f);
     RecordProperty("largest_difference", std::to_string(expect_alike(program)));
 }
 
