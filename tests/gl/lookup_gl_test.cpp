@@ -1,3 +1,4 @@
+#include <array>
 #include <functional>
 
 #include "systems/shadow/request/filter_table.h"
@@ -47,15 +48,15 @@ protected:
         const shadow::ShaderKey& row = inputs().lights[i].row;
         return std::to_string(i) + ": " + std::string(row.kind_file) + " " + std::string(row.filter_file);
     }
-    /// Expects every light to be looked up as by its own pass, at all pixels but `most` of each.
-    void expect_alike(gl::ProgramHandle program, std::size_t most = 0, std::size_t least_dark = 100) {
+    /// Expects every light to be looked up as by its own pass, to rounding.
+    void expect_alike(gl::ProgramHandle program, std::size_t least_dark = 100) {
         const auto found = looked_up(program);
         double largest = 0.0;
         std::size_t apart = 0, between = 0;
         for (std::uint32_t i = 0; i < found.size(); ++i) {
             const Difference d = difference(found[i], recorded(i));
             EXPECT_EQ(table->outcomes()[i].status, LookupStatus::own_filter) << name(i) << " " << lookup::to_text(table->outcomes()[i].status);
-            EXPECT_LE(d.pixels, most) << name(i) << " differs by " << d.largest;
+            EXPECT_EQ(d.pixels, 0u) << name(i) << " differs by " << d.largest;
             EXPECT_TRUE(d.dark > least_dark && d.lit > 100) << name(i) << ": " << d.dark << " dark, " << d.lit << " lit";
             largest = std::max(largest, d.largest);
             apart += d.pixels;
@@ -66,6 +67,7 @@ protected:
         RecordProperty("pixels_between", std::to_string(between));
     }
 
+    static constexpr std::array kFew = {ShadowFilter::triangles, ShadowFilter::pcf_bilinear};  // compile sooner
     std::uint32_t box = 0;
     std::vector<ecs::Entity> boxes, lights;
 };
@@ -89,7 +91,7 @@ TEST_F(AllLights, OfEveryKindInOneDrawAreSeenAsByTheirOwnPass) {
 
 TEST_F(AllLights, WherePixelsLookUpDifferentLightsAtOnceAreSeenTheSame) {
     add_eight();
-    start();
+    start({.filters = kFew});
     run();
     const auto uniform = looked_up(surface_program());
     // Neighbours go through the lights in different orders, so that none is the same for all.
@@ -114,8 +116,7 @@ TEST_F(AllLights, OfEveryUsualFilterAreSeenAsByTheirOwnPass) {
             add(kind, {.filter = filter, .resolution_px = 256}, lights.size());
     start();
     run();
-    // The sampler's weights and a cube's seams round otherwise.
-    expect_alike(surface_program(), 12);
+    expect_alike(surface_program());
 }
 
 TEST_F(AllLights, OfEveryOtherFilterThatReadsDepthsAreSeenAsByTheirOwnPass) {
@@ -126,7 +127,7 @@ TEST_F(AllLights, OfEveryOtherFilterThatReadsDepthsAreSeenAsByTheirOwnPass) {
             add(kind, {.filter = filter, .resolution_px = 256}, lights.size());
     start({.filters = filters});
     run();
-    expect_alike(surface_program(), 12);
+    expect_alike(surface_program());
 }
 
 TEST_F(AllLights, WithEveryBiasWarpsAndFadesAreSeenAsByTheirOwnPass) {
@@ -143,16 +144,16 @@ TEST_F(AllLights, WithEveryBiasWarpsAndFadesAreSeenAsByTheirOwnPass) {
     run();
     EXPECT_TRUE(inputs().lights.back().row.fades);
     EXPECT_TRUE(inputs().lights.front().row.manual_bias);
-    expect_alike(surface_program(), 12);
+    expect_alike(surface_program());
 }
 
 TEST_F(AllLights, AHundredAreLookedUpInOneDraw) {
     settings.viewport_px = {96, 72};
     for (std::size_t i = 0; i < 100; ++i)
         add(i % 3 == 0 ? LightKind::point : LightKind::spot, {.resolution_px = 64}, i);
-    start({.filters = std::span<const ShadowFilter>(lookup::usual_filters()).first(1), .suns = false, .warped_suns = false});
+    start({.filters = std::span(kFew).first(1), .suns = false, .warped_suns = false, .masks = false});
     run();
-    expect_alike(surface_program(), 0, 20);
+    expect_alike(surface_program(), 20);
     // All of them share an array or two.
     std::size_t arrays = 0;
     for (const lookup::LookupTexture& texture : table->textures()) arrays += texture.texture ? 1 : 0;
@@ -161,9 +162,10 @@ TEST_F(AllLights, AHundredAreLookedUpInOneDraw) {
 
 TEST_F(AllLights, ComeGoAndChangeWithoutAnotherProgram) {
     add_eight();
-    start();
+    const lookup::LookupRows rows{.filters = kFew};
+    start(rows);
     run();
-    const auto hash = [&] { return std::hash<std::string>{}(lookup::lookup_glsl(kBindings).value()); };
+    const auto hash = [&] { return std::hash<std::string>{}(lookup::lookup_glsl(kBindings, rows).value()); };
     const std::size_t before = hash();
     const gl::ProgramHandle program = surface_program();
     expect_alike(program);
@@ -172,15 +174,15 @@ TEST_F(AllLights, ComeGoAndChangeWithoutAnotherProgram) {
     world.remove<Light>(lights[1]);
     world.remove<LightShadow>(lights[1]);
     add(LightKind::point, {.resolution_px = 300}, 9);
-    add(LightKind::spot, {.filter = ShadowFilter::pcss, .resolution_px = 512}, 10);
+    add(LightKind::spot, {.filter = ShadowFilter::hardware_2x2, .resolution_px = 512}, 10);
     world.patch<LightShadow>(lights[0], [](LightShadow& shadow) { shadow.resolution_px = 1500; });
     world.patch<LightShadow>(lights[2], [](LightShadow& shadow) { shadow.filter = ShadowFilter::pcf_bilinear; });
     world.patch<Light>(lights[3], [](Light& light) { light.kind = LightKind::point; });
     run();
     EXPECT_EQ(inputs().lights.size(), 9u);
-    expect_alike(program, 12);
+    expect_alike(program);
     EXPECT_EQ(hash(), before);
-    EXPECT_EQ(lookup::lookup_glsl(kBindings).value(), text);
+    EXPECT_EQ(lookup::lookup_glsl(kBindings, rows).value(), text);
     EXPECT_GT(difference(at_first[2], looked_up(program)[2]).pixels, 100u) << "nothing changed: the test sees nothing";
     // All but two go.
     for (std::size_t i = 2; i < lights.size(); ++i) {
@@ -258,7 +260,7 @@ TEST_F(AllLights, BindingsAndRowsThatNoTextCanHaveAreRefused) {
 
 TEST_F(AllLights, ASteadyTableUploadsNothing) {
     add_eight();
-    start();
+    start({.filters = kFew});
     run();
     gl::CommandList first, second;
     ASSERT_TRUE(table->update(inputs(), *scene, first));
@@ -273,7 +275,7 @@ TEST_F(AllLights, ASteadyTableUploadsNothing) {
 // A receiver without a surface, as fog: points in the air above the ground, where rays are the truth.
 TEST_F(AllLights, InTheAirAreSeenAsByRays) {
     add_eight();
-    start();
+    start({.filters = std::span(kFew).first(1)});
     run();
     // Slices of a volume between the camera and the ground, a texel per pixel.
     const auto found = looked_up(surface_program(
@@ -300,7 +302,7 @@ TEST_F(AllLights, InTheAirAreSeenAsByRays) {
         RecordProperty("wrong_" + std::to_string(i), std::to_string(wrong) + " of " + std::to_string(judged));
         EXPECT_GT(dark, 300u) << name(i);
         EXPECT_GT(lit, 300u) << name(i);
-        EXPECT_LT(static_cast<double>(wrong), 0.005 * static_cast<double>(judged)) << name(i);
+        EXPECT_LE(static_cast<double>(wrong), 0.0005 * static_cast<double>(judged)) << name(i);
     }
 }
 

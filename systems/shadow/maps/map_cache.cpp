@@ -4,6 +4,7 @@
 #include <bit>
 #include <utility>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/occluder_pyramid.h"
@@ -13,6 +14,11 @@ namespace {
 
 bool is_same_store(const PrefilterTextures& a, const PrefilterDescs& b) {
     return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
+}
+
+/// Returns whether the light's maps move in steps of whole texels, so that another edge would make them shimmer.
+bool snaps_to_texels(const LightItem& light) {
+    return light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
 }
 
 bool has_triangles(const FilterStorage& storage) { return storage.triangle_ids || storage.conservative_bounds; }
@@ -204,8 +210,8 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
 bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached) {
     gl::TextureDesc desc = map_desc(light, request);
     if (shares_layers_) {
-        desc.width = desc.height =
-            std::min(std::bit_ceil(std::max(desc.width, kLeastSharedEdge_px)), device_.info().max_texture_px);
+        const std::uint32_t class_px = std::bit_ceil(std::max(desc.width, kLeastSharedEdge_px));
+        if (!snaps_to_texels(light)) desc.width = desc.height = std::min(class_px, device_.info().max_texture_px);
         desc.shared = true;
     }
     const FilterStorage& storage = filter_row(request.map.filter).storage;

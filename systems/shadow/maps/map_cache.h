@@ -99,7 +99,8 @@ public:
     void set_limit(std::uint64_t bytes) { limit_ = bytes; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
     /// Lets maps be layers of shared arrays (gl::SharedLayers), one per size and format, so that a few units serve all.
-    /// Their edges are then powers of two of at least kLeastSharedEdge_px. Call it before the first assign().
+    /// Their edges are then powers of two of at least kLeastSharedEdge_px, but those of ShadowFit::stable, which keep
+    /// their size. The bytes of layers that no map uses are not counted. Call it before the first assign().
     void share_layers() { shares_layers_ = true; }
     static constexpr std::uint32_t kLeastSharedEdge_px = 256;
     /// Sets a cache that shares the limit and is evicted before any map. It must outlive this object; null: there is

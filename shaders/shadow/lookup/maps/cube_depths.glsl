@@ -2,7 +2,7 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform samplerCube shadow_map;
 
-vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0).xy); }
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0)); }
 
 float face_size() { return float(textureSize(shadow_map, 0).x); }
 
