@@ -66,7 +66,7 @@ std::uint64_t byte_size(const TextureDesc& desc);
 struct SharedLayers {
     TextureHandle array{};  // {0}: it has its own
     std::uint32_t first = 0;
-    std::uint32_t width = 0;  // of the array's layers, and so of the texture
+    std::uint32_t width = 0;  // edge of the array's layers, and so of the texture
 };
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, border };  // border is 0,0,0,0

@@ -7,7 +7,7 @@ namespace gnomon::gl {
 
 namespace {
 
-constexpr std::uint32_t kArrayTexels = 1u << 24;  // of a size's first array: 64 MiB of depths
+constexpr std::uint32_t kArrayTexels = 1u << 24;  // size of the first array: 64 MiB of depths
 
 bool is_alike(const TextureDesc& array, const TextureDesc& desc) {
     return array.format == desc.format && array.width == desc.width && array.height == desc.height;

@@ -21,8 +21,8 @@ using GlslNames = std::map<std::string, std::string, std::less<>>;
 /// it, which changes nothing.
 class GlslLibrary {
 public:
-    /// `replaced`: names with the text that stands in their place. Their declarations are dropped: uniform blocks and
-    /// samplers, which a joined program has once.
+    /// Creates an empty library. `replaced`: names with the text that stands in their place. Their declarations are
+    /// dropped: uniform blocks and samplers, which a joined program has once.
     GlslLibrary(std::string prefix, std::map<std::string, std::string, std::less<>> replaced)
         : prefix_(std::move(prefix)), replaced_(std::move(replaced)) {}
 
@@ -45,7 +45,7 @@ public:
     /// Returns the members of a dropped block; none if there was none of that name.
     std::vector<Member> members(std::string_view block) const;
 
-    /// Returns the declarations that `roots` (final names) need, in order, without those that `before` need.
+    /// Returns the declarations that `roots` (final names) need, in order. It leaves out what `before` needs.
     std::string text(const std::set<std::string, std::less<>>& roots,
                      const std::set<std::string, std::less<>>& before = {}) const;
 

@@ -109,7 +109,7 @@ Result<RowNames> add_rows(gl::GlslLibrary& library, const LookupRows& rows) {
     return found;
 }
 
-/// A template's text, in which $name$ stands for a value.
+/// Returns a template's text with its values, each in the place of its $name$.
 std::string filled(std::string_view text, const Values& values) {
     std::string out;
     while (!text.empty()) {

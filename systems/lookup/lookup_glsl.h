@@ -16,8 +16,8 @@ namespace gnomon::lookup {
 ///   world's axes, metres. `normal`: geometric, unit, facing the viewer. `error_m`: how far off the position may be;
 /// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the same for positions as exact as floats are;
 /// - `float gnomon_visibility(int light, vec3 position)`: the same for a place without a surface: fog, particles;
-/// - `gnomon_uniform_visibility()` of each: faster, where all invocations that call it look up the same light at once
-///   (dynamically uniform), as in a loop over all lights. In a loop over the lights of a cluster they may not;
+/// - `gnomon_uniform_visibility()` of each: faster, for a light that is the same for all invocations that call it at
+///   once (dynamically uniform). In a loop over all lights it is, over the lights of a cluster it may not be;
 /// - `bool gnomon_takes_shadow(int light, int layers)`: whether its shadows fall on receivers of these layers;
 /// - `vec2 gnomon_pixel`: the pixel, which filters with noise by pixel read: gl_FragCoord.xy.
 /// Errors: bindings with too few units; filters that are empty or that can_evaluate() denies, or no kind (rule

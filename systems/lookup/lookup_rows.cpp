@@ -18,6 +18,17 @@ constexpr std::string_view kCubeFile = "shadow/lookup/kinds/point.glsl";
 constexpr std::array kUsualFilters = {ShadowFilter::triangles, ShadowFilter::pcss, ShadowFilter::pcf_bilinear,
                                       ShadowFilter::pcf_grid};
 
+/// Filter that another one is a case of.
+struct StandIn {
+    ShadowFilter of;
+    FilterChoice choice;
+};
+/// A grid of one tap is that tap. Without a source, no caster has a penumbra, and votes decide.
+constexpr std::array kStandIns = {
+    StandIn{ShadowFilter::hard, {.filter = ShadowFilter::pcf_grid, .alike = true, .one_tap = true}},
+    StandIn{ShadowFilter::hardware_2x2, {.filter = ShadowFilter::pcf_bilinear, .alike = true, .one_tap = true}},
+    StandIn{ShadowFilter::sharp_4x4, {.filter = ShadowFilter::pcss, .alike = true, .without_source = true}}};
+
 }  // namespace
 
 LookupUnits units_of(const LookupBindings& bindings) {
@@ -39,12 +50,8 @@ std::span<const ShadowFilter> usual_filters() { return kUsualFilters; }
 FilterChoice choose_filter(ShadowFilter filter, std::span<const ShadowFilter> filters) {
     const auto has = [&](ShadowFilter f) { return std::find(filters.begin(), filters.end(), f) != filters.end(); };
     if (has(filter)) return {.filter = filter, .alike = true};
-    if (filter == ShadowFilter::hard && has(ShadowFilter::pcf_grid))
-        return {.filter = ShadowFilter::pcf_grid, .alike = true, .one_tap = true};
-    if (filter == ShadowFilter::hardware_2x2 && has(ShadowFilter::pcf_bilinear))
-        return {.filter = ShadowFilter::pcf_bilinear, .alike = true, .one_tap = true};
-    if (filter == ShadowFilter::sharp_4x4 && has(ShadowFilter::pcss))
-        return {.filter = ShadowFilter::pcss, .alike = true, .without_source = true};
+    for (const StandIn& stand_in : kStandIns)
+        if (stand_in.of == filter && has(stand_in.choice.filter)) return stand_in.choice;
     const FilterRow& wanted = shadow::filter_row(filter);
     const auto distance = [&](ShadowFilter other) {
         const FilterRow& row = shadow::filter_row(other);

@@ -21,15 +21,15 @@ inline constexpr std::uint32_t kLeastTextureUnits = kTexelUnits + 2;
 /// Units for shared arrays: of depths first, then as many of the triangles that texels show, then the buffers read as
 /// texels.
 struct LookupUnits {
-    std::uint32_t arrays = 0;  // of depths, and as many of triangles
+    std::uint32_t arrays = 0;  // number of arrays of depths, and of triangles
     std::uint32_t first_depths = 0, first_triangles = 0, first_texels = 0;
 };
 LookupUnits units_of(const LookupBindings& bindings);
 
-/// Filters that a text may have: all that read a map's depths.
+/// Returns whether a text may have the filter: it reads a map's depths.
 bool can_evaluate(ShadowFilter filter);
-/// Filters of a text where none are chosen. With what they stand for they look up `hard`, `hardware_2x2`, `pcf_grid`,
-/// `pcf_bilinear`, `sharp_4x4`, `triangles` and `pcss` as these are, and others by the nearest of them.
+/// Returns the filters of a text where none are chosen. They look up `hard`, `hardware_2x2`, `pcf_grid`,
+/// `pcf_bilinear`, `sharp_4x4`, `triangles` and `pcss` to the same result, and others by the nearest.
 std::span<const ShadowFilter> usual_filters();
 
 /// What a text has. Each part costs time to compile; on software devices, which run both sides of a branch, also time
@@ -45,14 +45,14 @@ struct LookupRows {
 
 /// How a text looks up a light of some filter.
 struct FilterChoice {
-    ShadowFilter filter = ShadowFilter::automatic;  // of the text
-    bool alike = false;                             // to the same result
+    ShadowFilter filter = ShadowFilter::automatic;  // one of the text's
+    bool alike = false;                             // the result is the same
     bool one_tap = false;                           // by a single tap of it
-    bool without_source = false;                    // as if the light were a point
+    bool without_source = false;                    // the light counts as a point
     bool operator==(const FilterChoice&) const = default;
 };
-/// Returns it: the filter itself, else one that comes to the same, else the one that comes nearest in how wide it blurs
-/// and in how it measures edges. `filters` is not empty. No other filter's maps have the triangles of `triangles`.
+/// Returns the filter itself, or one with the same result. Else it returns the nearest in width of blur and in how it
+/// measures edges. `filters` is not empty. Only maps of `triangles` have what that filter needs.
 FilterChoice choose_filter(ShadowFilter filter, std::span<const ShadowFilter> filters);
 
 /// Kinds of lookups, as records number them. none: all is lit.

@@ -87,7 +87,7 @@ LookupTable::Found LookupTable::find(const LightingLight& light) const {
     return found;
 }
 
-/// Frees units whose arrays no light needs in this frame.
+/// Frees units with arrays that no light needs in this frame.
 void LookupTable::keep_units() {
     for (Unit& unit : units_) {
         unit.reads_depths = unit.reads_triangles = false;

@@ -29,7 +29,7 @@ const char* to_text(LookupStatus status);
 
 struct LookupOutcome {
     LookupStatus status = LookupStatus::unshadowed;
-    ShadowFilter filter = ShadowFilter::automatic;  // of the text, that looks it up; automatic: none does
+    ShadowFilter filter = ShadowFilter::automatic;  // filter of the text that looks it up; automatic: none
     bool operator==(const LookupOutcome&) const = default;
 };
 
@@ -52,7 +52,7 @@ struct LookupStorage {
 /// program may stay bound: only bindings change. Owns its buffer.
 class LookupTable {
 public:
-    /// `bindings` and `rows`: as the text has them.
+    /// Creates no buffer yet. `bindings` and `rows`: as the text has them.
     LookupTable(gl::Device& device, const LookupBindings& bindings, const LookupRows& rows = {});
     ~LookupTable();
     LookupTable(const LookupTable&) = delete;
@@ -65,11 +65,11 @@ public:
     /// Makes the next update() upload all. Call it after a failed submission.
     void forget_upload() { uploaded_.clear(); }
 
-    /// One entry per light of the last update().
+    /// Returns one entry per light of the last update().
     std::span<const LookupOutcome> outcomes() const { return outcomes_; }
 
-    /// What to bind after the last update(), for engines that call OpenGL themselves (gl::gl_name(),
-    /// gl::gl_texels_name()).
+    /// Returns what to bind after the last update(), for engines that call OpenGL themselves. gl::gl_name() and
+    /// gl::gl_texels_name() give OpenGL's names.
     std::span<const LookupTexture> textures() const { return textures_; }
     std::span<const LookupTexels> texels() const { return texels_; }
     std::span<const LookupStorage> storage() const { return storage_; }

@@ -55,7 +55,7 @@ void gnomon_take(int light) {
 }
 )";
 
-/// Functions that read shared arrays. gnomon_unit is the number of a loop that all of a draw's pixels run in step: an
+/// Functions that read shared arrays. gnomon_unit counts a loop that all of a draw's pixels run in step, because an
 /// index into samplers must be the same for all.
 inline constexpr std::string_view kReaders = R"(
 const int gnomon_kUnits = $units$;
@@ -130,7 +130,7 @@ $filters$    }
 
 /// What engines call.
 inline constexpr std::string_view kEntries = R"(
-const float gnomon_kFloatRounding = 1.0e-6;   // of a position that shaders compute, as a share of its size
+const float gnomon_kFloatRounding = 1.0e-6;   // rounding of a computed position, as a share of its size
 
 int gnomon_light_count() { return gnomon_ints(gnomon_kHeadTexels - 1).x; }
 

@@ -15,7 +15,7 @@
 
 namespace gnomon {
 
-/// A world whose lights one program looks up, all in one draw, beside the lighting's own passes.
+/// World with lights that one program looks up in one draw, beside the lighting's own passes.
 class LookupTest : public HeldFrameTest {
 protected:
     /// Units and bindings that the surfaces leave free.
@@ -44,7 +44,7 @@ protected:
         table = std::make_unique<lookup::LookupTable>(device(), kBindings, rows);
     }
 
-    /// A program that looks all lights up at every surface. `call`: the lookup of `light` at `surface`.
+    /// Returns a program that looks all lights up at every surface. `call`: the lookup of `light` at `surface`.
     gl::ProgramHandle surface_program(const std::string& call =
                                           "gnomon_uniform_visibility(light, surface.position_ca, surface.geometric_normal, "
                                           "surface.error_m)") {
@@ -70,7 +70,7 @@ protected:
         return keep(device().create_program({"all lights", vertex.value(), fragment.value()}));
     }
 
-    /// What the program sees of each light, pixel by pixel, of the frame of the last run().
+    /// Returns what the program sees of each light, pixel by pixel, in the frame of the last run().
     std::vector<std::vector<float>> looked_up(gl::ProgramHandle program) {
         gl::CommandList list;
         EXPECT_TRUE(table->update(inputs(), *scene, list));
@@ -96,7 +96,7 @@ protected:
         return of_lights;
     }
 
-    /// The same by the lighting's own pass.
+    /// Returns the same by the lighting's own pass.
     std::vector<float> recorded(std::uint32_t light) {
         gl::CommandList list;
         EXPECT_TRUE(lighting->record_visibility(inputs(), light, *scene, list));

@@ -22,7 +22,7 @@ protected:
         add_camera({}, {0.0, 5.0, 7.0}, {0.0, -5.0, -7.0});
         settings.viewport_px = {160, 120};
     }
-    /// A light at a place of its own around the boxes.
+    /// Adds a light at a place of its own around the boxes.
     ecs::Entity add(LightKind kind, const LightShadow& wish, std::size_t i, float cone_rad = 0.6f, const ShadowTuning& tuning = {}) {
         const Light light{.kind = kind,
                           .intensity = 100.0f,
@@ -79,7 +79,7 @@ TEST_F(AllLights, OfEveryKindInOneDrawAreSeenAsByTheirOwnPass) {
     const gl::ProgramHandle program = surface_program();
     expect_alike(program);
 
-    // Controls: another light's shadow differs, and so does one whose caster is gone.
+    // Controls: another light's shadow differs, and so does a shadow without its caster.
     const auto found = looked_up(program);
     for (std::uint32_t i = 0; i < found.size(); ++i) EXPECT_GT(difference(found[i], recorded((i + 1) % 8)).pixels, 100u) << name(i);
     world.remove<ShadowCaster>(boxes.front());
@@ -246,6 +246,25 @@ TEST_F(AllLights, WithoutAUnitOrARowAreLitAndSaySo) {
         EXPECT_EQ(table->outcomes()[i].status, LookupStatus::own_filter) << i;
         EXPECT_EQ(difference(later[i], recorded(i)).pixels, 0u) << i;
     }
+}
+
+// An engine's text may name anything as the shaders of one light do, in a compute shader as well, from version 4.30 on.
+TEST_F(AllLights, StandBesideAnyNamesOfAnEngine) {
+    const std::string names =
+        "struct ShadowPoint { float light; };\nfloat light = 1.0, camera = 2.0, shadow_map = 3.0, map_edge_px = 4.0;\n"
+        "const int kMostSteps = 5, kDisk = 6;\nfloat largest(float v) { return v; }\nfloat shadow_visibility(float v) { return v; }\n";
+    const std::string body =
+        "layout(local_size_x = 4, local_size_y = 4) in;\nlayout(std430, binding = 6) buffer Results { float results[]; };\n"
+        "void main() { results[gl_GlobalInvocationID.x] = light + camera + largest(gnomon_visibility(0, vec3(1.0))); }\n";
+    const std::string mine = lookup::lookup_glsl(kBindings, {.filters = kFew}).value();
+    for (const std::string& engine : {names + mine, mine + names}) {
+        const auto made = device().create_program({.label = "fog", .compute = "#version 430 core\n" + engine + body});
+        EXPECT_TRUE(made) << made.log;
+        device().destroy(made.handle);
+    }
+    EXPECT_FALSE(device().create_program({.label = "fog", .compute = "#version 430 core\n" + mine + "float gnomon_light;\n" + body}))
+        << "what is taken is noticed";
+    take_messages();
 }
 
 TEST_F(AllLights, BindingsAndRowsThatNoTextCanHaveAreRefused) {

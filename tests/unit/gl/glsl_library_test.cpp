@@ -53,7 +53,7 @@ TEST(GlslTokens, WhatItCannotTakeItSays) {
     }
 }
 
-/// The text of all that was added.
+/// Returns the text of all that was added.
 std::string all(const GlslLibrary& library, const GlslNames& names) {
     std::set<std::string, std::less<>> roots;
     for (const auto& [own, final] : names) roots.insert(final);
