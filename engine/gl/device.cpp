@@ -151,6 +151,9 @@ Failure check_texture(const TextureDesc& desc, const DeviceInfo& info, std::size
     if (mip_count(desc) > static_cast<std::uint32_t>(std::bit_width(std::max(desc.width, desc.height)))) {
         return Failure::invalid_value;
     }
+    // A view of an array has the array's size at every level, and is filled by drawing.
+    if (desc.shared && (desc.kind == TextureKind::flat || desc.mips != 1 || pixel_bytes != 0))
+        return Failure::invalid_value;
     const std::uint64_t needed =
         std::uint64_t{desc.width} * desc.height * layer_count(desc) * transfer_bytes(desc.format);
     return pixel_bytes == 0 || pixel_bytes == needed ? Failure::none : Failure::invalid_value;

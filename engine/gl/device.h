@@ -55,6 +55,7 @@ struct TextureDesc {
     std::uint32_t width = 1, height = 1;
     std::uint32_t layers = 1;  // array layers; ignored for cubes, which have 6
     std::uint32_t mips = 1;    // 0: a full chain
+    bool shared = false;       // its layers lie in an array of its size and format, with others' (SharedLayers)
     bool operator==(const TextureDesc&) const = default;
 };
 /// Returns 6 for a cube, 1 for a flat texture.
@@ -63,6 +64,14 @@ std::uint32_t layer_count(const TextureDesc& desc);
 std::uint32_t mip_count(const TextureDesc& desc);
 /// Returns the bytes of all layers and mips.
 std::uint64_t byte_size(const TextureDesc& desc);
+
+/// Where the layers of a texture with TextureDesc::shared lie: one unit then serves many textures. A cube's faces are
+/// six layers of the array.
+struct SharedLayers {
+    TextureHandle array{};  // {0}: it has its own
+    std::uint32_t first = 0;
+    std::uint32_t width = 0;  // edge of the array's layers, and so of the texture
+};
 
 enum class Wrap : std::uint8_t { repeat, mirror, clamp, border };  // border is 0,0,0,0
 struct SamplerDesc {
@@ -176,6 +185,9 @@ public:
     /// Creates a texture. `pixels`: empty (contents undefined), or tightly packed rows (bottom row first) of mip 0 of
     /// every layer; mips are then generated.
     virtual Created<TextureHandle> create_texture(const TextureDesc& desc, std::span<const std::byte> pixels) = 0;
+    /// Returns the array with the layers of a shared texture. It belongs to the device, and may be bound and read while
+    /// the texture lives.
+    virtual SharedLayers shared_layers(TextureHandle) const { return {}; }
     virtual Created<SamplerHandle> create_sampler(const SamplerDesc& desc) = 0;
     /// Creates a buffer. `bytes`: empty, or exactly desc.size bytes; required for a `fixed` buffer.
     virtual Created<BufferHandle> create_buffer(const BufferDesc& desc, std::span<const std::byte> bytes) = 0;

@@ -11,6 +11,7 @@
 #include "engine/gl/gl45_manners.h"
 #include "engine/gl/gl45_objects.h"
 #include "engine/gl/gl45_readbacks.h"
+#include "engine/gl/gl45_shared_layers.h"
 #include "engine/gl/gl45_timers.h"
 #include "engine/gl/validate.h"
 
@@ -130,7 +131,14 @@ public:
         const Failure checked = check_texture(desc, info_, pixels.size());
         if (checked != Failure::none) return refused<TextureHandle>(checked, desc.label);
         if (lost()) return refused<TextureHandle>(Failure::context_lost, desc.label);
+        if (desc.shared)
+            return keep<TextureHandle>(objects_.textures, shared_.make(desc, info_.max_layers, objects_, next_id_));
         return keep<TextureHandle>(objects_.textures, make_texture(desc, pixels, keeps_state_));
+    }
+    SharedLayers shared_layers(TextureHandle h) const override {
+        const GlTexture* texture = find_object(objects_.textures, h.id);
+        return texture == nullptr ? SharedLayers{}
+                                  : SharedLayers{{texture->array}, texture->first_layer, texture->desc.width};
     }
     Created<SamplerHandle> create_sampler(const SamplerDesc& desc) override {
         const GlCall call = enter();
@@ -182,7 +190,12 @@ public:
 
     void destroy(TextureHandle h) override {
         const GlCall call = enter();
-        remove(objects_.textures, h.id, delete_texture);
+        const auto at = objects_.textures.find(h.id);
+        if (at == objects_.textures.end()) return;
+        const GlTexture texture = std::move(at->second);
+        delete_texture(texture);
+        objects_.textures.erase(at);
+        shared_.release(texture, objects_);
     }
     void destroy(SamplerHandle h) override {
         const GlCall call = enter();
@@ -297,6 +310,7 @@ private:
     GlFixtures fixtures_;
     std::unique_ptr<GlState> state_;
     GlObjects objects_;
+    SharedArrays shared_;
     GlTimers timers_;
     GlReadbacks readbacks_;
     std::uint32_t next_id_ = 1;

@@ -32,15 +32,6 @@ GLint gl_wrap(Wrap wrap) {
     return GL_NONE;
 }
 
-/// Sets exact reads for textures without a sampler: nearest, clamped.
-void set_plain_sampling(GLuint name) {
-    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(name, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
-}
-
 void upload(const GlTexture& texture, std::span<const std::byte> pixels, bool keeps_state) {
     const TextureDesc& desc = texture.desc;
     const GlFormat format = gl_format(desc.format);
@@ -121,6 +112,14 @@ GlFormat gl_format(Format format) {
             return {GL_DEPTH32F_STENCIL8, GL_DEPTH_COMPONENT, GL_FLOAT};
     }
     return {};
+}
+
+void set_plain_sampling(GLuint name) {
+    glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(name, GL_TEXTURE_WRAP_R, GL_CLAMP_TO_EDGE);
 }
 
 void drop_gl_errors() {

@@ -15,6 +15,8 @@ struct GlTexture {
     TextureDesc desc;
     GLenum target = GL_NONE;  // GL_TEXTURE_…
     bool imported = false;    // someone else's, who deletes it
+    std::uint32_t array = 0;        // id of the shared array that has its layers; 0: it has its own
+    std::uint32_t first_layer = 0;  // in that array
 };
 struct GlBuffer {
     GLuint name = 0;
@@ -74,6 +76,8 @@ struct Made {
     std::string log = {};
 };
 Made<GlTexture> make_texture(const TextureDesc& desc, std::span<const std::byte> pixels, bool keeps_state);
+/// Sets exact reads for a texture without a sampler: nearest, clamped.
+void set_plain_sampling(GLuint name);
 Made<GLuint> make_sampler(const SamplerDesc& desc);
 Made<GlBuffer> make_buffer(const BufferDesc& desc, std::span<const std::byte> bytes);
 void delete_texture(const GlTexture& texture);

@@ -80,6 +80,9 @@ public:
     std::span<const EngineDraw> engine_draws() const {
         return reused_ ? std::span<const EngineDraw>() : depth_pass_.engine_draws();
     }
+    /// Lets one program look up all lights (systems/lookup): see MapCache::share_layers(). Call it before the first
+    /// update().
+    void share_layers() { maps_.share_layers(); }
     const visibility::RayScene& rays() const { return rays_; }
     const MapCache& maps() const { return maps_; }
     const ContributionCulling& contribution_culling() const { return contribution_culling_; }

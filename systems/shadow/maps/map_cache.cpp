@@ -1,8 +1,10 @@
 #include "systems/shadow/maps/map_cache.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
+#include "systems/extract/light_facts.h"
 #include "systems/shadow/frame/cpu_timer.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/occluder_pyramid.h"
@@ -12,6 +14,11 @@ namespace {
 
 bool is_same_store(const PrefilterTextures& a, const PrefilterDescs& b) {
     return without_label(a.desc) == b.texture && without_label(a.scratch_desc) == b.scratch;
+}
+
+/// Returns whether the light's maps move in steps of whole texels, so that another edge would make them shimmer.
+bool snaps_to_texels(const LightItem& light) {
+    return light_facts(light.kind).parallel && light.tuning.cascades.fit == ShadowFit::stable;
 }
 
 bool has_triangles(const FilterStorage& storage) { return storage.triangle_ids || storage.conservative_bounds; }
@@ -175,6 +182,7 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
     const bool triangles = has_triangles(made.storage), sheets = made.storage.conservative_bounds;
     gl::TextureDesc shown = sheets ? bounds_descs_of(desc).triangles : triangles_of(desc);
     shown.label = desc.label + ", triangles";
+    shown.shared = desc.shared && !sheets;  // the map that is peeled has one of its own
     if (made.texture && triangles) made.triangles = device_.create_texture(shown, {}).handle;
     Reason reason = Reason::none;
     if (!made.texture || (triangles && !made.triangles)) reason = Reason::map_allocation_failed;
@@ -201,6 +209,11 @@ Reason MapCache::try_create(const gl::TextureDesc& desc, const ShadowRequest& re
 
 bool MapCache::ensure_map(const LightItem& light, const ShadowRequest& request, CachedMap& cached) {
     gl::TextureDesc desc = map_desc(light, request);
+    if (shares_layers_) {
+        const std::uint32_t class_px = std::bit_ceil(std::max(desc.width, kLeastSharedEdge_px));
+        if (!snaps_to_texels(light)) desc.width = desc.height = std::min(class_px, device_.info().max_texture_px);
+        desc.shared = true;
+    }
     const FilterStorage& storage = filter_row(request.map.filter).storage;
     const gl::TextureDesc& held = cached.desc;
     if (cached.texture &&
@@ -351,6 +364,7 @@ bool MapCache::provide_static_copy(CachedMap& map) const {
     if (frame_ < still.retry_frame) return false;
     gl::TextureDesc desc = map.desc;
     desc.label += ", still";
+    desc.shared = false;
     const bool fits = limit_ == kNoLimit || bytes() + static_copy_bytes(map) <= limit_;
     if (fits) yield_spare(static_copy_bytes(map));
     if (fits) still.texture = device_.create_texture(desc, {}).handle;

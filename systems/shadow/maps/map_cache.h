@@ -98,6 +98,11 @@ public:
     /// be freed before the new one exists, and caches are evicted first.
     void set_limit(std::uint64_t bytes) { limit_ = bytes; }
     static constexpr std::uint64_t kNoLimit = ~std::uint64_t{0};
+    /// Lets maps be layers of shared arrays (gl::SharedLayers), one per size and format, so that a few units serve all.
+    /// Their edges are then powers of two of at least kLeastSharedEdge_px, but those of ShadowFit::stable, which keep
+    /// their size. The bytes of layers that no map uses are not counted. Call it before the first assign().
+    void share_layers() { shares_layers_ = true; }
+    static constexpr std::uint32_t kLeastSharedEdge_px = 256;
     /// Sets a cache that shares the limit and is evicted before any map. It must outlive this object; null: there is
     /// none.
     void set_spare(SpareMemory* spare) { spare_ = spare; }
@@ -165,6 +170,7 @@ private:
     std::uint64_t frame_ = 0, limit_ = kNoLimit;
     SpareMemory* spare_ = nullptr;
     std::uint64_t available_ = kNoLimit, short_until_frame_ = 0;
+    bool shares_layers_ = false;
     bool refused_ = false;  // a map was refused in this frame
 };
 

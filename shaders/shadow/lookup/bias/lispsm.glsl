@@ -27,7 +27,7 @@ Bias cascade_bias(ViewRecord view, vec3 position_la, vec3 normal, vec3 n_map, fl
     float plane_m = dot(normal, position_la);
     vec2 turn = vec2(dot(gradient, view.axis_u.xyz), dot(gradient, view.axis_v.xyz));
     vec2 slope = abs(n_map.xy + turn * plane_m) + kNormalError_rad * (1.0 + abs(turn) * distance_m) + abs(turn) * error_m;
-    float footprint_texel = reach_texel + kRasterSnap_texel + kMapRounding * float(textureSize(shadow_map, 0).x);
+    float footprint_texel = reach_texel + kRasterSnap_texel + kMapRounding * shadow_map_size().x;
     float w_error = kRowRounding * (1.0 + length(gradient) * distance_m);
     float across_m = footprint_texel * dot(slope, vec2(view.axis_u.w, view.axis_v.w)) + (error_m + distance_m * w_error) / w;
 

@@ -66,7 +66,7 @@ float shadow_texel_tan() { return 0.0; }
 ShadowPoint point_2d(int view, vec4 projected, float bias_depth, float margin_texel) {
     ShadowPoint point;
     point.view = view;
-    point.texel_uv = 1.0 / vec2(textureSize(shadow_map, 0).xy);
+    point.texel_uv = 1.0 / shadow_map_size();
     vec3 map = projected.xyz / projected.w;
     vec2 margin = margin_texel * point.texel_uv;
     point.covered = projected.w > 0.0 && map.z >= 0.0 && all(greaterThanEqual(map.xy, margin)) && all(lessThanEqual(map.xy, 1.0 - margin));

@@ -94,7 +94,7 @@ vec2 shadow_texel(ShadowPoint point) {
     float scale = 1.0 / largest(point.position);   // against overflow of squares
     vec3 position = point.position * scale, u = point.step_u * scale, v = point.step_v * scale;
     vec2 from_middle = vec2(dot(position, u) / dot(u, u), dot(position, v) / dot(v, v));
-    return from_middle + 0.5 * vec2(textureSize(shadow_map, 0));
+    return from_middle + 0.5 * shadow_map_size();
 }
 
 // Returns the tangent of a texel's side: how much nearer to the light an offset along a direction brings a tap.

@@ -2,6 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform samplerCubeShadow shadow_map;
 
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0)); }
+
 // Returns the result of one comparison, `offset_texel` texels beside the receiver. A tap that leaves the face is
 // compared by the depth of the face that it lands on.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {

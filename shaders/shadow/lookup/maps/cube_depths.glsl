@@ -2,6 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform samplerCube shadow_map;
 
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0)); }
+
 float face_size() { return float(textureSize(shadow_map, 0).x); }
 
 // Returns where the point lies in its face, texels; the middle of the first is at 1/2.

@@ -2,6 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform samplerCube shadow_map;
 
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0)); }
+
 // Keeps a lookup from blending across a seam where the neighbour was not drawn. texels: of the map, per texel of the
 // level that is read.
 vec2 kept_tangent(vec2 tangent, mat3 axes, float texels) {

@@ -2,6 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform sampler2DArrayShadow shadow_map;
 
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0).xy); }
+
 // Returns the result of one comparison, `offset_texel` texels beside the receiver.
 float shadow_tap(ShadowPoint point, vec2 offset_texel) {
     float reference = point.map.z;

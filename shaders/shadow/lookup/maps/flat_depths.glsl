@@ -2,6 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_map;
 
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0).xy); }
+
 // Returns where the point lies in the map, texels; the middle of the first is at 1/2.
 vec2 shadow_place(ShadowPoint point) { return point.map.xy / point.texel_uv; }
 

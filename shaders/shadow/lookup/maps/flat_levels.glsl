@@ -2,6 +2,8 @@
 #include "common/bindings.glsl"
 layout(binding = kShadowMapUnit) uniform sampler2DArray shadow_map;
 
+vec2 shadow_map_size() { return vec2(textureSize(shadow_map, 0).xy); }
+
 // Returns the moments some texels beside the point, of one level of the mipmaps or between two.
 vec4 shadow_moments_at(ShadowPoint point, vec2 offset_texel, float level) {
     return textureLod(shadow_map, vec3(point.map.xy + offset_texel * point.texel_uv, point.layer), level);
