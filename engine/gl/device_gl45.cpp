@@ -357,6 +357,23 @@ std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, un
     return device == nullptr ? std::vector<std::array<float, 2>>()
                              : device->asked([&] { return places_of_samples(name); });
 }
+void bind_for_engine(const Device& gl45_device, std::span<const EngineBinding> bindings) {
+    for (const EngineBinding& b : bindings) {
+        switch (b.kind) {
+            case EngineBinding::Kind::texture:
+                glBindTextureUnit(b.place, gl_name(gl45_device, b.texture));
+                glBindSampler(b.place, gl_name(gl45_device, b.sampler));
+                break;
+            case EngineBinding::Kind::texels:
+                glBindTextureUnit(b.place, gl_texels_name(gl45_device, b.buffer));
+                glBindSampler(b.place, 0);
+                break;
+            case EngineBinding::Kind::storage:
+                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, b.place, gl_name(gl45_device, b.buffer));
+                break;
+        }
+    }
+}
 bool draw_into(Device& gl45_device, TargetHandle target, const Rect& viewport, const std::function<void()>& draw) {
     const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
     return device != nullptr && device->draw_into(target, viewport, draw);

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,17 @@ std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, un
 /// Does the same for a buffer of at least desc.size bytes. `updated` needs storage that glBufferSubData may change;
 /// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);
+
+/// Binding of one texture, buffer as texels, or storage buffer, for an engine's own draws.
+struct EngineBinding {
+    enum class Kind : std::uint8_t { texture, texels, storage } kind = Kind::texture;
+    std::uint32_t place = 0;  // unit, or binding
+    TextureHandle texture{};
+    SamplerHandle sampler{};
+    BufferHandle buffer{};
+};
+/// Binds them in the context, where they stay.
+void bind_for_engine(const Device& gl45_device, std::span<const EngineBinding> bindings);
 
 /// Calls draw() with a target bound, as lists draw casters into it. Set are the viewport, clip depths of [0, 1], depth
 /// test `greater` with writes, and depth clamp. Culling, blending, scissor and colour writes are off. Afterwards that

@@ -126,6 +126,8 @@ struct View {
     NormalSpace normal_space = NormalSpace::world;
     /// Lights of the mask, a layer each, in this order. Empty: all lights, in the order in which they were added.
     std::span<const LightId> lights = {};
+    /// False: no mask is drawn and no texture is read, for shaders that look lights up themselves (lookup_glsl()).
+    bool wants_mask = true;
 };
 
 /// Visibility of a view's lights.
@@ -180,8 +182,21 @@ struct Budget {
     float gpu_ms = 0.0f;      // time per frame, as measured on this device; 0: no limit
 };
 
+/// What an engine leaves to the GLSL that looks up all lights in one program (Shadows::lookup_glsl()). Its numbers are
+/// written into the text.
+struct LookupOptions {
+    std::uint32_t first_texture_unit = 16;
+    std::uint32_t texture_unit_count = 15;  // at least 5: three for buffers, two for each size and format of maps
+    std::uint32_t storage_binding = 7;      // for a shader storage buffer: masks of casters
+    /// Parts that the text has. Each costs time to compile, and on software devices to run. A light that needs what is
+    /// left out is looked up by the nearest part, or is lit.
+    bool suns = true, spots = true, points = true, masks = true;
+};
+
 struct ShadowsOptions {
     Budget budget = {};
+    /// Lets one program look up all lights: maps become layers of shared arrays. Empty: masks alone.
+    std::optional<LookupOptions> lookup = {};
     bool time_gpu = false;  // measure gpu_us by timer queries; implied by a budget in milliseconds
     /// Receives messages of the GL implementation about Gnomon's calls. Empty: none.
     std::function<void(std::string_view)> message = {};
@@ -230,6 +245,25 @@ public:
     std::span<const Mask> render(std::span<const View> views);
     /// Does the same for one view.
     Mask render(const View& view) { return render(std::span(&view, 1)).front(); }
+
+    /// Returns GLSL (4.30 or newer, without #version) that looks up any number of lights, for forward, clustered,
+    /// blended and volume shaders. Paste it into any stage; it stays the same for the life of the object. It gives:
+    /// - `int gnomon_light_count()`
+    /// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the share of the light that arrives. light:
+    ///   lookup_index(); position: from the view's camera, in the world's axes, metres; normal: geometric, unit,
+    ///   facing the viewer
+    /// - `float gnomon_visibility(int light, vec3 position)`: the same for a place in the air: fog, particles
+    /// - `gnomon_uniform_visibility(…)`: faster, where all invocations look up the same light at once.
+    /// Errors: "lookup.off" (ShadowsOptions::lookup is empty), "lookup.bindings", "lookup.rows".
+    Result<std::string> lookup_glsl() const;
+    /// Binds what the text reads for one view of the last render(), at the options' units and bindings. They stay
+    /// bound. Call it before the draws of that view. Returns false if the view could not be read, or the device has no
+    /// room.
+    bool bind_lookup(std::size_t view = 0);
+    /// Returns the light's number in the text; -1: it has none. It may change with every render().
+    int lookup_index(LightId light) const;
+    /// Returns how the text looks the light up for that view: with its own filter, the nearest one, or why it is lit.
+    std::string_view lookup_status(LightId light, std::size_t view = 0) const;
 
     LightStatus status(LightId light) const;
     const RenderStatus& status() const;

@@ -12,6 +12,7 @@
 #include "systems/embed/finite.h"
 #include "systems/embed/mesh_of.h"
 #include "systems/extract/drawable_basis.h"
+#include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"
 #include "systems/extract/scene_tree.h"
 #include "systems/extract/usable.h"
@@ -49,7 +50,8 @@ bool can_shine(const LightDesc& desc, DropReason& fault) {
     fault = DropReason::non_finite_transform;
     if (!is_finite(desc.position_m)) return false;
     fault = DropReason::zero_rotation;
-    return desc.light.kind == LightKind::point || looking_along(desc.direction).has_value();
+    const LightFacts& facts = light_facts(desc.light.kind);
+    return !(facts.parallel || facts.cone) || looking_along(desc.direction).has_value();
 }
 
 /// Writes all but the name. Sets versions to `version` if anything differs and returns true.

@@ -13,6 +13,8 @@
 #include "systems/embed/scene_store.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/mask_pass.h"
+#include "systems/lookup/lookup_glsl.h"
+#include "systems/lookup/lookup_table.h"
 #include "systems/shadow/shadow_system.h"
 #include "systems/timed_lights.h"
 #include "systems/visibility/caster_trees.h"
@@ -34,7 +36,10 @@ struct ViewState {
     lighting::MaskPass mask;
     Imported depth, normals;
     lighting::DepthPicture picture;
-    std::vector<std::uint32_t> layers;  // index of a light per layer
+    std::unique_ptr<lookup::LookupTable> table;  // null: ShadowsOptions::lookup is empty
+    std::vector<std::uint32_t> layers;           // index of a light per layer
+    bool wants_mask = true;
+    bool has_table = false;  // it was written in the last render()
     std::string_view failure;
 };
 
@@ -67,6 +72,18 @@ void put_samples(const gl::Device& device, const Imported& depth, lighting::Dept
         picture.samples.emplace_back(place[0] - 0.5, place[1] - 0.5);
 }
 
+lookup::LookupBindings bindings_of(const LookupOptions& options) {
+    return {options.first_texture_unit, options.texture_unit_count, options.storage_binding};
+}
+
+lookup::LookupRows rows_of(const LookupOptions& options) {
+    return {.suns = options.suns,
+            .warped_suns = options.suns,
+            .cones = options.spots,
+            .cubes = options.points,
+            .masks = options.masks};
+}
+
 /// Returns half a step of a depth format with fixed point; 0 for floating point.
 lighting::DepthRounding rounding_of(gl::Format format) {
     constexpr double kHalf16 = 0.5 / 0xffff, kHalf24 = 0.5 / 0xffffff;
@@ -96,6 +113,7 @@ struct Shadows::State {
           shadows(*device),
           trees(store.library()),
           queries(trees) {
+        if (options.lookup) shadows.share_layers();
         if (wants_times())
             device->set_timing(device->info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
     }
@@ -111,6 +129,7 @@ struct Shadows::State {
     void list_layers(const View& view, ViewState& state) const;
     void draw_drawables();
     void record_masks();
+    void record_lookups();
     void submit();
     void fill_masks(std::size_t count);
 
@@ -126,6 +145,7 @@ struct Shadows::State {
     std::vector<std::uint32_t> consumer_views;  // view of each consumer
     std::vector<Mask> masks;
     gl::CommandList commands, begun;
+    std::vector<gl::EngineBinding> bindings;
     FrameReport report;
     shadow::LightingOutcome outcome;
     TimedLights timed;
@@ -153,25 +173,28 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     }
     state.picture.size_px = view.size_px;
     state.picture.lens = *lens;
+    consumers.push_back(consumer);
+    consumer_views.push_back(static_cast<std::uint32_t>(index));
+    state.wants_mask = view.wants_mask;
+    if (!view.wants_mask) return;
+    const auto refuse = [&](std::string_view why) {
+        state.failure = why;
+        consumers.pop_back();
+        consumer_views.pop_back();
+    };
     state.picture.depth = import(*device, view.depth_texture, view.size_px, state.depth);
-    if (!state.picture.depth || !gl::is_depth(state.depth.texture.desc.format)) {
-        state.failure = "view.depth";
-        return;
-    }
+    if (!state.picture.depth || !gl::is_depth(state.depth.texture.desc.format)) return refuse("view.depth");
     state.picture.rounding = rounding_of(state.depth.texture.desc.format);
     put_samples(*device, state.depth, state.picture);
     state.picture.normals = {};
     if (view.normal_texture != 0) {
         state.picture.normals = import(*device, view.normal_texture, view.size_px, state.normals);
         if (!state.picture.normals || state.normals.texture.samples != state.depth.texture.samples)
-            state.failure = "view.normals";
+            return refuse("view.normals");
     }
     state.picture.range = view.normal_format == NormalFormat::snorm ? lighting::NormalRange::plus_minus_one
                                                                     : lighting::NormalRange::zero_to_one;
     state.picture.view_space = view.normal_space == NormalSpace::view;
-    if (!state.failure.empty()) return;
-    consumers.push_back(consumer);
-    consumer_views.push_back(static_cast<std::uint32_t>(index));
 }
 
 /// Lists the light of each layer of a view's mask, as an index of the updated snapshot.
@@ -188,11 +211,26 @@ void Shadows::State::record_masks() {
     gl::Failure worst = gl::Failure::none;
     for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
         ViewState& view = *views[consumer_views[c]];
+        if (!view.wants_mask) continue;
         view.mask.record({frame.inputs[c], store.snapshot(), gpu, view.picture, view.layers}, commands, outcome);
         view.failure = code(outcome.failure);
         if (outcome.failure != gl::Failure::none) worst = outcome.failure;
     }
     outcome.failure = worst;
+}
+
+/// Records what the text for all lights reads, for each view that could be read.
+void Shadows::State::record_lookups() {
+    for (const auto& view : views) view->has_table = false;
+    if (!options.lookup) return;
+    const shadow::ShadowFrame& frame = shadows.frame();
+    for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
+        ViewState& view = *views[consumer_views[c]];
+        if (!view.table)
+            view.table =
+                std::make_unique<lookup::LookupTable>(*device, bindings_of(*options.lookup), rows_of(*options.lookup));
+        view.has_table = view.table->update(frame.inputs[c], gpu, commands);
+    }
 }
 
 /// Begins the maps that show drawables: clears them, and has the engine draw into them. The frame's list then draws all
@@ -227,7 +265,10 @@ void Shadows::State::submit() {
     const bool learn_costs = options.budget.gpu_ms > 0.0f;
     timed.tell(after_submission({*device, store.snapshot(), gpu, shadows}, result, learn_costs, report), report);
     if (report.gpu_us) gpu_us = report.gpu_us;
-    if (result.failure != gl::Failure::none) status.failure = code(result.failure);
+    if (result.failure == gl::Failure::none) return;
+    status.failure = code(result.failure);
+    for (const auto& view : views)
+        if (view->table) view->table->forget_upload();
 }
 
 void Shadows::State::fill_masks(std::size_t count) {
@@ -235,7 +276,7 @@ void Shadows::State::fill_masks(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         ViewState& view = *views[i];
         masks[i].failure = !view.failure.empty() ? view.failure : status.failure;
-        if (!masks[i].failure.empty()) continue;
+        if (!masks[i].failure.empty() || !view.wants_mask) continue;
         masks[i].texture = gl::gl_name(*device, view.mask.texture());
         masks[i].layers = view.mask.layer_count();
         masks[i].samples = static_cast<std::uint32_t>(std::max<std::size_t>(view.picture.samples.size(), 1));
@@ -301,6 +342,7 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     const shadow::ShadowSettings settings{.budget = {budget.bytes, budget.gpu_ms}, .rays = false};
     s.shadows.update(scene, s.gpu, settings, s.commands, s.report);
     s.record_masks();
+    s.record_lookups();
     s.shadows.report(scene, s.outcome, s.report);
     s.draw_drawables();
     s.submit();
@@ -314,6 +356,40 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     s.status.gpu_us = s.gpu_us;
     s.status.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return s.masks;
+}
+
+Result<std::string> Shadows::lookup_glsl() const {
+    const std::optional<LookupOptions>& options = state_->options.lookup;
+    if (!options) return Error{"ShadowsOptions::lookup is empty: maps are not shared", {}, {}, "lookup.off"};
+    return lookup::lookup_glsl(bindings_of(*options), rows_of(*options));
+}
+
+bool Shadows::bind_lookup(std::size_t view) {
+    State& s = *state_;
+    if (view >= s.views.size() || !s.views[view]->has_table) return false;
+    const lookup::LookupTable& table = *s.views[view]->table;
+    using Kind = gl::EngineBinding::Kind;
+    s.bindings.clear();
+    for (const lookup::LookupTexture& t : table.textures())
+        s.bindings.push_back({Kind::texture, t.unit, t.texture, t.sampler, {}});
+    for (const lookup::LookupTexels& t : table.texels()) s.bindings.push_back({Kind::texels, t.unit, {}, {}, t.buffer});
+    for (const lookup::LookupStorage& t : table.storage())
+        s.bindings.push_back({Kind::storage, t.binding, {}, {}, t.buffer});
+    gl::bind_for_engine(*s.device, s.bindings);
+    return true;
+}
+
+int Shadows::lookup_index(LightId light) const {
+    const std::uint32_t index = state_->store.light_index(light);
+    return index == embed::SceneStore::kNone ? -1 : static_cast<int>(index);
+}
+
+std::string_view Shadows::lookup_status(LightId light, std::size_t view) const {
+    const State& s = *state_;
+    const std::uint32_t index = s.store.light_index(light);
+    if (view >= s.views.size() || !s.views[view]->has_table || index >= s.views[view]->table->outcomes().size())
+        return "no lookup";
+    return lookup::to_text(s.views[view]->table->outcomes()[index].status);
 }
 
 LightStatus Shadows::status(LightId light) const {

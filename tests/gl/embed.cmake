@@ -3,6 +3,7 @@ if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_embed LABEL gl SOURCES
     embed_drawables_gl_test.cpp
     embed_gl_test.cpp
+    embed_lookup_gl_test.cpp
     embed_state_gl_test.cpp
     embed_views_gl_test.cpp
     gl_state_record.cpp

@@ -20,6 +20,20 @@ inline const char* name_of(Depths depths) {
 inline constexpr int kWidth_px = 320, kHeight_px = 256;
 inline constexpr double kNear_m = 0.1, kFov_rad = 0.9;
 
+/// Links a program of the engine's.
+inline GLuint linked(const char* vertex, const char* fragment) {
+    const GLuint program = glCreateProgram();
+    for (const auto& [kind, text] : {std::pair(GL_VERTEX_SHADER, vertex), std::pair(GL_FRAGMENT_SHADER, fragment)}) {
+        const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
+        glShaderSource(shader, 1, &text, nullptr);
+        glCompileShader(shader);
+        glAttachShader(program, shader);
+        glDeleteShader(shader);
+    }
+    glLinkProgram(program);
+    return program;
+}
+
 /// An engine that draws depths and normals of meshes in world space, and knows OpenGL alone.
 class Engine {
 public:
@@ -125,18 +139,6 @@ private:
         GLsizei count = 0;
         float sway = 0.0f;
     };
-    static GLuint linked(const char* vertex, const char* fragment) {
-        const GLuint program = glCreateProgram();
-        for (const auto& [kind, text] : {std::pair(GL_VERTEX_SHADER, vertex), std::pair(GL_FRAGMENT_SHADER, fragment)}) {
-            const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
-            glShaderSource(shader, 1, &text, nullptr);
-            glCompileShader(shader);
-            glAttachShader(program, shader);
-            glDeleteShader(shader);
-        }
-        glLinkProgram(program);
-        return program;
-    }
     Depths depths_;
     GLuint framebuffer_ = 0, array_ = 0, program_ = 0;
     std::vector<Mesh> meshes_;
@@ -145,9 +147,14 @@ private:
 /// The same world three times: for an engine with gnomon::Shadows, for Gnomon's own frame, and for rays.
 class EmbedTest : public TracedFrameTest {
 protected:
+    virtual ShadowsOptions options() {
+        ShadowsOptions wanted;
+        wanted.message = [this](std::string_view text) { said.emplace_back(text); };
+        return wanted;
+    }
     void SetUp() override {
         TracedFrameTest::SetUp();
-        auto made = Shadows::create({.message = [this](std::string_view text) { said.emplace_back(text); }});
+        auto made = Shadows::create(options());
         ASSERT_TRUE(made) << to_line(made.error());
         shadows = std::move(made).value();
         settings.viewport_px = {kWidth_px, kHeight_px};

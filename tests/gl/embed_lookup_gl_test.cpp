@@ -1,0 +1,147 @@
+#include "tests/gl/embed_fixture.h"
+
+// One program of the engine's looks up all lights, beside the masks of the same frame.
+namespace gnomon {
+namespace {
+
+/// A pass of the engine's over its own depths and normals, which writes the visibility of one light.
+class LookupPass {
+public:
+    explicit LookupPass(const std::string& lookups) {
+        const std::string fragment = "#version 450 core\n" + lookups + R"(
+layout(binding = 0) uniform sampler2D depths;
+layout(binding = 1) uniform sampler2D normals;
+uniform mat4 world_from_clip;   // relative to the camera
+uniform int light;
+uniform bool in_air;
+layout(location = 0) out float visible;
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(depths, pixel, 0).r;
+    vec4 place = world_from_clip * vec4(2.0 * vec3(gl_FragCoord.xy / vec2(textureSize(depths, 0)), depth) - 1.0, 1.0);
+    vec3 position = place.xyz / place.w, normal = texelFetch(normals, pixel, 0).xyz;
+    if (dot(normal, position) > 0.0) normal = -normal;
+    visible = depth == 1.0 ? 0.0 : in_air ? gnomon_visibility(light, 0.999 * position) : gnomon_visibility(light, position, normal);
+})";
+        program_ = linked(R"(#version 450 core
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); })",
+                          fragment.c_str());
+        glCreateVertexArrays(1, &array_);
+        glCreateTextures(GL_TEXTURE_2D, 1, &target_);
+        glTextureStorage2D(target_, 1, GL_R32F, kWidth_px, kHeight_px);
+        glCreateFramebuffers(1, &framebuffer_);
+        glNamedFramebufferTexture(framebuffer_, GL_COLOR_ATTACHMENT0, target_, 0);
+    }
+    ~LookupPass() {
+        glDeleteProgram(program_);
+        glDeleteVertexArrays(1, &array_);
+        glDeleteTextures(1, &target_);
+        glDeleteFramebuffers(1, &framebuffer_);
+    }
+    std::vector<std::uint8_t> drawn(const Engine& engine, const View& view, int light, bool in_air = false) const {
+        const glm::dmat4 clip_from_world = view.clip_from_view * glm::dmat4(glm::inverse(glm::dmat3(view.world_from_view)));
+        const glm::mat4 matrix(glm::inverse(clip_from_world));
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+        glViewport(0, 0, kWidth_px, kHeight_px);
+        glDisable(GL_DEPTH_TEST);
+        glUseProgram(program_);
+        glBindTextureUnit(0, engine.depth);
+        glBindTextureUnit(1, engine.normals);
+        glUniformMatrix4fv(glGetUniformLocation(program_, "world_from_clip"), 1, GL_FALSE, &matrix[0][0]);
+        glUniform1i(glGetUniformLocation(program_, "light"), light);
+        glUniform1i(glGetUniformLocation(program_, "in_air"), in_air);
+        glBindVertexArray(array_);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        std::vector<float> values(kWidth_px * kHeight_px);
+        glGetTextureImage(target_, 0, GL_RED, GL_FLOAT, static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
+        std::vector<std::uint8_t> bytes;
+        for (const float value : values) bytes.push_back(static_cast<std::uint8_t>(std::lround(255.0f * value)));
+        return bytes;
+    }
+
+private:
+    GLuint program_ = 0, array_ = 0, target_ = 0, framebuffer_ = 0;
+};
+
+class EmbedLookup : public EmbedTest {
+protected:
+    ShadowsOptions options() override {
+        ShadowsOptions wanted = EmbedTest::options();
+        wanted.lookup = LookupOptions{.first_texture_unit = 2, .texture_unit_count = 14, .storage_binding = 3};
+        return wanted;
+    }
+    void SetUp() override {
+        EmbedTest::SetUp();
+        make_engine(Depths::usual_float);
+        view.normal_texture = engine->normals;
+        add_room();
+        look_from({0.5, 2.5, 4.0});
+    }
+};
+
+TEST_F(EmbedLookup, ShowsWhatTheMaskShowsForAnyNumberOfLights) {
+    std::vector<LightId> lights{add_shadowed(LightKind::directional, {1.5, 3.0, 1.0})};
+    lights.push_back(add_shadowed(LightKind::spot, {-1.5, 3.0, 1.0}));
+    lights.push_back(add_shadowed(LightKind::point, {0.5, 2.5, 2.0}));
+    const auto text = shadows->lookup_glsl();
+    ASSERT_TRUE(text) << to_line(text.error());
+    const LookupPass pass(text.value());
+    for (int more = 0; more < 2; ++more) {
+        draw_depths(view, *engine);
+        const Mask mask = shadows->render(view);
+        ASSERT_EQ(mask.layers, lights.size());
+        ASSERT_TRUE(shadows->bind_lookup());
+        for (std::uint32_t i = 0; i < lights.size(); ++i) {
+            const std::vector<std::uint8_t> of_mask = layer_of(mask, i);
+            const std::vector<std::uint8_t> of_text = pass.drawn(*engine, view, shadows->lookup_index(lights[i]));
+            EXPECT_LT(differing(of_mask, of_text), kFewPixels) << "light " << i << ": " << shadows->lookup_status(lights[i]);
+            EXPECT_GT(std::count(of_text.begin(), of_text.end(), 255), 5000);
+            const int next = shadows->lookup_index(lights[(i + 1) % lights.size()]);
+            EXPECT_GT(differing(of_mask, pass.drawn(*engine, view, next)), 1000u) << "control: another light";
+        }
+        // Lights come; the program stays.
+        for (int k = 0; k < 5; ++k) lights.push_back(add_shadowed(k % 2 == 0 ? LightKind::spot : LightKind::point, {0.6 * k - 1.0, 2.5, 1.0 - 0.5 * k}));
+        EXPECT_EQ(shadows->lookup_glsl().value(), text.value());
+    }
+}
+
+TEST_F(EmbedLookup, LooksUpPlacesInTheAir) {
+    const LightId lamp = add_shadowed(LightKind::point, {0.5, 2.5, 2.0});
+    const LookupPass pass(shadows->lookup_glsl().value());
+    draw_depths(view, *engine);
+    shadows->render(view);
+    ASSERT_TRUE(shadows->bind_lookup());
+    const std::vector<std::uint8_t> air = pass.drawn(*engine, view, shadows->lookup_index(lamp), true);
+    EXPECT_GT(std::count(air.begin(), air.end(), 255), 10000);
+    EXPECT_GT(std::count(air.begin(), air.end(), 0), 1000);
+}
+
+TEST_F(EmbedLookup, NeedsNoMask) {
+    const LightId lamp = add_shadowed(LightKind::spot, {1.5, 3.0, 1.0});
+    const LookupPass pass(shadows->lookup_glsl().value());
+    draw_depths(view, *engine);
+    const std::vector<std::uint8_t> of_mask = layer_of(shadows->render(view), 0);
+    View without = view;
+    without.wants_mask = false;
+    without.depth_texture = without.normal_texture = 0;
+    const Mask none = shadows->render(without);
+    EXPECT_EQ(none.failure, "");
+    EXPECT_EQ(none.texture, 0u);
+    ASSERT_TRUE(shadows->bind_lookup());
+    EXPECT_LT(differing(of_mask, pass.drawn(*engine, view, shadows->lookup_index(lamp))), kFewPixels);
+}
+
+TEST_F(EmbedLookup, SaysWhatItCannot) {
+    auto plain = Shadows::create();
+    ASSERT_TRUE(plain);
+    EXPECT_EQ(plain.value()->lookup_glsl().error().rule, "lookup.off");
+    EXPECT_FALSE(plain.value()->bind_lookup());
+    EXPECT_FALSE(shadows->bind_lookup()) << "before the first render()";
+    EXPECT_EQ(shadows->lookup_index(LightId{}), -1);
+    auto few = Shadows::create({.lookup = LookupOptions{.texture_unit_count = 2}});
+    ASSERT_TRUE(few);
+    EXPECT_EQ(few.value()->lookup_glsl().error().rule, "lookup.bindings");
+}
+
+}  // namespace
+}  // namespace gnomon
