@@ -192,6 +192,23 @@ TEST_P(StreamingFrames, RaysWriteTheTreesOfNewMeshesAlone) {
     EXPECT_EQ(written("ray triangles"), 60u * sizeof(rays::BvhTriangle));
 }
 
+TEST_P(StreamingFrames, TreesWithoutRoomAreReportedAndMadeLater) {
+    if (GetParam() != ShadowFilter::exact) GTEST_SKIP() << "no rays";
+    for (const char* label : {"ray trees of meshes", "ray triangles", "ray masks"}) {
+        SCOPED_TRACE(label);
+        const std::uint64_t before = frame->report().rays.triangles;
+        device.fail_label(label, gl::Failure::out_of_memory);
+        world.add_mesh(library.add(strip_mesh(300, 0.005f, 1, false)), {-4, 2, 0}, true);
+        step();
+        EXPECT_EQ(light("left").reason, Reason::buffer_failed);
+        device.stop_failing();
+        for (std::uint64_t i = 0; i <= Retry::kFrames + 1; ++i) step();
+        EXPECT_NE(light("left").reason, Reason::buffer_failed);
+        EXPECT_LE(light("left").state, LightState::reused);
+        EXPECT_EQ(frame->report().rays.triangles, before + 600);
+    }
+}
+
 /// Allocations of frames that add a mesh, that remove one, and that do neither, in a world with `residents` other meshes.
 struct Allocations {
     std::size_t adding = 0, removing = 0, resting = 0;
