@@ -110,7 +110,7 @@ void draw(GLuint program, const std::vector<glm::dmat4>& places, const Box& box,
 
 using Tiles = std::vector<std::array<int, kMostPerTile + 1>>;
 
-/// Lists in each tile the lamps whose range may show there: by the box of the screen around each ball.
+/// Lists in each tile the lamps that may reach what it shows: by the box on the screen around the ball of their range.
 void fill_tiles(const std::vector<glm::vec4>& lamps, const glm::dmat4& clip_from_world, Tiles& tiles) {
     tiles.assign(kTiles * kTiles, {});
     for (int lamp = 0; lamp < static_cast<int>(lamps.size()); ++lamp) {
@@ -153,10 +153,12 @@ int main(int argc, char** argv) {
              .first_texture_unit = 0, .storage_binding = 2, .suns = false, .points = false, .masks = false}});
     if (!created) return fail(created.error());
     gnomon::Shadows& shadows = *created.value();
+    // [text]
     const auto lookups = shadows.lookup_glsl();
     if (!lookups) return fail(lookups.error());
-    const GLuint depth_only = make_program(kVertex, kDepthOnly);
     const GLuint forward = make_program(kVertex, "#version 450 core\n" + lookups.value() + kForward);
+    // [text]
+    const GLuint depth_only = make_program(kVertex, kDepthOnly);
 
     std::vector<glm::dmat4> places{glm::scale(glm::translate(glm::dmat4(1.0), {0.0, -0.1, 0.0}), {26.0, 0.2, 26.0})};
     std::vector<gnomon::LightId> lights;

@@ -115,10 +115,12 @@ int main(int argc, char** argv) {
     if (!ground) return fail(ground.error());
     shadows.add_caster({.mesh = ground.value(), .casts = false});
     const gnomon::Bounds bounds{{-3.2, 0.0, -3.2}, {3.5, 1.1, 3.2}};
+    // [drawable]
     const auto draw = [&](const gnomon::DrawableView& map) {
         meadow.draw_grass(meadow.grass_depth, map.clip_from_world);
     };
     const gnomon::CasterId grass = shadows.add_drawable({.name = "grass", .draw = draw, .bounds = bounds});
+    // [drawable]
     const glm::dvec3 to_sun = glm::normalize(glm::dvec3(1.0, 1.4, 0.6));
     shadows.add_light({.name = "sun", .light = {.kind = gnomon::LightKind::directional}, .direction = -to_sun});
 
@@ -127,7 +129,9 @@ int main(int argc, char** argv) {
         const double time_s = window.value()->time_s();
         const double gusts = std::floor(time_s / (2.0 * kGust_s));
         const double wind_s = kGust_s * gusts + std::min(time_s - 2.0 * kGust_s * gusts, kGust_s);
+        // [redraw]
         if (static_cast<float>(wind_s) != meadow.wind_s) shadows.redraw(grass, bounds);
+        // [redraw]
         meadow.wind_s = static_cast<float>(wind_s);
 
         const glm::uvec2 size = window.value()->size_px();
