@@ -21,10 +21,15 @@ constexpr double kNear_m = 0.05;
 
 // What the engine draws: placed boxes.
 struct Thing {
-    glm::dmat4 place{1.0};
+    glm::dvec3 at_m{0.0}, size_m{1.0};
     glm::vec3 colour{0.7f};
     bool turns = false;
     gnomon::CasterId caster = {};
+
+    glm::dmat4 place(double time_s) const {
+        const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), at_m);
+        return glm::scale(glm::rotate(moved, turns ? 0.8 * time_s : 0.0, glm::dvec3(0.0, 1.0, 0.0)), size_m);
+    }
 };
 
 struct Surfaces {
@@ -163,8 +168,9 @@ GLuint make_array(const std::vector<Vertex>& vertices) {
 
 std::vector<Thing> make_things() {
     std::vector<Thing> things;
-    const auto add = [&](const glm::dvec3& at, const glm::dvec3& size, const glm::vec3& colour, bool turns = false) {
-        things.push_back({glm::scale(glm::translate(glm::dmat4(1.0), at), size), colour, turns});
+    const auto add = [&](const glm::dvec3& at_m, const glm::dvec3& size_m, const glm::vec3& colour,
+                         bool turns = false) {
+        things.push_back({at_m, size_m, colour, turns});
     };
     add({0.0, -0.1, 0.0}, {16.0, 0.2, 16.0}, {0.6f, 0.58f, 0.55f});
     add({0.0, 2.0, -4.0}, {12.0, 4.0, 0.3}, {0.5f, 0.55f, 0.6f});
@@ -214,7 +220,7 @@ int main(int argc, char** argv) {
     const auto mesh = shadows.add_mesh({.name = "box", .positions_m = positions, .indices = indices});
     if (!mesh) return fail(mesh.error());
     for (Thing& thing : things)
-        thing.caster = shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = thing.place});
+        thing.caster = shadows.add_caster({.mesh = mesh.value(), .world_from_mesh = thing.place(0.0)});
 
     const std::array<glm::vec4, kLights> lights = {
         {{-4.0f, 7.0f, 5.0f, 0.0f}, {-5.0f, 2.5f, 2.0f, 1.0f}, {4.5f, 3.0f, 1.5f, 1.0f}, {0.0f, 3.2f, 0.5f, 1.0f}}};
@@ -247,8 +253,7 @@ int main(int argc, char** argv) {
         glBindVertexArray(box);
         glUniformMatrix4fv(0, 1, GL_FALSE, &clip_from_world[0][0]);
         for (const Thing& thing : things) {
-            const double angle_rad = thing.turns ? 0.8 * window.value()->time_s() : 0.0;
-            const glm::dmat4 exact = glm::rotate(thing.place, angle_rad, glm::dvec3(0.0, 1.0, 0.0));
+            const glm::dmat4 exact = thing.place(window.value()->time_s());
             shadows.set_transform(thing.caster, exact);
             const glm::mat4 place(exact);
             glUniformMatrix4fv(1, 1, GL_FALSE, &place[0][0]);

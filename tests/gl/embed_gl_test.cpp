@@ -32,6 +32,29 @@ TEST_P(EmbedMask, NeedsNoNormals) {
     EXPECT_LT(d.share(), 0.001);
 }
 
+TEST_P(EmbedMask, DerivesNormalsUpToThePicturesEdges) {
+    const auto [kind, depths] = GetParam();
+    make_engine(depths);
+    add_room();
+    add_shadowed(kind, {0.5, 1.5, -5.0});  // opposite: a surface that faces the camera is dark
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    const std::vector<std::uint8_t> given = masked();
+    view.normal_texture = 0;
+    const std::vector<std::uint8_t> derived = masked();
+    std::size_t lit = 0, other = 0;
+    for (int y = 0; y < kHeight_px; ++y)
+        for (int x = 0; x < kWidth_px; ++x) {
+            if (x > 0 && x + 1 < kWidth_px && y > 0 && y + 1 < kHeight_px) continue;
+            const auto i = static_cast<std::size_t>(y * kWidth_px + x);
+            lit += given[i] > 127;
+            other += std::abs(given[i] - derived[i]) > 2;
+        }
+    std::printf("%s %s: %zu of the edge's pixels are lit, %zu are other\n", kind_name(kind), name_of(depths), lit, other);
+    EXPECT_GT(lit, 200u);
+    EXPECT_LE(other, 1u);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EmbedMask,
                          ::testing::Combine(::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                                             ::testing::Values(Depths::usual_d24, Depths::usual_float, Depths::reversed)),

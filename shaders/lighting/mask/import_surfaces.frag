@@ -52,7 +52,12 @@ vec3 position_at(ivec2 pixel, float depth) { return position_seen_at(pixel, impo
 vec3 tangent(ivec2 pixel, float depth, ivec2 step) {
     float before = depth_at(pixel - step), after = depth_at(pixel + step);
     float bend_before = abs(2.0 * before - depth_at(pixel - 2 * step) - depth);
-    float bend_after = abs(2.0 * after - depth_at(pixel + 2 * step) - depth);
+    ivec2 last = ivec2(camera.unproject.zw) - 1;
+    float bend_after = abs(2.0 * after - depth_at(min(pixel + 2 * step, last)) - depth);
+    // Beyond the picture's edge no depth was drawn.
+    const float kNoPlane = 3.0e38;
+    if (any(lessThan(pixel, step))) bend_before = kNoPlane;
+    if (any(greaterThan(pixel + step, last))) bend_after = kNoPlane;
     vec3 here = position_at(pixel, depth);
     return bend_before < bend_after ? here - position_at(pixel - step, before) : position_at(pixel + step, after) - here;
 }
