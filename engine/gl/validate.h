@@ -9,8 +9,8 @@
 namespace gnomon::gl {
 
 /// Checks a texture. invalid_value: zero size, size, layers or mips beyond a limit, a non-square cube, layers of a flat
-/// texture, wrong `pixel_bytes`, a shared texture that is flat or has mips. `pixel_bytes` is 0 or exactly mip 0 of
-/// every layer.
+/// texture, wrong `pixel_bytes`. A shared texture may be neither flat nor have mips or pixels. `pixel_bytes` is 0 or
+/// exactly mip 0 of every layer.
 Failure check_texture(const TextureDesc& desc, const DeviceInfo& info, std::size_t pixel_bytes);
 
 /// Checks a buffer. invalid_value: zero size, a fraction of a texel, `given_bytes` neither 0 nor desc.size. Also: a
