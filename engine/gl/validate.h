@@ -9,8 +9,8 @@
 namespace gnomon::gl {
 
 /// Checks a texture. invalid_value: zero size, size, layers or mips beyond a limit, a non-square cube, layers of a flat
-/// texture, wrong `pixel_bytes`. Also: a shared texture that is flat or has mips. `pixel_bytes` is 0 or exactly mip 0
-/// of every layer.
+/// texture, wrong `pixel_bytes`. A shared texture may be neither flat nor have mips or pixels. `pixel_bytes` is 0 or
+/// exactly mip 0 of every layer.
 Failure check_texture(const TextureDesc& desc, const DeviceInfo& info, std::size_t pixel_bytes);
 
 /// Checks a buffer. invalid_value: zero size, a fraction of a texel, `given_bytes` neither 0 nor desc.size. Also: a
@@ -27,15 +27,6 @@ bool can_copy(const TextureDesc& source, const TextureDesc& destination, std::ui
 /// Returns true if [first, first + size) lies in [0, limit); safe against overflow.
 constexpr bool in_range(std::uint64_t first, std::uint64_t size, std::uint64_t limit) {
     return first <= limit && size <= limit - first;
-}
-
-/// Returns true if the copy's range fits both buffers (CopyBuffer). They must be different objects.
-constexpr bool can_copy(const CopyBuffer& copy, const BufferDesc& source, const BufferDesc& destination) {
-    if (destination.use == BufferUse::fixed) return false;
-    if (copy.size == 0)
-        return copy.source_offset == 0 && copy.destination_offset == 0 && source.size == destination.size;
-    return destination.use == BufferUse::updated && in_range(copy.source_offset, copy.size, source.size) &&
-           in_range(copy.destination_offset, copy.size, destination.size);
 }
 
 /// Returns true if `rect` is not empty and lies in a target of this size.

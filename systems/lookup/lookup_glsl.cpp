@@ -208,7 +208,8 @@ std::string cube_text(const RowNames& names, const LookupRows& rows, Names& root
 }
 
 /// Returns the text that reads records and shared arrays.
-std::string records_text(const gl::GlslLibrary& library, const RowNames& names, const LookupBindings& bindings) {
+std::string records_text(const gl::GlslLibrary& library, const RowNames& names, const LookupBindings& bindings,
+                         bool gathers) {
     const LookupUnits units = units_of(bindings);
     const BlockText light = block_text(library.members("LightBlock"), "texel");
     const BlockText camera = block_text(library.members("CameraBlock"), "0");
@@ -228,7 +229,7 @@ std::string records_text(const gl::GlslLibrary& library, const RowNames& names, 
                            {"depths", std::to_string(units.first_depths)},
                            {"ids", std::to_string(units.first_triangles)},
                            {"four", names.of(LookupKind::cone, "FourTriangles")}};
-    return filled(kRecords, values) + filled(kReaders, values);
+    return filled(kRecords, values) + filled(kReaders, values) + filled(gathers ? kGathered : kReadOneByOne, values);
 }
 
 }  // namespace
@@ -255,8 +256,8 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, const LookupRows
                entries["cubes"]);
     if (!flat.empty())
         add_if("gnomon_light.row.x > 0", "return gnomon_flat_visibility(position, normal, error_m);", entries["flats"]);
-    return library.text(first) + records_text(library, names, bindings) + library.text(roots, first) + flat + cube +
-           filled(kEntries, entries);
+    return library.text(first) + records_text(library, names, bindings, rows.gathers) + library.text(roots, first) +
+           flat + cube + filled(kEntries, entries);
 }
 
 }  // namespace gnomon::lookup

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "systems/shadow/request/filter_table.h"
+#include "systems/shadow/request/map_textures.h"
 
 namespace gnomon::lookup {
 namespace {
@@ -52,7 +53,25 @@ LookupTable::LookupTable(gl::Device& device, const LookupBindings& bindings, con
     units_.resize(units_of(bindings).arrays);
 }
 
-LookupTable::~LookupTable() { device_.destroy(sampler_); }
+LookupTable::~LookupTable() {
+    device_.destroy(sampler_);
+    device_.destroy(no_depths_);
+    device_.destroy(no_triangles_);
+}
+
+/// Makes what is missing of the sampler and the textures of empty units.
+bool LookupTable::provide_objects() {
+    const auto texel = [&](gl::TextureHandle& texture, gl::Format format) {
+        if (!texture)
+            texture = device_.create_texture({.label = "no map", .kind = gl::TextureKind::array, .format = format}, {})
+                          .handle;
+        return static_cast<bool>(texture);
+    };
+    if (!sampler_)
+        sampler_ =
+            device_.create_sampler({"lookup depths", false, false, false, gl::Wrap::border, gl::Wrap::border}).handle;
+    return sampler_ && texel(no_depths_, gl::Format::d32f) && texel(no_triangles_, shadow::kTriangleFormat);
+}
 
 /// Finds how a light can be looked up, whatever its array's unit.
 LookupTable::Found LookupTable::find(const LightingLight& light) const {
@@ -140,9 +159,6 @@ void LookupTable::write(const LightingLight& light, const Found& found, LookupOu
 }
 
 bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& gpu, gl::CommandList& list) {
-    if (!sampler_)
-        sampler_ =
-            device_.create_sampler({"lookup depths", false, false, false, gl::Wrap::border, gl::Wrap::border}).handle;
     const std::size_t count = inputs.lights.size();
     found_.clear();
     for (const LightingLight& light : inputs.lights) found_.push_back(find(light));
@@ -157,7 +173,7 @@ bool LookupTable::update(const shadow::LightingInputs& inputs, const GpuScene& g
         std::memcpy(bytes_.data() + sizeof head + i * sizeof record, &record, sizeof record);
     }
     const gl::BufferHandle before = buffer_.handle();
-    if (!sampler_ || !buffer_.reserve(bytes_.size())) {
+    if (!provide_objects() || !buffer_.reserve(bytes_.size())) {
         uploaded_.clear();
         return false;
     }
@@ -173,8 +189,9 @@ void LookupTable::list_bindings(const GpuScene& gpu) {
     textures_.clear();
     const LookupUnits units = units_of(bindings_);
     for (std::uint32_t i = 0; i < units.arrays; ++i) {
-        textures_.push_back({units.first_depths + i, units_[i].depths, sampler_});
-        textures_.push_back({units.first_triangles + i, units_[i].triangles, {}});
+        const Unit& unit = units_[i];
+        textures_.push_back({units.first_depths + i, unit.depths ? unit.depths : no_depths_, sampler_});
+        textures_.push_back({units.first_triangles + i, unit.triangles ? unit.triangles : no_triangles_, {}});
     }
     texels_.clear();
     texels_.push_back({units.first_texels, buffer_.handle()});
@@ -186,7 +203,7 @@ void LookupTable::list_bindings(const GpuScene& gpu) {
 
 void LookupTable::bind(gl::CommandList& list) const {
     for (const LookupTexture& texture : textures_)
-        if (texture.texture) list.add(gl::BindTexture{texture.unit, texture.texture, texture.sampler});
+        list.add(gl::BindTexture{texture.unit, texture.texture, texture.sampler});
     for (const LookupTexels& texels : texels_)
         if (texels.buffer) list.add(gl::BindTexels{texels.unit, texels.buffer});
     for (const LookupStorage& storage : storage_)

@@ -91,6 +91,7 @@ private:
     };
     Found find(const shadow::LightingLight& light) const;
     void write(const shadow::LightingLight& light, const Found& found, LookupOutcome& outcome, LookupRecord& record);
+    bool provide_objects();
     void keep_units();
     int take_unit(gl::TextureHandle depths, gl::TextureHandle triangles);
     void list_bindings(const GpuScene& gpu);
@@ -101,6 +102,7 @@ private:
     LookupRows rows_;  // its filters are filters_
     std::vector<Unit> units_;
     gl::SamplerHandle sampler_{};
+    gl::TextureHandle no_depths_{}, no_triangles_{};  // at units without an array: drivers want a texture at each
     GrowingBuffer buffer_;
     std::vector<Found> found_;
     std::vector<std::byte> bytes_, uploaded_;

@@ -67,12 +67,15 @@ float gnomon_shared_depth(vec3 at) {
     return textureLod(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)), 0.0).x;
 }
 
-vec4 gnomon_shared_depths(vec3 at) {
-    return textureGather(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)));
-}
-
 uvec2 gnomon_shared_id(vec3 at) {
     return textureLod(gnomon_ids[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.z)), 0.0).xy;
+}
+)";
+
+/// Reads four texels around a corner at once.
+inline constexpr std::string_view kGathered = R"(
+vec4 gnomon_shared_depths(vec3 at) {
+    return textureGather(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)));
 }
 
 $four$ gnomon_shared_ids(vec3 at) {
@@ -81,6 +84,22 @@ $four$ gnomon_shared_ids(vec3 at) {
     found.instance = textureGather(gnomon_ids[gnomon_unit], place, 0);
     found.triangle = textureGather(gnomon_ids[gnomon_unit], place, 1);
     return found;
+}
+)";
+
+/// Reads them one by one, in textureGather's order.
+inline constexpr std::string_view kReadOneByOne = R"(
+vec3 gnomon_beside(vec3 at, float u, float v) { return vec3(at.xy + vec2(u, v) * (0.5 / gnomon_map_edge_px), at.z); }
+
+vec4 gnomon_shared_depths(vec3 at) {
+    return vec4(gnomon_shared_depth(gnomon_beside(at, -1.0, 1.0)), gnomon_shared_depth(gnomon_beside(at, 1.0, 1.0)),
+                gnomon_shared_depth(gnomon_beside(at, 1.0, -1.0)), gnomon_shared_depth(gnomon_beside(at, -1.0, -1.0)));
+}
+
+$four$ gnomon_shared_ids(vec3 at) {
+    uvec2 a = gnomon_shared_id(gnomon_beside(at, -1.0, 1.0)), b = gnomon_shared_id(gnomon_beside(at, 1.0, 1.0));
+    uvec2 c = gnomon_shared_id(gnomon_beside(at, 1.0, -1.0)), d = gnomon_shared_id(gnomon_beside(at, -1.0, -1.0));
+    return $four$(uvec4(a.x, b.x, c.x, d.x), uvec4(a.y, b.y, c.y, d.y));
 }
 )";
 

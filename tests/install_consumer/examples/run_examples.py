@@ -27,9 +27,12 @@ PICTURES = {
     "deferred_mask": ((0.02, 0.5), (0.42, 0.825), (0.10, 0.65)),
     "streaming": ((0.02, 0.6), None, None),
     "split_screen": ((0.02, 0.6), None, None),
+    "wind_foliage": ((0.02, 0.5), None, None),
+    "clustered": ((0.02, 0.6), None, None),
     "sdl_window": ((0.01, 0.3), (0.36, 0.61), (0.60, 0.72)),
 }
-UNSHADOWED = re.compile(r"texelFetch\(shadow_mask, ivec3\((?:gl_FragCoord\.xy|pixel), (?:0|i)\), 0\)\.r")
+UNSHADOWED = re.compile(r"texelFetch\(shadow_mask, ivec3\((?:gl_FragCoord\.xy|pixel), (?:0|i)\), 0\)\.r"
+                        r"|gnomon_visibility\(int\(lamp\.w\), place - camera, normal\)")
 
 
 class Wrong(Exception):
