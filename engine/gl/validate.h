@@ -29,6 +29,15 @@ constexpr bool in_range(std::uint64_t first, std::uint64_t size, std::uint64_t l
     return first <= limit && size <= limit - first;
 }
 
+/// Returns true if the copy's range fits both buffers (CopyBuffer). They must be different objects.
+constexpr bool can_copy(const CopyBuffer& copy, const BufferDesc& source, const BufferDesc& destination) {
+    if (destination.use == BufferUse::fixed) return false;
+    if (copy.size == 0)
+        return copy.source_offset == 0 && copy.destination_offset == 0 && source.size == destination.size;
+    return destination.use == BufferUse::updated && in_range(copy.source_offset, copy.size, source.size) &&
+           in_range(copy.destination_offset, copy.size, destination.size);
+}
+
 /// Returns true if `rect` is not empty and lies in a target of this size.
 constexpr bool in_target(const Rect& rect, std::uint32_t width, std::uint32_t height) {
     return rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&

@@ -11,6 +11,7 @@
 #include "systems/after_submission.h"
 #include "systems/embed/picture_lens.h"
 #include "systems/embed/scene_store.h"
+#include "systems/embed/view_state.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/mask_pass.h"
 #include "systems/lookup/lookup_glsl.h"
@@ -21,56 +22,9 @@
 #include "systems/visibility/light_queries.h"
 
 namespace gnomon {
-namespace embed {
-
-/// Texture of the engine's own, as it was last imported.
-struct Imported {
-    unsigned name = 0;
-    gl::EngineTexture texture;
-    gl::TextureHandle handle{};
-};
-
-/// One view: its mask, and the engine's textures that it reads.
-struct ViewState {
-    ViewState(gl::Device& device, lighting::LightPrograms& programs) : mask(device, programs) {}
-    lighting::MaskPass mask;
-    Imported depth, normals;
-    lighting::DepthPicture picture;
-    std::unique_ptr<lookup::LookupTable> table;  // null: ShadowsOptions::lookup is empty
-    std::vector<std::uint32_t> layers;           // index of a light per layer
-    bool wants_mask = true;
-    bool has_table = false;  // it was written in the last render()
-    std::string_view failure;
-};
-
-}  // namespace embed
-
 namespace {
 
-using embed::Imported;
 using embed::ViewState;
-
-/// Imports a texture, unless it was imported last. Returns {0} if it is no flat texture of that size.
-gl::TextureHandle import(gl::Device& device, unsigned name, glm::uvec2 least_px, Imported& held) {
-    const std::optional<gl::EngineTexture> texture = gl::describe_texture(device, name);
-    const bool fits = texture && texture->desc.kind == gl::TextureKind::flat && texture->desc.width >= least_px.x &&
-                      texture->desc.height >= least_px.y;
-    if (held.handle && (!fits || held.name != name || !(held.texture == *texture))) {
-        device.destroy(held.handle);
-        held = {};
-    }
-    if (fits && !held.handle) held = {name, *texture, gl::import_texture(device, name, texture->desc)};
-    return held.handle;
-}
-
-/// Sets where the samples of a picture's pixels lie. Queries the device only after a change of the texture.
-void put_samples(const gl::Device& device, const Imported& depth, lighting::DepthPicture& picture) {
-    if (depth.texture.samples < 2) return picture.samples.clear();
-    if (picture.samples.size() == depth.texture.samples) return;
-    picture.samples.clear();
-    for (const auto& place : gl::sample_positions(device, depth.name))
-        picture.samples.emplace_back(place[0] - 0.5, place[1] - 0.5);
-}
 
 lookup::LookupBindings bindings_of(const LookupOptions& options) {
     return {options.first_texture_unit, options.texture_unit_count, options.storage_binding};
@@ -82,14 +36,6 @@ lookup::LookupRows rows_of(const LookupOptions& options) {
             .cones = options.spots,
             .cubes = options.points,
             .masks = options.masks};
-}
-
-/// Returns half a step of a depth format with fixed point; 0 for floating point.
-lighting::DepthRounding rounding_of(gl::Format format) {
-    constexpr double kHalf16 = 0.5 / 0xffff, kHalf24 = 0.5 / 0xffffff;
-    return {format == gl::Format::d16                                   ? kHalf16
-            : format == gl::Format::d24 || format == gl::Format::d24_s8 ? kHalf24
-                                                                        : 0.0};
 }
 
 ecs::Entity entity_of(std::size_t view) { return {static_cast<std::uint32_t>(view), 1}; }
@@ -177,24 +123,10 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     consumer_views.push_back(static_cast<std::uint32_t>(index));
     state.wants_mask = view.wants_mask;
     if (!view.wants_mask) return;
-    const auto refuse = [&](std::string_view why) {
-        state.failure = why;
-        consumers.pop_back();
-        consumer_views.pop_back();
-    };
-    state.picture.depth = import(*device, view.depth_texture, view.size_px, state.depth);
-    if (!state.picture.depth || !gl::is_depth(state.depth.texture.desc.format)) return refuse("view.depth");
-    state.picture.rounding = rounding_of(state.depth.texture.desc.format);
-    put_samples(*device, state.depth, state.picture);
-    state.picture.normals = {};
-    if (view.normal_texture != 0) {
-        state.picture.normals = import(*device, view.normal_texture, view.size_px, state.normals);
-        if (!state.picture.normals || state.normals.texture.samples != state.depth.texture.samples)
-            return refuse("view.normals");
-    }
-    state.picture.range = view.normal_format == NormalFormat::snorm ? lighting::NormalRange::plus_minus_one
-                                                                    : lighting::NormalRange::zero_to_one;
-    state.picture.view_space = view.normal_space == NormalSpace::view;
+    state.failure = embed::take_textures(*device, view, state);
+    if (state.failure.empty()) return;
+    consumers.pop_back();
+    consumer_views.pop_back();
 }
 
 /// Lists the light of each layer of a view's mask, as an index of the updated snapshot.

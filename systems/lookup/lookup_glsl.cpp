@@ -24,8 +24,6 @@ using shadow::FilterRow;
 using shadow::MapReading;
 using Names = std::set<std::string, std::less<>>;
 
-constexpr std::string_view kCascadesFile = "shadow/lookup/kinds/directional.glsl";
-constexpr std::string_view kCubeFile = "shadow/lookup/kinds/point.glsl";
 constexpr std::array kFlatKinds = {LookupKind::cascades, LookupKind::warped_cascades, LookupKind::cone};
 
 /// Returns what stands in the place of names of the shaders of one light: the light's record, its row's flags, and

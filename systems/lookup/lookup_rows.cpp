@@ -12,9 +12,6 @@ namespace {
 using shadow::FilterRow;
 using shadow::MapReading;
 
-constexpr std::string_view kCascadesFile = "shadow/lookup/kinds/directional.glsl";
-constexpr std::string_view kCubeFile = "shadow/lookup/kinds/point.glsl";
-
 constexpr std::array kUsualFilters = {ShadowFilter::triangles, ShadowFilter::pcss, ShadowFilter::pcf_bilinear,
                                       ShadowFilter::pcf_grid};
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 #include "components/light_shadow.h"
 #include "systems/shadow/frame/shader_key.h"
@@ -57,6 +58,10 @@ struct FilterChoice {
 /// Returns the filter itself, or one with the same result. Else it returns the nearest in width of blur and in how it
 /// measures edges. `filters` is not empty. Only maps of `triangles` have what that filter needs.
 FilterChoice choose_filter(ShadowFilter filter, std::span<const ShadowFilter> filters);
+
+/// Files of light kinds that have rows here, as ShaderKey::kind_file names them.
+inline constexpr std::string_view kCascadesFile = "shadow/lookup/kinds/directional.glsl";
+inline constexpr std::string_view kCubeFile = "shadow/lookup/kinds/point.glsl";
 
 /// Kinds of lookups, as records number them. none: all is lit.
 enum class LookupKind : std::uint8_t { none, cascades, warped_cascades, cone, cube };
