@@ -105,7 +105,7 @@ TEST(ShaderKey, EveryFileThatADefineNamesIsThere) {
 }
 
 /// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,
-/// and what tests of the bias take away. Texts for all lights tell blended taps apart by a define of their own.
+/// and what tests of the bias take away. Texts for all lights have a define more, for blended taps.
 TEST(ShaderKey, NoShaderAsksForAnythingThatNobodyDefines) {
     const std::string code = shader_code();
     const Names asked = found(code, "\\b(SHADOW_[A-Z_]+|RAY_MASKS)\\b");
