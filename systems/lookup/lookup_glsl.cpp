@@ -14,6 +14,7 @@
 #include "shaders/embedded.h"
 #include "systems/lookup/lookup_record.h"
 #include "systems/lookup/lookup_templates.h"
+#include "systems/shadow/frame/shared_defines.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 
@@ -41,7 +42,6 @@ const std::map<std::string, std::string, std::less<>>& replaced_names() {
         {"kFades", "true"},
         {"kManualBias", "true"},
         {"kAsksRays", "false"},
-        {"SHADOW_REACH_TEXEL", "gnomon_reach_texel"},
         {"map_edge_px", "gnomon_map_edge_px"},
         {"shared_depth", "gnomon_shared_depth"},
         {"shared_depths", "gnomon_shared_depths"},
@@ -66,12 +66,8 @@ Result<gl::GlslNames> add_row(gl::GlslLibrary& library, std::string_view kind_fi
         text.append("#include \"").append(file).append("\"\n");
     std::vector<gl::ShaderFile> files(shader_files().begin(), shader_files().end());
     files.push_back({"row.glsl", text});
-    const bool linear = filter.reading == MapReading::compare_linear;
-    const std::vector<std::string> defines = {
-        "SHADOW_FLAT_MAP \"shadow/lookup/maps/flat_shared.glsl\"",
-        "SHADOW_CUBE_MAP \"shadow/lookup/maps/cube_shared.glsl\"",
-        masks ? "RAY_MASKS \"ray_tracing/alpha_mask.glsl\"" : "RAY_MASKS \"ray_tracing/no_masks.glsl\"",
-        std::string("SHADOW_LINEAR_TAPS ") + (linear ? "1" : "0")};
+    const std::vector<std::string> defines =
+        shadow::shared_defines({filter.reading == MapReading::compare_linear, masks, "gnomon_reach_texel"});
     const auto expanded = gl::expand_shader(files, "row.glsl", defines);
     if (!expanded) return expanded.error();
     return library.add(expanded.value());

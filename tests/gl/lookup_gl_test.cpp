@@ -141,11 +141,67 @@ TEST_F(AllLights, WithEveryBiasWarpsAndFadesAreSeenAsByTheirOwnPass) {
     ShadowTuning fades;
     fades.cascades.blend = 0.3f;
     add(LightKind::directional, {.resolution_px = 256, .cascades = 3}, lights.size(), 0.6f, fades);
+    ShadowTuning warped;
+    warped.cascades.fit = ShadowFit::tight;
+    warped.cascades.warp = 1.0f;
+    add(LightKind::directional, {.resolution_px = 256, .cascades = 1}, lights.size(), 0.6f, warped);
     start();
     run();
-    EXPECT_TRUE(inputs().lights.back().row.fades);
+    EXPECT_TRUE(inputs().lights[lights.size() - 2].row.fades);
+    EXPECT_EQ(lookup::lookup_kind(inputs().lights.back().row), lookup::LookupKind::warped_cascades);
     EXPECT_TRUE(inputs().lights.front().row.manual_bias);
     expect_alike(surface_program());
+}
+
+TEST_F(AllLights, OfMaskedCastersAreSeenAsByTheirOwnPassWithTheirMasks) {
+    assets::Texture holes;
+    holes.width = holes.height = 8;
+    for (std::uint32_t i = 0; i < 64; ++i) holes.rgba.insert(holes.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>((i + i / 8) % 3 == 0 ? 0 : 255)});
+    library.textures.push_back(holes);
+    const std::uint32_t masked = add_material({.name = "masked", .base_colour_texture = 0, .metallic = 0.0f, .alpha_mode = assets::AlphaMode::mask, .double_sided = true});
+    place(add_mesh(game::make_card({0, 0, 0}, {0, 0, 2}, {2, 0, 0}), masked), {.translation_m = {0.0, 1.9, 0.0}});
+    for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point}) add(kind, {.resolution_px = 512}, lights.size());
+    start({.filters = kFew});
+    run();
+    ASSERT_TRUE(inputs().lights.front().row.ray_masks);
+    expect_alike(surface_program());
+    const auto with = looked_up(surface_program());
+
+    // A text without masks takes another filter, which sees the holes in the map's depths.
+    const lookup::LookupRows rows{.filters = lookup::usual_filters(), .masks = false};
+    text = lookup::lookup_glsl(kBindings, rows).value();
+    table = std::make_unique<lookup::LookupTable>(device(), kBindings, rows);
+    const auto without = looked_up(surface_program());
+    std::size_t apart = 0;
+    for (std::uint32_t i = 0; i < with.size(); ++i) {
+        EXPECT_EQ(table->outcomes()[i], (lookup::LookupOutcome{LookupStatus::nearest_filter, ShadowFilter::pcss})) << name(i);
+        const Difference d = difference(with[i], without[i]);
+        EXPECT_LT(d.pixels, with[i].size() / 100) << name(i);
+        apart += d.pixels;
+    }
+    EXPECT_GT(apart, 0u) << "it is no other filter";
+}
+
+TEST_F(AllLights, ShareMapsOfAFewSizesUnlessTheyMoveInWholeTexels) {
+    ShadowTuning stable;
+    stable.cascades.fit = ShadowFit::stable;
+    add(LightKind::directional, {.resolution_px = 700}, 0);
+    add(LightKind::directional, {.resolution_px = 700}, 1, 0.6f, stable);
+    add(LightKind::spot, {.resolution_px = 40}, 2);
+    start({.filters = kFew});
+    run();
+    expect_alike(surface_program());
+    std::vector<std::uint32_t> widths;
+    for (const shadow::LightingLight& light : inputs().lights) widths.push_back(device().shared_layers(light.map).width);
+    EXPECT_EQ(widths, (std::vector<std::uint32_t>{1024, 700, 256}));
+    // Without shared layers nothing can be looked up, and all of it is lit.
+    shadows = std::make_unique<shadow::ShadowSystem>(device());
+    run();
+    const auto lit = looked_up(surface_program());
+    for (std::uint32_t i = 0; i < lit.size(); ++i) {
+        EXPECT_EQ(table->outcomes()[i].status, LookupStatus::not_shared);
+        EXPECT_GT(difference(lit[i], recorded(i)).pixels, 100u);
+    }
 }
 
 TEST_F(AllLights, AHundredAreLookedUpInOneDraw) {

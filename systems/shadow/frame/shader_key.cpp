@@ -1,5 +1,7 @@
 #include "systems/shadow/frame/shader_key.h"
 
+#include "systems/shadow/frame/shared_defines.h"
+
 namespace gnomon::shadow {
 
 namespace {
@@ -38,6 +40,13 @@ std::vector<std::string> program_defines(const ShaderKey& row) {
     const std::string answer = !is_shadowed ? "unshadowed" : (row.rays ? "by_rays" : "by_map");
     defines.push_back(file("SHADOW_VISIBILITY", "shadow/lookup/visibility/" + answer + ".glsl"));
     return defines;
+}
+
+std::vector<std::string> shared_defines(const SharedRow& row) {
+    return {file("SHADOW_FLAT_MAP", "shadow/lookup/maps/flat_shared.glsl"),
+            file("SHADOW_CUBE_MAP", "shadow/lookup/maps/cube_shared.glsl"),
+            file("RAY_MASKS", row.ray_masks ? "ray_tracing/alpha_mask.glsl" : "ray_tracing/no_masks.glsl"),
+            flag("SHADOW_LINEAR_TAPS", row.linear_taps), "SHADOW_REACH_TEXEL " + row.reach_texel};
 }
 
 std::string row_glsl(const ShaderKey& row) {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "shaders/embedded.h"
+#include "systems/shadow/frame/shared_defines.h"
 #include "systems/shadow/request/filter_table.h"
 #include "tests/source_paths.h"
 
@@ -104,12 +105,14 @@ TEST(ShaderKey, EveryFileThatADefineNamesIsThere) {
 }
 
 /// What shaders ask for and none of them defines comes from a row, but for what LightPrograms says of its own passes,
-/// and what tests of the bias take away.
+/// and what tests of the bias take away. Texts for all lights have a define more, for blended taps.
 TEST(ShaderKey, NoShaderAsksForAnythingThatNobodyDefines) {
     const std::string code = shader_code();
     const Names asked = found(code, "\\b(SHADOW_[A-Z_]+|RAY_MASKS)\\b");
     const Names own = found(code, "#\\s*define\\s+(SHADOW_\\w*)");
-    const Names passes{"SHADOW_SHOWN", "SHADOW_BIAS_SHARE"}, rows = names_of(program_defines(full_row()));
+    const Names passes{"SHADOW_SHOWN", "SHADOW_BIAS_SHARE"};
+    Names rows = names_of(program_defines(full_row()));
+    rows.merge(names_of(shared_defines({})));
     ASSERT_GT(asked.size(), rows.size() / 2);
     for (const std::string& name : asked)
         EXPECT_TRUE(rows.contains(name) || own.contains(name) || passes.contains(name)) << name;

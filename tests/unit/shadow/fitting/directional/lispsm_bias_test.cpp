@@ -11,8 +11,7 @@ namespace gnomon::bench::glsl {
 namespace {
 
 constexpr int kSize_px = 1024;
-struct sampler2DArrayShadow {};
-ivec3 textureSize(const sampler2DArrayShadow&, int) { return {kSize_px, kSize_px, 1}; }
+vec2 shadow_map_size() { return {kSize_px, kSize_px}; }
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -28,7 +27,6 @@ ivec3 textureSize(const sampler2DArrayShadow&, int) { return {kSize_px, kSize_px
 struct Shader {
 #include "shaders/shadow/lookup/light_block.glsl"
 #include "shaders/shadow/lookup/bias/automatic.glsl"
-    sampler2DArrayShadow shadow_map;
 #include "shaders/shadow/lookup/bias/lispsm.glsl"
 };
 #undef float
