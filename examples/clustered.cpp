@@ -81,7 +81,7 @@ struct Box {
     GLuint array = 0;
 
     Box() {
-        for (int i = 0; i < 8; ++i) corners.emplace_back((i & 1) - 0.5f, (i >> 1 & 1) - 0.5f, (i >> 2) - 0.5f);
+        for (int i = 0; i < 8; ++i) corners.push_back(glm::vec3(i & 1, i >> 1 & 1, i >> 2) - 0.5f);
         GLuint buffers[2];
         glCreateBuffers(2, buffers);
         glNamedBufferStorage(buffers[0], static_cast<GLsizeiptr>(corners.size() * sizeof corners[0]), corners.data(),
@@ -148,9 +148,13 @@ int main(int argc, char** argv) {
     const Box box;
 
     // The text has spots alone, which is what all lamps are.
-    auto created = gnomon::Shadows::create(
-        {.lookup = gnomon::LookupOptions{
-             .first_texture_unit = 0, .storage_binding = 2, .suns = false, .points = false, .masks = false}});
+    auto created =
+        gnomon::Shadows::create({.lookup = gnomon::LookupOptions{.first_texture_unit = 0,
+                                                                 .storage_binding = 2,
+                                                                 .suns = false,
+                                                                 .points = false,
+                                                                 .alpha_tests = false,
+                                                                 .filters = {gnomon::ShadowFilter::triangles}}});
     if (!created) return fail(created.error());
     gnomon::Shadows& shadows = *created.value();
     // [text]
@@ -195,7 +199,7 @@ int main(int argc, char** argv) {
                 {.light = {.kind = gnomon::LightKind::spot, .range_m = kRange_m, .outer_cone_rad = kCone_rad},
                  .position_m = at,
                  .direction = {0.0, -1.0, 0.0},
-                 .shadow = {.resolution_px = 256}});
+                 .shadow = {.resolution_px = 256}});  // a hundred small maps in one shared array
             lamps[static_cast<std::size_t>(i)] = glm::vec4(glm::vec3(at), 0.0f);
         }
 
@@ -207,7 +211,7 @@ int main(int argc, char** argv) {
                                                   .clip_from_view = clip_from_view,
                                                   .size_px = size,
                                                   .wants_mask = false});
-        if (!none.failure.empty()) return fail({"no shadows", {}, {}, std::string(none.failure)});
+        if (!none.failure.empty()) return fail({.message = "no shadows", .rule = std::string(none.failure)});
         for (int i = 0; i < kLamps; ++i)
             lamps[static_cast<std::size_t>(i)].w =
                 static_cast<float>(shadows.lookup_index(lights[static_cast<std::size_t>(i)]));

@@ -268,7 +268,7 @@ int main(int argc, char** argv) {
                                                   .depth_texture = surfaces.depth,
                                                   .size_px = size_px,
                                                   .normal_texture = surfaces.normals});
-        if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
+        if (!mask.failure.empty()) return fail({.message = "no mask", .rule = std::string(mask.failure)});
 
         // Lighting.
         glBindFramebuffer(GL_FRAMEBUFFER, window.value()->framebuffer());

@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
                                                   .depth_texture = window.value()->depth_texture(),
                                                   .size_px = size,
                                                   .lights = lights});
-        if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
+        if (!mask.failure.empty()) return fail({.message = "no mask", .rule = std::string(mask.failure)});
         // [mask]
 
         glDepthFunc(GL_EQUAL);

@@ -190,7 +190,7 @@ int run(SDL_Window* window, const gnomon::WindowOptions& options) {
                                                   .clip_from_view = clip_from_view,
                                                   .depth_texture = picture.depth,
                                                   .size_px = size_px});
-        if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
+        if (!mask.failure.empty()) return fail({.message = "no mask", .rule = std::string(mask.failure)});
         const glm::vec3 place(lamp.position_m), beam(glm::normalize(lamp.direction));
         glDepthFunc(GL_EQUAL);
         glEnable(GL_FRAMEBUFFER_SRGB);

@@ -256,7 +256,7 @@ int main(int argc, char** argv) {
                                                   .depth_texture = window.value()->depth_texture(),
                                                   .size_px = size_px,
                                                   .lights = lights});
-        if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
+        if (!mask.failure.empty()) return fail({.message = "no mask", .rule = std::string(mask.failure)});
         glDepthFunc(GL_EQUAL);
         glBindTextureUnit(0, mask.texture);
         glProgramUniform1i(forward, 2, static_cast<GLint>(lights.size()));

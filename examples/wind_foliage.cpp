@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     const auto draw = [&](const gnomon::DrawableView& map) {
         meadow.draw_grass(meadow.grass_depth, map.clip_from_world);
     };
-    const gnomon::CasterId grass = shadows.add_drawable({.name = "grass", .draw = draw, .bounds = bounds});
+    const gnomon::CasterId grass = shadows.add_drawable({.draw = draw, .bounds = bounds});
     // [drawable]
     const glm::dvec3 to_sun = glm::normalize(glm::dvec3(1.0, 1.4, 0.6));
     shadows.add_light({.name = "sun", .light = {.kind = gnomon::LightKind::directional}, .direction = -to_sun});
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
                                                   .clip_from_view = clip_from_view,
                                                   .depth_texture = window.value()->depth_texture(),
                                                   .size_px = size});
-        if (!mask.failure.empty()) return fail({"no mask", {}, {}, std::string(mask.failure)});
+        if (!mask.failure.empty()) return fail({.message = "no mask", .rule = std::string(mask.failure)});
         drawn += shadows.status().maps_drawn;
         ++frames;
 

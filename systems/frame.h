@@ -38,7 +38,6 @@ struct FrameSettings {
     glm::uvec2 viewport_px{1280, 720};
     std::optional<float> exposure_ev;  // EV100; empty: automatic
     bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
-    bool rays = true;                  // false: lights with rays get a filtered map instead
     bool present = false;              // copy the picture to the window at the end
     /// Block at the end of a frame for what the GPU measures (CascadeSplits::sampled; automatic exposure with faint
     /// lights). Every run then draws the same pictures. Otherwise nothing blocks, and measurements arrive some frames
@@ -55,6 +54,7 @@ struct FrameSettings {
     /// Maximum number of light programs compiled per frame. Until its program is compiled, a light is looked up with
     /// one tap and reports filter_program_waits. Default: no limit.
     std::uint32_t programs_per_frame = ~0u;
+    bool rays = true;  // false: lights with rays get a filtered map instead
 };
 
 /// Sequence of a frame as a list of calls: transforms, snapshot, shadows, lighting, submit. For an engine with another

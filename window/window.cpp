@@ -111,10 +111,13 @@ Result<bool> Window::end_frame() {
     State& s = *state_;
     const auto width = static_cast<GLint>(s.size_px.x), height = static_cast<GLint>(s.size_px.y);
     if (s.window) {
+        const GLboolean cuts = glIsEnabled(GL_SCISSOR_TEST), encodes = glIsEnabled(GL_FRAMEBUFFER_SRGB);
         glDisable(GL_SCISSOR_TEST);
         glDisable(GL_FRAMEBUFFER_SRGB);  // colours are encoded already
         glBlitNamedFramebuffer(s.framebuffer, 0, 0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                                GL_NEAREST);
+        if (cuts == GL_TRUE) glEnable(GL_SCISSOR_TEST);
+        if (encodes == GL_TRUE) glEnable(GL_FRAMEBUFFER_SRGB);
         s.window->present();
     }
     if (!s.is_last() || s.options.screenshot.empty()) return true;

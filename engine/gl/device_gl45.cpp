@@ -368,9 +368,11 @@ void bind_for_engine(const Device& gl45_device, std::span<const EngineBinding> b
                 glBindTextureUnit(b.place, gl_texels_name(gl45_device, b.buffer));
                 glBindSampler(b.place, 0);
                 break;
-            case EngineBinding::Kind::storage:
-                glBindBufferBase(GL_SHADER_STORAGE_BUFFER, b.place, gl_name(gl45_device, b.buffer));
+            case EngineBinding::Kind::storage: {
+                const GLuint name = gl_name(gl45_device, b.buffer);
+                glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, b.place, 1, &name);  // leaves the generic binding alone
                 break;
+            }
         }
     }
 }

@@ -47,7 +47,8 @@ TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDe
 /// Texture of the context: Gnomon's or the engine's.
 struct EngineTexture {
     TextureDesc desc;
-    std::uint32_t samples = 1;  // above 1: multisampled
+    bool multisampled = false;
+    std::uint32_t samples = 1;  // multisampled textures may have 1, too
     bool operator==(const EngineTexture&) const = default;
 };
 /// Describes any texture of the context, for import_texture(). Empty: there is none of that name, or of another kind or
@@ -72,7 +73,7 @@ struct EngineBinding {
 void bind_for_engine(const Device& gl45_device, std::span<const EngineBinding> bindings);
 
 /// Calls draw() with a target bound, as lists draw casters into it. Set are the viewport, clip depths of [0, 1], depth
-/// test `greater` with writes, and depth clamp. Culling, blending, scissor and colour writes are off. Afterwards that
+/// test `greater` with writes, and depth clamp. Culling, scissor and colour writes are off. Afterwards that
 /// state is as it was. Returns false without calling it if the target is unknown.
 bool draw_into(Device& gl45_device, TargetHandle target, const Rect& viewport, const std::function<void()>& draw);
 

@@ -9,16 +9,18 @@ namespace gnomon::gl {
 namespace {
 
 /// Capabilities that decide where a draw's depths go, and their value while casters are drawn.
-constexpr std::array<std::pair<GLenum, bool>, 10> kCapabilities = {{{GL_DEPTH_TEST, true},
-                                                                    {GL_DEPTH_CLAMP, true},
-                                                                    {GL_CULL_FACE, false},
-                                                                    {GL_STENCIL_TEST, false},
-                                                                    {GL_POLYGON_OFFSET_FILL, false},
-                                                                    {GL_RASTERIZER_DISCARD, false},
-                                                                    {GL_SAMPLE_ALPHA_TO_COVERAGE, false},
-                                                                    {GL_SAMPLE_COVERAGE, false},
-                                                                    {GL_SAMPLE_MASK, false},
-                                                                    {GL_BLEND, false}}};
+constexpr std::array<std::pair<GLenum, bool>, 9> kCapabilities = {{{GL_DEPTH_TEST, true},
+                                                                   {GL_DEPTH_CLAMP, true},
+                                                                   {GL_CULL_FACE, false},
+                                                                   {GL_STENCIL_TEST, false},
+                                                                   {GL_POLYGON_OFFSET_FILL, false},
+                                                                   {GL_RASTERIZER_DISCARD, false},
+                                                                   {GL_SAMPLE_ALPHA_TO_COVERAGE, false},
+                                                                   {GL_SAMPLE_COVERAGE, false},
+                                                                   {GL_SAMPLE_MASK, false}}};
+
+/// Viewports that OpenGL 4.5 guarantees, each with a scissor test of its own.
+constexpr std::size_t kViewports = 16;
 
 }  // namespace
 
@@ -28,7 +30,7 @@ void draw_into(const GlTarget& target, const Rect& viewport, const std::function
         capabilities[i] = Kept(Capability{kCapabilities[i].first});
         capabilities[i].set(kCapabilities[i].second);
     }
-    Kept<IndexedCapability> scissor(IndexedCapability{GL_SCISSOR_TEST, 0});
+    std::array<Kept<IndexedCapability>, kViewports> scissors;
     Kept<DrawFramebuffer> framebuffer;
     Kept<Viewport> area;
     Kept<ClipControl> clip;
@@ -37,7 +39,10 @@ void draw_into(const GlTarget& target, const Rect& viewport, const std::function
     Kept<DepthMask> writes;
     Kept<PolygonMode> mode;
     std::array<Kept<ColourMask>, kMaxColourAttachments> colours;
-    scissor.set(false);
+    for (GLuint i = 0; i < scissors.size(); ++i) {
+        scissors[i] = Kept(IndexedCapability{GL_SCISSOR_TEST, i});
+        scissors[i].set(false);
+    }
     framebuffer.set(static_cast<GLint>(target.name));
     area.set({static_cast<float>(viewport.x), static_cast<float>(viewport.y), static_cast<float>(viewport.width),
               static_cast<float>(viewport.height)});
@@ -52,16 +57,16 @@ void draw_into(const GlTarget& target, const Rect& viewport, const std::function
         colours[i].set({GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE});
     }
     draw();
-    for (Kept<ColourMask>& colour : colours) colour.restore();
-    mode.restore();
-    writes.restore();
-    test.restore();
-    range.restore();
-    clip.restore();
-    area.restore();
-    framebuffer.restore();
-    scissor.restore();
-    for (Kept<Capability>& capability : capabilities) capability.restore();
+    for (Kept<ColourMask>& colour : colours) colour.write_back();
+    mode.write_back();
+    writes.write_back();
+    test.write_back();
+    range.write_back();
+    clip.write_back();
+    area.write_back();
+    framebuffer.write_back();
+    for (Kept<IndexedCapability>& scissor : scissors) scissor.write_back();
+    for (Kept<Capability>& capability : capabilities) capability.write_back();
 }
 
 }  // namespace gnomon::gl

@@ -260,11 +260,10 @@ private:
         }
         if (!c.clear_colour) return;
         std::array<GLuint, 4> whole{};
-        std::transform(c.colour.begin(), c.colour.end(), whole.begin(),
-                       [](float value) {
-                           constexpr float kBeyond = 4294967296.0f;  // 2^32
-                           return value >= kBeyond ? ~GLuint{0} : static_cast<GLuint>(std::max(value, 0.0f));
-                       });
+        std::transform(c.colour.begin(), c.colour.end(), whole.begin(), [](float value) {
+            constexpr float kBeyond = 4294967296.0f;  // 2^32
+            return value >= kBeyond ? ~GLuint{0} : static_cast<GLuint>(std::max(value, 0.0f));
+        });
         for (std::size_t i = 0; i < target.colours; ++i) {
             if ((target.integer_colours >> i & 1u) != 0)
                 glClearBufferuiv(GL_COLOR, static_cast<GLint>(i), whole.data());

@@ -104,6 +104,7 @@ std::optional<EngineTexture> described(GLuint name) {
             const std::uint32_t layers = kind == TextureKind::array ? value(GL_TEXTURE_DEPTH) : 1;
             return EngineTexture{
                 {{}, kind, static_cast<Format>(format), value(GL_TEXTURE_WIDTH), value(GL_TEXTURE_HEIGHT), layers},
+                static_cast<GLenum>(target) != gl_kind(kind),
                 std::max(value(GL_TEXTURE_SAMPLES), 1u)};
         }
     }
@@ -112,7 +113,8 @@ std::optional<EngineTexture> described(GLuint name) {
 
 std::vector<std::array<float, 2>> places_of_samples(GLuint name) {
     const std::optional<EngineTexture> texture = described(name);
-    if (!texture || texture->samples < 2 || texture->desc.kind != TextureKind::flat || !is_depth(texture->desc.format))
+    if (!texture || !texture->multisampled || texture->desc.kind != TextureKind::flat ||
+        !is_depth(texture->desc.format))
         return {};
     const bool stencil = texture->desc.format == Format::d24_s8 || texture->desc.format == Format::d32f_s8;
     GLuint framebuffer = 0;

@@ -26,6 +26,11 @@ public:
         if (known_) set(before_);
         known_ = false;
     }
+    /// Gives it back where others may have changed it since.
+    void write_back() {
+        if (known_) piece_.write(before_);
+        known_ = false;
+    }
     bool known() const { return known_; }
     /// Returns what it was. Valid while known().
     const Value& before() const { return before_; }

@@ -13,8 +13,8 @@ namespace gnomon::gl {
 struct GlTexture {
     GLuint name = 0;
     TextureDesc desc;
-    GLenum target = GL_NONE;  // GL_TEXTURE_…
-    bool imported = false;    // someone else's, who deletes it
+    GLenum target = GL_NONE;        // GL_TEXTURE_…
+    bool imported = false;          // someone else's, who deletes it
     std::uint32_t array = 0;        // id of the shared array that has its layers; 0: it has its own
     std::uint32_t first_layer = 0;  // in that array
 };

@@ -70,7 +70,8 @@ Made<GlTexture> SharedArrays::make(const TextureDesc& desc, std::uint32_t most_l
         }
         most_used = std::max(most_used, texture.desc.layers);
     }
-    Made<GlTexture> array = make_texture(array_desc(desc, shared_array_layers(desc, most_used, most_layers)), {}, false);
+    Made<GlTexture> array =
+        make_texture(array_desc(desc, shared_array_layers(desc, most_used, most_layers)), {}, false);
     if (array.failure == Failure::out_of_memory) array = make_texture(array_desc(desc, count), {}, false);
     if (array.failure != Failure::none) return array;
     Made<GlTexture> made = make_view(desc, array.object, next_id, 0);

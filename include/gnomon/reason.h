@@ -4,7 +4,7 @@
 namespace gnomon {
 
 /// What a frame did for a light's shadow. rendered: a map was drawn. reused: earlier maps are valid. degraded: it has a
-/// shadow, with less than was requested. skipped: it has none, and lights as if nothing were in its way.
+/// shadow, with less than was requested. skipped: it is unshadowed; Reason has the cause.
 enum class LightState : std::uint8_t { rendered, reused, degraded, skipped };
 const char* to_text(LightState state);
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "components/light.h"
 #include "components/light_shadow.h"
@@ -21,11 +22,11 @@
 /// light's visibility at every pixel. Needs an OpenGL 4.5 core context; every call is made on its thread.
 namespace gnomon {
 
-/// Name of something that was added. Valid until it is removed; a removed one never names anything again.
+/// Handle of something added. Valid until that is removed; a removed one never names anything again.
 template <class Kind>
 struct Handle {
     std::uint32_t index = 0xffffffffu;
-    std::uint32_t version = 0;
+    std::uint32_t version = 0;  // generation: differs from earlier uses of the index
     explicit operator bool() const { return index != 0xffffffffu; }
     bool operator==(const Handle&) const = default;
 };
@@ -33,7 +34,7 @@ using MeshId = Handle<struct MeshKind>;
 using CasterId = Handle<struct CasterKind>;
 using LightId = Handle<struct ShadowLightKind>;
 
-/// Cut-out of a mesh: where alpha is below the cutoff, light passes.
+/// Alpha test of a mesh: light passes where alpha is below the cutoff. Repeats beyond [0, 1], filtered linearly.
 struct AlphaMask {
     glm::uvec2 size_px{0, 0};                  // 0: the mesh is opaque
     std::span<const std::uint8_t> alpha = {};  // size_px.x * size_px.y bytes, first row at v = 0
@@ -45,20 +46,20 @@ struct MeshDesc {
     std::string_view name = {};                   // in error messages and captures
     std::span<const glm::vec3> positions_m = {};  // mesh space, metres, finite
     std::span<const std::uint32_t> indices = {};  // three per triangle, counter-clockwise from outside
-    bool two_sided = false;                       // drawn from both sides: neither is inside
+    bool two_sided = false;  // seen from inside too: never counts as solid. Open meshes cast from both sides either way
     AlphaMask mask = {};
     std::span<const glm::vec2> uvs = {};  // one per position, for the mask; else empty
 };
 
-/// Placed mesh. It darkens others (casts) and is darkened (receives); what a view shows and nothing declares receives
-/// no fitted shadow.
+/// Placed mesh: a caster, a receiver, or both. Maps cover declared receivers alone: declare every surface that shadows
+/// shall fall on, the ground too.
 struct CasterDesc {
     MeshId mesh = {};
     glm::dmat4 world_from_mesh{1.0};  // affine; may mirror, scale and shear
     bool casts = true;
-    bool receives = true;
+    bool receives = true;  // maps are fitted to it; a mask darkens its pixels either way
     ShadowLayers cast_layers = kAllShadowLayers;
-    ShadowLayers receive_layers = kAllShadowLayers;
+    ShadowLayers receive_layers = kAllShadowLayers;  // for fits; by pixel: gnomon_takes_shadow() in lookup_glsl()
 };
 
 /// View of a light's map into which an engine draws a caster with code of its own. The map is bound, with its viewport.
@@ -81,19 +82,19 @@ struct Bounds {
 /// Caster that the engine draws: wind, terrain, tessellation, GPU skinning, particles. Filters that read triangles
 /// treat it by depth (docs/embedding.md). Visibility queries do not see it.
 struct DrawableDesc {
-    std::string_view name = {};
-    std::function<void(const DrawableView&)> draw = {};  // called within render(), for each map that shows it
-    Bounds bounds = {};                                  // contains all that is drawn
+    std::function<void(const DrawableView&)> draw =
+        {};              // called within render(), for each map that shows it; must not throw, nor call this object
+    Bounds bounds = {};  // contains all that is drawn
     bool casts = true;
     bool receives = true;
     ShadowLayers cast_layers = kAllShadowLayers;
     ShadowLayers receive_layers = kAllShadowLayers;
 };
 
-/// Light. Its kind, range, cone and size decide where its shadow falls. Colour and intensity only decide whether it is
-/// on: they may stay at their defaults where the engine has other units.
+/// Light. Its kind, range, cone and size decide where its shadow falls. Colour and intensity decide whether it is on,
+/// and its rank under a budget. They may stay at their defaults where the engine has other units.
 struct LightDesc {
-    std::string name = {};  // in status, captures and messages; a repeated name gets .1, .2, …
+    std::string name = {};  // in captures and messages; empty: "light" and a number; a repeated one gets .1, .2, …
     Light light = {};
     glm::dvec3 position_m{0.0};            // spot and point: world
     glm::dvec3 direction{0.0, -1.0, 0.0};  // sun and spot: in which it shines, world; any length above 0
@@ -101,7 +102,8 @@ struct LightDesc {
 };
 
 /// Range of depths in clip space after division by w. minus_one_to_one is OpenGL's default; zero_to_one is what
-/// glClipControl(…, GL_ZERO_TO_ONE) sets.
+/// glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE) sets. GLM's perspective() has zero_to_one where
+/// GLM_FORCE_DEPTH_ZERO_TO_ONE is defined.
 enum class ClipDepth : std::uint8_t { minus_one_to_one, zero_to_one };
 
 /// Components of a normal texture. snorm: [-1, 1], as float and SNORM formats have. unorm: [0, 1], n = 2 x - 1.
@@ -109,14 +111,15 @@ enum class NormalFormat : std::uint8_t { snorm, unorm };
 /// Axes of its normals.
 enum class NormalSpace : std::uint8_t { world, view };
 
-/// Picture that needs shadows: a camera, and the depths that the engine has drawn with it.
+/// View that needs shadows: a camera, and the depth buffer that the engine has drawn with it.
 struct View {
-    glm::dmat4 world_from_view{1.0};  // the camera's place: rigid, looks along its -Z with +Y up
-    /// Projection, as the depths were drawn with it. Perspective or orthographic; reversed, infinite, off-centre and
-    /// jittered ones are read as they are.
+    glm::dmat4 world_from_view{1.0};  // camera to world: rigid, looks along -Z, +Y up
+    /// Projection, as the depths were drawn with it, jitter included. Perspective or orthographic; reversed, infinite
+    /// and off-centre ones are read as they are. A flipped y or an oblique near plane is refused ("view.projection").
     glm::dmat4 clip_from_view{1.0};
     ClipDepth clip_depth = ClipDepth::minus_one_to_one;
-    /// GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE with a depth format, from pixel (0, 0) on.
+    /// GL_TEXTURE_2D or GL_TEXTURE_2D_MULTISAMPLE of D16, D24 or D32F, with stencil or without. Pixel (0, 0) is the
+    /// lower left one. The window's own depths and renderbuffers cannot be read.
     unsigned depth_texture = 0;
     glm::uvec2 size_px{0, 0};  // drawn part of it
     /// The same kind of texture with geometric normals, and as many samples. 0: they are derived from the depths, less
@@ -124,7 +127,8 @@ struct View {
     unsigned normal_texture = 0;
     NormalFormat normal_format = NormalFormat::snorm;
     NormalSpace normal_space = NormalSpace::world;
-    /// Lights of the mask, a layer each, in this order. Empty: all lights, in the order in which they were added.
+    /// Lights of the mask, a layer each, in this order. A handle that names no usable light has a layer of 1. Empty:
+    /// all usable lights; a light's layer is then lookup_index().
     std::span<const LightId> lights = {};
     /// False: no mask is drawn and no texture is read, for shaders that look lights up themselves (lookup_glsl()).
     bool wants_mask = true;
@@ -134,14 +138,17 @@ struct View {
 struct Mask {
     /// GL_TEXTURE_2D_ARRAY of R8, a layer per light and sample: light i has layers i * samples to i * samples + samples
     /// - 1. 1 where the light arrives, 0 where it does not, and where the surface faces away or is out of its reach.
-    /// Gnomon's own; valid until the next render(). 0: it could not be made.
+    /// 0 also where there is no surface. Normals are turned toward the viewer: for light through leaves take
+    /// gnomon_visibility(light, position). Its size is View::size_px. Gnomon's own; valid until the next render(). 0:
+    /// no mask was wanted, there are no lights, or `failure` has the reason.
     unsigned texture = 0;
-    std::uint32_t layers = 0;
+    std::uint32_t layers = 0;  // lights times samples
     /// Samples of the depth texture, 1 without multisampling. A forward shader reads the layer of a sample that it
     /// covers: findLSB(gl_SampleMaskIn[0]).
     std::uint32_t samples = 1;
-    /// Why there is none: "view.projection", "view.size", "view.depth", "view.normals", or the device's code. Empty:
-    /// there is one.
+    /// Reason why the view could not be read, or its mask not made; empty: none. "view.projection", "view.size",
+    /// "view.depth", "view.normals", "instances_full", or the device's: "out_of_memory", "invalid_value",
+    /// "incomplete_target", "compile_failed", "link_failed", "context_lost".
     std::string_view failure = {};
 };
 
@@ -158,17 +165,19 @@ struct LightStatus {
     std::optional<double> gpu_us;                   // time of its maps and its mask on the GPU; empty: not measured yet
 };
 
-/// Something that cannot be drawn, and why: its transform is not finite, flattens it, or its mesh is gone. Everything
-/// else is unaffected; it returns when what was wrong is set right.
+/// Caster or light left out of the last render(). All else is unaffected; it returns once the cause is gone.
 struct Dropped {
     CasterId caster;  // none: `light` is meant
     LightId light;
-    std::string_view reason;  // stable code
+    /// Stable code. Casters: "unknown_mesh", "meshes_full" (no device memory), "non_finite_transform" (also bounds that
+    /// are no box), "zero_scale" (no area). Lights: "absurd_light" (numbers out of range), "non_finite_transform",
+    /// "zero_rotation" (no direction).
+    std::string_view reason;
 };
 
 /// Totals of the last render().
 struct RenderStatus {
-    bool still = false;  // nothing changed: no map was looked at
+    bool still = false;  // nothing changed since the last call: no map was drawn
     std::uint32_t maps_drawn = 0, draws = 0;
     std::uint64_t bytes = 0;       // memory of all maps
     double cpu_us = 0.0;           // time of the call
@@ -186,11 +195,17 @@ struct Budget {
 /// written into the text.
 struct LookupOptions {
     std::uint32_t first_texture_unit = 16;
-    std::uint32_t texture_unit_count = 15;  // at least 5: three for buffers, two for each size and format of maps
-    std::uint32_t storage_binding = 7;      // for a shader storage buffer: masks of casters
+    /// At least 5: three for buffers, two for each size and format of maps. Each counts as a sampler of your shader;
+    /// OpenGL guarantees 16.
+    std::uint32_t texture_unit_count = 12;
+    std::uint32_t storage_binding = 7;  // for a shader storage buffer: alpha tests of casters
     /// Parts that the text has. Each costs time to compile, and on software devices to run. A light that needs what is
     /// left out is looked up by the nearest part, or is lit.
-    bool suns = true, spots = true, points = true, masks = true;
+    bool suns = true, spots = true, points = true;
+    bool alpha_tests = true;  // casters with an AlphaMask let light through
+    /// Filters that the text has; each must read depths. Empty: triangles, pcss, pcf_bilinear and pcf_grid,
+    /// which give four others to the same result.
+    std::vector<ShadowFilter> filters = {};
 };
 
 struct ShadowsOptions {
@@ -203,7 +218,8 @@ struct ShadowsOptions {
 };
 
 /// Owner of maps, programs and copies of meshes in one OpenGL context. render() is called once per frame; all else at
-/// any time between. The context must be current in every call, and when the object is destroyed.
+/// any time between. The context must be current in every call, and when the object is destroyed: one object per
+/// context, one thread at a time. A removed or empty handle is ignored; handles are those of one object.
 class Shadows {
 public:
     /// Creates the system for the current context. Errors: "gl.version" (below 4.5 core), "gpu.scene" (no memory).
@@ -225,7 +241,8 @@ public:
     void set_caster(CasterId caster, const CasterDesc& desc);
     void remove(CasterId caster);
 
-    /// Adds a caster that the engine draws.
+    /// Adds a caster that the engine draws. redraw() and remove() take it; to change other fields, remove it and add
+    /// another.
     CasterId add_drawable(const DrawableDesc& drawable);
     /// Announces that a drawable draws something else from now on, within `bounds`. Maps that show it are drawn again.
     /// Without this call they stay, at no cost.
@@ -240,8 +257,9 @@ public:
 
     void set_budget(const Budget& budget);
 
-    /// Draws the maps that changed, and a mask per view, in the same order. At most 32 views. The masks stay valid
-    /// until the next call. Never throws; nothing is allocated while nothing grows.
+    /// Draws the maps that changed, and a mask per view, in the same order. The masks stay valid until the next call.
+    /// No views: takes what was set, for visibility(). From the 32nd on, views share one bit of bookkeeping: maps may
+    /// be drawn needlessly. Throws only std::bad_alloc while storage grows; nothing is allocated while nothing does.
     std::span<const Mask> render(std::span<const View> views);
     /// Does the same for one view.
     Mask render(const View& view) { return render(std::span(&view, 1)).front(); }
@@ -250,9 +268,10 @@ public:
     /// blended and volume shaders. Paste it into any stage; it stays the same for the life of the object. It gives:
     /// - `int gnomon_light_count()`
     /// - `float gnomon_visibility(int light, vec3 position, vec3 normal)`: the share of the light that arrives. light:
-    ///   lookup_index(); position: from the view's camera, in the world's axes, metres; normal: geometric, unit,
-    ///   facing the viewer
+    ///   lookup_index(). position: from the view's camera, in the world's axes, metres. With a negative near plane of
+    ///   an orthographic view: from the middle of that plane. normal: geometric, unit, facing the viewer
     /// - `float gnomon_visibility(int light, vec3 position)`: the same for a place in the air: fog, particles
+    /// - `bool gnomon_takes_shadow(int light, int layers)`: the light's shadows fall on receivers of these layers
     /// - `gnomon_uniform_visibility(…)`: faster, where all invocations look up the same light at once.
     /// Errors: "lookup.off" (ShadowsOptions::lookup is empty), "lookup.bindings", "lookup.rows".
     Result<std::string> lookup_glsl() const;
@@ -260,9 +279,10 @@ public:
     /// bound. Call it before the draws of that view. Returns false if the view could not be read, or the device has no
     /// room.
     bool bind_lookup(std::size_t view = 0);
-    /// Returns the light's number in the text; -1: it has none. It may change with every render().
+    /// Returns the light's number in the text. -1: it has none; skip it, since the text does not check. Valid from
+    /// render() to the next change of lights.
     int lookup_index(LightId light) const;
-    /// Returns how the text looks the light up for that view: with its own filter, the nearest one, or why it is lit.
+    /// Returns a sentence for a person: which filter of the text looks the light up for that view, or why it is lit.
     std::string_view lookup_status(LightId light, std::size_t view = 0) const;
 
     LightStatus status(LightId light) const;

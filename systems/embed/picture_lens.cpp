@@ -17,7 +17,8 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 bool is_projection(const glm::dmat4& m) {
     const bool separate = m[0][1] == 0.0 && m[0][2] == 0.0 && m[0][3] == 0.0 && m[1][0] == 0.0 && m[1][2] == 0.0 &&
                           m[1][3] == 0.0 && m[3][3] >= 0.0;
-    return separate && m[0][0] > 0.0 && m[1][1] > 0.0;
+    const glm::dvec4& unused = m[2][3] == 0.0 ? m[2] : m[3];  // a shear, or an eye moved to the side
+    return separate && unused.x == 0.0 && unused.y == 0.0 && m[0][0] > 0.0 && m[1][1] > 0.0;
 }
 
 /// Sets the range of distances that depths 0 and 1 stand for. Returns false if there is none.

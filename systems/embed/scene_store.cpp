@@ -31,7 +31,7 @@ ecs::Entity entity_of(Id id) {
 /// Returns a rotation that looks along `direction`. Empty: it has none.
 std::optional<glm::dmat3> looking_along(const glm::dvec3& direction) {
     const double size = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    if (!(size > 0.0) || !std::isfinite(size)) return std::nullopt;
+    if (!is_finite(direction) || !(size > 0.0)) return std::nullopt;
     return math::basis_from_back(-glm::normalize(direction / size));
 }
 

@@ -30,12 +30,14 @@ lookup::LookupBindings bindings_of(const LookupOptions& options) {
     return {options.first_texture_unit, options.texture_unit_count, options.storage_binding};
 }
 
-lookup::LookupRows rows_of(const LookupOptions& options) {
-    return {.suns = options.suns,
+lookup::LookupRows rows_of(const LookupOptions& options, const gl::DeviceInfo& device) {
+    return {.filters = options.filters.empty() ? lookup::usual_filters() : std::span(options.filters),
+            .suns = options.suns,
             .warped_suns = options.suns,
             .cones = options.spots,
             .cubes = options.points,
-            .masks = options.masks};
+            .masks = options.alpha_tests,
+            .gathers = !device.is_software};
 }
 
 ecs::Entity entity_of(std::size_t view) { return {static_cast<std::uint32_t>(view), 1}; }
@@ -60,14 +62,18 @@ struct Shadows::State {
           trees(store.library()),
           queries(trees) {
         if (options.lookup) shadows.share_layers();
-        if (wants_times())
-            device->set_timing(device->info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+        set_timing();
     }
     ~State() {
         for (const auto& view : views) {
             device->destroy(view->depth.handle);
             device->destroy(view->normals.handle);
         }
+    }
+    /// Times the device's work where budget or options need it.
+    void set_timing() {
+        using Mode = gl::TimingMode;
+        device->set_timing(!wants_times() ? Mode::off : device->info().is_software ? Mode::finish : Mode::query);
     }
     bool wants_times() const { return options.time_gpu || options.budget.gpu_ms > 0.0f; }
 
@@ -91,6 +97,7 @@ struct Shadows::State {
     std::vector<std::uint32_t> consumer_views;  // view of each consumer
     std::vector<Mask> masks;
     gl::CommandList commands, begun;
+    gl::Failure begun_failure = gl::Failure::none;
     std::vector<gl::EngineBinding> bindings;
     FrameReport report;
     shadow::LightingOutcome outcome;
@@ -159,8 +166,8 @@ void Shadows::State::record_lookups() {
     for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
         ViewState& view = *views[consumer_views[c]];
         if (!view.table)
-            view.table =
-                std::make_unique<lookup::LookupTable>(*device, bindings_of(*options.lookup), rows_of(*options.lookup));
+            view.table = std::make_unique<lookup::LookupTable>(*device, bindings_of(*options.lookup),
+                                                               rows_of(*options.lookup, device->info()));
         view.has_table = view.table->update(frame.inputs[c], gpu, commands);
     }
 }
@@ -169,18 +176,21 @@ void Shadows::State::record_lookups() {
 /// other casters.
 void Shadows::State::draw_drawables() {
     const std::span<const shadow::EngineDraw> draws = shadows.engine_draws();
+    begun_failure = gl::Failure::none;
     if (draws.empty()) return;
     const auto area = [](const shadow::EngineDraw& draw) {
         const auto size = static_cast<std::int32_t>(draw.size_px);
         return gl::Rect{0, 0, size, size};
     };
     begun.clear();
+    begun.add(gl::BeginGroup{"drawables"});
     for (const shadow::EngineDraw& draw : draws) {
         if (!draw.clears) continue;
         begun.add(gl::BeginPass{draw.target, area(draw), true, 0.0f, true, {0.0f, kNoTriangle, 0.0f, 0.0f}});
         begun.add(gl::EndPass{});
     }
-    device->submit(begun);
+    begun.add(gl::EndGroup{});
+    begun_failure = device->submit(begun).failure;
     for (const shadow::EngineDraw& draw : draws) {
         const auto* engine = store.draw_of(draw.instance);
         if (!engine) continue;
@@ -192,15 +202,18 @@ void Shadows::State::draw_drawables() {
 }
 
 void Shadows::State::submit() {
-    const gl::SubmitResult result = device->submit(commands);
+    gl::SubmitResult result = device->submit(commands);
+    if (result.failure == gl::Failure::none) result.failure = begun_failure;  // maps that were not begun are not valid
     timed.submitted(result.submission, report);
     const bool learn_costs = options.budget.gpu_ms > 0.0f;
     timed.tell(after_submission({*device, store.snapshot(), gpu, shadows}, result, learn_costs, report), report);
     if (report.gpu_us) gpu_us = report.gpu_us;
     if (result.failure == gl::Failure::none) return;
     status.failure = code(result.failure);
-    for (const auto& view : views)
+    for (const auto& view : views) {
+        view->has_table = false;
         if (view->table) view->table->forget_upload();
+    }
 }
 
 void Shadows::State::fill_masks(std::size_t count) {
@@ -208,7 +221,7 @@ void Shadows::State::fill_masks(std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         ViewState& view = *views[i];
         masks[i].failure = !view.failure.empty() ? view.failure : status.failure;
-        if (!masks[i].failure.empty() || !view.wants_mask) continue;
+        if (!masks[i].failure.empty() || !view.wants_mask || view.layers.empty()) continue;
         masks[i].texture = gl::gl_name(*device, view.mask.texture());
         masks[i].layers = view.mask.layer_count();
         masks[i].samples = static_cast<std::uint32_t>(std::max<std::size_t>(view.picture.samples.size(), 1));
@@ -248,9 +261,7 @@ void Shadows::remove(LightId light) { state_->store.remove(light); }
 
 void Shadows::set_budget(const Budget& budget) {
     state_->options.budget = budget;
-    if (!state_->wants_times()) return;
-    gl::Device& device = *state_->device;
-    device.set_timing(device.info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
+    state_->set_timing();
 }
 
 std::span<const Mask> Shadows::render(std::span<const View> views) {
@@ -293,7 +304,7 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
 Result<std::string> Shadows::lookup_glsl() const {
     const std::optional<LookupOptions>& options = state_->options.lookup;
     if (!options) return Error{"ShadowsOptions::lookup is empty: maps are not shared", {}, {}, "lookup.off"};
-    return lookup::lookup_glsl(bindings_of(*options), rows_of(*options));
+    return lookup::lookup_glsl(bindings_of(*options), rows_of(*options, state_->device->info()));
 }
 
 bool Shadows::bind_lookup(std::size_t view) {

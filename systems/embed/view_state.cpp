@@ -20,7 +20,7 @@ gl::TextureHandle import(gl::Device& device, unsigned name, glm::uvec2 least_px,
 
 /// Sets where the samples of a picture's pixels lie. Queries the device only after a change of the texture.
 void put_samples(const gl::Device& device, const Imported& depth, lighting::DepthPicture& picture) {
-    if (depth.texture.samples < 2) return picture.samples.clear();
+    if (!depth.texture.multisampled) return picture.samples.clear();
     if (picture.samples.size() == depth.texture.samples) return;
     picture.samples.clear();
     for (const auto& place : gl::sample_positions(device, depth.name))
@@ -45,7 +45,10 @@ std::string_view take_textures(gl::Device& device, const View& view, ViewState& 
     state.picture.normals = {};
     if (view.normal_texture != 0) {
         state.picture.normals = import(device, view.normal_texture, view.size_px, state.normals);
-        if (!state.picture.normals || state.normals.texture.samples != state.depth.texture.samples)
+        const gl::EngineTexture &normals = state.normals.texture, &depth = state.depth.texture;
+        const bool alike = normals.multisampled == depth.multisampled && normals.samples == depth.samples;
+        if (!state.picture.normals || !alike || gl::is_integer(normals.desc.format) ||
+            gl::is_depth(normals.desc.format))
             return "view.normals";
     }
     state.picture.range = view.normal_format == NormalFormat::snorm ? lighting::NormalRange::plus_minus_one

@@ -204,7 +204,8 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
         if (is_light) {
             const shadow::LightingLight& light = in.inputs.lights[in.layers[layer]];
             const LightProgram used = program_of(light);
-            const gl::Rect area = light.screen.width > 0 ? in_picture(light.screen, consumer, in.picture) : gl::Rect{};
+            // The picture may show more than the scene declares.
+            const gl::Rect area = light.reach.width > 0 ? in_picture(light.reach, consumer, in.picture) : gl::Rect{};
             if (area.width > 0 && used.program) {
                 list.add(gl::BeginGroup{in.scene.lights[light.light].name});
                 list.add(gl::BeginTimer{lighting_timer(light.light)});
@@ -220,7 +221,10 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
 bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::LightingOutcome& outcome) {
     outcome.failure = prepare(in.picture, in.layers.size(), in.inputs.lights.size());
     if (outcome.failure != gl::Failure::none) return false;
-    if (in.layers.empty()) return true;
+    if (in.layers.empty()) {
+        release_layers();
+        return true;
+    }
     upload(in.inputs, in.picture, list);
     list.add(gl::BeginGroup{"shadow mask"});
     for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {

@@ -190,6 +190,20 @@ TEST_F(EmbedScene, NothingAtAllIsNoFault) {
     EXPECT_EQ(shadows->visibility(LightId{}, {0.0, 0.0, 0.0}), 0.0f);
 }
 
+TEST_F(EmbedScene, WhatNothingDeclaresIsLit) {
+    const game::Shape ground = game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 12.0}, {12.0, 0.0, 0.0});
+    engine->add(ground.positions, ground.indices);  // and no caster
+    const LightId lamp = shadows->add_light({.light = {.kind = LightKind::point, .range_m = 20.0f}, .position_m = {0.0, 3.0, 0.0}});
+    look_from({0.5, 2.5, 4.0});
+    const std::vector<std::uint8_t> mask = masked();
+    EXPECT_GT(std::count(mask.begin(), mask.end(), 255), 20000) << reason_code(shadows->status(lamp).reason);
+    shadows->remove(lamp);
+    draw_depths(view, *engine);
+    const Mask none = shadows->render(view);
+    EXPECT_EQ(none.layers, 0u) << "the last light is gone";
+    EXPECT_EQ(none.texture, 0u);
+}
+
 TEST_F(EmbedScene, ALightOfRaysGetsAFilteredMapAndSaysSo) {
     add_room();
     const LightId lamp = add_shadowed(LightKind::spot, {1.5, 3.0, 1.0}, {.filter = ShadowFilter::exact});

@@ -77,7 +77,8 @@ struct LightingLight {
     gl::SamplerHandle sampler{};
     visibility::RayBuffers rays{};  // {0} unless row.rays
     FallbackLookup plain;
-    gl::Rect screen{};            // pixels within the light's range; empty: none
+    gl::Rect reach{};             // pixels within the light's range; empty: none
+    gl::Rect screen{};            // the same; empty also where none of the scene's instances is seen within it
     float farthest_depth = 0.0f;  // lower bound on the picture's reversed depths within its range; the sky is below it
     /// Hash of every input of the shadow lookup except pixel and camera (visibility_hash.h). Equal hashes mean equal
     /// visibility. 0: unknown, or visibility is not kept.

@@ -230,7 +230,7 @@ void publish_unshadowed(const SceneSnapshot& scene, const PublishInputs& in, std
     out.light = i;
     out.row.kind_define = light_kind_row(light.kind).define;
     // The rectangle is the cheaper test, and most of many lights are off screen.
-    out.screen = screen_rectangle(light, consumer);
+    out.reach = out.screen = screen_rectangle(light, consumer);
     if (out.screen.width > 0 && !reaches_anything_seen(scene, light, consumer)) out.screen = {};
     out.farthest_depth = farthest_depth(light, consumer);
     out.record = light_record(light, lamp_ws_m(in.lamps_ws_m, scene, i), fitted, consumer);

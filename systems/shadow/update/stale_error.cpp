@@ -78,6 +78,7 @@ void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters
 CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const InstanceItem& now,
                          const PoseItem* pose) {
     if (then.version == now.version) return {};
+    if (now.drawable) return {kInfinity, kInfinity};  // what it draws may be anywhere within its bounds
     const Pose bends = read(pose);
     if (bends.since != then.bends_since) return {kInfinity, kInfinity};
     const double bent_m = (bends.bent_m - then.bent_m) * longest(now.basis);

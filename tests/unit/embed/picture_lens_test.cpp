@@ -87,7 +87,7 @@ TEST(PictureLens, RefusesWhatIsNoProjection) {
     EXPECT_TRUE(lens_of(good, ClipDepth::minus_one_to_one));
     EXPECT_FALSE(lens_of(glm::dmat4(0.0), ClipDepth::minus_one_to_one));
     for (const auto& [column, row, value] : {std::tuple(0, 0, nan), std::tuple(0, 0, -1.0), std::tuple(1, 1, 0.0),
-                                             std::tuple(0, 1, 0.2), std::tuple(3, 2, 0.0), std::tuple(2, 3, 1.0)}) {
+                                             std::tuple(0, 1, 0.2), std::tuple(3, 0, 0.2), std::tuple(3, 2, 0.0), std::tuple(2, 3, 1.0)}) {
         glm::dmat4 bad = good;
         bad[column][row] = value;
         EXPECT_FALSE(lens_of(bad, ClipDepth::minus_one_to_one)) << column << ", " << row;

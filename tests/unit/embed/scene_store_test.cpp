@@ -196,6 +196,12 @@ TEST_F(SceneStoreTest, ALightWithoutDirectionIsNamedAndComesBack) {
     ASSERT_EQ(updated().lights.size(), 1u);
     EXPECT_TRUE(store.dropped().empty());
     EXPECT_EQ(store.snapshot().lights[0].rotation_ws[2], glm::dvec3(0.0, 1.0, 0.0));
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::dvec3 broken(0.0, -1.0, 0.0);
+        broken[axis] = std::numeric_limits<double>::quiet_NaN();
+        store.set_light(sun, {.light = {.kind = LightKind::directional}, .direction = broken});
+        EXPECT_TRUE(updated().lights.empty()) << axis;
+    }
     store.set_light(sun, {.light = {.kind = LightKind::directional, .intensity = -1.0f}});
     EXPECT_TRUE(updated().lights.empty());
 }
