@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "engine/core/zone.h"
 #include "systems/after_submission.h"
 #include "systems/debug/debug_painter.h"
 #include "systems/extract/names.h"
@@ -33,6 +34,7 @@ Frame::~Frame() = default;
 const shadow::History& Frame::fit_history() const { return shadows_->fit_history(); }
 
 void Frame::run(ecs::Registry& world, const FrameSettings& settings) {
+    GNOMON_ZONE("gnomon::Frame::run");
     const auto start = std::chrono::steady_clock::now();
     const std::uint64_t compiled_before = device_.compiled_programs();
     commands_.clear();
@@ -94,7 +96,8 @@ std::optional<double> Frame::most_exposure(const FrameSettings& settings) {
 /// Updates the shadows. While fits are frozen, the stages see the frozen cameras as the scene's consumers.
 const shadow::ShadowFrame& Frame::update_shadows(const FrameSettings& settings) {
     const auto update = [&]() -> const shadow::ShadowFrame& {
-        return shadows_->update(snapshot_, gpu_scene_, {settings.shadows, settings.shadow_budget, feedback_, settings.rays}, commands_,
+        return shadows_->update(snapshot_, gpu_scene_,
+                                {settings.shadows, settings.shadow_budget, feedback_, settings.rays}, commands_,
                                 report_);
     };
     if (!settings.freeze_fits) frozen_.reset();

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/core/zone.h"
 #include "engine/gl/gl45_draw_into.h"
 #include "engine/gl/gl45_execute.h"
 #include "engine/gl/gl45_kept_state.h"
@@ -216,6 +217,7 @@ public:
     }
 
     SubmitResult submit(const CommandList& list) override {
+        GNOMON_ZONE("submit");
         const GlCall call = enter();
         const std::uint64_t submission = submissions_++;
         if (lost()) return {Failure::context_lost, submission};

@@ -5,6 +5,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -245,8 +246,11 @@ public:
     /// another.
     CasterId add_drawable(const DrawableDesc& drawable);
     /// Announces that a drawable draws something else from now on, within `bounds`. Maps that show it are drawn again.
-    /// Without this call they stay, at no cost.
-    void redraw(CasterId drawable, const Bounds& bounds);
+    /// Without this call they stay, at no cost. `moves_at_most_m`: bound on how far any of its points has moved since
+    /// the last call. Lights with LightShadow::refresh_error_px keep their maps while that allows it, and bias by it.
+    /// Infinity: unknown.
+    void redraw(CasterId drawable, const Bounds& bounds,
+                double moves_at_most_m = std::numeric_limits<double>::infinity());
 
     LightId add_light(const LightDesc& light);
     /// Changes a light. What is equal costs nothing.

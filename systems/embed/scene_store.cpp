@@ -117,10 +117,15 @@ CasterId SceneStore::add_drawable(const DrawableDesc& desc) {
                          .bounds = desc.bounds});
 }
 
-void SceneStore::redraw(CasterId id, const Bounds& bounds) {
+void SceneStore::redraw(CasterId id, const Bounds& bounds, double moves_at_most_m) {
     Caster* caster = casters_.find(id);
     if (!caster || !caster->draw) return;
     caster->bounds = bounds;
+    const bool known = moves_at_most_m >= 0.0 && std::isfinite(caster->moved_m + moves_at_most_m);
+    if (known)
+        caster->moved_m += moves_at_most_m;
+    else
+        ++caster->motion_since;
     if (!caster->moved && !caster->marked) changed_.push_back(id);
     caster->moved = true;
 }
@@ -217,8 +222,8 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
     const CasterDesc& desc = caster.desc;
     item.entity = entity_of(id);
     item.gpu_slot = id.index;
-    item.drawable = static_cast<bool>(caster.draw);
-    if (item.drawable) {
+    item.drawable = {static_cast<bool>(caster.draw), caster.motion_since, caster.moved_m};
+    if (item.drawable.drawn) {
         item.mesh = kDrawableMesh;
         item.bounds_ws = {caster.bounds.min_m, caster.bounds.max_m};
         item.translation_ws_m = math::centre(item.bounds_ws);
@@ -277,7 +282,7 @@ void SceneStore::list_instances() {
         caster.moved = caster.marked = false;
     });
     snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
-                                         [](const InstanceItem& item) { return item.drawable; });
+                                         [](const InstanceItem& item) { return item.drawable.drawn; });
     snapshot_.gpu_slot_count = casters_.bound();
     snapshot_.shapes.clear();
     for (const assets::Mesh& mesh : library_.meshes) snapshot_.shapes.push_back(mesh.shape);

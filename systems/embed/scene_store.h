@@ -24,7 +24,7 @@ public:
     void set_transform(CasterId caster, const glm::dmat4& world_from_mesh);
     void remove(CasterId caster);
     CasterId add_drawable(const DrawableDesc& desc);
-    void redraw(CasterId drawable, const Bounds& bounds);
+    void redraw(CasterId drawable, const Bounds& bounds, double moves_at_most_m);
     LightId add_light(const LightDesc& desc);
     void set_light(LightId light, const LightDesc& desc);
     void tune(LightId light, const ShadowTuning& tuning);
@@ -50,6 +50,8 @@ private:
         CasterDesc desc;                                     // for a drawable, mesh and place are unused
         std::function<void(const DrawableView&)> draw = {};  // empty: it has a mesh
         Bounds bounds = {};                                  // box of a drawable
+        std::uint64_t motion_since = 0;                      // DrawableMotion::since
+        double moved_m = 0.0;                                // DrawableMotion::moved_m
         std::uint32_t instance = kNone;                      // index in the snapshot; kNone: unusable
         std::uint64_t version = 0;                           // InstanceItem::version
         bool moved = true;                                   // its mesh or place was set since the last update

@@ -1,4 +1,5 @@
 #include "gnomon/shadows.h"
+#include "engine/core/zone.h"
 
 #include <algorithm>
 #include <array>
@@ -247,7 +248,9 @@ Shadows::~Shadows() = default;
 Result<MeshId> Shadows::add_mesh(const MeshDesc& mesh) { return state_->store.add_mesh(mesh); }
 void Shadows::remove(MeshId mesh) { state_->store.remove(mesh); }
 CasterId Shadows::add_drawable(const DrawableDesc& drawable) { return state_->store.add_drawable(drawable); }
-void Shadows::redraw(CasterId drawable, const Bounds& bounds) { state_->store.redraw(drawable, bounds); }
+void Shadows::redraw(CasterId drawable, const Bounds& bounds, double moves_at_most_m) {
+    state_->store.redraw(drawable, bounds, moves_at_most_m);
+}
 CasterId Shadows::add_caster(const CasterDesc& caster) { return state_->store.add_caster(caster); }
 void Shadows::set_transform(CasterId caster, const glm::dmat4& world_from_mesh) {
     state_->store.set_transform(caster, world_from_mesh);
@@ -265,6 +268,7 @@ void Shadows::set_budget(const Budget& budget) {
 }
 
 std::span<const Mask> Shadows::render(std::span<const View> views) {
+    GNOMON_ZONE("gnomon::Shadows::render");
     const auto start = std::chrono::steady_clock::now();
     State& s = *state_;
     s.commands.clear();

@@ -74,6 +74,15 @@ struct PoseItem {
     assets::MeshPose pose() const { return {joints, weights}; }
 };
 
+/// Motion of a caster that the engine draws: its mesh has no triangles.
+struct DrawableMotion {
+    bool drawn = false;       // it is one
+    std::uint64_t since = 0;  // grows whenever its movement is unknown
+    /// Sum over all versions of the largest movement of a point. The difference between two versions with the same
+    /// `since` bounds the movement between them.
+    double moved_m = 0.0;
+};
+
 /// Placed mesh.
 struct InstanceItem {
     ecs::Entity entity = {};
@@ -89,7 +98,7 @@ struct InstanceItem {
     bool visible = true;
     bool mirrored = false;  // negative determinant
     bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
-    bool drawable = false;  // the engine draws it: its mesh has bounds and no triangles
+    DrawableMotion drawable = {};
     std::uint64_t version = 0;       // grows when mesh, place or pose changes, which maps depend on
     std::uint64_t mesh_version = 0;  // assets::MeshLibrary::version_of(mesh): another mesh may take the number
 };

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <tuple>
 
+#include "engine/core/zone.h"
 #include "engine/math/frustum.h"
 #include "shaders/bindings.h"
 #include "systems/extract/instance_order.h"
@@ -307,6 +308,7 @@ void LightingSystem::record_finish(gl::CommandList& list) {
 
 bool LightingSystem::record(const shadow::LightingInputs& inputs, const SceneSnapshot& scene, const GpuScene& gpu,
                             const LightingSettings& settings, gl::CommandList& list, shadow::LightingOutcome& outcome) {
+    GNOMON_ZONE("lighting");
     const ecs::Entity camera = scene.consumers[inputs.consumer].entity;
     collect_draws(scene.consumers[inputs.consumer], scene, gpu);
     passes_.clear();

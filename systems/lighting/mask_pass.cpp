@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 
+#include "engine/core/zone.h"
 #include "shaders/bindings.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame_timers.h"
@@ -219,6 +220,7 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
 }
 
 bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::LightingOutcome& outcome) {
+    GNOMON_ZONE("mask");
     outcome.failure = prepare(in.picture, in.layers.size(), in.inputs.lights.size());
     if (outcome.failure != gl::Failure::none) return false;
     if (in.layers.empty()) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <utility>
 
+#include "engine/core/zone.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/exact/near_light_clearance.h"
 #include "systems/shadow/fitting/directional/sdsm_splits.h"
@@ -115,6 +116,7 @@ void ShadowSystem::provide_rays(const SceneSnapshot& scene, const GpuScene& gpu,
 
 const ShadowFrame& ShadowSystem::update(const SceneSnapshot& scene, GpuScene& gpu, const ShadowSettings& settings,
                                         gl::CommandList& list, FrameReport& report) {
+    GNOMON_ZONE("shadow stages");
     const auto start = std::chrono::steady_clock::now();
     report.lights.assign(scene.lights.size(), {});
     frame_.cpu_us.assign(scene.lights.size(), 0.0);
@@ -161,11 +163,12 @@ void ShadowSystem::run_stages(const SceneSnapshot& scene, GpuScene& gpu, const S
 
     const bool lacked = rays_lack_;
     rays_lack_ = rays_lack_ && wants_rays(scene, history_, settings.shadows) && !update_rays(scene, gpu, out.list);
-    decide_requests(
-        scene,
-        {device_.info(), history_, settings.shadows,
-         {.rays = settings.budget.rays, .off = !settings.rays, .lacks_memory = rays_lack_}},
-        fallbacks_, f.requests);
+    decide_requests(scene,
+                    {device_.info(),
+                     history_,
+                     settings.shadows,
+                     {.rays = settings.budget.rays, .off = !settings.rays, .lacks_memory = rays_lack_}},
+                    fallbacks_, f.requests);
     for (std::size_t i = 0; i < f.requests.size(); ++i) f.statuses[i].skip(f.requests[i].skip);
     if (budget_.is_active()) apply_last_limits(scene, history_, f.requests, f.limited);
     const std::span<const ShadowRequest> requests = budget_.is_active() ? f.limited : f.requests;

@@ -106,6 +106,29 @@ TEST_P(EmbedDrawable, WindRedrawsOnlyWhatShowsIt) {
     }
 }
 
+TEST_P(EmbedDrawable, IsKeptWithinTheErrorThatItsMovementAllows) {
+    make_engine(Depths::usual_float);
+    add(game::make_card({0.0, 0.0, 0.0}, {0.0, 0.0, 12.0}, {12.0, 0.0, 0.0}));
+    add_grass(0.1f);
+    const LightId lamp = add_shadowed(GetParam(), {1.5, 3.0, 1.0}, {.refresh_error_px = 1.0f});
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    const auto maps_drawn = [&](double moves_at_most_m) {
+        std::uint32_t drawn = 0;
+        for (int frame = 0; frame < 5; ++frame) {
+            shadows->redraw(drawable, kBounds, moves_at_most_m);
+            masked();
+            drawn += shadows->status().maps_drawn;
+        }
+        return drawn;
+    };
+    maps_drawn(0.5);  // it is known to move from then on
+    EXPECT_EQ(maps_drawn(1.0e-5), 0u) << "far less than a pixel";
+    EXPECT_EQ(shadows->status(lamp).reason, Reason::refresh_held);
+    EXPECT_GE(maps_drawn(0.5), 5u) << "control: half a metre";
+    EXPECT_GE(maps_drawn(std::numeric_limits<double>::infinity()), 5u) << "unknown";
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EmbedDrawable, ::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                          [](const auto& row) { return std::string(kind_name(row.param)); });
 

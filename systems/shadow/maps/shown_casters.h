@@ -15,8 +15,8 @@ struct ShownCaster {
     glm::dmat3 basis{1.0};
     glm::dvec3 translation_ws_m{0.0};
     math::Aabb bounds_ws;
-    std::uint64_t bends_since = 0;  // PoseItem::since of its mesh's pose; 0: it does not bend
-    double bent_m = 0.0;            // PoseItem::bent_m
+    std::uint64_t bends_since = 0;  // since of its mesh's pose, or of a drawable; 0: it does not bend
+    double bent_m = 0.0;            // PoseItem::bent_m, or DrawableMotion::moved_m
     std::uint64_t mesh_version = 0;
 };
 

@@ -224,7 +224,7 @@ void DepthPass::list_engine_draws(const PassInputs& in, const Pass& pass, LightR
     const MapAssignment& map = in.drawn.maps[pass.first];
     bool first = true;
     for (const std::uint32_t i : in.drawn.fitted.casters_of(view)) {
-        if (!in.scene.instances[i].drawable) continue;
+        if (!in.scene.instances[i].drawable.drawn) continue;
         engine_draws_.push_back(
             {i, view.light, map.target, map.size_px, first, view.clip_from_anchor, view.pose.anchor_ws_m});
         first = false;

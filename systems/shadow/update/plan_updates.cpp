@@ -91,8 +91,8 @@ void mark_engine_draws(const SceneSnapshot& scene, const UpdateInputs& inputs, s
     for (std::size_t v = 0; v < plans.size(); ++v) {
         if (!inputs.maps[v].texture || plans[v].skipped_for_rays || plans[v].reuse) continue;
         const auto casters = inputs.fitted.casters_of(inputs.fitted.views[v]);
-        plans[v].begun_by_engine =
-            std::any_of(casters.begin(), casters.end(), [&](std::uint32_t i) { return scene.instances[i].drawable; });
+        plans[v].begun_by_engine = std::any_of(casters.begin(), casters.end(),
+                                               [&](std::uint32_t i) { return scene.instances[i].drawable.drawn; });
     }
 }
 

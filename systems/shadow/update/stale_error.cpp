@@ -69,7 +69,8 @@ void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters
     shown.moving.clear();
     for (const std::uint32_t i : casters) {
         const InstanceItem& item = scene.instances[i];
-        const Pose pose = read(pose_of(scene, item.mesh));
+        const Pose pose =
+            item.drawable.drawn ? Pose{item.drawable.since, item.drawable.moved_m} : read(pose_of(scene, item.mesh));
         shown.moving.push_back({item.gpu_slot, item.mesh, item.version, item.basis, item.translation_ws_m,
                                 item.bounds_ws, pose.since, pose.bent_m, item.mesh_version});
     }
@@ -78,11 +79,12 @@ void remember(const SceneSnapshot& scene, std::span<const std::uint32_t> casters
 CasterShift caster_shift(const ShadowView& view, const ShownCaster& then, const InstanceItem& now,
                          const PoseItem* pose) {
     if (then.version == now.version) return {};
-    if (now.drawable) return {kInfinity, kInfinity};  // what it draws may be anywhere within its bounds
-    const Pose bends = read(pose);
+    const bool drawn = now.drawable.drawn;
+    const Pose bends = drawn ? Pose{now.drawable.since, now.drawable.moved_m} : read(pose);
     if (bends.since != then.bends_since) return {kInfinity, kInfinity};
-    const double bent_m = (bends.bent_m - then.bent_m) * longest(now.basis);
-    const BoxShift shift = box_shift(view, then, now, bent_m);
+    const double bent_m = (bends.bent_m - then.bent_m) * (drawn ? 1.0 : longest(now.basis));
+    // The points of a drawable need not move with its box.
+    const BoxShift shift = drawn ? BoxShift{bent_m, bent_m, bent_m} : box_shift(view, then, now, bent_m);
     if (is_parallel(view)) return {shift.any_m, shift.across_m};
     // x1/z1 - x0/z0 = ((x1 - x0) - (x0/z0)(z1 - z0)) / z1, and the same with 0 and 1 swapped. The form with a tangent
     // inside the map applies. If neither place is inside, neither is visible.

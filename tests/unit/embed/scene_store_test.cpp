@@ -135,16 +135,23 @@ TEST_F(SceneStoreTest, ADrawableIsACasterWithoutTriangles) {
     const SceneSnapshot& scene = updated();
     ASSERT_EQ(scene.instances.size(), 1u);
     EXPECT_TRUE(scene.any_drawable);
-    EXPECT_TRUE(scene.instances[0].drawable);
+    EXPECT_TRUE(scene.instances[0].drawable.drawn);
     EXPECT_TRUE(store.library().meshes[scene.instances[0].mesh].indices.empty());
     EXPECT_NE(store.draw_of(0), nullptr);
     const std::uint64_t version = scene.instances[0].version;
     updated();
     EXPECT_EQ(store.snapshot().instances[0].version, version) << "it stands still";
-    store.redraw(grass, {{0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}});
+    store.redraw(grass, {{0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}}, 0.25);
     EXPECT_GT(updated().instances[0].version, version);
     EXPECT_EQ(store.snapshot().instances[0].bounds_ws.max.x, 3.0);
-    store.redraw(grass, {{0.0, 0.0, 0.0}, {-1.0, 1.0, 2.0}});
+    EXPECT_EQ(store.snapshot().instances[0].drawable.moved_m, 0.25);
+    const std::uint64_t since = store.snapshot().instances[0].drawable.since;
+    for (const double unknown : {std::numeric_limits<double>::infinity(), -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        store.redraw(grass, {{0.0, 0.0, 0.0}, {3.0, 1.0, 2.0}}, unknown);
+        updated();
+    }
+    EXPECT_EQ(store.snapshot().instances[0].drawable.since, since + 3);
+    store.redraw(grass, {{0.0, 0.0, 0.0}, {-1.0, 1.0, 2.0}}, 0.25);
     EXPECT_TRUE(updated().instances.empty()) << "no box";
     EXPECT_FALSE(store.snapshot().any_drawable);
     EXPECT_EQ(store.dropped().size(), 1u);
