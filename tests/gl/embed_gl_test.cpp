@@ -55,6 +55,32 @@ TEST_P(EmbedMask, DerivesNormalsUpToThePicturesEdges) {
     EXPECT_LE(other, 1u);
 }
 
+TEST_F(EmbedTest, EightLightsAtOnceAreWhatRaysSay) {
+    make_engine(Depths::usual_float);
+    add_room();
+    constexpr LightKind kKinds[] = {LightKind::directional, LightKind::spot, LightKind::point};
+    for (int i = 0; i < 8; ++i) {
+        const double turn = 0.8 * i;
+        add_shadowed(kKinds[i % 3], {2.0 * std::cos(turn), 2.2 + 0.2 * i, 2.0 * std::sin(turn)});
+    }
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    draw_depths(view, *engine);
+    const Mask mask = shadows->render(view);
+    ASSERT_EQ(mask.layers, 8u);
+    draw();
+    Tally tally;
+    for (std::uint32_t light = 0; light < 8; ++light) {
+        const std::vector<std::uint8_t> layer = layer_of(mask, light);
+        std::vector<float> measured;
+        for (const std::uint8_t texel : layer) measured.push_back(static_cast<float>(texel) / 255.0f);
+        tally.add(judge(light, frame().snapshot(), measured));
+    }
+    std::printf("%s\n", tally.text().c_str());
+    EXPECT_GT(tally.dark, 10000.0);
+    EXPECT_LT((tally.false_light + tally.false_shadow) / tally.scored, 0.0005);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, EmbedMask,
                          ::testing::Combine(::testing::Values(LightKind::directional, LightKind::spot, LightKind::point),
                                             ::testing::Values(Depths::usual_d24, Depths::usual_float, Depths::reversed)),

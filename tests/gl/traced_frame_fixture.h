@@ -45,11 +45,14 @@ protected:
     };
     /// The light as drawn, against the snapshot that was drawn, or against `claimed`.
     Judged judge(std::uint32_t light, const SceneSnapshot& claimed) {
+        return judge(light, claimed, visibility(light));
+    }
+    /// The same for what something else measured.
+    Judged judge(std::uint32_t light, const SceneSnapshot& claimed, const std::vector<float>& measured) {
         const ConsumerItem& camera = claimed.consumers.at(0);
         const oracle::ReferenceTracer tracer(claimed, library, camera.position_ws_m);
         const oracle::PrimaryHits hits = tracer.trace_primary(camera);
         const oracle::LightTruth truth = tracer.trace_light(hits, claimed.lights.at(light), true);
-        const std::vector<float> measured = visibility(light);
         std::size_t truly_dark = 0;
         for (std::size_t i = 0; i < measured.size(); ++i) truly_dark += truth.scored[i] && truth.visibility[i] < 0.5f;
         return {oracle::compare({hits.size_px, measured, truth.visibility, truth.scored, truth.ambiguous}), measured,
