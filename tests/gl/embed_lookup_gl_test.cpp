@@ -102,7 +102,7 @@ TEST_F(EmbedLookup, ShowsWhatTheMaskShowsForAnyNumberOfLights) {
             EXPECT_GT(differing(of_mask, pass.drawn(*engine, view, next)), 1000u) << "control: another light";
         }
         // Lights come; the program stays.
-        for (int k = 0; k < 5; ++k) lights.push_back(add_shadowed(k % 2 == 0 ? LightKind::spot : LightKind::point, {0.6 * k - 1.0, 2.5, 1.0 - 0.5 * k}));
+        for (int k = 0; k < 5; ++k) lights.push_back(add_shadowed(k % 2 == 0 ? LightKind::spot : LightKind::point, {0.6 * k - 1.0, 2.5, 1.1 - 0.43 * k}));
         EXPECT_EQ(shadows->lookup_glsl().value(), text.value());
     }
 }
