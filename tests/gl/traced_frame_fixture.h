@@ -43,11 +43,11 @@ protected:
             return line.str();
         }
     };
-    /// The light as drawn, against the snapshot that was drawn, or against `claimed`.
+    /// Judges the light as drawn, against the snapshot that was drawn, or against `claimed`.
     Judged judge(std::uint32_t light, const SceneSnapshot& claimed) {
         return judge(light, claimed, visibility(light));
     }
-    /// The same for what something else measured.
+    /// Judges visibilities that something else measured.
     Judged judge(std::uint32_t light, const SceneSnapshot& claimed, const std::vector<float>& measured) {
         const ConsumerItem& camera = claimed.consumers.at(0);
         const oracle::ReferenceTracer tracer(claimed, library, camera.position_ws_m);
