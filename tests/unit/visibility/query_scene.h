@@ -18,6 +18,7 @@ struct QueryScene : oracle::AnalyticScene {
             for (const assets::Vertex& vertex : library.meshes[item.mesh].vertices)
                 box = math::extended(box, item.basis * glm::dvec3(vertex.position_ms) + item.translation_ws_m);
             item.bounds_ws = box;
+            item.mesh_version = library.version_of(item.mesh);
         }
         snapshot.list_version = ++snapshot.version;
         build_tree(snapshot);

@@ -57,6 +57,14 @@ TEST_F(StreamingTrees, AnotherMeshInTheSlotIsNotTakenForTheOldOne) {
     EXPECT_EQ(trees.counts().trees, 1u);
 }
 
+TEST_F(StreamingTrees, AnOlderSnapshotIsNotGivenTheNewMesh) {
+    EXPECT_EQ(ask({0.0, 0.0, 0.0}), 0.0f);
+    scene.library.replace(cube, moved_cube({5.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(ask({5.0, 0.0, 0.0}), 1.0f);
+    scene.finish();
+    EXPECT_EQ(ask({5.0, 0.0, 0.0}), 0.0f);
+}
+
 TEST_F(StreamingTrees, OfRemovedMeshesAreFreed) {
     const std::uint32_t other = scene.library.add(moved_cube({}));
     scene.place(other, {5.0, 1.0, 0.0});
