@@ -12,6 +12,7 @@ set(GNOMON_ENGINE_HEADERS
   engine/assets/mesh_topology.h
   engine/assets/scene_data.h
   engine/assets/surface_edges.h
+  engine/core/range_list.h
   engine/core/result.h
   engine/ecs/entity.h
   engine/ecs/registry.h
