@@ -37,6 +37,9 @@ MADE = {"shaders/bindings.h": "shaders/common/bindings.glsl"}
 PUBLIC = "include/"
 # Gnomon::core: the list of its files. These, and all that they include, know GLM and the standard library only.
 CORE_LIST, CORE_FILE = "cmake/core.cmake", re.compile(r"^  (\S+\.cpp)$", re.MULTILINE)
+# Headers of the engine that are installed, and folders that are installed whole: these include nothing that stays behind.
+INSTALL_LIST, INSTALLED_HEADER = "cmake/install.cmake", re.compile(r"^  (engine/\S+\.h)\)?$", re.MULTILINE)
+INSTALLED_WHOLE = ("components/", "systems/", "include/")
 # The registry is read by these alone; frame.* only hands it on to them.
 READS_REGISTRY = ("engine/ecs/", "systems/extract/", "systems/transform/", "systems/frame.", "sample_game/", "bench/", "tests/")
 # Stages that must not reach the registry by any detour either, so that another ECS can take its place.
@@ -129,6 +132,17 @@ def breaches_of_core(root, includes, libraries):
     return found + [f"{CORE_LIST}: lists {path}, which is no file" for path in sources if not (root / path).is_file()]
 
 
+def breaches_of_install(root, includes):
+    """Lines `path: breach` for headers of the engine that installed ones include, and that are not installed."""
+    listed = root / INSTALL_LIST
+    if not listed.is_file():
+        return []
+    installed = set(INSTALLED_HEADER.findall(listed.read_text(encoding="utf-8")))
+    return [f"{INSTALL_LIST}: lacks {name}, which {path} includes" for path, names in includes.items()
+            if path.endswith(".h") and (path in installed or path.startswith(INSTALLED_WHOLE))
+            for name in names if name.startswith("engine/") and name not in installed]
+
+
 def check(root):
     """Sorted lines `path: breach`."""
     files = sorted(p for part in PARTS for p in (root / part).rglob("*") if p.is_file() and p.suffix in COUNTED)
@@ -158,7 +172,7 @@ def check(root):
             if calls and not path.startswith(CALLS_GL):
                 breaches.append(f"may not call {', '.join(sorted(calls))}: only engine/gl calls OpenGL")
         found += [f"{path}: {breach}" for breach in breaches]
-    found += breaches_of_core(root, includes, libraries)
+    found += breaches_of_core(root, includes, libraries) + breaches_of_install(root, includes)
     for path in includes:
         if path.startswith(KNOWS_NO_REGISTRY):
             chain = reaches(path, REGISTRY, includes)
@@ -185,6 +199,7 @@ CLEAN = {
     "systems/shadow/shadow_system.h": '#include "systems/shadow/publish/publish_lights.h"\n',
     "systems/lighting/lighting.cpp": '#include "shaders/bindings.h"\n#include "shaders/embedded.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
     "cmake/core.cmake": "set(SOURCES\n  systems/core/core.cpp\n)\n",
+    "cmake/install.cmake": "set(HEADERS\n  engine/ecs/entity.h\n  engine/ecs/registry.h)\n",
     "include/gnomon/core.h": "#pragma once\n#include <glm/vec3.hpp>\n#include <span>\n",
     "systems/core/core.cpp": '#include "gnomon/core.h"\n#include "systems/shadow/fitting/fit_light.h"\n',
     "examples/core_only.cpp": "#include <gnomon/core.h>\n",
@@ -218,6 +233,7 @@ BREACHES = (
     ("systems/shadow/fitting/fit_light.h", "#include <tiny_gltf.h>\n", "core.cpp -> systems/shadow/fitting/fit_light.h"),
     ("include/gnomon/core.h", "#include <GLFW/glfw3.h>\n", "knows GLM only"),
     ("cmake/core.cmake", "set(SOURCES\n  systems/core/gone.cpp\n)\n", "which is no file"),
+    ("cmake/install.cmake", "set(HEADERS\n  engine/ecs/registry.h)\n", "lacks engine/ecs/entity.h, which components/transform.h"),
     ("engine/platform/window.cpp", "#include <epoxy/gl.h>\n", "only engine/gl calls"),
     ("sample_game/hud.cpp", "void f() {\n    ::glEnable(1);\n    glEnable (1);\n}\n", "may not call glEnable"),
     ("sample_game/main.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
