@@ -7,6 +7,7 @@ target_include_directories(unit_core PRIVATE ${PROJECT_SOURCE_DIR}/shaders)
 gnomon_compiled_alone(core/core_shader_bias_test.cpp)
 
 if(TARGET core_only)
+  add_dependencies(gnomon_headless_tests core_only)
   foreach(mode "" --self-test)
     set(name Examples.CoreOnlyPrintsWhatItShould)
     if(mode)
