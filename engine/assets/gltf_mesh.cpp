@@ -14,6 +14,7 @@
 #include "engine/assets/gltf_triangles.h"
 #include "engine/assets/mesh_shape.h"
 #include "engine/assets/mesh_topology.h"
+#include "engine/math/finite.h"
 
 namespace gnomon::assets::gltf {
 namespace {
@@ -42,8 +43,6 @@ bool is_allowed(const tinygltf::Accessor& accessor, int type, std::initializer_l
     if (std::find(core.begin(), core.end(), accessor.componentType) != core.end() && accessor.normalized) return true;
     return quantized && accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
-
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 class MeshLoader {
 public:
@@ -246,7 +245,7 @@ private:
         mesh.vertices.resize(block.first + accessor.count);
         for (std::size_t i = 0; i < accessor.count; ++i) {
             const glm::vec3 position(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
-            if (is_finite(position)) {
+            if (math::is_finite(position)) {
                 mesh.vertices[block.first + i].position_ms = position;
                 continue;
             }

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "engine/math/finite.h"
+
 namespace gnomon::math {
 namespace {
 
@@ -12,8 +14,6 @@ namespace {
 // the last place (2^-53). A point at the crossing of two well-conditioned planes adds a few; 16 units cover both.
 // Tested by ClipBox.FlatBoxOnAFrustumPlaneKeepsItsCorners and the property tests beside it.
 constexpr double kRounding = 0x1p-48;
-
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 Plane plane_through(const glm::dvec3& normal, const glm::dvec3& point, double inset) {
     return {normal, -glm::dot(normal, point) - inset};

@@ -2,14 +2,14 @@
 
 #include <cmath>
 
+#include "engine/math/finite.h"
+
 namespace gnomon::rays {
 namespace {
 
-bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
 /// Computes the triangle's box; empty if a corner is not finite.
 Box box_of(const BvhTriangle& t) {
-    if (!is_finite(t.a) || !is_finite(t.b) || !is_finite(t.c)) return {};
+    if (!math::is_finite(t.a) || !math::is_finite(t.b) || !math::is_finite(t.c)) return {};
     return {glm::min(t.a, glm::min(t.b, t.c)), glm::max(t.a, glm::max(t.b, t.c))};
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "components/transform.h"
+#include "engine/math/finite.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/flat_range.h"
 #include "systems/extract/light_facts.h"
@@ -37,13 +38,11 @@ T entry(const T (&table)[Count], Enum value) {
     return table[index < Count ? index : 0];
 }
 
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-bool is_finite(const glm::dmat3& m) { return is_finite(m[0]) && is_finite(m[1]) && is_finite(m[2]); }
-
 /// Returns the box; empty if its numbers have no meaning. The tree never finds an empty one.
 math::Aabb bounds_of(const Box& box) {
-    const bool usable = is_finite(box.min_ws_m) && is_finite(box.max_ws_m) && box.min_ws_m.x <= box.max_ws_m.x &&
-                        box.min_ws_m.y <= box.max_ws_m.y && box.min_ws_m.z <= box.max_ws_m.z;
+    const bool usable = math::is_finite(box.min_ws_m) && math::is_finite(box.max_ws_m) &&
+                        box.min_ws_m.x <= box.max_ws_m.x && box.min_ws_m.y <= box.max_ws_m.y &&
+                        box.min_ws_m.z <= box.max_ws_m.z;
     return usable ? math::Aabb{box.min_ws_m, box.max_ws_m} : math::Aabb{};
 }
 
@@ -144,7 +143,7 @@ void SceneInput::take_cameras(std::span<const Camera> cameras) {
     for (std::uint32_t i = 0; i < cameras.size(); ++i) {
         const Camera& camera = cameras[i];
         const gnomon::Camera component = component_of(camera);
-        if (!usable(component) || !is_finite(camera.position_ws_m) || !is_finite(camera.rotation_ws) ||
+        if (!usable(component) || !math::is_finite(camera.position_ws_m) || !math::is_finite(camera.rotation_ws) ||
             camera.viewport_px.x == 0 || camera.viewport_px.y == 0) {
             ++unusable_.cameras;
             continue;
@@ -174,8 +173,8 @@ void SceneInput::take_lights(std::span<const Light> lights) {
         LightItem& item = snapshot_.lights[i];
         const gnomon::Light component = component_of(light);
         const bool known = static_cast<std::size_t>(light.kind) < std::size(kLightKinds);
-        const bool usable =
-            known && gnomon::usable(component) && is_finite(light.position_ws_m) && is_finite(light.rotation_ws);
+        const bool usable = known && gnomon::usable(component) && math::is_finite(light.position_ws_m) &&
+                            math::is_finite(light.rotation_ws);
         unusable_lights_[i] = usable ? 0 : 1;
         const Light none;
         const Light& taken = usable ? light : none;

@@ -7,7 +7,7 @@
 
 #include "engine/assets/mesh_shape.h"
 #include "engine/assets/mesh_topology.h"
-#include "systems/embed/finite.h"
+#include "engine/math/finite.h"
 
 namespace gnomon::embed {
 namespace {
@@ -47,7 +47,7 @@ Result<std::uint32_t> add_mesh(const MeshDesc& desc, assets::MeshLibrary& librar
         return mesh_error(desc, "has no triangles, or indices that are no multiple of three", "mesh.empty");
     if (std::any_of(desc.indices.begin(), desc.indices.end(), [&](auto i) { return i >= desc.positions_m.size(); }))
         return mesh_error(desc, "has an index beyond its positions", "mesh.index");
-    if (!std::all_of(desc.positions_m.begin(), desc.positions_m.end(), [](glm::dvec3 v) { return is_finite(v); }))
+    if (!std::all_of(desc.positions_m.begin(), desc.positions_m.end(), [](glm::dvec3 v) { return math::is_finite(v); }))
         return mesh_error(desc, "has a position that is not finite", "mesh.position");
     const bool masked = has_mask(desc.mask);
     const std::size_t texels = std::size_t{desc.mask.size_px.x} * desc.mask.size_px.y;

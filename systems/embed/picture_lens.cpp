@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "systems/embed/finite.h"
+#include "engine/math/finite.h"
 #include "systems/extract/camera_view.h"
 
 namespace gnomon::embed {
@@ -38,7 +38,7 @@ bool put_range(lighting::PictureLens& lens) {
 
 std::optional<lighting::PictureLens> lens_of(const glm::dmat4& clip_from_view, ClipDepth clip_depth) {
     glm::dmat4 m = clip_from_view;
-    if (!is_finite(m) || !is_projection(m)) return std::nullopt;
+    if (!math::is_finite(m) || !is_projection(m)) return std::nullopt;
     lighting::PictureLens lens;
     lens.orthographic = m[2][3] == 0.0;
     const double w = lens.orthographic ? m[3][3] : -m[2][3];
@@ -65,7 +65,7 @@ std::optional<lighting::PictureLens> lens_of(const glm::dmat4& clip_from_view, C
 
 bool put_view(const glm::dmat4& world_from_view, glm::uvec2 size_px, lighting::PictureLens& lens,
               ConsumerItem& consumer) {
-    if (!is_finite(world_from_view)) return false;
+    if (!math::is_finite(world_from_view)) return false;
     const glm::dmat3 basis(world_from_view);
     consumer.rotation_ws = orientation(basis);
     constexpr double kRigid = 1.0e-3;  // a share: matrices of floats that were multiplied often stay far below

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/math/finite.h"
 #include "engine/math/projection.h"
-#include "systems/embed/finite.h"
 #include "systems/embed/mesh_of.h"
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/light_facts.h"
@@ -31,7 +31,7 @@ ecs::Entity entity_of(Id id) {
 /// Returns a rotation that looks along `direction`. Empty: it has none.
 std::optional<glm::dmat3> looking_along(const glm::dvec3& direction) {
     const double size = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-    if (!is_finite(direction) || !(size > 0.0)) return std::nullopt;
+    if (!math::is_finite(direction) || !(size > 0.0)) return std::nullopt;
     return math::basis_from_back(-glm::normalize(direction / size));
 }
 
@@ -48,7 +48,7 @@ bool can_shine(const LightDesc& desc, DropReason& fault) {
     fault = DropReason::absurd_light;
     if (!gnomon::usable(desc.light)) return false;
     fault = DropReason::non_finite_transform;
-    if (!is_finite(desc.position_m)) return false;
+    if (!math::is_finite(desc.position_m)) return false;
     fault = DropReason::zero_rotation;
     const LightFacts& facts = light_facts(desc.light.kind);
     return !(facts.parallel || facts.cone) || looking_along(desc.direction).has_value();
@@ -209,7 +209,7 @@ DropReason SceneStore::fault_of(const Caster& caster) const {
     const std::uint32_t* mesh = meshes_.find(desc.mesh);
     if (!mesh) return DropReason::unknown_mesh;
     if (std::binary_search(lacking_.begin(), lacking_.end(), *mesh)) return DropReason::meshes_full;
-    if (!is_finite(desc.world_from_mesh)) return DropReason::non_finite_transform;
+    if (!math::is_finite(desc.world_from_mesh)) return DropReason::non_finite_transform;
     const std::optional<glm::dmat3> basis = drawable_basis(glm::dmat3(desc.world_from_mesh));
     if (!basis) return DropReason::zero_scale;
     const math::Aabb box =

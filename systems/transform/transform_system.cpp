@@ -6,18 +6,16 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "engine/math/finite.h"
+
 namespace gnomon {
 namespace {
-
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_finite(const glm::dquat& q) {
     return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
 }
 
-bool is_finite(const WorldTransform& w) {
-    return is_finite(w.basis[0]) && is_finite(w.basis[1]) && is_finite(w.basis[2]) && is_finite(w.translation_ws_m);
-}
+bool is_finite(const WorldTransform& w) { return math::is_finite(w.basis) && math::is_finite(w.translation_ws_m); }
 
 // Compares bit by bit. Unlike ==, it distinguishes -0 from 0, so that readers of the change list have the registry's
 // exact bits.
@@ -37,7 +35,8 @@ std::optional<glm::dmat3> rotation_matrix(const glm::dquat& q) {
 }
 
 TransformFault local_matrix(const Transform& t, WorldTransform& local) {
-    if (!is_finite(t.translation_m) || !is_finite(t.rotation) || !is_finite(t.scale)) return TransformFault::not_finite;
+    if (!math::is_finite(t.translation_m) || !is_finite(t.rotation) || !math::is_finite(t.scale))
+        return TransformFault::not_finite;
     const std::optional<glm::dmat3> rotation = rotation_matrix(t.rotation);
     if (!rotation) return TransformFault::zero_rotation;
     for (int column = 0; column < 3; ++column) local.basis[column] = (*rotation)[column] * t.scale[column];

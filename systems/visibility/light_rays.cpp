@@ -8,12 +8,11 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/math/finite.h"
 #include "systems/extract/light_facts.h"
 
 namespace gnomon::visibility {
 namespace {
-
-bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// Returns sample i of n on a spiral with the golden angle: equal areas, evenly distributed (Vogel 1979).
 glm::dvec2 on_spiral(std::size_t i, std::size_t n) {
@@ -53,7 +52,7 @@ LightRays::LightRays(const LightItem& light, std::span<const glm::dvec2> disk)
     last_ = facts.parallel ? std::numeric_limits<double>::infinity() : 1.0;
     outer_cosine_ = std::cos(light.outer_cone_rad);
     const glm::dvec3& back = light.rotation_ws[2];
-    usable_ = is_finite(light.position_ws_m) && is_finite(back) && glm::dot(back, back) > 0.0;
+    usable_ = math::is_finite(light.position_ws_m) && math::is_finite(back) && glm::dot(back, back) > 0.0;
 }
 
 bool LightRays::reaches(const glm::dvec3& point_ws_m) const {
@@ -68,7 +67,7 @@ bool LightRays::reaches(const glm::dvec3& point_ws_m) const {
 }
 
 Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) const {
-    if (!usable_ || !is_finite(place.at_ws_m)) return Reach::none;
+    if (!usable_ || !math::is_finite(place.at_ws_m)) return Reach::none;
     const bool sun = light_facts(light_.kind).parallel;
     glm::dvec3 middle = to_light(light_, place.at_ws_m);
     ray.from_ws_m = place.at_ws_m;
@@ -90,7 +89,7 @@ Reach LightRays::ray(const Place& place, std::size_t sample, LightRay& ray) cons
     } else {
         ray.along = middle;
     }
-    if (!is_finite(ray.along) || !is_finite(ray.from_ws_m)) return Reach::none;
+    if (!math::is_finite(ray.along) || !math::is_finite(ray.from_ws_m)) return Reach::none;
     return reaches(ray.from_ws_m) ? Reach::ray : Reach::none;
 }
 
