@@ -263,7 +263,11 @@ int run(int argc, char** argv) {
     if (auto error = complete(arguments)) return fail(*error);
     const auto* command = std::find_if(std::begin(kCommands), std::end(kCommands),
                                        [&](const Command& c) { return chosen.get_name() == c.name; });
-    return command->run(arguments);
+    try {
+        return command->run(arguments);
+    } catch (const FailedFrame& frame) {
+        return fail(frame.error);
+    }
 }
 
 }  // namespace

@@ -110,7 +110,11 @@ Result<Check> run_check(const CheckOptions& options) {
         if (auto error = game::apply_setting(probe, setting)) return *error;
     if (auto error = check_device_and_programs(programs, options, check)) return *error;
     const auto rows_start = Clock::now();
-    if (const auto error = check_rows(setups, options, check.rows)) check.rows.error = to_line(*error);
+    try {
+        if (const auto error = check_rows(setups, options, check.rows)) check.rows.error = to_line(*error);
+    } catch (const FailedFrame& frame) {
+        check.rows.error = frame.what();
+    }
     check.rows.took_s = seconds_since(rows_start);
     check.took_s = seconds_since(start);
     return check;

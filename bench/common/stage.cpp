@@ -71,6 +71,13 @@ std::optional<Error> Stage::prepare(const StageOptions& options) {
     return std::nullopt;
 }
 
+void Stage::run_frame() {
+    frame_->run(world_, settings_);
+    const gl::Failure failure = frame_->report().failure;
+    if (failure != gl::Failure::none)
+        throw FailedFrame({std::string("the frame failed: ") + gl::to_text(failure), {}, {}, "bench.frame"});
+}
+
 std::optional<Error> Stage::apply_setting(const std::string& key_value) {
     game::LightSettings probe;
     if (auto error = game::apply_setting(probe, key_value)) return error;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,6 +32,12 @@ struct StageOptions {
     glm::dvec3 offset_m{0.0};           // moves the whole scene
 };
 
+/// Frame that the device did not draw.
+struct FailedFrame : std::runtime_error {
+    explicit FailedFrame(Error why) : std::runtime_error(to_line(why)), error(std::move(why)) {}
+    Error error;  // "bench.frame"
+};
+
 /// The real pipeline on a headless context, with a scene spawned and still.
 class Stage {
 public:
@@ -40,7 +47,8 @@ public:
     static Result<std::unique_ptr<Stage>> open(const StageOptions& options, assets::SceneData scene);
     ~Stage();
 
-    void run_frame() { frame_->run(world_, settings_); }
+    /// Runs a frame. Throws FailedFrame if the device failed: a measurement of what was not drawn would lie.
+    void run_frame();
     /// Moves everything in the scene to where it is at that time, see everything_moving(). Before the first call only
     /// nodes that the file moves have left their places.
     void move_to(double time_s) {

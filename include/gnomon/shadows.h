@@ -214,7 +214,8 @@ struct ShadowsOptions {
     /// Lets one program look up all lights: maps become layers of shared arrays. Empty: masks alone.
     std::optional<LookupOptions> lookup = {};
     bool time_gpu = false;  // measure gpu_us by timer queries; implied by a budget in milliseconds
-    /// Receives messages of the GL implementation about Gnomon's calls. Empty: none.
+    /// Receives warnings and errors of the GL implementation about Gnomon's calls; advice and notes are left out.
+    /// Empty: none.
     std::function<void(std::string_view)> message = {};
 };
 

@@ -38,7 +38,7 @@ lookup::LookupRows rows_of(const LookupOptions& options, const gl::DeviceInfo& d
             .cones = options.spots,
             .cubes = options.points,
             .masks = options.alpha_tests,
-            .gathers = !device.is_software};
+            .for_hardware = !device.is_software};
 }
 
 ecs::Entity entity_of(std::size_t view) { return {static_cast<std::uint32_t>(view), 1}; }
@@ -232,7 +232,9 @@ void Shadows::State::fill_masks(std::size_t count) {
 Result<std::unique_ptr<Shadows>> Shadows::create(const ShadowsOptions& options) {
     gl::MessageSink sink;
     if (options.message)
-        sink = [message = options.message](gl::MessageSeverity, std::string_view text) { message(text); };
+        sink = [message = options.message](gl::MessageSeverity severity, std::string_view text) {
+            if (severity >= gl::MessageSeverity::medium) message(text);
+        };
     auto device = gl::make_gl45_device(std::move(sink), {.keeps_state = true});
     if (!device) return device.error();
     auto store = std::make_unique<embed::SceneStore>();

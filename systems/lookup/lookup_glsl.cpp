@@ -201,9 +201,21 @@ std::string cube_text(const RowNames& names, const LookupRows& rows, Names& root
     return filled(kCube, values);
 }
 
+/// Returns a statement for each of the shared arrays, with its number in the place of #, that runs for the array in use.
+std::string in_each(std::string_view statement, std::uint32_t arrays) {
+    std::string text;
+    for (std::uint32_t i = 0; i < arrays; ++i) {
+        const std::string number = std::to_string(i);
+        std::string numbered;
+        for (const char c : statement) c == '#' ? numbered.append(number) : numbered.append(1, c);
+        add_if("gnomon_unit == " + number, numbered, text);
+    }
+    return text;
+}
+
 /// Returns the text that reads records and shared arrays.
 std::string records_text(const gl::GlslLibrary& library, const RowNames& names, const LookupBindings& bindings,
-                         bool gathers) {
+                         bool for_hardware) {
     const LookupUnits units = units_of(bindings);
     const BlockText light = block_text(library.members("LightBlock"), "texel");
     const BlockText camera = block_text(library.members("CameraBlock"), "0");
@@ -222,8 +234,15 @@ std::string records_text(const gl::GlslLibrary& library, const RowNames& names, 
                            {"units", std::to_string(units.arrays)},
                            {"depths", std::to_string(units.first_depths)},
                            {"ids", std::to_string(units.first_triangles)},
-                           {"four", names.of(LookupKind::cone, "FourTriangles")}};
-    return filled(kRecords, values) + filled(kReaders, values) + filled(gathers ? kGathered : kReadOneByOne, values);
+                           {"four", names.of(LookupKind::cone, "FourTriangles")},
+                           {"read_depth", in_each("depth = textureLod(gnomon_depths[#], place, 0.0).x;", units.arrays)},
+                           {"read_id", in_each("id = textureLod(gnomon_ids[#], place, 0.0).xy;", units.arrays)},
+                           {"gather_depths", in_each("depths = textureGather(gnomon_depths[#], place);", units.arrays)},
+                           {"gather_ids", in_each("{ instances = textureGather(gnomon_ids[#], place, 0); "
+                                                  "triangles = textureGather(gnomon_ids[#], place, 1); }",
+                                                  units.arrays)}};
+    return filled(kRecords, values) + filled(kArrays, values) +
+           filled(for_hardware ? kHardwareReaders : kSoftwareReaders, values);
 }
 
 }  // namespace
@@ -245,12 +264,13 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, const LookupRows
     Names roots;
     const std::string flat = flat_text(names, rows, roots), cube = cube_text(names, rows, roots);
     Values entries = called_names(names, flat.empty() ? LookupKind::cube : LookupKind::cone, roots);
+    entries["in_its_array"] = rows.for_hardware ? kOneRound : kRounds;
     if (!cube.empty())
         add_if("gnomon_light.row.x == 4", "return gnomon_cube_visibility(position, normal, error_m);",
                entries["cubes"]);
     if (!flat.empty())
         add_if("gnomon_light.row.x > 0", "return gnomon_flat_visibility(position, normal, error_m);", entries["flats"]);
-    return library.text(first) + records_text(library, names, bindings, rows.gathers) + library.text(roots, first) +
+    return library.text(first) + records_text(library, names, bindings, rows.for_hardware) + library.text(roots, first) +
            flat + cube + filled(kEntries, entries);
 }
 

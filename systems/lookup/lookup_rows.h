@@ -42,9 +42,8 @@ struct LookupRows {
     bool cones = true;        // spots, aimed lamps and suns with an eye
     bool cubes = true;        // points
     bool masks = true;        // masked casters by their masks, for `triangles`
-    /// Reads of four texels at once. Mesa 22.3's llvmpipe aborts on them beside buffers that are read as texels: set it
-    /// where DeviceInfo::is_software is false.
-    bool gathers = false;
+    /// Text for hardware, where DeviceInfo::is_software is false: branches instead of loops, and four texels at once.
+    bool for_hardware = false;
 };
 
 /// How a text looks up a light of some filter.

@@ -55,40 +55,26 @@ void gnomon_take(int light) {
 }
 )";
 
-/// Functions that read shared arrays. gnomon_unit counts a loop that all of a draw's pixels run in step, because an
-/// index into samplers must be the same for all.
-inline constexpr std::string_view kReaders = R"(
+/// Shared arrays, and the number of the one that is read.
+inline constexpr std::string_view kArrays = R"(
 const int gnomon_kUnits = $units$;
 layout(binding = $depths$) uniform sampler2DArray gnomon_depths[gnomon_kUnits];
 layout(binding = $ids$) uniform usampler2DArray gnomon_ids[gnomon_kUnits];
 int gnomon_unit = 0;
 
-float gnomon_shared_depth(vec3 at) {
-    return textureLod(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)), 0.0).x;
-}
+vec3 gnomon_depth_place(vec3 at) { return vec3(at.xy, at.z + float(gnomon_light.place.y)); }
 
-uvec2 gnomon_shared_id(vec3 at) {
-    return textureLod(gnomon_ids[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.z)), 0.0).xy;
-}
+vec3 gnomon_id_place(vec3 at) { return vec3(at.xy, at.z + float(gnomon_light.place.z)); }
 )";
 
-/// Reads four texels around a corner at once.
-inline constexpr std::string_view kGathered = R"(
-vec4 gnomon_shared_depths(vec3 at) {
-    return textureGather(gnomon_depths[gnomon_unit], vec3(at.xy, at.z + float(gnomon_light.place.y)));
-}
+/// Functions that read the arrays on software devices. gnomon_unit counts a loop that all of a draw's pixels run in
+/// step, because an index into samplers must be the same for all. The four texels around a corner are read one by one,
+/// in textureGather's order: Mesa 22.3's llvmpipe aborts on it beside buffers that are read as texels.
+inline constexpr std::string_view kSoftwareReaders = R"(
+float gnomon_shared_depth(vec3 at) { return textureLod(gnomon_depths[gnomon_unit], gnomon_depth_place(at), 0.0).x; }
 
-$four$ gnomon_shared_ids(vec3 at) {
-    vec3 place = vec3(at.xy, at.z + float(gnomon_light.place.z));
-    $four$ found;
-    found.instance = textureGather(gnomon_ids[gnomon_unit], place, 0);
-    found.triangle = textureGather(gnomon_ids[gnomon_unit], place, 1);
-    return found;
-}
-)";
+uvec2 gnomon_shared_id(vec3 at) { return textureLod(gnomon_ids[gnomon_unit], gnomon_id_place(at), 0.0).xy; }
 
-/// Reads them one by one, in textureGather's order.
-inline constexpr std::string_view kReadOneByOne = R"(
 vec3 gnomon_beside(vec3 at, float u, float v) { return vec3(at.xy + vec2(u, v) * (0.5 / gnomon_map_edge_px), at.z); }
 
 vec4 gnomon_shared_depths(vec3 at) {
@@ -102,6 +88,39 @@ $four$ gnomon_shared_ids(vec3 at) {
     return $four$(uvec4(a.x, b.x, c.x, d.x), uvec4(a.y, b.y, c.y, d.y));
 }
 )";
+
+/// Functions that read them on hardware. Each read picks its array by a branch, with an index that is a constant. A
+/// loop around the lookup would be unrolled by NVIDIA's compiler, and the text compiled once for each array.
+inline constexpr std::string_view kHardwareReaders = R"(
+float gnomon_shared_depth(vec3 at) {
+    vec3 place = gnomon_depth_place(at);
+    float depth = 0.0;
+$read_depth$    return depth;
+}
+
+uvec2 gnomon_shared_id(vec3 at) {
+    vec3 place = gnomon_id_place(at);
+    uvec2 id = uvec2(0u);
+$read_id$    return id;
+}
+
+vec4 gnomon_shared_depths(vec3 at) {
+    vec3 place = gnomon_depth_place(at);
+    vec4 depths = vec4(0.0);
+$gather_depths$    return depths;
+}
+
+$four$ gnomon_shared_ids(vec3 at) {
+    vec3 place = gnomon_id_place(at);
+    uvec4 instances = uvec4(0u), triangles = uvec4(0u);
+$gather_ids$    return $four$(instances, triangles);
+}
+)";
+
+/// Ways to look up a light of any array: a round per array, or one that picks it at each read.
+inline constexpr std::string_view kRounds = "for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit)\n"
+                                            "        if (gnomon_light.place.x == gnomon_unit) ";
+inline constexpr std::string_view kOneRound = "gnomon_unit = gnomon_light.place.x;\n    if (gnomon_unit >= 0) ";
 
 /// Lookup in flat maps: kinds of lights, then filters. As shadow/lookup/visibility/by_map.glsl, which has one of each.
 inline constexpr std::string_view kFlat = R"(
@@ -168,8 +187,7 @@ float gnomon_visibility(int light, vec3 position, vec3 normal, float error_m) {
     gnomon_take(light);
     if (!gnomon_reaches(position, normal)) return 0.0;
     float visible = 1.0;
-    for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit)
-        if (gnomon_light.place.x == gnomon_unit) visible = gnomon_visibility_of_taken(position, normal, error_m);
+    $in_its_array$visible = gnomon_visibility_of_taken(position, normal, error_m);
     return visible;
 }
 

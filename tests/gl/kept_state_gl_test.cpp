@@ -79,6 +79,9 @@ protected:
             watched.create_texture({.label = "colour", .width = 8, .height = 8, .mips = 0}, pixels).handle;
         const auto depth =
             watched.create_texture({.label = "depth", .format = gl::Format::d32f, .width = 8, .height = 8}, {}).handle;
+        const auto shadows =
+            watched.create_texture({.label = "shadows", .format = gl::Format::d32f, .width = 8, .height = 8}, {})
+                .handle;
         const auto copy = watched.create_texture({.label = "copy", .width = 8, .height = 8}, {}).handle;
         const auto other = watched.create_texture({.label = "other", .width = 8, .height = 8}, {}).handle;
         const auto sampler = watched.create_sampler({.label = "sampler", .compare = true, .anisotropy = 4.0f}).handle;
@@ -100,7 +103,7 @@ protected:
             list.add(gl::BeginTimer{4});
             list.add(gl::BindUniforms{1, uniforms, 256, 256});
             list.add(gl::BindStorage{2, storage});
-            list.add(gl::BindTexture{4, copy, sampler});
+            list.add(gl::BindTexture{4, shadows, sampler});
             list.add(gl::BindTexels{6, storage});
             list.add(gl::Dispatch{computes});
             list.add(gl::BeginPass{.target = two, .viewport = {1, 1, 6, 6}, .clear_depth = true, .clear_colour = true});
@@ -148,7 +151,7 @@ protected:
         EXPECT_TRUE(watched.read_texture(copy, 0, bytes));
         import_both(watched);
         for (const auto target : {two, one}) watched.destroy(target);
-        for (const auto texture : {colour, depth, copy, other}) watched.destroy(texture);
+        for (const auto texture : {colour, depth, shadows, copy, other}) watched.destroy(texture);
         for (const auto buffer : {uniforms, storage, back}) watched.destroy(buffer);
         for (const auto program : {draws, computes}) watched.destroy(program);
         watched.destroy(sampler);

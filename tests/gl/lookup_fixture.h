@@ -30,8 +30,9 @@ protected:
         HeldFrameTest::TearDown();
     }
 
-    /// Makes the parts of a frame, with maps in shared arrays, and the text.
-    void start(const lookup::LookupRows& rows = {}) {
+    /// Makes the parts of a frame, with maps in shared arrays, and the text: that for hardware, if this device is some.
+    void start(lookup::LookupRows rows = {}) {
+        rows.for_hardware = rows.for_hardware || !device().info().is_software;
         auto made = GpuScene::create(device(), library);
         ASSERT_TRUE(made);
         scene = std::make_unique<GpuScene>(std::move(made).value());

@@ -127,7 +127,10 @@ TEST_F(Manners, AnEmptyStackOfGroupsBelowOpenOnesBecomesAnInvalidOperation) {
 }
 
 TEST_F(Manners, WhatCannotBeGivenBackIsNoErrorOfTheList) {
-    const GLuint last = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &kVertex);
+    const std::string separable = std::string(kVertex).insert(std::string_view("#version 450 core\n").size(),
+                                                              "out gl_PerVertex { vec4 gl_Position; };\n");
+    const char* text = separable.c_str();
+    const GLuint last = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &text);
     glUseProgram(last);
     glDeleteProgram(last);  // lives as long as it is in use
     EXPECT_EQ(device->submit(small_list()).failure, gl::Failure::none);

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <regex>
 #include <set>
+#include <sstream>
 
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/gl/gl_test_context.h"
@@ -64,6 +66,34 @@ TEST_F(ShaderRows, ARowWhoseFilterIsMissingIsRefusedAndTheOthersStay) {
     row.filter_file = "shadow/filters/none_such.glsl";
     EXPECT_FALSE(programs.row(row, lighting::ShaderPass::blended));
     EXPECT_TRUE(programs.row(all_rows().back(), lighting::ShaderPass::blended));
+}
+
+/// Returns the interface of a stage toward its neighbours, in lines of its text.
+std::vector<std::string> varyings(const std::string& text, bool inputs, bool outputs) {
+    std::vector<std::string> found;
+    std::istringstream lines(text);
+    const std::regex varying(R"(^(layout\(.*\) )?((flat|smooth|noperspective) )?(in|out) .*)");
+    std::smatch match;
+    for (std::string line; std::getline(lines, line);)
+        if (std::regex_match(line, match, varying) && (match[4] == "in" ? inputs : outputs)) found.push_back(line);
+    return found;
+}
+
+// NVIDIA gives a varying without a location the place of one that has it, and refuses to link.
+TEST(ShaderVaryings, AllOfAProgramHaveLocationsOrNoneHas) {
+    std::size_t with = 0, without = 0;
+    for (const gl::ProgramDesc& desc : all_programs()) {
+        std::vector<std::string> all = varyings(desc.vertex, false, true);
+        for (const auto& more : {varyings(desc.geometry, true, true), varyings(desc.fragment, true, false)})
+            all.insert(all.end(), more.begin(), more.end());
+        const auto located = static_cast<std::size_t>(std::count_if(
+            all.begin(), all.end(), [](const std::string& line) { return line.rfind("layout(location", 0) == 0; }));
+        EXPECT_TRUE(located == 0 || located == all.size()) << desc.label << ": " << ::testing::PrintToString(all);
+        with += located > 0;
+        without += located == 0 && !all.empty();
+    }
+    EXPECT_GT(with, 0u);
+    EXPECT_GT(without, 0u);
 }
 
 }  // namespace

@@ -6,17 +6,17 @@
 #include "common/octahedral.glsl"
 #include "lighting/gbuffer/triangle_normals.glsl"
 #include "lighting/lights/own_light.glsl"
-in vec3 fragment_position_ca;
-in vec3 fragment_normal;
-in vec2 fragment_uv;
-flat in uvec2 fragment_item;
+layout(location = kPositionVarying) in vec3 fragment_position_ca;
+layout(location = kNormalVarying) in vec3 fragment_normal;
+layout(location = kUvVarying) in vec2 fragment_uv;
+layout(location = kItemVarying) flat in uvec2 fragment_item;
 layout(location = 0) out vec4 colour_out;
 layout(location = 1) out vec4 normals_out;
 layout(location = 2) out vec4 material_out;
 layout(location = 3) out vec4 picture_out;
 #ifdef WRITE_PLACES   // for lights by rays
 #include "lighting/gbuffer/visible_triangle.glsl"
-flat in uint corner;
+layout(location = kCornerVarying) flat in uint corner;
 layout(location = 4) out uvec4 place_out;
 void write_place(uint triangle) {
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);

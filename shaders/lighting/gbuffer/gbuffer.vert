@@ -8,11 +8,11 @@ layout(location = kNormalAttribute) in vec3 normal_ms;
 layout(location = kUvAttribute) in vec2 uv;
 layout(location = kDrawItemAttribute) in uvec2 draw_item;   // instance, first triangle
 layout(location = kColourVarying) out vec4 fragment_colour;
-out vec3 fragment_position_ca;
-out vec3 fragment_normal;
-out vec2 fragment_uv;
-flat out uvec2 fragment_item;
-flat out uint corner;   // a vertex of the triangle, for lighting/gbuffer/visible_triangle.glsl
+layout(location = kPositionVarying) out vec3 fragment_position_ca;
+layout(location = kNormalVarying) out vec3 fragment_normal;
+layout(location = kUvVarying) out vec2 fragment_uv;
+layout(location = kItemVarying) flat out uvec2 fragment_item;
+layout(location = kCornerVarying) flat out uint corner;   // a vertex of the triangle, for lighting/gbuffer/visible_triangle.glsl
 
 void main() {
     InstanceRecord instance = instance_record(draw_item.x);

@@ -10,7 +10,7 @@
 #include "lighting/lights/brdf.glsl"
 #if SHADOW_RAYS
 #include "lighting/gbuffer/surface_position_f64.glsl"
-flat in uint corner;
+layout(location = kCornerVarying) flat in uint corner;
 
 float visible_share(vec3 geometric, uint triangle) {
     float interpolated_m = -dot(fragment_position_ca, camera.back.xyz);

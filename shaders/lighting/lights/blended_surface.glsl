@@ -4,10 +4,10 @@
 #include "common/material.glsl"
 #include "common/float_rounding.glsl"
 #include "lighting/gbuffer/triangle_normals.glsl"
-in vec3 fragment_position_ca;
-in vec3 fragment_normal;
-in vec2 fragment_uv;
-flat in uvec2 fragment_item;
+layout(location = kPositionVarying) in vec3 fragment_position_ca;
+layout(location = kNormalVarying) in vec3 fragment_normal;
+layout(location = kUvVarying) in vec2 fragment_uv;
+layout(location = kItemVarying) flat in uvec2 fragment_item;
 layout(location = 0) out vec4 colour_out;
 
 struct BlendedSurface {

@@ -59,7 +59,7 @@ ivec2 serving_views(vec3 position_ca) {
 }
 
 // Cascade of the last lookup. A second lookup starts after it.
-int found_cascade;
+int found_cascade = -1;
 
 ShadowPoint shadow_point(int lookup, vec3 position_ca, vec3 normal, float error_m, float reach_texel) {
     ivec2 views = serving_views(position_ca);
