@@ -78,8 +78,8 @@ const int kNormalAttribute = 1;
 const int kUvAttribute = 2;
 const int kDrawItemAttribute = 3;
 
-// From stage to stage of passes that draw casters or surfaces. Every varying of a program has a location, or none has:
-// NVIDIA gives one without a location the place of one that has it, and refuses to link.
+// From stage to stage of passes that draw casters or surfaces. Every varying of a program has a location, or none has.
+// NVIDIA gives the others locations that are taken, and refuses to link.
 const int kItemVarying = 0;
 const int kUvVarying = 1;
 const int kColourVarying = 2;

@@ -55,7 +55,7 @@ void gnomon_take(int light) {
 }
 )";
 
-/// Shared arrays, and the number of the one that is read.
+/// Shared arrays, and the number of the array in use.
 inline constexpr std::string_view kArrays = R"(
 const int gnomon_kUnits = $units$;
 layout(binding = $depths$) uniform sampler2DArray gnomon_depths[gnomon_kUnits];
@@ -69,7 +69,7 @@ vec3 gnomon_id_place(vec3 at) { return vec3(at.xy, at.z + float(gnomon_light.pla
 
 /// Functions that read the arrays on software devices. gnomon_unit counts a loop that all of a draw's pixels run in
 /// step, because an index into samplers must be the same for all. The four texels around a corner are read one by one,
-/// in textureGather's order: Mesa 22.3's llvmpipe aborts on it beside buffers that are read as texels.
+/// in textureGather's order. Mesa 22.3's llvmpipe aborts on that function beside buffers that are read as texels.
 inline constexpr std::string_view kSoftwareReaders = R"(
 float gnomon_shared_depth(vec3 at) { return textureLod(gnomon_depths[gnomon_unit], gnomon_depth_place(at), 0.0).x; }
 
@@ -117,7 +117,7 @@ $gather_ids$    return $four$(instances, triangles);
 }
 )";
 
-/// Ways to look up a light of any array: a round per array, or one that picks it at each read.
+/// Ways to look up a light of any array: a round per array, or one round with a branch at each read.
 inline constexpr std::string_view kRounds = "for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit)\n"
                                             "        if (gnomon_light.place.x == gnomon_unit) ";
 inline constexpr std::string_view kOneRound = "gnomon_unit = gnomon_light.place.x;\n    if (gnomon_unit >= 0) ";

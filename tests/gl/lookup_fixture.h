@@ -30,7 +30,7 @@ protected:
         HeldFrameTest::TearDown();
     }
 
-    /// Makes the parts of a frame, with maps in shared arrays, and the text: that for hardware, if this device is some.
+    /// Makes the parts of a frame, with maps in shared arrays, and the text, in its way for this device.
     void start(lookup::LookupRows rows = {}) {
         rows.for_hardware = rows.for_hardware || !device().info().is_software;
         auto made = GpuScene::create(device(), library);

@@ -79,7 +79,7 @@ std::vector<std::string> varyings(const std::string& text, bool inputs, bool out
     return found;
 }
 
-// NVIDIA gives a varying without a location the place of one that has it, and refuses to link.
+// NVIDIA gives the others locations that are taken, and refuses to link.
 TEST(ShaderVaryings, AllOfAProgramHaveLocationsOrNoneHas) {
     std::size_t with = 0, without = 0;
     for (const gl::ProgramDesc& desc : all_programs()) {
