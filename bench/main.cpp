@@ -15,6 +15,8 @@
 #include "bench/cost_model/calibrate.h"
 #include "bench/culling/culling.h"
 #include "bench/culling/culling_efficiency.h"
+#include "bench/embed/embed_costs.h"
+#include "bench/embed/host_engine.h"
 #include "bench/fit_drawings/fit_drawings.h"
 #include "bench/flicker/flicker.h"
 #include "bench/frame/frame_compare.h"
@@ -31,7 +33,8 @@ namespace gnomon::bench {
 namespace {
 
 constexpr int kNotSound = 1, kBadInput = 2;
-constexpr glm::uvec2 kQuickSize_px{640, 360};
+constexpr glm::uvec2 kQuickSize_px{640, 360}, kSmallEmbed_px{320, 180};
+constexpr std::uint32_t kQuickEmbedRounds = 3;
 
 int fail(const Error& error) {
     std::fprintf(stderr, "gnomon_bench: %s\n", game::on_one_line(to_line(error)).c_str());
@@ -154,6 +157,19 @@ int run_queries(const Arguments& arguments) {
     return put_table(measure_queries(arguments.stage, options));
 }
 
+int run_embed(const Arguments& arguments) {
+    auto stage = Stage::open(arguments.stage);
+    if (!stage) return fail(stage.error());
+    if (!arguments.size_given && stage.value()->device().info().is_software) stage.value()->set_size(kSmallEmbed_px);
+    EmbedOptions options = arguments.embed;
+    if (options.quick && !arguments.lights_given) options.lights = {1, kMostHostLights};
+    if (options.quick && !arguments.rounds_given) options.rounds = kQuickEmbedRounds;
+    const auto costs = measure_embed(*stage.value(), options);
+    if (!costs) return fail(costs.error());
+    if (auto error = put_out(arguments, embed_table(costs.value()), embed_json(costs.value()))) return fail(*error);
+    return 0;
+}
+
 int run_filters(const Arguments& arguments) {
     auto stage = Stage::open(arguments.stage);
     if (!stage) return fail(stage.error());
@@ -237,6 +253,7 @@ constexpr Command kCommands[] = {
     {"redraws", "how many maps are drawn while a camera walks or a thing moves", add_redraws, run_redraws},
     {"sets", "how many casters each light keeps, and how many of those in vain", add_common, run_set_shares},
     {"queries", "visibility queries on the CPU: how many per second, and their trees", add_queries, run_queries},
+    {"embed", "masks and lookups of gnomon::Shadows against Gnomon's own light passes", add_embed, run_embed},
 };
 
 int run(int argc, char** argv) {
@@ -259,6 +276,7 @@ int run(int argc, char** argv) {
     arguments.rounds_given = is_given("--rounds");
     arguments.repeat_given = is_given("--repeat");
     arguments.size_given = is_given("--size");
+    arguments.lights_given = is_given("--lights");
     arguments.audit = chosen.get_name() == "audit";
     if (auto error = complete(arguments)) return fail(*error);
     const auto* command = std::find_if(std::begin(kCommands), std::end(kCommands),

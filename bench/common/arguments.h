@@ -7,6 +7,7 @@
 #include "bench/check/check_command.h"
 #include "bench/common/stage.h"
 #include "bench/cost_model/calibrate.h"
+#include "bench/embed/embed_costs.h"
 #include "bench/flicker/flicker.h"
 #include "bench/queries/queries.h"
 #include "bench/scaling/light_count.h"
@@ -29,17 +30,19 @@ struct Arguments {
     DemandOptions demand;
     SpeedOptions speeds;
     QueriesOptions queries;
+    EmbedOptions embed;
     CheckCommand check;
     std::string sweep, sweep_rows;
     bool quick = false, audit = false;
     std::string out = "gnomon_sweep";
-    bool rounds_given = false, repeat_given = false, size_given = false;
+    bool rounds_given = false, repeat_given = false, size_given = false, lights_given = false;
 };
 
 /// A command's options.
 using AddOptions = void(CLI::App& command, Arguments& arguments);
 AddOptions add_accuracy, add_audit, add_frame, add_stability, add_drawings, add_filters, add_culling, add_demand,
-    add_budget, add_redraws, add_common, add_queries, add_check;
+    add_budget, add_redraws, add_common, add_queries, add_check,
+    add_embed;
 
 /// Derives the arguments that follow from given ones. Errors: "scene", "size", "offset", "time".
 std::optional<Error> complete(Arguments& arguments);

@@ -3,6 +3,7 @@
 
 #include "bench/common/arguments.h"
 #include "bench/common/parse_arguments.h"
+#include "bench/embed/host_engine.h"
 
 namespace gnomon::bench {
 namespace {
@@ -147,6 +148,22 @@ void add_queries(CLI::App& command, Arguments& arguments) {
     command.add_option("--threads", arguments.queries.threads, "threads that share a batch")
         ->check(CLI::Range(1u, kMostThreads))
         ->capture_default_str();
+}
+
+void add_embed(CLI::App& command, Arguments& arguments) {
+    EmbedOptions& options = arguments.embed;
+    add_scene(command, arguments);
+    command.add_option("--lights", options.lights, "how many lights; separated by commas")
+        ->delimiter(',')
+        ->check(CLI::Range(1u, kMostHostLights))
+        ->capture_default_str();
+    add_rounds(command, options.rounds, "rounds of --repeat calls of each way");
+    command.add_option("--repeat", options.frames, "calls of each way in a round")
+        ->check(CLI::Range(1u, kMaxRepeats))
+        ->capture_default_str();
+    command.add_flag("--quick", options.quick, "1 and 8 lights, fewer filters and rounds");
+    command.add_flag("!--no-lookup-all", options.whole_text, "leave out lookup_all: its shader takes long to compile");
+    command.footer([] { return embed_legend(); });
 }
 
 void add_check(CLI::App& command, Arguments& arguments) { add_check_options(command, arguments.check); }

@@ -56,6 +56,8 @@ public:
         game::play(spawned_.played, time_s, world_);
     }
     void show_shadows(bool on) { settings_.shadows = on; }
+    void use_rays(bool on) { settings_.rays = on; }
+    void set_size(glm::uvec2 size_px) { settings_.viewport_px = size_px; }
     void set_economy(bool on);
     /// Applies "KEY=VALUE" to every light with a shadow. Errors: "set.*".
     std::optional<Error> apply_setting(const std::string& key_value);

@@ -1,0 +1,73 @@
+"""What gnomon::Shadows costs an engine, as a user measures it. What pictures and counts say, not clocks."""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TIMEOUT_S = 500
+BAD_INPUT = 2
+ROUNDS, FRAMES = 2, 2
+STILL = ("passes_without", "passes", "mask", "shader_without", "lookup")
+BASES = {"passes": "passes_without", "mask": "passes", "lookup": "passes", "moving_mask": "moving_frame",
+         "moving_lookup": "moving_frame"}
+
+
+class EmbedTest(unittest.TestCase):
+    bench = None
+
+    def run_bench(self, *flags):
+        """Exit code, what it printed, and its JSON."""
+        folder = tempfile.mkdtemp(prefix="gnomon_embed_")
+        self.addCleanup(shutil.rmtree, folder, True)
+        file = os.path.join(folder, "embed.json")
+        done = subprocess.run([self.bench, "embed", "--json", file, *flags], stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, timeout=TIMEOUT_S, check=False)
+        found = None
+        if os.path.exists(file):
+            with open(file, encoding="utf-8") as stream:
+                found = json.load(stream)
+        return done.returncode, done.stdout.decode() + done.stderr.decode(), found
+
+    def test_every_way_is_timed_over_the_same_shadows(self):
+        code, text, found = self.run_bench("--quick", "--size", "96x54", "--lights", "1,3", "--rounds", str(ROUNDS),
+                                           "--repeat", str(FRAMES), "--no-lookup-all")
+        self.assertEqual(code, 0, text)
+        self.assertNotIn("OpenGL:", text)
+        self.assertEqual(found["size_px"], [96, 54])
+        self.assertEqual([(row["kind"], row["filter"], row["lights"]) for row in found["rows"]],
+                         [(kind, name, lights) for kind, name in (("suns", "default"), ("spots", "default"),
+                                                                  ("spots", "pcf_grid"), ("points", "default"))
+                          for lights in (1, 3)])
+        for row in found["rows"]:
+            with self.subTest(kind=row["kind"], filter=row["filter"], lights=row["lights"]):
+                self.assertGreaterEqual(row["maps"], row["lights"])
+                self.assertEqual(row["used_filter"], "triangles" if row["filter"] == "default" else row["filter"])
+                # The mask and the lookups darken the same pixels, and not none.
+                self.assertGreater(row["shadowed"], 0.04)
+                self.assertLess(row["differs"], 0.02)
+                self.assertLess(row["differs"], 0.2 * row["shadowed"])
+                self.assertNotIn("lookup_all", row)
+                for way in (*STILL, "moving_frame", "moving_mask", "moving_lookup"):
+                    self.assertEqual(row[way]["us"]["count"], ROUNDS * FRAMES, way)
+                    self.assertGreater(row[way]["us"]["min"], 0, way)
+                    self.assertGreater(row[way]["call_us"]["min"], 0, way)
+                    self.assertEqual("ratio" in row[way], way in BASES, way)
+                    self.assertEqual(row[way].get("ratio", {"count": ROUNDS})["count"], ROUNDS, way)
+                # Shadows cost something, and drawing maps costs more than keeping them.
+                self.assertGreater(row["passes"]["cpu_us"]["median"], row["passes_without"]["cpu_us"]["median"])
+                self.assertGreater(row["lookup"]["cpu_us"]["median"], row["shader_without"]["cpu_us"]["median"])
+                self.assertGreater(row["moving_mask"]["cpu_us"]["median"], row["mask"]["cpu_us"]["median"])
+
+    def test_bad_input_is_refused(self):
+        for flags in (("--lights", "0"), ("--lights", "9"), ("--size", "wide"), ("--set", "filter=none_such")):
+            code, text, found = self.run_bench(*flags)
+            self.assertEqual(code, BAD_INPUT, text)
+            self.assertIsNone(found)
+
+
+if __name__ == "__main__":
+    EmbedTest.bench = sys.argv.pop(1)
+    unittest.main(verbosity=2)
