@@ -162,6 +162,7 @@ int run_embed(const Arguments& arguments) {
     if (!stage) return fail(stage.error());
     if (!arguments.size_given && stage.value()->device().info().is_software) stage.value()->set_size(kSmallEmbed_px);
     EmbedOptions options = arguments.embed;
+    options.settings = arguments.stage.settings;
     if (options.quick && !arguments.lights_given) options.lights = {1, kMostHostLights};
     if (options.quick && !arguments.rounds_given) options.rounds = kQuickEmbedRounds;
     const auto costs = measure_embed(*stage.value(), options);

@@ -161,6 +161,7 @@ void add_embed(CLI::App& command, Arguments& arguments) {
     command.add_option("--repeat", options.frames, "calls of each way in a round")
         ->check(CLI::Range(1u, kMaxRepeats))
         ->capture_default_str();
+    command.add_option("--only", options.only, "part of kind and filter, as 'spots default' (default: all)");
     command.add_flag("--quick", options.quick, "1 and 8 lights, fewer filters and rounds");
     command.add_flag("!--no-lookup-all", options.whole_text, "leave out lookup_all: its shader takes long to compile");
     command.footer([] { return embed_legend(); });

@@ -69,7 +69,10 @@ std::optional<Error> EmbedClient::make(const HostScene& scene, const std::option
 void EmbedClient::put_lights(const std::vector<PlacedLight>& lights) {
     for (const LightId handle : handles_) shadows_->remove(handle);
     handles_.clear();
-    for (const PlacedLight& light : lights) handles_.push_back(shadows_->add_light(desc_of(light)));
+    for (const PlacedLight& light : lights) {
+        handles_.push_back(shadows_->add_light(desc_of(light)));
+        shadows_->tune(handles_.back(), light.tuning);
+    }
     lights_ = lights;
 }
 

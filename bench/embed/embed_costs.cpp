@@ -139,9 +139,7 @@ void Bench::put_lights(std::uint32_t count) {
         world.emplace<Transform>(light, {});
         world.emplace<Light>(light, place.light);
         world.emplace<LightShadow>(light, place.shadow);
-        ShadowTuning tuning;
-        tuning.reuse.keep_visibility = false;  // masks and lookups do not keep what pixels saw
-        world.emplace<ShadowTuning>(light, tuning);
+        world.emplace<ShadowTuning>(light, place.tuning);
     }
     move_world();
     for (EmbedClient* client : {mask_.get(), own_.get(), all_.get()})
@@ -308,11 +306,17 @@ Result<EmbedCosts> Bench::measure() {
     if (auto error = prepare()) return *error;
     costs.size_px = engine_->size_px();
     costs.whole_text_compile_s = whole_text_compile_s_;
-    for (const EmbedCase& of : embed_cases(options_.quick)) {
+    game::LightSettings settings;
+    for (const std::string& setting : options_.settings)
+        if (auto error = game::apply_setting(settings, setting)) return *error;
+    for (EmbedCase of : embed_cases(options_.quick)) {
+        if (of.name().find(options_.only) == std::string::npos) continue;
+        of.settings = settings;
         if (auto error = make_case(of)) return *error;
         for (const std::uint32_t count : options_.lights) costs.rows.push_back(measure_row(count));
     }
     costs.starved = clock_.starved();
+    if (costs.rows.empty()) return Error{"--only names no lights: as 'spots default'", "", "", "bench.only"};
     return costs;
 }
 

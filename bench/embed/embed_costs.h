@@ -35,8 +35,10 @@ const EmbedWayInfo& info_of(EmbedWay way);
 struct EmbedOptions {
     std::vector<std::uint32_t> lights{1, 2, 4, 8};
     std::uint32_t rounds = 5, frames = 5;
-    bool quick = false;      // fewer lights, filters and rounds
-    bool whole_text = true;  // measure lookup_all: its text takes long to compile
+    bool quick = false;                 // fewer lights, filters and rounds
+    std::string only;                   // part of a case's name, as "spots default"; empty: all
+    std::vector<std::string> settings;  // KEY=VALUE of every light; a case's own filter stays
+    bool whole_text = true;             // measure lookup_all: its text takes long to compile
 };
 
 /// Lights of one kind and filter.
@@ -65,7 +67,8 @@ struct EmbedCosts {
 };
 
 /// Measures Gnomon's own light passes, masks and lookups of the same lights, cameras and surfaces in one run. The
-/// lights are its own: the scene's are switched off. Errors: those of gnomon::Shadows; "bench.program".
+/// lights are its own: the scene's are switched off. Errors: those of
+/// gnomon::Shadows; "set.*", "bench.program", "bench.only" (no such case).
 Result<EmbedCosts> measure_embed(Stage& stage, const EmbedOptions& options);
 
 /// Returns what the ways are, a line each.

@@ -33,6 +33,8 @@ std::vector<EmbedCase> embed_cases(bool quick) {
     return cases;
 }
 
+std::string EmbedCase::name() const { return std::string(kind_name) + " " + filter_name(filter); }
+
 std::string filter_name(ShadowFilter filter) {
     return filter == ShadowFilter::automatic ? "default" : std::string(shadow::filter_row(filter).name);
 }
@@ -51,7 +53,12 @@ PlacedLight placed_light(const EmbedCase& of, std::uint32_t i, std::uint32_t tur
     place.light.kind = of.kind;
     place.light.intensity = is_sun ? kSun_lx : kLamp_cd;
     place.light.outer_cone_rad = kCone_rad;
+    place.light.source_radius_m = of.settings.source_radius_m;
+    place.light.sun_radius_rad = of.settings.sun_radius_rad;
+    place.shadow = of.settings.shadow;
     place.shadow.filter = of.filter;
+    place.tuning = of.settings.tuning;
+    place.tuning.reuse.keep_visibility = false;  // masks and lookups do not keep what pixels saw
     const glm::dvec3 middle = math::centre(bounds), half = 0.5 * (bounds.max - bounds.min);
     place.position_m = middle + kLampRing * ring * half + glm::dvec3(kMove_m * (turn % kMoves), 0.0, 0.0);
     place.position_m.y = bounds.min.y + kLampHeight * (bounds.max.y - bounds.min.y);

@@ -7,6 +7,7 @@
 #include "components/light_shadow.h"
 #include "engine/math/aabb.h"
 #include "gnomon/shadows.h"
+#include "sample_game/support/settings/light_settings.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::bench {
@@ -17,6 +18,8 @@ struct EmbedCase {
     const char* kind_name = "";
     ShadowFilter filter = ShadowFilter::automatic;
     bool LookupOptions::*part = nullptr;  // in a lookup's text, for that kind
+    game::LightSettings settings = {};    // filter aside
+    std::string name() const;
 };
 
 /// Lists all of them. `quick`: a grid of taps for spots alone.
@@ -28,6 +31,7 @@ std::string filter_name(ShadowFilter filter);
 struct PlacedLight {
     Light light;
     LightShadow shadow;
+    ShadowTuning tuning;
     glm::dvec3 position_m{0.0}, direction{0.0, -1.0, 0.0};
 };
 
