@@ -27,6 +27,8 @@ const char* output_name(ShaderPass output) {
             return "kept visibility";
         case ShaderPass::decided:
             return "decided light";
+        case ShaderPass::decided_visibility:
+            return "decided visibility";
     }
     return "light";
 }
@@ -45,7 +47,8 @@ std::string_view visible_share_file(ShaderPass output, bool found_before) {
 
 /// Returns the fragment shader, under shaders/, that draws a light over its rectangle.
 std::string_view fragment_file(ShaderPass output) {
-    const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility;
+    const bool is_share = output == ShaderPass::visibility || output == ShaderPass::kept_visibility ||
+                          output == ShaderPass::decided_visibility;
     return is_share ? "lighting/lights/visibility.frag" : "lighting/lights/light.frag";
 }
 
@@ -119,7 +122,8 @@ gl::ProgramHandle LightPrograms::find_or_make(const shadow::ShaderKey& wanted, S
     const bool found_before = row.filter_file.empty() && row.sheets;
     defines.push_back("VISIBLE_SHARE \"" + std::string(visible_share_file(output, found_before)) + "\"");
     if (output == ShaderPass::blended && coloured_) defines.emplace_back("COLOURED 1");
-    if (output == ShaderPass::decided) defines.emplace_back("LEAVE_UNDECIDED 1");
+    if (output == ShaderPass::decided || output == ShaderPass::decided_visibility)
+        defines.emplace_back("LEAVE_UNDECIDED 1");
     if (output == ShaderPass::lookups) defines.emplace_back("SHADOW_SHOWN 1");
     if (found.some_unlit) defines.emplace_back("SOME_UNLIT 1");
     const std::string label = std::string(output_name(output)) + (fragment.empty() ? "" : " " + std::string(fragment)) +

@@ -16,7 +16,7 @@ namespace gnomon::lighting {
 /// - verdicts: what maps of sheets decide
 /// - rays: what rays decide of the other pixels (RayList)
 /// - kept, kept_visibility: picture and visibility from cached visibility (KeptVisibility)
-/// - decided: the picture, without pixels that take the row's filter long
+/// - decided, decided_visibility: picture and visibility without pixels that take the row's filter long
 enum class ShaderPass : std::uint8_t {
     picture,
     visibility,
@@ -26,7 +26,8 @@ enum class ShaderPass : std::uint8_t {
     rays,
     kept,
     kept_visibility,
-    decided
+    decided,
+    decided_visibility
 };
 
 /// Returns the row for a light without lookup: one per kind.

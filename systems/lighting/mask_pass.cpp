@@ -100,6 +100,24 @@ gl::Failure MaskPass::make_layers(std::size_t layers) {
     return failure;
 }
 
+/// Makes what lights need that are drawn twice, or frees it. Without room each is one draw.
+void MaskPass::provide_undecided(bool wanted) {
+    if (wanted == !undecided_targets_.empty()) return;
+    release_undecided();
+    if (!wanted) return;
+    undecided_ = device_
+                     .create_texture(
+                         {"undecided depth", gl::TextureKind::flat, gl::Format::d32f, size_px_.x, size_px_.y, 1, 1}, {})
+                     .handle;
+    for (std::size_t i = 0; i < targets_.size() && undecided_; ++i) {
+        const gl::TargetHandle target =
+            device_.create_target({"undecided mask", {{mask_, static_cast<std::int32_t>(i)}}, {undecided_, -1}}).handle;
+        if (!target) break;
+        undecided_targets_.push_back(target);
+    }
+    if (undecided_targets_.size() < targets_.size()) release_undecided();
+}
+
 gl::Failure MaskPass::prepare(const DepthPicture& picture, std::size_t layers, std::size_t lights) {
     const std::size_t samples = sample_count(picture);
     gl::Failure failure = make_surfaces(picture.size_px);
@@ -170,26 +188,36 @@ void MaskPass::import(const DepthPicture& picture, std::uint32_t sample, gl::Com
     list.add(gl::EndGroup{});
 }
 
-/// Records one light over the surfaces that were imported last.
+/// Records one light over the surfaces that were imported last. If some pixels are slow there are two draws. The first
+/// removes the depth of finished pixels, so that only the others pass the second one's depth test.
 void MaskPass::record_light(const LightProgram& program, std::uint32_t light, std::uint32_t sample,
                             const gl::Rect& area, float depth, const GpuScene& gpu, gl::CommandList& list) const {
     list.add(gl::SetScissor{area});
-    list.add(gl::SetPipeline{
-        {program.program, gl::CullMode::none, false, gl::DepthTest::less, false, false, gl::Blend::off}});
-    bind_camera(sample, list);
-    list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, depth_, sampler_});
-    list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, normals_, sampler_});
-    list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, material_, sampler_});
-    list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
-                              sizeof(shadow::LightRecord)});
-    bind_maps(program, list);
-    bind_triangles(program, gpu, list);
-    list.add(gl::DrawTriangle{depth});
+    const auto draw = [&](gl::ProgramHandle used, bool takes_depth) {
+        list.add(gl::SetPipeline{
+            {used, gl::CullMode::none, false, gl::DepthTest::less, takes_depth, false, gl::Blend::off}});
+        bind_camera(sample, list);
+        list.add(gl::BindTexture{bindings::kSurfaceDepthUnit, depth_, sampler_});
+        list.add(gl::BindTexture{bindings::kSurfaceNormalUnit, normals_, sampler_});
+        list.add(gl::BindTexture{bindings::kSurfaceMaterialUnit, material_, sampler_});
+        list.add(gl::BindUniforms{bindings::kLightBlock, uniforms_.handle(), lights_offset_ + light * light_stride_,
+                                  sizeof(shadow::LightRecord)});
+        bind_maps(program, list);
+        bind_triangles(program, gpu, list);
+        list.add(gl::DrawTriangle{depth});
+    };
+    if (program.decided_program) draw(program.decided_program, true);
+    draw(program.program, false);
 }
 
 LightProgram MaskPass::program_of(const shadow::LightingLight& light) {
     const gl::ProgramHandle own = programs_.row(light.row, ShaderPass::visibility);
-    if (own) return {own, light.map, light.triangles, light.sampler};
+    if (own) {
+        LightProgram used{own, light.map, light.triangles, light.sampler};
+        if (light.row.triangles && !undecided_targets_.empty())
+            used.decided_program = programs_.row(light.row, ShaderPass::decided_visibility);
+        return used;
+    }
     return fallback_program(programs_, light, ShaderPass::visibility, Reason::filter_program_failed);
 }
 
@@ -199,21 +227,30 @@ void MaskPass::record_layers(const MaskInputs& in, std::uint32_t sample, gl::Com
     const auto samples = static_cast<std::uint32_t>(sample_count(in.picture));
     const gl::Rect all{0, 0, static_cast<std::int32_t>(size_px_.x), static_cast<std::int32_t>(size_px_.y)};
     for (std::uint32_t layer = 0; layer < in.layers.size(); ++layer) {
+        const std::size_t target = std::size_t{layer} * samples + sample;
         const bool is_light = in.layers[layer] < in.inputs.lights.size();
-        const float clear = is_light ? 0.0f : 1.0f;
-        list.add(gl::BeginPass{targets_[layer * samples + sample], all, false, 0.0f, true, {clear, 0.0f, 0.0f, 0.0f}});
+        LightProgram used;
+        gl::Rect area{};  // the picture may show more than the scene declares
         if (is_light) {
             const shadow::LightingLight& light = in.inputs.lights[in.layers[layer]];
-            const LightProgram used = program_of(light);
-            // The picture may show more than the scene declares.
-            const gl::Rect area = light.reach.width > 0 ? in_picture(light.reach, consumer, in.picture) : gl::Rect{};
-            if (area.width > 0 && used.program) {
-                list.add(gl::BeginGroup{in.scene.lights[light.light].name});
-                list.add(gl::BeginTimer{lighting_timer(light.light)});
-                record_light(used, in.layers[layer], sample, area, light.farthest_depth, in.gpu, list);
-                list.add(gl::EndTimer{lighting_timer(light.light)});
-                list.add(gl::EndGroup{});
-            }
+            used = program_of(light);
+            if (light.reach.width > 0 && used.program) area = in_picture(light.reach, consumer, in.picture);
+        }
+        const bool two = area.width > 0 && used.decided_program;
+        if (two) list.add(gl::CopyTexture{depth_, undecided_, 0, area});
+        list.add(gl::BeginPass{two ? undecided_targets_[target] : targets_[target],
+                               all,
+                               false,
+                               0.0f,
+                               true,
+                               {is_light ? 0.0f : 1.0f, 0.0f, 0.0f, 0.0f}});
+        if (area.width > 0) {
+            const shadow::LightingLight& light = in.inputs.lights[in.layers[layer]];
+            list.add(gl::BeginGroup{in.scene.lights[light.light].name});
+            list.add(gl::BeginTimer{lighting_timer(light.light)});
+            record_light(used, in.layers[layer], sample, area, light.farthest_depth, in.gpu, list);
+            list.add(gl::EndTimer{lighting_timer(light.light)});
+            list.add(gl::EndGroup{});
         }
         list.add(gl::EndPass{});
     }
@@ -227,6 +264,9 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
         release_layers();
         return true;
     }
+    provide_undecided(std::any_of(in.layers.begin(), in.layers.end(), [&](std::uint32_t layer) {
+        return layer < in.inputs.lights.size() && in.inputs.lights[layer].row.triangles;
+    }));
     upload(in.inputs, in.picture, list);
     list.add(gl::BeginGroup{"shadow mask"});
     for (std::uint32_t sample = 0; sample < sample_count(in.picture); ++sample) {
@@ -244,7 +284,15 @@ bool MaskPass::record(const MaskInputs& in, gl::CommandList& list, shadow::Light
     return true;
 }
 
+void MaskPass::release_undecided() {
+    for (const gl::TargetHandle target : undecided_targets_) device_.destroy(target);
+    undecided_targets_.clear();
+    device_.destroy(undecided_);
+    undecided_ = {};
+}
+
 void MaskPass::release_layers() {
+    release_undecided();
     for (const gl::TargetHandle target : targets_) device_.destroy(target);
     targets_.clear();
     device_.destroy(mask_);

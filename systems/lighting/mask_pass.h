@@ -65,6 +65,7 @@ private:
     gl::Failure prepare(const DepthPicture& picture, std::size_t layers, std::size_t lights);
     gl::Failure make_surfaces(glm::uvec2 size_px);
     gl::Failure make_layers(std::size_t layers);
+    void provide_undecided(bool wanted);
     void upload(const shadow::LightingInputs& inputs, const DepthPicture& picture, gl::CommandList& list);
     void bind_camera(std::uint32_t sample, gl::CommandList& list) const;
     void import(const DepthPicture& picture, std::uint32_t sample, gl::CommandList& list) const;
@@ -72,6 +73,7 @@ private:
     void record_light(const LightProgram& program, std::uint32_t light, std::uint32_t sample, const gl::Rect& area,
                       float depth, const GpuScene& gpu, gl::CommandList& list) const;
     void record_layers(const MaskInputs& in, std::uint32_t sample, gl::CommandList& list);
+    void release_undecided();
     void release_layers();
     void release();
 
@@ -80,7 +82,9 @@ private:
     GrowingBuffer uniforms_;
     gl::TextureHandle depth_{}, normals_{}, material_{}, mask_{};
     gl::TargetHandle surfaces_{};
-    std::vector<gl::TargetHandle> targets_;  // one per layer of the mask, with depth_
+    std::vector<gl::TargetHandle> targets_;            // one per layer of the mask, with depth_
+    gl::TextureHandle undecided_{};                    // depth of the pixels that a light's first draw has left
+    std::vector<gl::TargetHandle> undecided_targets_;  // one per layer, with undecided_; none: each light is one draw
     glm::uvec2 size_px_{0, 0};
     gl::SamplerHandle sampler_{};
     std::uint32_t import_offset_ = 0, sample_stride_ = 0, lights_offset_ = 0, light_stride_ = 0;

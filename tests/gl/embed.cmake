@@ -6,6 +6,7 @@ if(GNOMON_SAMPLE)
     embed_lookup_gl_test.cpp
     embed_state_gl_test.cpp
     embed_views_gl_test.cpp
+    failing_gl.cpp
     gl_state_record.cpp
     unusual_gl_state.cpp
     ../unit/allocation_counter.cpp

@@ -1,4 +1,5 @@
 #include "tests/gl/embed_fixture.h"
+#include "tests/gl/failing_gl.h"
 
 // gnomon::Shadows beside an engine of its own: the mask is what Gnomon's own frame shows of the same world.
 namespace gnomon {
@@ -53,6 +54,45 @@ TEST_P(EmbedMask, DerivesNormalsUpToThePicturesEdges) {
     std::printf("%s %s: %zu of the edge's pixels are lit, %zu are other\n", kind_name(kind), name_of(depths), lit, other);
     EXPECT_GT(lit, 200u);
     EXPECT_LE(other, 1u);
+}
+
+/// A light with triangles takes two draws of its layer: what the first decides, and the rest. Without a target for that
+/// it is one draw.
+TEST_F(EmbedTest, TwoDrawsOfALightShowTheBitsOfOne) {
+    make_engine(Depths::usual_float);
+    add_room();
+    const glm::dvec3 at_m(1.5, 3.0, 1.0);
+    const LightId spot = add_shadowed(LightKind::spot, at_m);
+    look_from({0.5, 2.5, 4.0});
+    view.normal_texture = engine->normals;
+    const auto with = [&](ShadowFilter filter) {
+        shadows->set_light(spot, {.light = {.kind = LightKind::spot, .outer_cone_rad = 0.9f}, .position_m = at_m, .direction = -at_m, .shadow = {.filter = filter}});
+        draw_depths(view, *engine);
+        return layer_of(shadows->render(view), 0);
+    };
+    const std::vector<std::uint8_t> hard = with(ShadowFilter::hard), two = with(ShadowFilter::triangles);
+    EXPECT_NE(two, hard) << "control";
+
+    FailingGl gl;
+    const auto counted = [&](std::uint64_t failing_target) {
+        with(ShadowFilter::hard);
+        gl.begin(GlFault::incomplete_target, failing_target, false);
+        std::vector<std::uint8_t> mask = with(ShadowFilter::triangles);
+        gl.end();
+        return mask;
+    };
+    constexpr std::uint64_t kNone = 1000;
+    EXPECT_EQ(counted(kNone), two);
+    const std::uint64_t targets = gl.calls(GlFault::incomplete_target), calls = gl.calls(GlFault::out_of_memory);
+    std::uint64_t in_one = 0;
+    for (std::uint64_t target = targets; target-- > 0;) {  // a map's comes first, and is not tried again at once
+        const std::vector<std::uint8_t> mask = counted(target);
+        if (shadows->status(spot).reason != Reason::none) continue;
+        EXPECT_EQ(mask, two) << "target " << target;
+        EXPECT_LT(gl.calls(GlFault::out_of_memory), calls) << "no second draw, no copy of depths";
+        ++in_one;
+    }
+    EXPECT_EQ(in_one, 1u);
 }
 
 TEST_F(EmbedTest, EightLightsAtOnceAreWhatRaysSay) {

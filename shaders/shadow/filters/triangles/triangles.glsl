@@ -32,7 +32,7 @@ int different(FourTexels four, bvec4 may, FourTriangles shown) {
 }
 
 #ifdef LEAVE_UNDECIDED
-// true where texels do not agree, in the first draw of lighting/lights/light.frag.
+// true where texels do not agree, in the first draw of a light.
 bool shadow_undecided = false;
 
 float shadow_filter(ShadowPoint point) {
