@@ -213,6 +213,13 @@ std::string in_each(std::string_view statement, std::uint32_t arrays) {
     return text;
 }
 
+/// Returns the functions of one name that look lights up, by that statement.
+std::string lookups_text(const char* name, std::string_view looked_up, Values values) {
+    values["lookup"] = name;
+    values["looked_up"] = looked_up;
+    return filled(kLookups, values);
+}
+
 /// Returns the text that reads records and shared arrays.
 std::string records_text(const gl::GlslLibrary& library, const RowNames& names, const LookupBindings& bindings,
                          bool for_hardware) {
@@ -264,14 +271,14 @@ Result<std::string> lookup_glsl(const LookupBindings& bindings, const LookupRows
     Names roots;
     const std::string flat = flat_text(names, rows, roots), cube = cube_text(names, rows, roots);
     Values entries = called_names(names, flat.empty() ? LookupKind::cube : LookupKind::cone, roots);
-    entries["in_its_array"] = rows.for_hardware ? kOneRound : kRounds;
     if (!cube.empty())
         add_if("gnomon_light.row.x == 4", "return gnomon_cube_visibility(position, normal, error_m);",
                entries["cubes"]);
     if (!flat.empty())
         add_if("gnomon_light.row.x > 0", "return gnomon_flat_visibility(position, normal, error_m);", entries["flats"]);
     return library.text(first) + records_text(library, names, bindings, rows.for_hardware) + library.text(roots, first) +
-           flat + cube + filled(kEntries, entries);
+           flat + cube + filled(kEntries, entries) + lookups_text("gnomon_visibility", rows.for_hardware ? kLookUpAtOnce : kLookUpInRounds, entries) +
+           lookups_text("gnomon_uniform_visibility", kLookUpAtOnce, entries);
 }
 
 }  // namespace gnomon::lookup

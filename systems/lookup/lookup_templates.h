@@ -117,11 +117,6 @@ $gather_ids$    return $four$(instances, triangles);
 }
 )";
 
-/// Ways to look up a light of any array: a round per array, or one round with a branch at each read.
-inline constexpr std::string_view kRounds = "for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit)\n"
-                                            "        if (gnomon_light.place.x == gnomon_unit) ";
-inline constexpr std::string_view kOneRound = "gnomon_unit = gnomon_light.place.x;\n    if (gnomon_unit >= 0) ";
-
 /// Lookup in flat maps: kinds of lights, then filters. As shadow/lookup/visibility/by_map.glsl, which has one of each.
 inline constexpr std::string_view kFlat = R"(
 float gnomon_flat_visibility(vec3 position, vec3 normal, float error_m) {
@@ -166,7 +161,7 @@ $filters$    }
 }
 )";
 
-/// What engines call.
+/// What engines call beside kLookups.
 inline constexpr std::string_view kEntries = R"(
 const float gnomon_kFloatRounding = 1.0e-6;   // rounding of a computed position, as a share of its size
 
@@ -180,43 +175,41 @@ bool gnomon_takes_shadow(int light, int layers) {
 float gnomon_visibility_of_taken(vec3 position, vec3 normal, float error_m) {
 $cubes$$flats$    return 1.0;
 }
+)";
 
-bool gnomon_reaches(vec3 position, vec3 normal) { return !$unreached$(normal, $light_at$(position)); }
-
-float gnomon_visibility(int light, vec3 position, vec3 normal, float error_m) {
-    gnomon_take(light);
-    if (!gnomon_reaches(position, normal)) return 0.0;
+/// Functions named $lookup$ that return a light's visibility. $looked_up$ is a statement that sets `visible` for the
+/// light that was taken.
+inline constexpr std::string_view kLookups = R"(
+float $lookup$_if_reached(vec3 position, vec3 normal, float error_m) {
+    if ($unreached$(normal, $light_at$(position))) return 0.0;
     float visible = 1.0;
-    $in_its_array$visible = gnomon_visibility_of_taken(position, normal, error_m);
+    $looked_up$
     return visible;
 }
 
-float gnomon_visibility(int light, vec3 position, vec3 normal) {
-    return gnomon_visibility(light, position, normal, gnomon_kFloatRounding * length(position));
+float $lookup$(int light, vec3 position, vec3 normal, float error_m) {
+    gnomon_take(light);
+    return $lookup$_if_reached(position, normal, error_m);
 }
 
-float gnomon_visibility(int light, vec3 position) {
+float $lookup$(int light, vec3 position, vec3 normal) {
+    return $lookup$(light, position, normal, gnomon_kFloatRounding * length(position));
+}
+
+float $lookup$(int light, vec3 position) {
     gnomon_take(light);
     vec3 to_light = $toward_light$(position);
-    return gnomon_visibility(light, position, to_light / max(length(to_light), 1e-30), 0.0);
-}
-
-float gnomon_uniform_visibility(int light, vec3 position, vec3 normal, float error_m) {
-    gnomon_take(light);
-    if (!gnomon_reaches(position, normal)) return 0.0;
-    gnomon_unit = gnomon_light.place.x;
-    return gnomon_unit < 0 ? 1.0 : gnomon_visibility_of_taken(position, normal, error_m);
-}
-
-float gnomon_uniform_visibility(int light, vec3 position, vec3 normal) {
-    return gnomon_uniform_visibility(light, position, normal, gnomon_kFloatRounding * length(position));
-}
-
-float gnomon_uniform_visibility(int light, vec3 position) {
-    gnomon_take(light);
-    vec3 to_light = $toward_light$(position);
-    return gnomon_uniform_visibility(light, position, to_light / max(length(to_light), 1e-30), 0.0);
+    return $lookup$_if_reached(position, to_light / max(length(to_light), 1e-30), 0.0);
 }
 )";
+
+/// Looks up any light on software devices: each round has the same unit for all.
+inline constexpr std::string_view kLookUpInRounds =
+    "for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit)\n"
+    "        if (gnomon_light.place.x == gnomon_unit) visible = gnomon_visibility_of_taken(position, normal, error_m);";
+/// Looks up a light that is the same for all; any light where reads pick their array (kHardwareReaders).
+inline constexpr std::string_view kLookUpAtOnce =
+    "gnomon_unit = gnomon_light.place.x;\n"
+    "    if (gnomon_unit >= 0) visible = gnomon_visibility_of_taken(position, normal, error_m);";
 
 }  // namespace gnomon::lookup

@@ -56,7 +56,7 @@ TEST_P(EmbedMask, DerivesNormalsUpToThePicturesEdges) {
     EXPECT_LE(other, 1u);
 }
 
-/// A light with triangles takes two draws of its layer: what the first decides, and the rest. Without a target for that
+/// Draws a light with triangles twice: what the first draw decides, and the rest. Without a target for that
 /// it is one draw.
 TEST_F(EmbedTest, TwoDrawsOfALightShowTheBitsOfOne) {
     make_engine(Depths::usual_float);
