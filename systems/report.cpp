@@ -198,6 +198,8 @@ const char* reason_code(DropReason reason) {
             return "instances_full";
         case DropReason::meshes_full:
             return "meshes_full";
+        case DropReason::buffer_lost:
+            return "buffer_lost";
     }
     return "unknown";
 }

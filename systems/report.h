@@ -69,6 +69,7 @@ struct LightCounts {
     std::uint64_t bytes = 0;        // its memory, kept visibility included
     std::uint32_t draws = 0, clears = 0;
     std::uint64_t triangles = 0;
+    std::uint32_t by_depth = 0;  // casters without triangles, where its filter reads those of others
 };
 
 /// Result of the shadow stages for one light.

@@ -121,7 +121,12 @@ struct Writer {
     }
     std::string operator()(const BindMeshes& c) const {
         return "BindMeshes" + field("vertices", c.vertices) + field("indices", c.indices) +
-               field("draw_items", c.draw_items);
+               field("draw_items", c.draw_items) +
+               (c.layout == MeshLayout{}
+                    ? std::string()
+                    : field("stride", c.layout.stride) + field("offset", c.layout.position_offset) +
+                          field("format", static_cast<unsigned>(c.layout.position)) +
+                          field("index_bytes", c.layout.index_bytes()));
     }
     std::string operator()(const DrawMeshes& c) const {
         return "DrawMeshes" + field("first_index", c.first_index) + field("index_count", c.index_count) +

@@ -143,12 +143,30 @@ struct ClearBuffer {
 /// Attribute locations of vertex layout "mesh". shaders/common/bindings.glsl has the same.
 inline constexpr std::uint32_t kPositionAttribute = 0, kNormalAttribute = 1, kUvAttribute = 2, kDrawItemAttribute = 3;
 
-/// Binds the vertex layout "mesh".
+/// Components of a position in a vertex buffer: three of them, signed or unsigned ones normalised to [-1, 1] or [0, 1].
+enum class PositionFormat : std::uint8_t { float32, float16, snorm16, unorm16 };
+/// Returns the bytes of a position.
+constexpr std::uint32_t position_bytes(PositionFormat format) {
+    return 3 * (format == PositionFormat::float32 ? 4u : 2u);
+}
+
+/// Layout of a vertex buffer of someone else, of which positions alone are read, and of its indices.
+struct MeshLayout {
+    std::uint32_t stride = 0;  // bytes from vertex to vertex; 0: the layout "mesh"
+    std::uint64_t position_offset = 0;
+    PositionFormat position = PositionFormat::float32;
+    bool short_indices = false;  // uint16, not uint32
+    std::uint32_t index_bytes() const { return short_indices ? 2 : 4; }
+    bool operator==(const MeshLayout&) const = default;
+};
+
+/// Binds the vertex layout "mesh", or another one.
 /// - vertices: {vec3 position, vec3 normal, vec2 uv} (32 bytes)
 /// - indices: uint32
 /// - draw_items: uvec2 {instance, first_triangle} per instance, divisor 1
 struct BindMeshes {
     BufferHandle vertices{}, indices{}, draw_items{};
+    MeshLayout layout = {};
     bool operator==(const BindMeshes&) const = default;
 };
 struct DrawMeshes {  // triangles

@@ -330,34 +330,32 @@ Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, const Gl45Opt
     return std::unique_ptr<Device>{std::make_unique<Gl45Device>(std::move(sink), options)};
 }
 
+/// Returns of(device) of an OpenGL device; an empty value of any other.
+template <class Of>
+static auto asked_of(const Device& device, Of&& of) {
+    const auto* gl45 = dynamic_cast<const Gl45Device*>(&device);
+    return gl45 == nullptr ? decltype(of(*gl45)){} : of(*gl45);
+}
+
 unsigned gl_name(const Device& gl45_device, TextureHandle texture) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? 0 : device->name(texture);
+    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(texture); });
 }
-
 unsigned gl_name(const Device& gl45_device, SamplerHandle sampler) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? 0 : device->name(sampler);
+    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(sampler); });
 }
-
 unsigned gl_name(const Device& gl45_device, BufferHandle buffer) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? 0 : device->name(buffer);
+    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(buffer); });
 }
-
 unsigned gl_texels_name(const Device& gl45_device, BufferHandle buffer) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? 0 : device->texels_name(buffer);
+    return asked_of(gl45_device, [&](const Gl45Device& device) { return device.texels_name(buffer); });
 }
-
 std::optional<EngineTexture> describe_texture(const Device& gl45_device, unsigned name) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? std::nullopt : device->asked([&] { return described(name); });
+    return asked_of(gl45_device,
+                    [&](const Gl45Device& device) { return device.asked([&] { return described(name); }); });
 }
 std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, unsigned name) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? std::vector<std::array<float, 2>>()
-                             : device->asked([&] { return places_of_samples(name); });
+    return asked_of(gl45_device,
+                    [&](const Gl45Device& device) { return device.asked([&] { return places_of_samples(name); }); });
 }
 void bind_for_engine(const Device& gl45_device, std::span<const EngineBinding> bindings) {
     for (const EngineBinding& b : bindings) {
@@ -386,15 +384,17 @@ TextureHandle import_texture(Device& gl45_device, unsigned name, const TextureDe
     auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
     return device == nullptr ? TextureHandle{} : device->import(name, desc);
 }
-
+void buffer_sizes(const Device& gl45_device, std::span<const unsigned> names, std::span<std::uint64_t> sizes) {
+    const auto ask = [&] { return std::transform(names.begin(), names.end(), sizes.begin(), size_of_buffer); };
+    if (!names.empty()) asked_of(gl45_device, [&](const Gl45Device& device) { return device.asked(ask); });
+}
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc) {
     auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
     return device == nullptr ? BufferHandle{} : device->import(name, desc);
 }
 
 std::size_t live_objects(const Device& gl45_device) {
-    const auto* device = dynamic_cast<const Gl45Device*>(&gl45_device);
-    return device == nullptr ? 0 : device->live_objects();
+    return asked_of(gl45_device, [](const Gl45Device& device) { return device.live_objects(); });
 }
 
 }  // namespace gnomon::gl

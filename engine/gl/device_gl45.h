@@ -61,6 +61,9 @@ std::vector<std::array<float, 2>> sample_positions(const Device& gl45_device, un
 /// `fixed` serves for vertices and indices of any storage; `read_back` is refused.
 BufferHandle import_buffer(Device& gl45_device, unsigned name, const BufferDesc& desc);
 
+/// Writes the bytes of each of the context's buffers; 0 for a name that is none.
+void buffer_sizes(const Device& gl45_device, std::span<const unsigned> names, std::span<std::uint64_t> sizes);
+
 /// Binding of one texture, buffer as texels, or storage buffer, for an engine's own draws.
 struct EngineBinding {
     enum class Kind : std::uint8_t { texture, texels, storage } kind = Kind::texture;

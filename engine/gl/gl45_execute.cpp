@@ -136,20 +136,23 @@ public:
             indices_ = items_ = nullptr;
             return note(Failure::invalid_value);
         }
-        state_.bind_meshes(vertices->name, items_->name, indices_->name);
+        layout_ = c.layout;
+        state_.bind_meshes(vertices->name, items_->name, indices_->name, c.layout);
     }
     void operator()(const DrawMeshes& c) {
-        if (!can_draw(fixtures_.mesh_layout)) return;
-        if (indices_ == nullptr || !in_range(c.first_index, c.index_count, indices_->desc.size / sizeof(GLuint)) ||
+        if (!can_draw(layout_.stride == 0 ? fixtures_.mesh_layout : fixtures_.other_layout)) return;
+        if (indices_ == nullptr ||
+            !in_range(c.first_index, c.index_count, indices_->desc.size / layout_.index_bytes()) ||
             !in_range(c.first_item, c.item_count, items_->desc.size / kItemBytes)) {
             return note(Failure::invalid_value);
         }
         // OpenGL takes the offset into the index buffer as a pointer.
-        const auto bytes = static_cast<std::uintptr_t>(c.first_index) * sizeof(GLuint);
+        const auto bytes = static_cast<std::uintptr_t>(c.first_index) * layout_.index_bytes();
         const auto* offset = reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr)
         glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(c.index_count),
-                                                      GL_UNSIGNED_INT, offset, static_cast<GLsizei>(c.item_count),
-                                                      c.base_vertex, c.first_item);
+                                                      layout_.short_indices ? GL_UNSIGNED_SHORT : GL_UNSIGNED_INT,
+                                                      offset, static_cast<GLsizei>(c.item_count), c.base_vertex,
+                                                      c.first_item);
     }
     void operator()(const DrawTriangle& c) {
         constexpr GLsizei corners = 3;
@@ -292,6 +295,7 @@ private:
     std::optional<PipelineState> pipeline_;
     const GlBuffer* indices_ = nullptr;
     const GlBuffer* items_ = nullptr;
+    MeshLayout layout_;
 };
 
 }  // namespace

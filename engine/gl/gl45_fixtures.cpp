@@ -33,7 +33,16 @@ GlFixtures make_fixtures() {
                                    attribute == kDrawItemAttribute ? GlFixtures::kItemSlot : GlFixtures::kVertexSlot);
     }
     glVertexArrayBindingDivisor(layout, GlFixtures::kItemSlot, 1);
+    glCreateVertexArrays(1, &fixtures.other_layout);
+    glVertexArrayAttribIFormat(fixtures.other_layout, kDrawItemAttribute, 2, GL_UNSIGNED_INT, 0);
+    for (const GLuint attribute : {kPositionAttribute, kDrawItemAttribute}) {
+        glEnableVertexArrayAttrib(fixtures.other_layout, attribute);
+        glVertexArrayAttribBinding(fixtures.other_layout, attribute,
+                                   attribute == kDrawItemAttribute ? GlFixtures::kItemSlot : GlFixtures::kVertexSlot);
+    }
+    glVertexArrayBindingDivisor(fixtures.other_layout, GlFixtures::kItemSlot, 1);
     set_gl_label(GL_VERTEX_ARRAY, fixtures.mesh_layout, "mesh layout");
+    set_gl_label(GL_VERTEX_ARRAY, fixtures.other_layout, "other layout");
     set_gl_label(GL_VERTEX_ARRAY, fixtures.empty_layout, "empty layout");
     fixtures.texture_units = std::min(get_integer(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), kUsedTextureUnits);
     fixtures.uniform_bindings = std::min(get_integer(GL_MAX_UNIFORM_BUFFER_BINDINGS), kUsedBindings);
@@ -46,6 +55,7 @@ GlFixtures make_fixtures() {
 
 void delete_fixtures(const GlFixtures& fixtures) {
     glDeleteVertexArrays(1, &fixtures.mesh_layout);
+    glDeleteVertexArrays(1, &fixtures.other_layout);
     glDeleteVertexArrays(1, &fixtures.empty_layout);
 }
 

@@ -8,9 +8,10 @@ namespace gnomon::gl {
 
 /// Fixed objects and limits for executing lists. Private to the executor.
 struct GlFixtures {
-    static constexpr GLuint kVertexSlot = 0, kItemSlot = 1;                 // buffers of mesh_layout
+    static constexpr GLuint kVertexSlot = 0, kItemSlot = 1;                 // buffers of both
     static constexpr std::size_t kTextureUnits = 32, kBindings = 16;        // most that lists may use
     GLuint mesh_layout = 0;                                                 // vertex array of BindMeshes
+    GLuint other_layout = 0;                                                // the same, for a layout of someone else
     GLuint empty_layout = 0;                                                // vertex array of draws without attributes
     GLsizei texture_units = 0, uniform_bindings = 0, storage_bindings = 0;  // available to lists
     std::size_t group_depth = 0, message_bytes = 0;

@@ -130,6 +130,11 @@ std::vector<std::array<float, 2>> places_of_samples(GLuint name) {
     return positions;
 }
 
+std::uint64_t size_of_buffer(GLuint name) {
+    if (glIsBuffer(name) == GL_FALSE) return 0;
+    return static_cast<std::uint64_t>(std::max(buffer_value(name, GL_BUFFER_SIZE), GLint64{0}));
+}
+
 Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc) {
     drop_gl_errors();
     if (!is_buffer_of(name, desc)) {

@@ -273,8 +273,8 @@ void KeptState::bind_uniforms(std::uint32_t binding, GLuint buffer, std::uint32_
 
 void KeptState::bind_storage(std::uint32_t binding, GLuint buffer) { storage_[binding].set({buffer, 0, 0}); }
 
-void KeptState::bind_meshes(GLuint vertices, GLuint items, GLuint indices) {
-    GlState::bind_meshes(vertices, items, indices);
+void KeptState::bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& layout) {
+    GlState::bind_meshes(vertices, items, indices, layout);
     has_meshes_ = true;
 }
 

@@ -42,7 +42,7 @@ public:
     void bind_texture(std::uint32_t unit, GLenum target, GLuint texture, GLuint sampler) override;
     void bind_uniforms(std::uint32_t binding, GLuint buffer, std::uint32_t offset, std::uint32_t size) override;
     void bind_storage(std::uint32_t binding, GLuint buffer) override;
-    void bind_meshes(GLuint vertices, GLuint items, GLuint indices) override;
+    void bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& layout) override;
 
 private:
     static constexpr std::size_t kTargets = 11, kCapabilities = 31, kViewports = 16;

@@ -88,6 +88,8 @@ Made<GlBuffer> adopt_buffer(GLuint name, const BufferDesc& desc);
 /// Returns the results of describe_texture() and sample_positions() of device_gl45.h.
 std::optional<EngineTexture> described(GLuint name);
 std::vector<std::array<float, 2>> places_of_samples(GLuint name);
+/// Returns the bytes of a buffer; 0: the name is none.
+std::uint64_t size_of_buffer(GLuint name);
 Made<GlProgram> make_program(const ProgramDesc& desc);
 /// Returns all bindings that the program reads.
 std::vector<GlInput> inputs_of(GLuint program);

@@ -7,6 +7,24 @@ constexpr GLsizei kVertexStride = 8 * sizeof(float), kItemStride = 2 * sizeof(st
 
 void set_enabled(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
 
+struct GlComponents {
+    GLenum type = GL_FLOAT;
+    GLboolean normalised = GL_FALSE;
+};
+GlComponents gl_components(PositionFormat format) {
+    switch (format) {
+        case PositionFormat::float32:
+            return {};
+        case PositionFormat::float16:
+            return {GL_HALF_FLOAT, GL_FALSE};
+        case PositionFormat::snorm16:
+            return {GL_SHORT, GL_TRUE};
+        case PositionFormat::unorm16:
+            return {GL_UNSIGNED_SHORT, GL_TRUE};
+    }
+    return {};
+}
+
 }  // namespace
 
 GLenum gl_depth_test(DepthTest test) {
@@ -81,9 +99,11 @@ void GlState::reset() const {
 }
 
 void GlState::drop_meshes() const {
-    glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kVertexSlot, 0, 0, kVertexStride);
-    glVertexArrayVertexBuffer(fixtures_.mesh_layout, GlFixtures::kItemSlot, 0, 0, kItemStride);
-    glVertexArrayElementBuffer(fixtures_.mesh_layout, 0);
+    for (const GLuint layout : {fixtures_.mesh_layout, fixtures_.other_layout}) {
+        glVertexArrayVertexBuffer(layout, GlFixtures::kVertexSlot, 0, 0, kVertexStride);
+        glVertexArrayVertexBuffer(layout, GlFixtures::kItemSlot, 0, 0, kItemStride);
+        glVertexArrayElementBuffer(layout, 0);
+    }
 }
 
 void GlState::begin_list() {
@@ -162,9 +182,15 @@ void GlState::bind_storage(std::uint32_t binding, GLuint buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer);
 }
 
-void GlState::bind_meshes(GLuint vertices, GLuint items, GLuint indices) {
-    const GLuint layout = fixtures_.mesh_layout;
-    glVertexArrayVertexBuffer(layout, GlFixtures::kVertexSlot, vertices, 0, kVertexStride);
+void GlState::bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& other) {
+    const GLuint layout = other.stride == 0 ? fixtures_.mesh_layout : fixtures_.other_layout;
+    const auto stride = other.stride == 0 ? kVertexStride : static_cast<GLsizei>(other.stride);
+    if (other.stride != 0) {
+        const GlComponents components = gl_components(other.position);
+        glVertexArrayAttribFormat(layout, kPositionAttribute, 3, components.type, components.normalised, 0);
+    }
+    glVertexArrayVertexBuffer(layout, GlFixtures::kVertexSlot, vertices, static_cast<GLintptr>(other.position_offset),
+                              stride);
     glVertexArrayVertexBuffer(layout, GlFixtures::kItemSlot, items, 0, kItemStride);
     glVertexArrayElementBuffer(layout, indices);
 }

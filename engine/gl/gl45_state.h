@@ -38,7 +38,7 @@ public:
     virtual void bind_texture(std::uint32_t unit, GLenum target, GLuint texture, GLuint sampler);
     virtual void bind_uniforms(std::uint32_t binding, GLuint buffer, std::uint32_t offset, std::uint32_t size);
     virtual void bind_storage(std::uint32_t binding, GLuint buffer);
-    virtual void bind_meshes(GLuint vertices, GLuint items, GLuint indices);
+    virtual void bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& layout);
 
 protected:
     /// Rebinds nothing, because a vertex array keeps deleted buffers alive.

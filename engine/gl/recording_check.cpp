@@ -9,7 +9,6 @@ namespace gnomon::gl {
 namespace {
 
 constexpr std::uint64_t kVertexBytes = 32;  // layout "mesh" of BindMeshes
-constexpr std::uint64_t kIndexBytes = sizeof(std::uint32_t);
 constexpr std::uint64_t kItemBytes = 2 * sizeof(std::uint32_t);
 
 struct Size {
@@ -113,7 +112,7 @@ public:
         check_draw();
         if (!has_meshes_) return find(Misuse::draw_without_meshes, "BindMeshes comes first");
         const RecordedBuffer& indices = objects_.buffers.at(meshes_.indices.id);
-        if (!in_range(c.first_index, c.index_count, indices.bytes.size() / kIndexBytes)) {
+        if (!in_range(c.first_index, c.index_count, indices.bytes.size() / meshes_.layout.index_bytes())) {
             find(Misuse::draw_out_of_range, "indices beyond \"" + indices.desc.label + '"');
         } else {
             check_vertices(c, indices);
@@ -256,10 +255,16 @@ private:
     }
     void check_vertices(const DrawMeshes& c, const RecordedBuffer& indices) {
         const RecordedBuffer& vertices = objects_.buffers.at(meshes_.vertices.id);
-        const auto count = static_cast<std::int64_t>(vertices.bytes.size() / kVertexBytes);
+        const MeshLayout& layout = meshes_.layout;
+        const std::uint64_t stride = layout.stride == 0 ? kVertexBytes : layout.stride;
+        const std::uint64_t vertex_bytes = layout.stride == 0 ? kVertexBytes : position_bytes(layout.position);
+        const std::uint64_t before = layout.position_offset + vertex_bytes;
+        const auto count = static_cast<std::int64_t>(
+            before > vertices.bytes.size() ? 0 : (vertices.bytes.size() - before) / stride + 1);
+        const std::uint64_t index_bytes = layout.index_bytes();
         for (std::uint32_t i = 0; i < c.index_count; ++i) {
             std::uint32_t index = 0;
-            std::memcpy(&index, indices.bytes.data() + (std::uint64_t{c.first_index} + i) * kIndexBytes, kIndexBytes);
+            std::memcpy(&index, indices.bytes.data() + (std::uint64_t{c.first_index} + i) * index_bytes, index_bytes);
             const std::int64_t vertex = std::int64_t{index} + c.base_vertex;
             if (vertex < 0 || vertex >= count) {
                 return find(Misuse::draw_out_of_range, "vertex beyond \"" + vertices.desc.label + '"');

@@ -52,6 +52,32 @@ struct MeshDesc {
     std::span<const glm::vec2> uvs = {};  // one per position, for the mask; else empty
 };
 
+/// Box in world space, metres, unless a field names another space.
+struct Bounds {
+    glm::dvec3 min_m{0.0}, max_m{0.0};
+};
+
+/// Components of a position in a vertex buffer: three of them. snorm16 and unorm16 stand for [-1, 1] and [0, 1]. Their
+/// scale belongs into CasterDesc::world_from_mesh.
+enum class PositionFormat : std::uint8_t { float32, float16, snorm16, unorm16 };
+enum class IndexSize : std::uint8_t { u32, u16 };
+
+/// Triangles in buffers of your own, which depth passes draw from there: nothing is copied. Filters that read triangles
+/// treat them by depth (LightStatus::by_depth), visibility queries do not see them. They have no alpha mask. The
+/// buffers live, unmapped or mapped persistently, until the mesh is removed.
+struct BufferMeshDesc {
+    std::string_view name = {};                    // in error messages and captures
+    unsigned vertex_buffer = 0, index_buffer = 0;  // OpenGL's names; may be the same
+    std::uint32_t stride_bytes = 12;               // from vertex to vertex, at most 2048
+    std::uint64_t position_offset_bytes = 0;       // from the buffer's start to vertex 0's position
+    PositionFormat format = PositionFormat::float32;
+    std::uint32_t vertex_count = 0;  // indices with base_vertex are below; that is not checked
+    IndexSize index_size = IndexSize::u32;
+    std::uint32_t first_index = 0, index_count = 0;  // three per triangle
+    std::int32_t base_vertex = 0;                    // added to each index
+    Bounds bounds = {};                              // mesh space; contains all positions
+};
+
 /// Placed mesh: a caster, a receiver, or both. Maps cover declared receivers alone: declare every surface that shadows
 /// shall fall on, the ground too.
 struct CasterDesc {
@@ -73,11 +99,6 @@ struct DrawableView {
     glm::dvec3 anchor_m{0.0};
     std::uint32_t size_px = 0;  // edge of the map
     LightId light;
-};
-
-/// Box in world space, metres.
-struct Bounds {
-    glm::dvec3 min_m{0.0}, max_m{0.0};
 };
 
 /// Caster that the engine draws: wind, terrain, tessellation, GPU skinning, particles. Filters that read triangles
@@ -162,6 +183,7 @@ struct LightStatus {
     ShadowFilter filter = ShadowFilter::automatic;  // that its maps are read with; automatic: it has no shadow
     std::uint32_t maps = 0, maps_drawn = 0;         // cascades, faces or views; drawn in this frame
     std::uint32_t draws = 0;                        // draw calls into them
+    std::uint32_t by_depth = 0;                     // casters without triangles that its filter treats by depth
     std::uint64_t bytes = 0;                        // memory of its maps
     std::optional<double> gpu_us;                   // time of its maps and its mask on the GPU; empty: not measured yet
 };
@@ -170,7 +192,8 @@ struct LightStatus {
 struct Dropped {
     CasterId caster;  // none: `light` is meant
     LightId light;
-    /// Stable code. Casters: "unknown_mesh", "meshes_full" (no device memory), "non_finite_transform" (also bounds that
+    /// Stable code. Casters: "unknown_mesh", "meshes_full" (no device memory), "buffer_lost" (deleted, or
+    /// made too small), "non_finite_transform" (also bounds that
     /// are no box), "zero_scale" (no area). Lights: "absurd_light" (numbers out of range), "non_finite_transform",
     /// "zero_rotation" (no direction).
     std::string_view reason;
@@ -234,6 +257,12 @@ public:
     /// "mesh.mask" (sizes do not fit). Where the device has no room for it, its casters are in dropped() until there
     /// is.
     Result<MeshId> add_mesh(const MeshDesc& mesh);
+    /// Adds a mesh that stays in your buffers. Each render() queries the size of each such buffer, not of each mesh.
+    /// Errors: "mesh.empty", "mesh.layout", "mesh.bounds", "mesh.buffer" (no buffer, or a range beyond its end).
+    Result<MeshId> add_buffer_mesh(const BufferMeshDesc& mesh);
+    /// Announces that the content of such a mesh's buffers changed, with its bounds in mesh space. Maps that show it
+    /// are drawn again. After writes by shaders, call glMemoryBarrier() for vertices and indices before render().
+    void mesh_changed(MeshId mesh, const Bounds& bounds);
     /// Removes a mesh. Casters that still have it are dropped until they are removed or have another.
     void remove(MeshId mesh);
 

@@ -72,7 +72,21 @@ Result<std::uint32_t> add_mesh(const MeshDesc& desc, assets::MeshLibrary& librar
     return library.add(std::move(mesh));
 }
 
+std::uint32_t add_box(std::string_view name, const Bounds& bounds_ms, assets::MeshLibrary& library) {
+    assets::Mesh mesh;
+    mesh.name = name;
+    mesh.bounds_ms = {bounds_ms.min_m, bounds_ms.max_m};
+    return library.add(std::move(mesh));
+}
+
+void change_box(std::uint32_t mesh, const Bounds& bounds_ms, assets::MeshLibrary& library) {
+    assets::Mesh changed = std::move(library.meshes[mesh]);
+    changed.bounds_ms = {bounds_ms.min_m, bounds_ms.max_m};
+    library.replace(mesh, std::move(changed));
+}
+
 void remove_mesh(std::uint32_t mesh, assets::MeshLibrary& library) {
+    if (library.meshes[mesh].submeshes.empty()) return library.remove(mesh);
     const std::uint32_t material = library.meshes[mesh].submeshes.front().material;
     library.remove(mesh);
     if (material == kOneSided || material == kTwoSided) return;

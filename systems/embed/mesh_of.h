@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string_view>
 
 #include "engine/assets/mesh_library.h"
 #include "engine/core/result.h"
@@ -17,7 +18,12 @@ assets::MeshLibrary empty_library();
 /// Shadows::add_mesh().
 Result<std::uint32_t> add_mesh(const MeshDesc& desc, assets::MeshLibrary& library);
 
-/// Removes a mesh that add_mesh() added, and what it added for it.
+/// Adds a mesh without triangles of its own.
+std::uint32_t add_box(std::string_view name, const Bounds& bounds_ms, assets::MeshLibrary& library);
+/// Gives such a mesh other bounds and another version.
+void change_box(std::uint32_t mesh, const Bounds& bounds_ms, assets::MeshLibrary& library);
+
+/// Removes a mesh that these added, and what it added for it.
 void remove_mesh(std::uint32_t mesh, assets::MeshLibrary& library);
 
 }  // namespace gnomon::embed

@@ -94,6 +94,17 @@ Result<MeshId> SceneStore::add_mesh(const MeshDesc& desc) {
     return meshes_.add(mesh.value());
 }
 
+MeshId SceneStore::add_box(std::string_view name, const Bounds& bounds_ms) {
+    return meshes_.add(embed::add_box(name, bounds_ms, library_));
+}
+
+void SceneStore::change_box(MeshId mesh, const Bounds& bounds_ms) {
+    const std::uint32_t* index = meshes_.find(mesh);
+    if (!index || !library_.meshes[*index].indices.empty()) return;
+    embed::change_box(*index, bounds_ms, library_);
+    changed_boxes_.push_back(*index);
+}
+
 void SceneStore::remove(MeshId mesh) {
     const std::uint32_t* index = meshes_.find(mesh);
     if (!index) return;
@@ -187,6 +198,11 @@ std::uint32_t SceneStore::light_index(LightId id) const {
     return light ? light->item : kNone;
 }
 
+std::uint32_t SceneStore::mesh_index(MeshId id) const {
+    const std::uint32_t* index = meshes_.find(id);
+    return index ? *index : kNone;
+}
+
 LightId SceneStore::light_at(std::uint32_t index) const {
     const ecs::Entity entity = snapshot_.lights[index].entity;
     return {entity.index, entity.version};
@@ -209,11 +225,13 @@ DropReason SceneStore::fault_of(const Caster& caster) const {
     const std::uint32_t* mesh = meshes_.find(desc.mesh);
     if (!mesh) return DropReason::unknown_mesh;
     if (std::binary_search(lacking_.begin(), lacking_.end(), *mesh)) return DropReason::meshes_full;
+    if (std::binary_search(lost_.begin(), lost_.end(), *mesh)) return DropReason::buffer_lost;
+    const math::Aabb& bounds_ms = library_.meshes[*mesh].bounds_ms;
+    if (!math::is_finite(bounds_ms) || math::is_empty(bounds_ms)) return DropReason::non_finite_transform;
     if (!math::is_finite(desc.world_from_mesh)) return DropReason::non_finite_transform;
     const std::optional<glm::dmat3> basis = drawable_basis(glm::dmat3(desc.world_from_mesh));
     if (!basis) return DropReason::zero_scale;
-    const math::Aabb box =
-        math::transformed(library_.meshes[*mesh].bounds_ms, *basis, glm::dvec3(desc.world_from_mesh[3]));
+    const math::Aabb box = math::transformed(bounds_ms, *basis, glm::dvec3(desc.world_from_mesh[3]));
     return math::is_finite(box) && !math::is_empty(box) ? DropReason::instances_full : DropReason::zero_scale;
 }
 
@@ -227,9 +245,11 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
         item.mesh = kDrawableMesh;
         item.bounds_ws = {caster.bounds.min_m, caster.bounds.max_m};
         item.translation_ws_m = math::centre(item.bounds_ws);
+        item.by_depth = true;
     } else {
         item.mesh = *meshes_.find(desc.mesh);
         item.mesh_version = library_.version_of(item.mesh);
+        item.by_depth = library_.meshes[item.mesh].indices.empty();
         item.basis = *drawable_basis(glm::dmat3(desc.world_from_mesh));
         item.translation_ws_m = glm::dvec3(desc.world_from_mesh[3]);
         item.bounds_ws = math::transformed(library_.meshes[item.mesh].bounds_ms, item.basis, item.translation_ws_m);
@@ -240,6 +260,19 @@ void SceneStore::put(Caster& caster, CasterId id, InstanceItem& item) const {
     item.cast_layers = desc.cast_layers;
     item.receive_layers = desc.receive_layers;
     item.version = caster.version;
+}
+
+/// Lists the casters with meshes that changed as changed.
+void SceneStore::note_changed_meshes() {
+    if (changed_boxes_.empty()) return;
+    std::sort(changed_boxes_.begin(), changed_boxes_.end());
+    casters_.each([&](CasterId id, Caster& caster) {
+        const std::uint32_t* mesh = meshes_.find(caster.desc.mesh);
+        if (!mesh || !std::binary_search(changed_boxes_.begin(), changed_boxes_.end(), *mesh)) return;
+        if (!caster.moved && !caster.marked) changed_.push_back(id);
+        caster.moved = true;
+    });
+    changed_boxes_.clear();
 }
 
 /// Applies changed casters in place. Returns false if one became usable or
@@ -281,6 +314,8 @@ void SceneStore::list_instances() {
         if (is_new || caster.moved || caster.marked) snapshot_.changed_instances.push_back(caster.instance);
         caster.moved = caster.marked = false;
     });
+    snapshot_.any_by_depth = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
+                                         [](const InstanceItem& item) { return item.by_depth; });
     snapshot_.any_drawable = std::any_of(snapshot_.instances.begin(), snapshot_.instances.end(),
                                          [](const InstanceItem& item) { return item.drawable.drawn; });
     snapshot_.gpu_slot_count = casters_.bound();
@@ -329,12 +364,15 @@ bool SceneStore::put_consumers(std::span<const ConsumerItem> consumers) {
     return any;
 }
 
-void SceneStore::update(std::span<const ConsumerItem> consumers, std::span<const std::uint32_t> lacking) {
+void SceneStore::update(std::span<const ConsumerItem> consumers, std::span<const std::uint32_t> lacking,
+                        std::span<const std::uint32_t> lost) {
     snapshot_.changed_instances.clear();
-    if (!std::equal(lacking.begin(), lacking.end(), lacking_.begin(), lacking_.end())) {
-        lacking_.assign(lacking.begin(), lacking.end());
+    for (const auto& [now, then] : {std::pair(lacking, &lacking_), std::pair(lost, &lost_)}) {
+        if (std::equal(now.begin(), now.end(), then->begin(), then->end())) continue;
+        then->assign(now.begin(), now.end());
         instances_anew_ = true;
     }
+    note_changed_meshes();
     ++snapshot_.version;
     bool any = put_consumers(consumers);
     if (lights_anew_) list_lights();

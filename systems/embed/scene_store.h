@@ -18,6 +18,9 @@ public:
     SceneStore();
 
     Result<MeshId> add_mesh(const MeshDesc& desc);
+    /// Adds a mesh without triangles of its own; what draws it is elsewhere.
+    MeshId add_box(std::string_view name, const Bounds& bounds_ms);
+    void change_box(MeshId mesh, const Bounds& bounds_ms);
     void remove(MeshId mesh);
     CasterId add_caster(const CasterDesc& desc);
     void set_caster(CasterId caster, const CasterDesc& desc);
@@ -30,15 +33,19 @@ public:
     void tune(LightId light, const ShadowTuning& tuning);
     void remove(LightId light);
 
-    /// Applies what was set, for these cameras. `lacking`: meshes that the device has no room for, sorted; their
-    /// casters are dropped. Without a change the snapshot's version stays.
-    void update(std::span<const ConsumerItem> consumers, std::span<const std::uint32_t> lacking = {});
+    /// Applies what was set, for these cameras. `lacking`: meshes that the device has no room for. `lost`: meshes in
+    /// buffers that are gone. Both are sorted; their casters are dropped. Without a change the snapshot's version
+    /// stays.
+    void update(std::span<const ConsumerItem> consumers, std::span<const std::uint32_t> lacking = {},
+                std::span<const std::uint32_t> lost = {});
 
     const SceneSnapshot& snapshot() const { return snapshot_; }
     const assets::MeshLibrary& library() const { return library_; }
     std::span<const Dropped> dropped() const { return dropped_; }
     /// Returns the light's index in the snapshot; kNone if the handle names no usable light.
     std::uint32_t light_index(LightId light) const;
+    /// Returns the mesh's index in the library; kNone if the handle names none.
+    std::uint32_t mesh_index(MeshId mesh) const;
     static constexpr std::uint32_t kNone = ~0u;
     /// Returns the light at an index of the snapshot.
     LightId light_at(std::uint32_t index) const;
@@ -66,6 +73,7 @@ private:
     DropReason fault_of(const Caster& caster) const;
     void put(Caster& caster, CasterId id, InstanceItem& item) const;
     bool put_changes();
+    void note_changed_meshes();
     void list_instances();
     void list_lights();
     bool put_lights();
@@ -78,7 +86,8 @@ private:
     SceneSnapshot snapshot_;
     std::vector<CasterId> changed_;  // casters with `moved` or `marked`
     std::vector<Dropped> dropped_;
-    std::vector<std::uint32_t> lacking_;
+    std::vector<std::uint32_t> lacking_, lost_;
+    std::vector<std::uint32_t> changed_boxes_;  // meshes with content that changed
     bool instances_anew_ = true, lights_anew_ = true, lights_set_ = false;
 };
 

@@ -10,6 +10,7 @@
 
 #include "engine/gl/device_gl45.h"
 #include "systems/after_submission.h"
+#include "systems/embed/engine_meshes.h"
 #include "systems/embed/picture_lens.h"
 #include "systems/embed/scene_store.h"
 #include "systems/embed/view_state.h"
@@ -59,6 +60,7 @@ struct Shadows::State {
           store(*store_owner),
           programs(*device),
           gpu(std::move(on_device)),
+          engine_meshes(*device),
           shadows(*device),
           trees(store.library()),
           queries(trees) {
@@ -92,6 +94,7 @@ struct Shadows::State {
     embed::SceneStore& store;
     lighting::LightPrograms programs;
     GpuScene gpu;
+    embed::EngineMeshes engine_meshes;
     shadow::ShadowSystem shadows;
     std::vector<std::unique_ptr<ViewState>> views;
     std::vector<ConsumerItem> consumers;
@@ -248,7 +251,22 @@ Shadows::Shadows(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Shadows::~Shadows() = default;
 
 Result<MeshId> Shadows::add_mesh(const MeshDesc& mesh) { return state_->store.add_mesh(mesh); }
-void Shadows::remove(MeshId mesh) { state_->store.remove(mesh); }
+Result<MeshId> Shadows::add_buffer_mesh(const BufferMeshDesc& mesh) {
+    State& s = *state_;
+    const auto made = s.engine_meshes.import(mesh);
+    if (!made) return made.error();
+    const MeshId id = s.store.add_box(mesh.name, mesh.bounds);
+    s.engine_meshes.keep(s.store.mesh_index(id));
+    s.gpu.put_engine_mesh(s.store.mesh_index(id), made.value());
+    return id;
+}
+void Shadows::mesh_changed(MeshId mesh, const Bounds& bounds) { state_->store.change_box(mesh, bounds); }
+void Shadows::remove(MeshId mesh) {
+    State& s = *state_;
+    const std::uint32_t index = s.store.mesh_index(mesh);
+    s.store.remove(mesh);
+    if (s.engine_meshes.remove(index)) s.gpu.put_engine_mesh(index, {});
+}
 CasterId Shadows::add_drawable(const DrawableDesc& drawable) { return state_->store.add_drawable(drawable); }
 void Shadows::redraw(CasterId drawable, const Bounds& bounds, double moves_at_most_m) {
     state_->store.redraw(drawable, bounds, moves_at_most_m);
@@ -283,7 +301,7 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     s.programs.next_frame();
     for (std::size_t i = 0; i < views.size(); ++i) s.take_view(views[i], i);
     s.gpu.update_meshes(s.commands);
-    s.store.update(s.consumers, s.gpu.lacking_meshes());
+    s.store.update(s.consumers, s.gpu.lacking_meshes(), s.engine_meshes.lost());
     for (std::size_t i = 0; i < views.size(); ++i) s.list_layers(views[i], *s.views[i]);
     const SceneSnapshot& scene = s.store.snapshot();
     if (!s.gpu.update(scene, s.commands)) s.status.failure = "instances_full";
@@ -345,9 +363,17 @@ LightStatus Shadows::status(LightId light) const {
     const std::uint32_t index = state_->store.light_index(light);
     if (index >= state_->report.lights.size()) return {};
     const LightReport& report = state_->report.lights[index];
-    return {report.state,         report.reason,       report.predicted_error_px, report.keeps_max_error,
-            report.filter.filter, report.counts.views, report.counts.views_drawn, report.counts.draws,
-            report.counts.bytes,  report.gpu_us};
+    return {report.state,
+            report.reason,
+            report.predicted_error_px,
+            report.keeps_max_error,
+            report.filter.filter,
+            report.counts.views,
+            report.counts.views_drawn,
+            report.counts.draws,
+            report.counts.by_depth,
+            report.counts.bytes,
+            report.gpu_us};
 }
 
 const RenderStatus& Shadows::status() const { return state_->status; }

@@ -56,6 +56,9 @@ public:
     /// Returns false without room on the device; retries after Retry::kFrames such frames.
     bool provide_caster_triangles() { return meshes_.provide_caster_triangles(); }
 
+    /// Does what SceneMeshes does of the same name. The buffers stay their owner's.
+    void put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) { meshes_.put_engine_mesh(mesh, of); }
+    const EngineMesh* engine_mesh(std::uint32_t mesh) const { return meshes_.engine_mesh(mesh); }
     const MeshRange& mesh(std::uint32_t index) const { return meshes_.mesh(index); }
     const SubmeshRange& submesh(std::uint32_t index) const { return meshes_.submesh(index); }
     const MaterialInfo& material(std::uint32_t index) const { return materials_.material(index); }

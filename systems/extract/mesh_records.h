@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
+#include "engine/gl/commands.h"
 
 namespace gnomon {
 
@@ -21,6 +22,14 @@ struct MeshRange {
 struct SubmeshRange {
     std::uint32_t first_index = 0, index_count = 0;
     std::uint32_t material = 0;
+};
+
+/// Mesh in buffers of someone else. Depth passes draw it from there; nothing else knows its triangles.
+struct EngineMesh {
+    gl::BufferHandle vertices{}, indices{};
+    gl::MeshLayout layout = {};  // with a stride
+    std::uint32_t first_index = 0, index_count = 0;
+    std::int32_t base_vertex = 0;
 };
 
 /// Returns a mesh's range without its place.

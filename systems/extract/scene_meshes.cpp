@@ -104,6 +104,18 @@ void SceneMeshes::add_range(std::uint32_t m, std::uint32_t first_vertex, std::ui
     if (mesh.deformer) bent_.insert(bent_at(m), Bent{m, 0, mesh.vertices, {}});
 }
 
+void SceneMeshes::put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) {
+    if (mesh >= engine_meshes_.size()) engine_meshes_.resize(mesh + std::size_t{1});
+    if (mesh >= ranges_.size()) {
+        ranges_.resize(mesh + std::size_t{1});
+        held_.resize(mesh + std::size_t{1});
+    }
+    engine_meshes_[mesh] = of;
+    ranges_[mesh] = {};
+    ranges_[mesh].triangles = of.index_count / 3;
+    if (of.index_count > 0) ranges_[mesh].most_reflected = most_reflected({});
+}
+
 std::vector<SceneMeshes::Bent>::iterator SceneMeshes::bent_at(std::uint32_t mesh) {
     return std::lower_bound(bent_.begin(), bent_.end(), mesh,
                             [](const Bent& bent, std::uint32_t wanted) { return bent.mesh < wanted; });

@@ -63,6 +63,13 @@ public:
     gl::BufferHandle triangle_normals() const { return triangle_arrays_.buffer(kNormals); }
     gl::BufferHandle caster_triangles() const { return triangle_arrays_.buffer(kCasters); }
     gl::BufferHandle caster_masks() const { return mask_buffer_.handle(); }
+    /// Sets a mesh that lies in someone else's buffers; the library's has no triangles. No indices: it has none now.
+    void put_engine_mesh(std::uint32_t mesh, const EngineMesh& of);
+    /// Returns such a mesh; null: it is none.
+    const EngineMesh* engine_mesh(std::uint32_t mesh) const {
+        const bool is = mesh < engine_meshes_.size() && engine_meshes_[mesh].index_count > 0;
+        return is ? &engine_meshes_[mesh] : nullptr;
+    }
     const DeviceArrays& vertex_arrays() const { return vertex_arrays_; }
     const DeviceArrays& triangle_arrays() const { return triangle_arrays_; }
 
@@ -108,9 +115,10 @@ private:
     const assets::MeshLibrary* library_ = nullptr;
     DeviceArrays vertex_arrays_, triangle_arrays_;
     MaskBuffer mask_buffer_;
-    std::optional<RayMasks> masks_;  // while caster triangles are on the device, and meshes come and go
-    std::vector<Held> held_;         // by mesh
-    std::vector<MeshRange> ranges_;  // by mesh
+    std::optional<RayMasks> masks_;          // while caster triangles are on the device, and meshes come and go
+    std::vector<Held> held_;                 // by mesh
+    std::vector<MeshRange> ranges_;          // by mesh
+    std::vector<EngineMesh> engine_meshes_;  // by mesh; shorter than the meshes: the others are none
     std::vector<SubmeshRange> submeshes_;
     RangeList submesh_places_;
     std::vector<Bent> bent_;  // all deformable meshes, sorted by mesh

@@ -99,6 +99,7 @@ struct InstanceItem {
     bool mirrored = false;  // negative determinant
     bool folded = false;    // the pose mirrors a part of the mesh, so that none of its sides is known to face outward
     DrawableMotion drawable = {};
+    bool by_depth = false;           // no triangles of it are known: a drawable, or a mesh in buffers of the engine's
     std::uint64_t version = 0;       // grows when mesh, place or pose changes, which maps depend on
     std::uint64_t mesh_version = 0;  // assets::MeshLibrary::version_of(mesh): another mesh may take the number
 };
@@ -122,6 +123,7 @@ enum class DropReason : std::uint8_t {
     absurd_camera,
     instances_full,  // the device has no record for it: neither drawn nor casting
     meshes_full,     // the device has no room for its mesh: neither drawn nor casting
+    buffer_lost,     // a buffer of its mesh is the engine's, and was deleted or made smaller
 };
 const char* reason_code(DropReason reason);
 
@@ -149,6 +151,7 @@ struct SceneSnapshot {
     std::vector<std::uint32_t> changed_instances;  // instances to upload in this frame, sorted by gpu_slot
     std::uint32_t gpu_slot_count = 0;              // upper bound of all gpu_slots
     bool any_drawable = false;                     // InstanceItem::drawable is set for some instance
+    bool any_by_depth = false;                     // InstanceItem::by_depth is
     std::uint64_t version = 0;  // grows with every change; by 1 if changed_instances has all instances with a new
                                 // version. 0: changes are not counted, and everything is always new
     /// Latest version at which an index got another instance, or an instance changed what it shows or casts. 0:

@@ -33,7 +33,14 @@ TEST_F(EmbedState, IsThatOfBeforeTheCall) {
     int drawn = 0;
     const auto draw = [&](const DrawableView&) { ++drawn; };
     LightId lamp;
+    GLuint buffer = 0;
+    glCreateBuffers(1, &buffer);
+    glNamedBufferData(buffer, static_cast<GLsizeiptr>(12 * shape.positions.size()), shape.positions.data(), GL_STATIC_DRAW);
+    const BufferMeshDesc in_buffers{.vertex_buffer = buffer, .index_buffer = buffer, .vertex_count = 8, .index_count = 3, .bounds = {{-1.0, 0.5, -1.0}, {1.0, 1.5, 1.0}}};
+    MeshId engines;
     expect_kept("adding", [&] {
+        engines = shadows->add_buffer_mesh(in_buffers).value();
+        shadows->add_caster({.mesh = engines});
         for (const LightKind kind : {LightKind::directional, LightKind::spot, LightKind::point})
             lamp = shadows->add_light({.light = {.kind = kind}, .position_m = {1.5, 3.0, 1.0}, .direction = {-1.5, -3.0, -1.0}});
         const auto mesh = shadows->add_mesh({.positions_m = shape.positions, .indices = shape.indices});
@@ -55,6 +62,18 @@ TEST_F(EmbedState, IsThatOfBeforeTheCall) {
         bad.depth_texture = 4711;
         shadows->render(bad);
     });
+    expect_kept("a change of a mesh in buffers", [&] {
+        shadows->mesh_changed(engines, in_buffers.bounds);
+        shadows->render(both);
+    });
+    EXPECT_GT(shadows->status().maps_drawn, 0u);
+    expect_kept("a refused mesh", [&] { EXPECT_FALSE(shadows->add_buffer_mesh({})); });
+    expect_kept("a buffer that the engine deletes", [&] {
+        glDeleteBuffers(1, &buffer);
+        shadows->render(both);
+    });
+    EXPECT_EQ(shadows->dropped().size(), 1u);
+    expect_kept("removing the mesh", [&] { shadows->remove(engines); });
     expect_kept("a query", [&] { shadows->visibility(lamp, {0.0, 2.0, 0.0}); });
     expect_kept("making and removing", [&] {
         auto made = Shadows::create();

@@ -190,8 +190,11 @@ void DepthPass::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::P
         const gl::PipelineState state = run.mask ? depth_state(programs_[which(variant_, true)]) : opaque;
         if (!(pipeline_ == state)) list.add(gl::SetPipeline{state});
         pipeline_ = state;
-        list.add(
-            gl::DrawMeshes{run.first_index, run.index_count, gpu.mesh(meshes.mesh).base_vertex, item, meshes.count});
+        const gl::BindMeshes read = meshes_of(gpu, run.engine);
+        if (!(bound_ == read)) list.add(read);
+        bound_ = read;
+        const std::int32_t base_vertex = run.engine ? run.engine->base_vertex : gpu.mesh(meshes.mesh).base_vertex;
+        list.add(gl::DrawMeshes{run.first_index, run.index_count, base_vertex, item, meshes.count});
         ++report.counts.draws;
         report.counts.triangles += std::uint64_t{run.index_count} / 3 * meshes.count;
     });
@@ -199,7 +202,7 @@ void DepthPass::draw_run(const GpuScene& gpu, const MeshRun& meshes, const gl::P
 
 /// Opens the pass on cleared faces, or on those of static casters alone. A layered clear would clear every face, so it
 /// is for a pass that draws every face.
-void DepthPass::begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const {
+void DepthPass::begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) {
     const UpdatePlan& plan = in.drawn.updates[pass.first];
     const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
     const ShadowView& view = in.drawn.view(pass.first);
@@ -232,13 +235,13 @@ void DepthPass::list_engine_draws(const PassInputs& in, const Pass& pass, LightR
     }
 }
 
-void DepthPass::begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const {
+void DepthPass::begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) {
     begin_pass_into(pass.layered ? in.drawn.updates[pass.first].whole : in.drawn.maps[pass.first].target, in, pass,
                     clear, list);
 }
 
 void DepthPass::begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
-                                gl::CommandList& list) const {
+                                gl::CommandList& list) {
     const auto size = static_cast<std::int32_t>(in.drawn.maps[pass.first].size_px);
     list.add(gl::BeginPass{target, {0, 0, size, size}, clear, 0.0f, false, {}});
     const std::size_t records = pass.layered ? kFaces : 1;
@@ -246,7 +249,14 @@ void DepthPass::begin_pass_into(gl::TargetHandle target, const PassInputs& in, c
                               static_cast<std::uint32_t>(records * sizeof(DepthViewRecord))});
     list.add(gl::BindTexels{bindings::kInstanceUnit, in.gpu.instances()});
     if (in.gpu.colours()) list.add(gl::BindTexels{bindings::kColourUnit, in.gpu.colours()});
-    list.add(gl::BindMeshes{in.gpu.vertices(), in.gpu.indices(), items_.handle()});
+    bound_ = meshes_of(in.gpu, nullptr);
+    list.add(bound_);
+}
+
+/// Returns the buffers that draws of a mesh read: the scene's, or those of the engine that has the mesh.
+gl::BindMeshes DepthPass::meshes_of(const GpuScene& gpu, const EngineMesh* engine) const {
+    if (engine) return {engine->vertices, engine->indices, items_.handle(), engine->layout};
+    return {gpu.vertices(), gpu.indices(), items_.handle()};
 }
 
 void DepthPass::draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, const Group& group,

@@ -73,11 +73,12 @@ private:
     Group gather_view(const SceneSnapshot& scene, std::span<const std::uint32_t> casters);
     Group gather_layers(const PassInputs& in, const Pass& pass, bool moving);
     void append_uniforms(const ShadowView& view, std::size_t at);
-    void begin(const PassInputs& in, const Pass& pass, gl::CommandList& list) const;
+    void begin(const PassInputs& in, const Pass& pass, gl::CommandList& list);
     void list_engine_draws(const PassInputs& in, const Pass& pass, LightReport& report);
-    void begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list) const;
+    void begin_pass(const PassInputs& in, const Pass& pass, bool clear, gl::CommandList& list);
+    gl::BindMeshes meshes_of(const GpuScene& gpu, const EngineMesh* engine) const;
     void begin_pass_into(gl::TargetHandle target, const PassInputs& in, const Pass& pass, bool clear,
-                         gl::CommandList& list) const;
+                         gl::CommandList& list);
     void draw(const PassInputs& in, const Pass& pass, const DepthVariant& way, const Group& group,
               gl::CommandList& list, LightReport& report);
     void peel(const PassInputs& in, const Pass& pass, gl::CommandList& list, LightReport& report);
@@ -90,6 +91,8 @@ private:
     static constexpr std::size_t kFaces = 6;
     /// Bits of DrawItem::place for the layer.
     static constexpr std::uint32_t kLayerBits = 3;
+    /// First triangle of draws with unknown triangles; twin in shaders/shadow/passes/depth/shown_triangle.glsl.
+    static constexpr std::uint32_t kNoTriangle = ~0u >> kLayerBits;
 
     gl::Device& device_;
     /// Number of programs. Plain ones: three routes, opaque or masked, with or without triangles, and the peeling one.
@@ -108,6 +111,7 @@ private:
     std::vector<std::byte> view_scratch_;
     std::vector<EngineDraw> engine_draws_;
     gl::PipelineState pipeline_;  // state of the pass being recorded
+    gl::BindMeshes bound_;        // meshes bound in that pass
     DepthVariant variant_;        // variant of that pass
 };
 

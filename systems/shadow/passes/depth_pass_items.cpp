@@ -74,7 +74,8 @@ void DepthPass::append_items(const PassInputs& in, bool triangles, Group& group)
     }
     for_each_mesh_run(in.scene, casters, [&](std::uint32_t mesh, std::uint32_t first, std::uint32_t count) {
         for_each_depth_run(in.gpu, mesh, [&](const DepthRun& run) {
-            for (std::uint32_t i = first; i < first + count; ++i) append(i, run.first_index / 3);
+            for (std::uint32_t i = first; i < first + count; ++i)
+                append(i, run.engine ? kNoTriangle : run.first_index / 3);
         });
     });
 }

@@ -9,12 +9,15 @@ namespace gnomon::shadow {
 struct DepthRun {
     std::uint32_t first_index = 0, index_count = 0;
     const GpuScene::MaterialInfo* mask = nullptr;  // material of a masked run; null: opaque
+    const EngineMesh* engine = nullptr;            // mesh in other buffers; null: it is in the scene's
 };
 
 /// Calls `use(DepthRun)` for each draw of a mesh. Adjacent opaque submeshes are one draw, masked ones one each. Blended
 /// ones transmit light and are left out.
 template <class Use>
 void for_each_depth_run(const GpuScene& gpu, std::uint32_t mesh, Use&& use) {
+    if (const EngineMesh* engine = gpu.engine_mesh(mesh))
+        return use(DepthRun{engine->first_index, engine->index_count, nullptr, engine});
     const GpuScene::MeshRange& range = gpu.mesh(mesh);
     DepthRun opaque;
     const auto flush = [&] {
@@ -30,9 +33,9 @@ void for_each_depth_run(const GpuScene& gpu, std::uint32_t mesh, Use&& use) {
             continue;
         }
         flush();
-        if (solid) opaque = {submesh.first_index, submesh.index_count, nullptr};
+        if (solid) opaque = {submesh.first_index, submesh.index_count};
         if (material.alpha_mode == assets::AlphaMode::mask)
-            use(DepthRun{submesh.first_index, submesh.index_count, &material});
+            use(DepthRun{submesh.first_index, submesh.index_count, &material, nullptr});
     }
     flush();
 }

@@ -4,6 +4,7 @@
 
 #include "systems/extract/light_facts.h"
 #include "systems/shadow/publish/lookup_accuracy.h"
+#include "systems/shadow/request/filter_table.h"
 
 namespace gnomon::shadow {
 namespace {
@@ -129,6 +130,14 @@ void explain_savings(const LightItem& light, const ShadowRequest& request, std::
     }
 }
 
+/// Counts the casters of a light that its filter treats by depth, where it reads triangles of others.
+std::uint32_t casters_by_depth(const SceneSnapshot& scene, const LightSetsView& sets, ShadowFilter filter) {
+    if (!scene.any_by_depth || filter == ShadowFilter::automatic || !filter_row(filter).storage.triangle_ids) return 0;
+    const auto casters = sets.casters();
+    return static_cast<std::uint32_t>(
+        std::count_if(casters.begin(), casters.end(), [&](std::uint32_t i) { return scene.instances[i].by_depth; }));
+}
+
 void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint32_t i, FrameReport& report) {
     const LightItem& light = scene.lights[i];
     const LightStatus& status = in.drawn.statuses[i];
@@ -167,6 +176,7 @@ void explain_light(const SceneSnapshot& scene, const ReportInputs& in, std::uint
     out.why.receivers = sets.ranges.receivers.count;
     out.why.casters = sets.ranges.casters.count;
     out.why.display_steps = in.dim.steps(i);
+    out.counts.by_depth = casters_by_depth(scene, sets, filter);
     if (out.state != LightState::skipped) out.filter = filter_report(in.drawn, i, filter);
     if (out.state != LightState::skipped) explain_views(in, light, i, report);
     explain_savings(light, decision.request, in.times.view_us(light.entity), report, out);

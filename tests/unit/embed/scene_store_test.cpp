@@ -45,6 +45,37 @@ TEST_F(SceneStoreTest, ListsCastersWithTheirPlaces) {
     EXPECT_TRUE(has_tree(scene));
 }
 
+TEST_F(SceneStoreTest, AChangedBoxChangesItsCastersAlone) {
+    const MeshId box = store.add_box("box", {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+    add_at(add_mesh(), {0.0, 0.0, 0.0});
+    add_at(box, {4.0, 0.0, 0.0});
+    add_at(box, {8.0, 0.0, 0.0});
+    const SceneSnapshot& scene = updated();
+    ASSERT_EQ(scene.instances.size(), 3u);
+    EXPECT_TRUE(scene.any_by_depth);
+    EXPECT_FALSE(scene.instances[0].by_depth);
+    EXPECT_TRUE(scene.instances[1].by_depth && scene.instances[2].by_depth);
+    const std::uint64_t stays = scene.instances[0].version, mesh_version = scene.instances[1].mesh_version;
+    store.change_box(box, {{0.0, 0.0, 0.0}, {2.0, 1.0, 1.0}});
+    EXPECT_EQ(updated().changed_instances.size(), 2u);
+    EXPECT_EQ(scene.instances[0].version, stays);
+    EXPECT_EQ(scene.instances[2].version, scene.version);
+    EXPECT_NE(scene.instances[2].mesh_version, mesh_version) << "how far it moved is unknown";
+    EXPECT_EQ(scene.instances[2].bounds_ws.max.x, 10.0);
+    store.change_box(box, {{1.0, 0.0, 0.0}, {0.0, 1.0, 1.0}});
+    updated();
+    ASSERT_EQ(store.dropped().size(), 2u);
+    EXPECT_EQ(store.dropped()[0].reason, "non_finite_transform") << "no box";
+    const std::uint32_t lost[] = {store.mesh_index(box)};
+    store.change_box(box, {{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+    store.update(cameras, {}, lost);
+    ASSERT_EQ(store.dropped().size(), 2u);
+    EXPECT_EQ(store.dropped()[0].reason, "buffer_lost");
+    updated();
+    EXPECT_TRUE(store.dropped().empty());
+    EXPECT_EQ(scene.instances.size(), 3u);
+}
+
 TEST_F(SceneStoreTest, WithoutAChangeTheVersionStays) {
     const CasterId caster = add_at(add_mesh(), {0.0, 0.0, 0.0});
     const LightId light = store.add_light({});

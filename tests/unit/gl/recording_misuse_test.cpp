@@ -100,6 +100,21 @@ TEST_F(RecordingMisuse, DrawsFetchOnlyVerticesThatExist) {
     EXPECT_THAT(in_draw({}, DrawMeshes{0, 3, -1, 0, 1}), ElementsAre(Misuse::draw_out_of_range));
 }
 
+TEST_F(RecordingMisuse, DrawsOfAnotherLayoutStayInTheirBuffers) {
+    // Four vertices of 32 bytes are ten of 12 with 8 bytes left; six indices of four bytes are twelve of two.
+    const auto drawn = [&](const MeshLayout& layout, const DrawMeshes& draw) {
+        return of({pass(), SetPipeline{{.program = program}}, BindMeshes{vertices, indices, items, layout}, draw, EndPass{}});
+    };
+    const MeshLayout tight{.stride = 12}, half{.stride = 12, .position = PositionFormat::float16};
+    EXPECT_THAT(drawn(tight, {0, 3, 7, 0, 1}), IsEmpty());
+    EXPECT_THAT(drawn(tight, {0, 3, 8, 0, 1}), ElementsAre(Misuse::draw_out_of_range));
+    EXPECT_THAT(drawn(half, {0, 3, 8, 0, 1}), IsEmpty()) << "6 bytes of the eleventh are there";
+    EXPECT_THAT(drawn({.stride = 12, .position_offset = 9}, {0, 3, 7, 0, 1}), ElementsAre(Misuse::draw_out_of_range));
+    EXPECT_THAT(drawn({.stride = 12, .position_offset = 1000}, {0, 3, 0, 0, 1}), ElementsAre(Misuse::draw_out_of_range));
+    EXPECT_THAT(drawn({.stride = 12, .short_indices = true}, {6, 6, 0, 0, 1}), IsEmpty());
+    EXPECT_THAT(drawn({.stride = 12, .short_indices = true}, {6, 7, 0, 0, 1}), ElementsAre(Misuse::draw_out_of_range));
+}
+
 TEST_F(RecordingMisuse, UpdatesStandOutsidePasses) {
     const std::array<std::uint32_t, 1> one = {1};
     CommandList inside, outside;

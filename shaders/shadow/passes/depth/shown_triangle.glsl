@@ -3,4 +3,8 @@
 layout(location = kItemVarying) flat in uvec2 fragment_item;   // instance; face in the lowest three bits, first triangle of
                                                                // the draw above
 
-uvec2 shown_triangle() { return uvec2(fragment_item.x, (fragment_item.y >> 3) + uint(gl_PrimitiveID)); }
+const uint kUnknownTriangles = 0xffffffffu >> 3;   // twin: DepthPass::kNoTriangle
+uvec2 shown_triangle() {
+    uint first = fragment_item.y >> 3;
+    return uvec2(fragment_item.x, first == kUnknownTriangles ? 0xffffffffu : first + uint(gl_PrimitiveID));
+}
