@@ -14,19 +14,27 @@ void note_submission(const FrameParts& parts, std::uint64_t submission, bool lea
 
 }  // namespace
 
-std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs,
-                                         FrameReport& report) {
+void commit_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs, FrameReport& report) {
     const bool drawn = result.failure == gl::Failure::none;
     parts.shadows.commit(parts.scene, drawn);
     if (parts.lighting) parts.lighting->submitted(result.submission, drawn);
     parts.gpu.submitted(drawn);
     if (!drawn) report.failure = result.failure;
     note_submission(parts, result.submission, learn_costs, report);
-    std::vector<gl::Timing> timings = parts.device.take_timings();
-    if (timings.empty()) return timings;
+}
+
+void learn_times(const FrameParts& parts, std::span<const gl::Timing> timings, bool learn_costs) {
+    if (timings.empty()) return;
     parts.shadows.draw_times().learn(timings);
     if (parts.lighting) parts.lighting->learn(timings);
     if (learn_costs) parts.shadows.cost_calibration().learn(timings);
+}
+
+std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs,
+                                         FrameReport& report) {
+    commit_submission(parts, result, learn_costs, report);
+    std::vector<gl::Timing> timings = parts.device.take_timings();
+    learn_times(parts, timings, learn_costs);
     return timings;
 }
 

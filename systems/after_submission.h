@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <vector>
 
 #include "engine/gl/device.h"
@@ -19,10 +20,13 @@ struct FrameParts {
     lighting::LightingSystem* lighting = nullptr;  // null: another renderer lights the scene
 };
 
-/// Reports the submission's result to these systems; call it once after each submission. Maps and kept visibility
-/// become valid, and failed uploads are repeated. Measured times go to the systems that learn from them. A failure is
-/// added to the report. `learn_costs`: a budget in milliseconds adapts to this device. Returns the times that arrived,
-/// from this or earlier submissions.
+/// Reports the submission's result to these systems. Maps and kept visibility become valid, and failed uploads are
+/// repeated. A failure is added to the report. `learn_costs`: a budget in milliseconds adapts to this device.
+void commit_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs, FrameReport& report);
+/// Gives measured times to these systems, which learn from them.
+void learn_times(const FrameParts& parts, std::span<const gl::Timing> timings, bool learn_costs);
+
+/// Does both; call it once after each submission. Returns the times that arrived, from this or earlier submissions.
 std::vector<gl::Timing> after_submission(const FrameParts& parts, const gl::SubmitResult& result, bool learn_costs,
                                          FrameReport& report);
 

@@ -150,7 +150,7 @@ constexpr std::uint32_t position_bytes(PositionFormat format) {
     return 3 * (format == PositionFormat::float32 ? 4u : 2u);
 }
 
-/// Layout of a vertex buffer of someone else, of which positions alone are read, and of its indices.
+/// Layout of a vertex buffer of someone else, and of its indices. Its positions alone are read.
 struct MeshLayout {
     std::uint32_t stride = 0;  // bytes from vertex to vertex; 0: the layout "mesh"
     std::uint64_t position_offset = 0;

@@ -152,6 +152,10 @@ struct View {
     /// Lights of the mask, a layer each, in this order. A handle that names no usable light has a layer of 1. Empty:
     /// all usable lights; a light's layer is then lookup_index().
     std::span<const LightId> lights = {};
+    /// Casters of other layers throw no shadows in this view. Receivers of other layers have no part in its maps: their
+    /// pixels may be lit. Views that see other casters or receivers of the scene share no maps, and budgets are split
+    /// evenly among such groups of views.
+    ShadowLayers cast_layers = kAllShadowLayers, receive_layers = kAllShadowLayers;
     /// False: no mask is drawn and no texture is read, for shaders that look lights up themselves (lookup_glsl()).
     bool wants_mask = true;
 };

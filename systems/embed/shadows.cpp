@@ -4,28 +4,28 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <glm/gtc/matrix_transform.hpp>
 #include <utility>
 #include <vector>
 
 #include "engine/gl/device_gl45.h"
 #include "systems/after_submission.h"
+#include "systems/embed/draw_drawables.h"
 #include "systems/embed/engine_meshes.h"
 #include "systems/embed/picture_lens.h"
 #include "systems/embed/scene_store.h"
+#include "systems/embed/view_group.h"
 #include "systems/embed/view_state.h"
 #include "systems/lighting/light_programs.h"
 #include "systems/lighting/mask_pass.h"
 #include "systems/lookup/lookup_glsl.h"
 #include "systems/lookup/lookup_table.h"
-#include "systems/shadow/shadow_system.h"
-#include "systems/timed_lights.h"
 #include "systems/visibility/caster_trees.h"
 #include "systems/visibility/light_queries.h"
 
 namespace gnomon {
 namespace {
 
+using embed::ViewGroup;
 using embed::ViewState;
 
 lookup::LookupBindings bindings_of(const LookupOptions& options) {
@@ -44,9 +44,6 @@ lookup::LookupRows rows_of(const LookupOptions& options, const gl::DeviceInfo& d
 
 ecs::Entity entity_of(std::size_t view) { return {static_cast<std::uint32_t>(view), 1}; }
 
-/// Clears a map's triangles: no texel shows any (kNoTriangle in shaders/shadow/filters/triangles/mesh_walk.glsl).
-constexpr float kNoTriangle = 4294967296.0f;  // the largest integer of a cleared format (gl::is_integer)
-
 std::string_view code(gl::Failure failure) { return failure == gl::Failure::none ? "" : gl::to_text(failure); }
 
 }  // namespace
@@ -61,10 +58,9 @@ struct Shadows::State {
           programs(*device),
           gpu(std::move(on_device)),
           engine_meshes(*device),
-          shadows(*device),
+          groups(*device, options.lookup.has_value()),
           trees(store.library()),
           queries(trees) {
-        if (options.lookup) shadows.share_layers();
         set_timing();
     }
     ~State() {
@@ -78,14 +74,15 @@ struct Shadows::State {
         using Mode = gl::TimingMode;
         device->set_timing(!wants_times() ? Mode::off : device->info().is_software ? Mode::finish : Mode::query);
     }
-    bool wants_times() const { return options.time_gpu || options.budget.gpu_ms > 0.0f; }
+    bool wants_times() const { return options.time_gpu || learns_costs(); }
+    bool learns_costs() const { return options.budget.gpu_ms > 0.0f; }
 
     void take_view(const View& view, std::size_t index);
     void list_layers(const View& view, ViewState& state) const;
-    void draw_drawables();
-    void record_masks();
-    void record_lookups();
-    void submit();
+    void record_masks(ViewGroup& group);
+    void record_lookups(const ViewGroup& group);
+    void run(ViewGroup& group);
+    void sum_up();
     void fill_masks(std::size_t count);
 
     ShadowsOptions options;
@@ -95,19 +92,15 @@ struct Shadows::State {
     lighting::LightPrograms programs;
     GpuScene gpu;
     embed::EngineMeshes engine_meshes;
-    shadow::ShadowSystem shadows;
+    embed::ViewGroups groups;
     std::vector<std::unique_ptr<ViewState>> views;
     std::vector<ConsumerItem> consumers;
-    std::vector<std::uint32_t> consumer_views;  // view of each consumer
+    std::vector<std::uint32_t> consumer_views;       // view of each consumer
+    std::vector<embed::ViewLayers> consumer_layers;  // and its layers
     std::vector<Mask> masks;
     gl::CommandList commands, begun;
-    gl::Failure begun_failure = gl::Failure::none;
     std::vector<gl::EngineBinding> bindings;
-    FrameReport report;
-    shadow::LightingOutcome outcome;
-    TimedLights timed;
     RenderStatus status;
-    std::optional<double> gpu_us;
     visibility::CasterTrees trees;
     visibility::LightQueries queries;
 };
@@ -132,12 +125,14 @@ void Shadows::State::take_view(const View& view, std::size_t index) {
     state.picture.lens = *lens;
     consumers.push_back(consumer);
     consumer_views.push_back(static_cast<std::uint32_t>(index));
+    consumer_layers.push_back({view.cast_layers, view.receive_layers});
     state.wants_mask = view.wants_mask;
     if (!view.wants_mask) return;
     state.failure = embed::take_textures(*device, view, state);
     if (state.failure.empty()) return;
     consumers.pop_back();
     consumer_views.pop_back();
+    consumer_layers.pop_back();
 }
 
 /// Lists the light of each layer of a view's mask, as an index of the updated snapshot.
@@ -148,27 +143,26 @@ void Shadows::State::list_layers(const View& view, ViewState& state) const {
     for (std::uint32_t i = 0; i < store.snapshot().lights.size(); ++i) state.layers.push_back(i);
 }
 
-/// Records the mask of each view that could be read.
-void Shadows::State::record_masks() {
-    const shadow::ShadowFrame& frame = shadows.frame();
+/// Records the mask of each view of a group.
+void Shadows::State::record_masks(ViewGroup& group) {
+    const shadow::ShadowFrame& frame = group.shadows.frame();
     gl::Failure worst = gl::Failure::none;
-    for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
-        ViewState& view = *views[consumer_views[c]];
+    for (std::size_t c = 0; c < group.views.size() && c < frame.inputs.size(); ++c) {
+        ViewState& view = *views[group.views[c]];
         if (!view.wants_mask) continue;
-        view.mask.record({frame.inputs[c], store.snapshot(), gpu, view.picture, view.layers}, commands, outcome);
-        view.failure = code(outcome.failure);
-        if (outcome.failure != gl::Failure::none) worst = outcome.failure;
+        view.mask.record({frame.inputs[c], group.scene(), gpu, view.picture, view.layers}, commands, group.outcome);
+        view.failure = code(group.outcome.failure);
+        if (group.outcome.failure != gl::Failure::none) worst = group.outcome.failure;
     }
-    outcome.failure = worst;
+    group.outcome.failure = worst;
 }
 
-/// Records what the text for all lights reads, for each view that could be read.
-void Shadows::State::record_lookups() {
-    for (const auto& view : views) view->has_table = false;
+/// Records what the text for all lights reads, for each view of a group.
+void Shadows::State::record_lookups(const ViewGroup& group) {
     if (!options.lookup) return;
-    const shadow::ShadowFrame& frame = shadows.frame();
-    for (std::size_t c = 0; c < consumers.size() && c < frame.inputs.size(); ++c) {
-        ViewState& view = *views[consumer_views[c]];
+    const shadow::ShadowFrame& frame = group.shadows.frame();
+    for (std::size_t c = 0; c < group.views.size() && c < frame.inputs.size(); ++c) {
+        ViewState& view = *views[group.views[c]];
         if (!view.table)
             view.table = std::make_unique<lookup::LookupTable>(*device, bindings_of(*options.lookup),
                                                                rows_of(*options.lookup, device->info()));
@@ -176,47 +170,49 @@ void Shadows::State::record_lookups() {
     }
 }
 
-/// Begins the maps that show drawables: clears them, and has the engine draw into them. The frame's list then draws all
-/// other casters.
-void Shadows::State::draw_drawables() {
-    const std::span<const shadow::EngineDraw> draws = shadows.engine_draws();
-    begun_failure = gl::Failure::none;
-    if (draws.empty()) return;
-    const auto area = [](const shadow::EngineDraw& draw) {
-        const auto size = static_cast<std::int32_t>(draw.size_px);
-        return gl::Rect{0, 0, size, size};
-    };
-    begun.clear();
-    begun.add(gl::BeginGroup{"drawables"});
-    for (const shadow::EngineDraw& draw : draws) {
-        if (!draw.clears) continue;
-        begun.add(gl::BeginPass{draw.target, area(draw), true, 0.0f, true, {0.0f, kNoTriangle, 0.0f, 0.0f}});
-        begun.add(gl::EndPass{});
-    }
-    begun.add(gl::EndGroup{});
-    begun_failure = device->submit(begun).failure;
-    for (const shadow::EngineDraw& draw : draws) {
-        const auto* engine = store.draw_of(draw.instance);
-        if (!engine) continue;
-        const glm::dmat4 anchor_from_world = glm::translate(glm::dmat4(1.0), -draw.anchor_ws_m);
-        const DrawableView view{glm::mat4(glm::dmat4(draw.clip_from_anchor) * anchor_from_world), draw.clip_from_anchor,
-                                draw.anchor_ws_m, draw.size_px, store.light_at(draw.light)};
-        gl::draw_into(*device, draw.target, area(draw), [&] { (*engine)(view); });
+/// Runs a group: its maps, masks and lookups, after the commands recorded before.
+void Shadows::State::run(ViewGroup& group) {
+    const SceneSnapshot& scene = group.scene();
+    const auto share = static_cast<std::uint32_t>(groups.active().size());  // each group has an equal share
+    const shadow::ShadowSettings settings{
+        .budget = {options.budget.bytes == 0 ? 0 : std::max<std::uint64_t>(options.budget.bytes / share, 1),
+                   options.budget.gpu_ms / static_cast<float>(share)},
+        .rays = false};
+    group.report.clear();
+    group.outcome.clear();
+    group.shadows.update(scene, gpu, settings, commands, group.report);
+    record_masks(group);
+    record_lookups(group);
+    group.shadows.report(scene, group.outcome, group.report);
+    const gl::Failure begun_failure = embed::draw_drawables(*device, store, group, begun);
+    gl::SubmitResult result = device->submit(commands);
+    if (result.failure == gl::Failure::none) result.failure = begun_failure;
+    commands.clear();
+    group.timed.submitted(result.submission, group.report);
+    commit_submission({*device, scene, gpu, group.shadows}, result, learns_costs(), group.report);
+    if (result.failure == gl::Failure::none) return;
+    status.failure = code(result.failure);
+    for (const std::uint32_t view : group.views) {
+        views[view]->has_table = false;
+        if (views[view]->table) views[view]->table->forget_upload();
     }
 }
 
-void Shadows::State::submit() {
-    gl::SubmitResult result = device->submit(commands);
-    if (result.failure == gl::Failure::none) result.failure = begun_failure;  // maps that were not begun are not valid
-    timed.submitted(result.submission, report);
-    const bool learn_costs = options.budget.gpu_ms > 0.0f;
-    timed.tell(after_submission({*device, store.snapshot(), gpu, shadows}, result, learn_costs, report), report);
-    if (report.gpu_us) gpu_us = report.gpu_us;
-    if (result.failure == gl::Failure::none) return;
-    status.failure = code(result.failure);
-    for (const auto& view : views) {
-        view->has_table = false;
-        if (view->table) view->table->forget_upload();
+/// Hands out the times that arrived, and sums up what all groups did.
+void Shadows::State::sum_up() {
+    const std::vector<gl::Timing> timings = device->take_timings();
+    status.still = true;
+    for (ViewGroup* group : groups.active()) {
+        learn_times({*device, group->scene(), gpu, group->shadows}, timings, learns_costs());
+        group->timed.tell(timings, group->report);
+        if (group->report.gpu_us) group->gpu_us = group->report.gpu_us;
+        if (group->gpu_us) status.gpu_us = status.gpu_us.value_or(0.0) + *group->gpu_us;
+        status.still = status.still && group->report.still;
+        for (const LightReport& light : group->report.lights) {
+            status.maps_drawn += light.counts.views_drawn;
+            status.draws += light.counts.draws;
+            status.bytes += light.counts.bytes;
+        }
     }
 }
 
@@ -292,35 +288,23 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     const auto start = std::chrono::steady_clock::now();
     State& s = *state_;
     s.commands.clear();
-    s.report.clear();
-    s.outcome.clear();
     s.status = {};
     s.consumers.clear();
     s.consumer_views.clear();
+    s.consumer_layers.clear();
     while (s.views.size() < views.size()) s.views.push_back(std::make_unique<ViewState>(*s.device, s.programs));
     s.programs.next_frame();
+    for (const auto& view : s.views) view->has_table = false;
     for (std::size_t i = 0; i < views.size(); ++i) s.take_view(views[i], i);
     s.gpu.update_meshes(s.commands);
     s.store.update(s.consumers, s.gpu.lacking_meshes(), s.engine_meshes.lost());
     for (std::size_t i = 0; i < views.size(); ++i) s.list_layers(views[i], *s.views[i]);
     const SceneSnapshot& scene = s.store.snapshot();
     if (!s.gpu.update(scene, s.commands)) s.status.failure = "instances_full";
-    const Budget& budget = s.options.budget;
-    const shadow::ShadowSettings settings{.budget = {budget.bytes, budget.gpu_ms}, .rays = false};
-    s.shadows.update(scene, s.gpu, settings, s.commands, s.report);
-    s.record_masks();
-    s.record_lookups();
-    s.shadows.report(scene, s.outcome, s.report);
-    s.draw_drawables();
-    s.submit();
+    s.groups.arrange(scene, s.consumer_views, s.consumer_layers);
+    for (ViewGroup* group : s.groups.active()) s.run(*group);
+    s.sum_up();
     s.fill_masks(views.size());
-    s.status.still = s.report.still;
-    for (const LightReport& light : s.report.lights) {
-        s.status.maps_drawn += light.counts.views_drawn;
-        s.status.draws += light.counts.draws;
-        s.status.bytes += light.counts.bytes;
-    }
-    s.status.gpu_us = s.gpu_us;
     s.status.cpu_us = std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
     return s.masks;
 }
@@ -359,22 +343,7 @@ std::string_view Shadows::lookup_status(LightId light, std::size_t view) const {
     return lookup::to_text(s.views[view]->table->outcomes()[index].status);
 }
 
-LightStatus Shadows::status(LightId light) const {
-    const std::uint32_t index = state_->store.light_index(light);
-    if (index >= state_->report.lights.size()) return {};
-    const LightReport& report = state_->report.lights[index];
-    return {report.state,
-            report.reason,
-            report.predicted_error_px,
-            report.keeps_max_error,
-            report.filter.filter,
-            report.counts.views,
-            report.counts.views_drawn,
-            report.counts.draws,
-            report.counts.by_depth,
-            report.counts.bytes,
-            report.gpu_us};
-}
+LightStatus Shadows::status(LightId light) const { return state_->groups.status(state_->store.light_index(light)); }
 
 const RenderStatus& Shadows::status() const { return state_->status; }
 std::span<const Dropped> Shadows::dropped() const { return state_->store.dropped(); }

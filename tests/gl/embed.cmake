@@ -4,6 +4,7 @@ if(GNOMON_SAMPLE)
     embed_buffers_gl_test.cpp
     embed_drawables_gl_test.cpp
     embed_gl_test.cpp
+    embed_layers_gl_test.cpp
     embed_lookup_gl_test.cpp
     embed_state_gl_test.cpp
     embed_views_gl_test.cpp

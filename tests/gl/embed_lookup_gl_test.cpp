@@ -79,6 +79,12 @@ protected:
         add_room();
         look_from({0.5, 2.5, 4.0});
     }
+    /// Returns the casters that the fixture added, each with the mesh of the same number.
+    std::vector<CasterId> casters_of_room() const {
+        std::vector<CasterId> casters;
+        for (std::uint32_t i = 0; i < room.size(); ++i) casters.push_back({i, 1});
+        return casters;
+    }
 };
 
 TEST_F(EmbedLookup, ShowsWhatTheMaskShowsForAnyNumberOfLights) {
@@ -105,6 +111,27 @@ TEST_F(EmbedLookup, ShowsWhatTheMaskShowsForAnyNumberOfLights) {
         for (int k = 0; k < 5; ++k) lights.push_back(add_shadowed(k % 2 == 0 ? LightKind::spot : LightKind::point, {0.6 * k - 1.0, 2.5, 1.1 - 0.43 * k}));
         EXPECT_EQ(shadows->lookup_glsl().value(), text.value());
     }
+}
+
+TEST_F(EmbedLookup, ShowsEachViewTheCastersOfItsLayers) {
+    const LightId lamp = add_shadowed(LightKind::spot, {-1.5, 3.0, 1.0});
+    const LookupPass pass(shadows->lookup_glsl().value());
+    const auto lone = shadows->add_mesh({.positions_m = game::make_box({-1.0, 1.0, 0.5}, {-0.5, 1.5, 1.0}).positions,
+                                         .indices = game::make_box({-1.0, 1.0, 0.5}, {-0.5, 1.5, 1.0}).indices});
+    for (const CasterId caster : casters_of_room()) shadows->set_caster(caster, {.mesh = {caster.index, caster.version}, .cast_layers = 1});
+    shadows->add_caster({.mesh = lone.value(), .receives = false, .cast_layers = 2});
+    draw_depths(view, *engine);
+    View other = view;
+    other.cast_layers = 1;
+    const View both[] = {view, other};
+    std::vector<std::vector<std::uint8_t>> of_masks, of_text;
+    for (const Mask& mask : shadows->render(both)) of_masks.push_back(layer_of(mask, 0));
+    for (std::size_t i = 0; i < 2; ++i) {
+        ASSERT_TRUE(shadows->bind_lookup(i));
+        of_text.push_back(pass.drawn(*engine, view, shadows->lookup_index(lamp)));
+        EXPECT_LT(differing(of_masks[i], of_text[i]), kFewPixels) << "view " << i << ": " << shadows->lookup_status(lamp, i);
+    }
+    EXPECT_GT(differing(of_text[0], of_text[1]), 300u);
 }
 
 TEST_F(EmbedLookup, LooksUpPlacesInTheAir) {
