@@ -8,6 +8,7 @@
 #include "engine/core/zone.h"
 #include "engine/gl/gl45_draw_into.h"
 #include "engine/gl/gl45_execute.h"
+#include "engine/gl/gl45_info.h"
 #include "engine/gl/gl45_kept_state.h"
 #include "engine/gl/gl45_manners.h"
 #include "engine/gl/gl45_objects.h"
@@ -21,44 +22,6 @@ namespace gnomon::gl {
 namespace {
 
 constexpr int kNeededVersion = 45;  // in epoxy's format: 10 * major + minor
-
-std::uint32_t get_unsigned(GLenum name) {
-    GLint value = 0;
-    glGetIntegerv(name, &value);
-    return static_cast<std::uint32_t>(std::max(value, 0));
-}
-
-std::string get_string(GLenum name) {
-    const GLubyte* text = glGetString(name);
-    return text == nullptr ? std::string{} : reinterpret_cast<const char*>(text);
-}
-
-bool is_software_renderer(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    constexpr std::array names = {"llvmpipe", "softpipe", "swrast", "swiftshader", "software rasterizer"};
-    return std::any_of(names.begin(), names.end(), [&](const char* n) { return name.find(n) != std::string::npos; });
-}
-
-DeviceInfo read_info() {
-    DeviceInfo info;
-    const std::string renderer = get_string(GL_RENDERER);
-    info.name = renderer + ", OpenGL " + get_string(GL_VERSION);
-    info.is_software = is_software_renderer(renderer);
-    std::array<GLint, 2> viewport{};
-    glGetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
-    const auto drawable = static_cast<std::uint32_t>(std::max(std::min(viewport[0], viewport[1]), 0));
-    info.max_texture_px = std::min(get_unsigned(GL_MAX_TEXTURE_SIZE), drawable);
-    info.max_cube_px = std::min(get_unsigned(GL_MAX_CUBE_MAP_TEXTURE_SIZE), drawable);
-    info.max_layers = get_unsigned(GL_MAX_ARRAY_TEXTURE_LAYERS);
-    std::array<GLfloat, 2> points{};
-    glGetFloatv(GL_POINT_SIZE_RANGE, points.data());
-    info.max_point_px = static_cast<std::uint32_t>(std::max(points[1], 1.0f));
-    info.uniform_alignment = get_unsigned(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
-    info.max_texel_bytes = std::uint64_t{get_unsigned(GL_MAX_TEXTURE_BUFFER_SIZE)} * kTexelBytes;
-    info.vertex_layer = epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array");
-    return info;
-}
 
 /// Maps OpenGL's severity. A driver's advice on speed is low, because nothing is wrong.
 MessageSeverity severity_of(GLenum type, GLenum severity) {
@@ -97,16 +60,25 @@ public:
     Gl45Device& operator=(const Gl45Device&) = delete;
     ~Gl45Device() override {
         const GlCall call = enter();
-        for (const auto& [id, target] : objects_.targets) glDeleteFramebuffers(1, &target.name);
+        const bool is_own = gl::is_current(fixtures_);
+        for (const auto& [id, target] : objects_.targets)
+            if (is_own) glDeleteFramebuffers(1, &target.name);
         for (const auto& [id, texture] : objects_.textures) delete_texture(texture);
         for (const auto& [id, sampler] : objects_.samplers) glDeleteSamplers(1, &sampler);
         for (const auto& [id, buffer] : objects_.buffers) delete_buffer(buffer);
         for (const auto& [id, program] : objects_.programs) glDeleteProgram(program.name);
         if (objects_.plain_sampler != 0) glDeleteSamplers(1, &objects_.plain_sampler);
-        delete_fixtures(fixtures_);
+        if (is_own)
+            delete_fixtures(fixtures_);
+        else
+            timers_.forget();
         if (sink_ && !keeps_state_) glDebugMessageCallback(nullptr, nullptr);
     }
 
+    bool is_current() {
+        const GlCall call = enter();
+        return gl::is_current(fixtures_) || lost();
+    }
     const DeviceInfo& info() const override { return info_; }
     std::uint64_t compiled_programs() const override { return compiled_programs_; }
     std::size_t live_objects() const { return objects_.count(); }
@@ -213,7 +185,9 @@ public:
     }
     void destroy(TargetHandle h) override {
         const GlCall call = enter();
-        remove(objects_.targets, h.id, [](const GlTarget& target) { glDeleteFramebuffers(1, &target.name); });
+        remove(objects_.targets, h.id, [&](const GlTarget& target) {
+            if (gl::is_current(fixtures_)) glDeleteFramebuffers(1, &target.name);
+        });
     }
 
     SubmitResult submit(const CommandList& list) override {
@@ -337,6 +311,10 @@ static auto asked_of(const Device& device, Of&& of) {
     return gl45 == nullptr ? decltype(of(*gl45)){} : of(*gl45);
 }
 
+bool is_current(Device& gl45_device) {
+    auto* device = dynamic_cast<Gl45Device*>(&gl45_device);
+    return device != nullptr && device->is_current();
+}
 unsigned gl_name(const Device& gl45_device, TextureHandle texture) {
     return asked_of(gl45_device, [&](const Gl45Device& device) { return device.name(texture); });
 }

@@ -29,6 +29,11 @@ struct Gl45Options {
 /// the destructor deletes them (context must be current). Error if the context is below 4.5 core (rule "gl.version").
 Result<std::unique_ptr<Device>> make_gl45_device(MessageSink sink, const Gl45Options& options = {});
 
+/// Returns whether the device's context is current, or was lost. Lists may be submitted in no other context, even if it
+/// shares objects. Destroyed in another one, the device leaves its framebuffers, vertex arrays and queries to the end
+/// of their context.
+bool is_current(Device& gl45_device);
+
 /// Returns OpenGL's own name of a texture, sampler or buffer, for draw calls outside Gnomon; 0 if it does not exist.
 /// The device keeps ownership, and may replace or delete the object in any later frame.
 unsigned gl_name(const Device& gl45_device, TextureHandle texture);

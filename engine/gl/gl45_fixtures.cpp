@@ -1,6 +1,9 @@
 #include "engine/gl/gl45_fixtures.h"
 
 #include <algorithm>
+#include <chrono>
+#include <functional>
+#include <random>
 
 #include "engine/gl/gl45_objects.h"
 
@@ -16,11 +19,37 @@ GLint get_integer(GLenum name) {
     return value;
 }
 
+constexpr GLuint kFirstMark = 14;  // attributes that OpenGL guarantees, and no list uses
+
+/// Returns numbers that no other fixtures of the process have: of the time, and of a place in memory.
+std::array<GLuint, 2> new_mark(const GlFixtures& fixtures) {
+    const auto time = std::chrono::steady_clock::now().time_since_epoch().count();
+    const std::uint64_t place = std::hash<const void*>{}(&fixtures);
+    std::seed_seq seed{static_cast<std::uint64_t>(time) >> 32, static_cast<std::uint64_t>(time), place >> 32, place};
+    std::array<GLuint, 2> mark{};
+    seed.generate(mark.begin(), mark.end());
+    return mark;
+}
+
 }  // namespace
+
+bool is_current(const GlFixtures& fixtures) {
+    if (glIsVertexArray(fixtures.empty_layout) == GL_FALSE) return false;
+    std::array<GLuint, 2> found{};
+    for (GLuint i = 0; i < found.size(); ++i) {
+        GLint divisor = 0;
+        glGetVertexArrayIndexediv(fixtures.empty_layout, kFirstMark + i, GL_VERTEX_ATTRIB_ARRAY_DIVISOR, &divisor);
+        found[i] = static_cast<GLuint>(divisor);
+    }
+    return found == fixtures.mark;
+}
 
 GlFixtures make_fixtures() {
     GlFixtures fixtures;
     glCreateVertexArrays(1, &fixtures.empty_layout);
+    fixtures.mark = new_mark(fixtures);
+    for (GLuint i = 0; i < fixtures.mark.size(); ++i)
+        glVertexArrayBindingDivisor(fixtures.empty_layout, kFirstMark + i, fixtures.mark[i]);
     glCreateVertexArrays(1, &fixtures.mesh_layout);
     const GLuint layout = fixtures.mesh_layout;
     glVertexArrayAttribFormat(layout, kPositionAttribute, 3, GL_FLOAT, GL_FALSE, 0);

@@ -17,6 +17,12 @@ GlTimers::~GlTimers() {
     glDeleteQueries(static_cast<GLsizei>(free_queries_.size()), free_queries_.data());
 }
 
+void GlTimers::forget() {
+    running_.reset();
+    pending_.clear();
+    free_queries_.clear();
+}
+
 GLuint GlTimers::take_query() {
     GLuint query = 0;
     if (free_queries_.empty()) {

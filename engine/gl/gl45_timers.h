@@ -27,6 +27,8 @@ public:
     /// Ends a timer that a list left running and drops its time. Returns false if one ran.
     bool abandon();
     std::vector<Timing> take();
+    /// Gives up all queries without deleting them: their context is not current.
+    void forget();
 
 private:
     struct Running {

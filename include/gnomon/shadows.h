@@ -173,8 +173,8 @@ struct Mask {
     /// covers: findLSB(gl_SampleMaskIn[0]).
     std::uint32_t samples = 1;
     /// Reason why the view could not be read, or its mask not made; empty: none. "view.projection", "view.size",
-    /// "view.depth", "view.normals", "instances_full", or the device's: "out_of_memory", "invalid_value",
-    /// "incomplete_target", "compile_failed", "link_failed", "context_lost".
+    /// "view.depth", "view.normals", "context.other" (not that of create()), "instances_full", or the device's:
+    /// "out_of_memory", "invalid_value", "incomplete_target", "compile_failed", "link_failed", "context_lost".
     std::string_view failure = {};
 };
 
@@ -196,10 +196,9 @@ struct LightStatus {
 struct Dropped {
     CasterId caster;  // none: `light` is meant
     LightId light;
-    /// Stable code. Casters: "unknown_mesh", "meshes_full" (no device memory), "buffer_lost" (deleted, or
-    /// made too small), "non_finite_transform" (also bounds that
-    /// are no box), "zero_scale" (no area). Lights: "absurd_light" (numbers out of range), "non_finite_transform",
-    /// "zero_rotation" (no direction).
+    /// Stable code. Casters: "unknown_mesh", "meshes_full" (no device memory), "buffer_lost" (deleted, or made too
+    /// small), "non_finite_transform" (also bounds that are no box), "zero_scale" (no area). Lights: "absurd_light"
+    /// (numbers out of range), "non_finite_transform", "zero_rotation" (no direction).
     std::string_view reason;
 };
 
@@ -248,7 +247,8 @@ struct ShadowsOptions {
 
 /// Owner of maps, programs and copies of meshes in one OpenGL context. render() is called once per frame; all else at
 /// any time between. The context must be current in every call, and when the object is destroyed: one object per
-/// context, one thread at a time. A removed or empty handle is ignored; handles are those of one object.
+/// context, one thread at a time. Contexts that share its objects have limits (docs/embedding.md). A removed or empty
+/// handle is ignored; handles are those of one object.
 class Shadows {
 public:
     /// Creates the system for the current context. Errors: "gl.version" (below 4.5 core), "gpu.scene" (no memory).

@@ -289,6 +289,11 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     State& s = *state_;
     s.commands.clear();
     s.status = {};
+    if (!gl::is_current(*s.device)) {
+        s.status.failure = "context.other";
+        s.masks.assign(views.size(), {.failure = s.status.failure});
+        return s.masks;
+    }
     s.consumers.clear();
     s.consumer_views.clear();
     s.consumer_layers.clear();

@@ -2,6 +2,7 @@
 if(GNOMON_SAMPLE)
   gnomon_tests(NAME gl_embed LABEL gl SOURCES
     embed_buffers_gl_test.cpp
+    embed_contexts_gl_test.cpp
     embed_drawables_gl_test.cpp
     embed_gl_test.cpp
     embed_layers_gl_test.cpp
