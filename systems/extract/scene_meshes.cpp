@@ -110,6 +110,7 @@ void SceneMeshes::put_engine_mesh(std::uint32_t mesh, const EngineMesh& of) {
         ranges_.resize(mesh + std::size_t{1});
         held_.resize(mesh + std::size_t{1});
     }
+    take_away(mesh);  // what had the number before
     engine_meshes_[mesh] = of;
     ranges_[mesh] = {};
     ranges_[mesh].triangles = of.index_count / 3;

@@ -87,6 +87,26 @@ TEST_F(StreamingScene, AnAddedMeshUploadsItsOwnBytesAndNoOthers) {
     EXPECT_EQ(gpu->mesh(m).submesh_count, 0u);
 }
 
+TEST_F(StreamingScene, AMeshInAnEnginesBuffersMayTakeTheSlotOfAnother) {
+    const std::uint32_t placed = gpu->used_triangles();
+    const std::uint32_t m = add(scaled_mesh(kBox, 2.0f));
+    library.remove(m);
+    ASSERT_EQ(library.add({}), m);  // before the scene sees that the other one went
+    const gl::BufferHandle engines = device.create_buffer({.label = "engine's", .size = 36}, {}).handle;
+    gpu->put_engine_mesh(m, {.vertices = engines, .indices = engines, .layout = {.stride = 12}, .index_count = 9});
+    follow();
+    ASSERT_NE(gpu->engine_mesh(m), nullptr);
+    EXPECT_EQ(gpu->mesh(m).triangles, 3u);
+    EXPECT_GT(gpu->mesh(m).most_reflected, 0.0f);
+    EXPECT_EQ(gpu->used_triangles(), placed) << "it has no places";
+    gpu->put_engine_mesh(m, {});
+    library.replace(m, scaled_mesh(kBox, 3.0f));
+    follow();
+    EXPECT_EQ(gpu->engine_mesh(m), nullptr);
+    EXPECT_EQ(expect_contents(device, *gpu), 7u);
+    device.destroy(engines);
+}
+
 TEST_F(StreamingScene, GrowthCopiesOnTheDeviceAndUploadsNothingAgain) {
     add(scaled_mesh(kBox, 2.0f));
     const std::uint32_t places = gpu->used_vertices();
