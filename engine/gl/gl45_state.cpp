@@ -1,5 +1,7 @@
 #include "engine/gl/gl45_state.h"
 
+#include <utility>
+
 namespace gnomon::gl {
 namespace {
 
@@ -98,8 +100,9 @@ void GlState::reset() const {
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, 0, fixtures_.storage_bindings, nullptr);
 }
 
-void GlState::drop_meshes() const {
+void GlState::drop_meshes() {
     for (const GLuint layout : {fixtures_.mesh_layout, fixtures_.other_layout}) {
+        if (layout == fixtures_.other_layout && !std::exchange(has_other_meshes_, false)) continue;
         glVertexArrayVertexBuffer(layout, GlFixtures::kVertexSlot, 0, 0, kVertexStride);
         glVertexArrayVertexBuffer(layout, GlFixtures::kItemSlot, 0, 0, kItemStride);
         glVertexArrayElementBuffer(layout, 0);
@@ -185,6 +188,7 @@ void GlState::bind_storage(std::uint32_t binding, GLuint buffer) {
 void GlState::bind_meshes(GLuint vertices, GLuint items, GLuint indices, const MeshLayout& other) {
     const GLuint layout = other.stride == 0 ? fixtures_.mesh_layout : fixtures_.other_layout;
     const auto stride = other.stride == 0 ? kVertexStride : static_cast<GLsizei>(other.stride);
+    has_other_meshes_ = has_other_meshes_ || other.stride != 0;
     if (other.stride != 0) {
         const GlComponents components = gl_components(other.position);
         glVertexArrayAttribFormat(layout, kPositionAttribute, 3, components.type, components.normalised, 0);

@@ -42,11 +42,12 @@ public:
 
 protected:
     /// Rebinds nothing, because a vertex array keeps deleted buffers alive.
-    void drop_meshes() const;
+    void drop_meshes();
 
     const GlFixtures& fixtures_;
-    bool in_target_ = false;  // the last pass drew into a target, not into the window
-    Rect scissor_{};          // width 0: off
+    bool has_other_meshes_ = false;  // the list bound meshes with a layout of someone else
+    bool in_target_ = false;         // the last pass drew into a target, not into the window
+    Rect scissor_{};                 // width 0: off
 
 private:
     void reset() const;

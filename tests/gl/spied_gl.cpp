@@ -161,10 +161,12 @@ struct Spy<Slot> {
     X(GetUniformLocation)                           \
     X(GetUniformSubroutineuiv)                      \
     X(GetUniformiv)                                 \
+    X(GetVertexArrayIndexediv)                      \
     X(IsBuffer)                                     \
     X(IsEnabled)                                    \
     X(IsEnabledi)                                   \
     X(IsTexture)                                    \
+    X(IsVertexArray)                                \
     X(LineWidth)                                    \
     X(LinkProgram)                                  \
     X(MemoryBarrier)                                \
