@@ -13,9 +13,6 @@ set(GNOMON_ENGINE_HEADERS
   engine/assets/scene_data.h
   engine/assets/surface_edges.h
   engine/core/range_list.h
-  engine/core/result.h
-  engine/ecs/entity.h
-  engine/ecs/registry.h
   engine/gl/commands.h
   engine/gl/device.h
   engine/gl/device_gl45.h
@@ -40,7 +37,7 @@ list(TRANSFORM GNOMON_ENGINE_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
 target_sources(gnomon_engine PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${GNOMON_ENGINE_HEADERS})
 target_sources(gnomon_shaders PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
   FILES ${PROJECT_SOURCE_DIR}/shaders/embedded.h)
-foreach(part components engine shaders systems window)
+foreach(part engine shaders systems window)
   target_include_directories(gnomon_${part} INTERFACE $<INSTALL_INTERFACE:${GNOMON_INCLUDE_DIR}>)
 endforeach()
 # The public face: <gnomon/shadows.h> and those beside it. It includes some of what lies below include/gnomon/, too.
@@ -49,16 +46,16 @@ foreach(part systems window)
 endforeach()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 
-foreach(part components engine shaders systems window)
+foreach(part engine shaders systems window)
   set_target_properties(gnomon_${part} PROPERTIES EXPORT_NAME ${part})
 endforeach()
 install(TARGETS gnomon_engine gnomon_shaders EXPORT GnomonTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   FILE_SET HEADERS DESTINATION ${GNOMON_INCLUDE_DIR})
-install(TARGETS gnomon_components gnomon_systems gnomon_window EXPORT GnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-# Components and systems are public whole: whoever brings an own frame may take any stage. Found when they are installed:
+install(TARGETS gnomon_systems gnomon_window EXPORT GnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+# Systems are public whole: whoever brings an own frame may take any stage. Found when they are installed:
 # headers found when the build is configured would have to be looked for anew at every start.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/components ${PROJECT_SOURCE_DIR}/systems DESTINATION ${GNOMON_INCLUDE_DIR}
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/systems DESTINATION ${GNOMON_INCLUDE_DIR}
   FILES_MATCHING PATTERN "*.h")
 # Made by shaders/CMakeLists.txt; no file set, whose folders may not lie in each other.
 install(FILES ${PROJECT_BINARY_DIR}/generated/shaders/bindings.h DESTINATION ${GNOMON_INCLUDE_DIR}/shaders)

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/core/result.h"
-#include "engine/ecs/registry.h"
 #include "engine/gl/device.h"
+#include "gnomon/registry.h"
+#include "gnomon/result.h"
 #include "systems/debug/debug_view.h"
 #include "systems/extract/extract.h"
 #include "systems/extract/gpu_scene.h"

@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "gnomon/reason.h"
 #include "systems/extract/snapshot.h"
 

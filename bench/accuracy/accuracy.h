@@ -8,7 +8,7 @@
 #include "bench/accuracy/default_limits.h"
 #include "bench/common/median_range.h"
 #include "bench/common/stage.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "systems/report.h"
 #include "tests/oracle/edge_exceptions.h"
 #include "tests/oracle/far_errors.h"

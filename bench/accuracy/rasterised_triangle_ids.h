@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/gl/device.h"
+#include "gnomon/result.h"
 #include "systems/frame.h"
 #include "tests/oracle/reference_tracer.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/common/stage.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "tests/oracle/reference_tracer.h"
 #include "tests/oracle/soft_truth.h"
 

@@ -8,7 +8,7 @@
 #include "bench/check/check_device.h"
 #include "bench/check/check_programs.h"
 #include "bench/check/check_rows.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

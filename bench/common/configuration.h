@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "components/light.h"
+#include "gnomon/light.h"
 
 namespace gnomon::bench {
 

@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "bench/frame/animate_all.h"
-#include "components/light.h"
 #include "engine/gl/device_gl45.h"
+#include "gnomon/light.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/open_scene.h"
 

@@ -13,10 +13,10 @@
 
 #include "bench/common/configuration.h"
 #include "engine/assets/mesh_library.h"
-#include "engine/core/result.h"
-#include "engine/ecs/registry.h"
 #include "engine/gl/device.h"
 #include "engine/platform/context.h"
+#include "gnomon/registry.h"
+#include "gnomon/result.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/frame.h"

@@ -6,7 +6,7 @@
 
 #include "bench/common/median_range.h"
 #include "bench/common/stage.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 
 namespace gnomon::bench {
 

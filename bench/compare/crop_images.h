@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/accuracy/reference_images.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

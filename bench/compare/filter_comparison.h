@@ -7,7 +7,7 @@
 #include "bench/common/stage.h"
 #include "bench/compare/filter_variants.h"
 #include "bench/compare/metrics_row.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/common/stage.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

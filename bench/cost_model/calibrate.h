@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/common/median_range.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 /// Speed of the device at hand for the kinds of work in the budgets' model (systems/shadow/budget/cost_model.h).
 namespace gnomon::bench {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "components/light.h"
-#include "components/light_shadow.h"
+#include "gnomon/light.h"
+#include "gnomon/light.h"
 #include "engine/math/aabb.h"
 #include "gnomon/shadows.h"
 #include "sample_game/support/settings/light_settings.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::bench {

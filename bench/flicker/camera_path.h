@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "components/camera.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "systems/extract/snapshot.h"
 #include "tests/oracle/traced_world.h"
 

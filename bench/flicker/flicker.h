@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/common/stage.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "systems/report.h"
 
 /// Flicker of shadows while only the camera moves. The visibility of fixed points of the world is evaluated in double,

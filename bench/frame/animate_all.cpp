@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "components/light.h"
-#include "components/name.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "systems/extract/light_facts.h"
 
 namespace gnomon::bench {

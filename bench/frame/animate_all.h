@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/spawn_scene.h"
 

@@ -9,8 +9,7 @@
 #include <variant>
 
 #include "bench/scaling/many_lights_scene.h"
-#include "components/name.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 
 namespace gnomon::bench {
 namespace {

@@ -8,12 +8,10 @@
 #include <utility>
 
 #include "bench/flicker/camera_path.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
 #include "engine/gl/device_recording.h"
 #include "engine/math/frustum.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/extract/extract.h"

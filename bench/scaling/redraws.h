@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bench/common/stage.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

@@ -7,7 +7,7 @@
 
 #include "bench/compare/evaluate_configuration.h"
 #include "bench/compare/paired_times.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

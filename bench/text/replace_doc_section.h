@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::bench {
 

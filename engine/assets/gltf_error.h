@@ -3,7 +3,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::assets::gltf {
 

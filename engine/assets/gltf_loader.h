@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/assets/scene_data.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::assets {
 

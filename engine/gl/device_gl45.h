@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/gl/device.h"
+#include "gnomon/result.h"
 
 namespace gnomon::gl {
 

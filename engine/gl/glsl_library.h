@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/gl/glsl_tokens.h"
+#include "gnomon/result.h"
 
 namespace gnomon::gl {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::gl {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::gl {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 namespace gnomon::platform {
 

@@ -13,11 +13,10 @@
 #include <string_view>
 #include <vector>
 
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/shadow_tuning.h"
-#include "engine/core/result.h"
+#include "gnomon/light.h"
 #include "gnomon/reason.h"
+#include "gnomon/result.h"
+#include "gnomon/shadow_tuning.h"
 
 /// Shadows for an engine with its own meshes, scene and renderer: hand over meshes, casters and lights, get each
 /// light's visibility at every pixel. Needs an OpenGL 4.5 core context; every call is made on its thread.
@@ -289,7 +288,7 @@ public:
     LightId add_light(const LightDesc& light);
     /// Changes a light. What is equal costs nothing.
     void set_light(LightId light, const LightDesc& desc);
-    /// Sets what few need: filters' taps, fits, formats (components/shadow_tuning.h).
+    /// Sets what few need: filters' taps, fits, formats (gnomon/shadow_tuning.h).
     void tune(LightId light, const ShadowTuning& tuning);
     void remove(LightId light);
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 
 /// OpenGL 4.5 core context with a picture to draw into, in a window or without one. For examples, tools and tests; an
 /// engine brings its own.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "components/light_shadow.h"
 #include "engine/gl/device_gl45.h"
+#include "gnomon/light.h"
 #include "sample_game/app/debug_option.h"
 #include "sample_game/support/files/image_files.h"
 #include "sample_game/support/scene/open_scene.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/gl/device.h"
+#include "gnomon/result.h"
 #include "sample_game/app/command_line.h"
 #include "sample_game/app/stats_json.h"
 #include "sample_game/game/game_world.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "sample_game/support/settings/presets.h"
 #include "systems/debug/debug_view.h"
 #include "systems/shadow/frame/quality_limits.h"

@@ -6,8 +6,7 @@
 #include <glm/gtc/constants.hpp>
 #include <vector>
 
-#include "components/name.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 
 namespace gnomon::game {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
-#include "components/camera.h"
-#include "engine/ecs/registry.h"
 #include "engine/platform/context.h"
+#include "gnomon/components.h"
+#include "gnomon/registry.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::game {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "sample_game/game/rules.h"
 #include "systems/report.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "components/transform.h"
+#include "gnomon/components.h"
 
 /// Obstacles of a walker: upright boxes that stand, turn and move with nodes of the scene.
 namespace gnomon::game {

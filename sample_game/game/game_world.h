@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "sample_game/game/session.h"
 #include "sample_game/support/scene/spawn_scene.h"
 

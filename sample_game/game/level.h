@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/assets/scene_data.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "sample_game/game/collision_boxes.h"
 #include "sample_game/game/light_exposure.h"
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "components/transform.h"
 #include "engine/assets/mesh_library.h"
+#include "gnomon/components.h"
 #include "systems/visibility/light_queries.h"
 
 /// Share of a lamp's light at points of a scene, by the library's visibility queries, for rules that know no entities.

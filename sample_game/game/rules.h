@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "sample_game/game/level.h"
 
 /// The rules of "cross the courtyard unseen": no window, no GPU, no clock. Same level, same inputs, same bits.

@@ -5,9 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/name.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "sample_game/game/scripted_walk.h"
 #include "sample_game/support/scene/node_motion.h"
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "engine/ecs/registry.h"
 #include "engine/platform/context.h"
+#include "gnomon/registry.h"
 #include "sample_game/game/rules.h"
 #include "sample_game/support/scene/spawn_scene.h"
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <string>
 
-#include "engine/core/result.h"
 #include "engine/gl/device.h"
 #include "engine/platform/context.h"
+#include "gnomon/result.h"
 #include "sample_game/game/game_world.h"
 #include "sample_game/gui/accuracy_cost_curve.h"
 #include "sample_game/gui/error_overlay.h"

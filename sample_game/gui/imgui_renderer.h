@@ -4,8 +4,8 @@
 #include <glm/vec2.hpp>
 #include <memory>
 
-#include "engine/core/result.h"
 #include "engine/gl/device.h"
+#include "gnomon/result.h"
 #include "systems/growing_buffer.h"
 
 namespace gnomon::game {

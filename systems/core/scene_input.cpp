@@ -5,8 +5,8 @@
 #include <glm/gtc/constants.hpp>
 #include <iterator>
 
-#include "components/transform.h"
 #include "engine/math/finite.h"
+#include "gnomon/components.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/flat_range.h"
 #include "systems/extract/light_facts.h"

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "engine/gl/device.h"
 #include "gnomon/shadows.h"
 #include "systems/extract/mesh_records.h"

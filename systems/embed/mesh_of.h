@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "gnomon/shadows.h"
 
 namespace gnomon::embed {

@@ -1,6 +1,5 @@
 #pragma once
-#include "components/camera.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon {

@@ -4,9 +4,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "components/mesh_ref.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/flat_range.h"

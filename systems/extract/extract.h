@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "systems/extract/lights_and_cameras.h"
 #include "systems/extract/poses.h"
 #include "systems/extract/snapshot.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/core/result.h"
 #include "engine/gl/device.h"
+#include "gnomon/result.h"
 #include "systems/extract/scene_materials.h"
 #include "systems/extract/scene_meshes.h"
 #include "systems/extract/snapshot.h"

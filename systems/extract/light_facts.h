@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <iterator>
 
-#include "components/light.h"
+#include "gnomon/light.h"
 #include "systems/extract/snapshot.h"
 
 /// Facts of light kinds for all stages. What shadows need of a kind is in systems/shadow/request/light_kinds.h.

@@ -5,7 +5,7 @@
 #include <glm/gtc/constants.hpp>
 #include <utility>
 
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "systems/extract/camera_view.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "components/name.h"
+#include "gnomon/components.h"
 
 namespace gnomon {
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon {

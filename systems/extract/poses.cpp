@@ -5,8 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "components/mesh_ref.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 
 namespace gnomon {
 namespace {

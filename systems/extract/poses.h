@@ -3,10 +3,9 @@
 #include <span>
 #include <vector>
 
-#include "components/morph_weights.h"
-#include "components/skin.h"
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/components.h"
+#include "gnomon/registry.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon {

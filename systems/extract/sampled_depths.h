@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "engine/ecs/entity.h"
+#include "gnomon/components.h"
 
 namespace gnomon {
 

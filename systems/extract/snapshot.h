@@ -8,15 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/shadow_tuning.h"
 #include "engine/assets/deformer.h"
-#include "engine/ecs/entity.h"
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
 #include "engine/math/shape_tree.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
+#include "gnomon/shadow_tuning.h"
 
 /// Struct 1 of the frame: all that later stages know of the world, in world space, in double. Filled from another ECS
 /// it makes the rest of Gnomon work unchanged.

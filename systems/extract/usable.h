@@ -1,6 +1,6 @@
 #pragma once
-#include "components/camera.h"
-#include "components/light.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 
 namespace gnomon {
 

@@ -3,8 +3,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-#include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "gnomon/components.h"
 #include "systems/retry.h"
 #include "systems/spare_memory.h"
 

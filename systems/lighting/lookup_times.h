@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "gnomon/components.h"
 #include "systems/frame_timers.h"
 
 namespace gnomon::lighting {

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "gnomon/components.h"
 
 namespace gnomon::lighting {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "systems/lookup/lookup_rows.h"
 
 /// One GLSL text that looks up any number of lights.

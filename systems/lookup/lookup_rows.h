@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "components/light_shadow.h"
+#include "gnomon/light.h"
 #include "systems/shadow/frame/shader_key.h"
 
 /// What one text that looks up all lights can look up, and by which bindings.

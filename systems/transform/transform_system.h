@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "components/transform.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/components.h"
+#include "gnomon/registry.h"
 
 namespace gnomon {
 

@@ -4,8 +4,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <iterator>
 
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 
 namespace gnomon {
 namespace {

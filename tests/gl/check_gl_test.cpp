@@ -2,7 +2,7 @@
 
 #include "bench/check/check.h"
 #include "bench/check/check_scene.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "tests/gl/gl_test_context.h"
 
 // The check of a machine finds what is wrong on it.

@@ -7,7 +7,7 @@
 #include "bench/accuracy/reference_images.h"
 #include "bench/compare/evaluate_configuration.h"
 #include "bench/sweep/sweep_plan.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "tests/gl/recorded_errors.h"
 #include "tests/gl/truth_scenes.h"
 #include "tests/source_paths.h"

@@ -4,11 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "components/camera.h"
-#include "components/mesh_ref.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "sample_game/support/built_in_scenes/primitives.h"
 #include "systems/frame.h"
 #include "tests/gl/gl_test_context.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "components/light.h"
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
+#include "gnomon/light.h"
 
 namespace gnomon {
 

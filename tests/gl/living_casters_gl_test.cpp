@@ -2,9 +2,8 @@
 #include <filesystem>
 #include <ostream>
 
-#include "components/morph_weights.h"
-#include "components/skin.h"
 #include "engine/assets/gltf_loader.h"
+#include "gnomon/components.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "tests/gl/traced_frame_fixture.h"
 #include "tests/source_paths.h"

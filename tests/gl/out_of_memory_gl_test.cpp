@@ -6,9 +6,9 @@
 #include <fstream>
 #include <iostream>
 
-#include "components/name.h"
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
+#include "gnomon/components.h"
 #include "systems/frame.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "tests/system/test_world.h"

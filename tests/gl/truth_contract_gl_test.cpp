@@ -3,7 +3,7 @@
 #include <random>
 
 #include "bench/scaling/many_lights_scene.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "tests/gl/truth_scenes.h"
 #include "tests/unit/math/random_seed.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "ground_and_box.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_frame.h"

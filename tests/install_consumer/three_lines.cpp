@@ -4,15 +4,11 @@
 #include <numbers>
 #include <vector>
 
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
-#include "components/transform.h"
-#include "engine/ecs/registry.h"
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
+#include "gnomon/registry.h"
 #include "ground_and_box.h"
 #include "systems/frame.h"
 

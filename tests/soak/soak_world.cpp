@@ -5,7 +5,7 @@
 
 #include <fstream>
 
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "systems/lighting/kept_visibility.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "systems/shadow/request/filter_table.h"

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "sample_game/support/settings/light_settings.h"
 
 namespace gnomon::hard {

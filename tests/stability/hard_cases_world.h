@@ -3,13 +3,11 @@
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/transform.h"
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
 #include "engine/gl/device_recording.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
+#include "gnomon/registry.h"
 #include "sample_game/support/built_in_scenes/primitives.h"
 #include "systems/extract/extract.h"
 #include "systems/extract/gpu_scene.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "components/shadow_tuning.h"
+#include "gnomon/shadow_tuning.h"
 #include "systems/shadow/frame/shadow_frame.h"
 #include "systems/shadow/projection/perspective_view.h"
 

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "components/mesh_ref.h"
+#include "gnomon/components.h"
 #include "shaders/bindings.h"
 #include "tests/system/frame_fixture.h"
 

@@ -7,11 +7,9 @@
 #include <tuple>
 
 #include "bench/scaling/many_lights_scene.h"
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/transform.h"
 #include "engine/math/frustum.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/frame.h"
 #include "tests/system/timed_device.h"

@@ -1,5 +1,4 @@
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
 /// What is drawn into depth maps, when, and in which order.

@@ -1,4 +1,4 @@
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/system/frame_fixture.h"

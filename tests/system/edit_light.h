@@ -1,9 +1,9 @@
 #pragma once
 #include <type_traits>
 
-#include "components/light.h"
-#include "components/shadow_tuning.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/light.h"
+#include "gnomon/registry.h"
+#include "gnomon/shadow_tuning.h"
 
 namespace gnomon {
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 
 namespace gnomon {
 

@@ -1,7 +1,7 @@
 #include <functional>
 
-#include "components/name.h"
 #include "engine/assets/mesh_shape.h"
+#include "gnomon/components.h"
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 #include "tests/system/silent_device.h"

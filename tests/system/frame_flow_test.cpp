@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <deque>
 
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "systems/frame_timers.h"
 #include "tests/system/frame_fixture.h"
 

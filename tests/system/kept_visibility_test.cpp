@@ -1,6 +1,6 @@
 #include "systems/lighting/kept_visibility.h"
 
-#include "components/mesh_ref.h"
+#include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
 /// What pixels saw of lights is kept while nothing changes that it follows from: what is made for it, when, and how long

@@ -1,9 +1,6 @@
-#include "components/mesh_ref.h"
-#include "components/morph_weights.h"
-#include "components/shadow_caster.h"
-#include "components/skin.h"
 #include "engine/assets/mesh_topology.h"
 #include "engine/rays/mesh_bvh.h"
+#include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
 /// Meshes that bend: once per pose, for all that draw them; and nothing of it for anybody else.

@@ -5,8 +5,7 @@
 #include <string>
 
 #include "bench/scaling/many_lights_scene.h"
-#include "components/name.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/volumes.h"
 #include "systems/frame.h"

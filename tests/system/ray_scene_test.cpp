@@ -1,6 +1,6 @@
 #include <map>
 
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "systems/shadow/exact/caster_topology.h"
 #include "systems/shadow/request/filter_table.h"
 #include "systems/visibility/ray_records.h"

@@ -5,9 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include "components/shadow_caster.h"
-#include "tests/oracle/fit_stages.h"
+#include "gnomon/components.h"
 #include "systems/shadow/request/decide_requests.h"
+#include "tests/oracle/fit_stages.h"
 #include "tests/source_paths.h"
 #include "tests/system/frame_fixture.h"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "components/mesh_ref.h"
+#include "gnomon/components.h"
 #include "systems/shadow/culling/static_dynamic_casters.h"
 #include "tests/system/frame_fixture.h"
 

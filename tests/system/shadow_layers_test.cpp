@@ -1,5 +1,4 @@
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
 /// Who casts and receives under which light: exact lists, and what a change at run time draws anew.

@@ -1,5 +1,4 @@
-#include "components/mesh_ref.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
 
 /// Which maps exist, and since when and until when.

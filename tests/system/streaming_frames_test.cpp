@@ -1,7 +1,6 @@
 #include <glm/gtc/quaternion.hpp>
 
-#include "components/mesh_ref.h"
-#include "components/name.h"
+#include "gnomon/components.h"
 #include "systems/shadow/culling/static_dynamic_casters.h"
 #include "systems/visibility/caster_trees.h"
 #include "tests/system/frame_fixture.h"

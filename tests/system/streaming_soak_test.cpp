@@ -5,7 +5,7 @@
 #include <iterator>
 #include <map>
 
-#include "components/mesh_ref.h"
+#include "gnomon/components.h"
 #include "systems/shadow/culling/static_dynamic_casters.h"
 #include "tests/soak/soak_world.h"
 #include "tests/system/frame_fixture.h"

@@ -5,10 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "components/mesh_ref.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
 #include "engine/assets/mesh_topology.h"
+#include "gnomon/components.h"
 
 namespace gnomon {
 namespace {

@@ -3,9 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "components/camera.h"
-#include "components/transform.h"
 #include "engine/assets/mesh_library.h"
+#include "gnomon/components.h"
 #include "tests/system/edit_light.h"
 
 namespace gnomon {

@@ -1,4 +1,4 @@
-#include "components/light_shadow.h"
+#include "gnomon/light.h"
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
 

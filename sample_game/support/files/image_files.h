@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/core/result.h"
 #include "engine/image/encode_image.h"
+#include "gnomon/result.h"
 
 namespace gnomon::game {
 

@@ -6,8 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "components/morph_weights.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 #include "sample_game/support/settings/parse_number.h"
 
 namespace gnomon::game {

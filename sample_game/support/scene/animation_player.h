@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/assets/animation.h"
-#include "engine/core/result.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
+#include "gnomon/result.h"
 
 /// The animations of a file on the entities that its nodes became.
 namespace gnomon::game {

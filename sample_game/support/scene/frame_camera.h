@@ -1,10 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "components/camera.h"
-#include "components/transform.h"
 #include "engine/assets/scene_data.h"
 #include "engine/math/aabb.h"
+#include "gnomon/components.h"
 
 namespace gnomon::game {
 

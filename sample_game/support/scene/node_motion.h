@@ -1,9 +1,9 @@
 #pragma once
 #include <vector>
 
-#include "components/transform.h"
 #include "engine/assets/scene_data.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/components.h"
+#include "gnomon/registry.h"
 
 /// Moving casters and lights of the sample scenes: assets::Node::Motion as a function of time.
 namespace gnomon::game {

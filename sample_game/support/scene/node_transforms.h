@@ -2,9 +2,9 @@
 #include <optional>
 #include <vector>
 
-#include "components/transform.h"
 #include "engine/assets/scene_data.h"
 #include "engine/math/aabb.h"
+#include "gnomon/components.h"
 
 namespace gnomon::game {
 

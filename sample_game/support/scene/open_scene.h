@@ -4,7 +4,7 @@
 #include <string>
 
 #include "engine/assets/scene_data.h"
-#include "engine/core/result.h"
+#include "gnomon/result.h"
 #include "sample_game/support/scene/spawn_scene.h"
 
 namespace gnomon::game {

@@ -6,15 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/mesh_ref.h"
-#include "components/morph_weights.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
-#include "components/skin.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "sample_game/support/scene/frame_camera.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/unique_names.h"

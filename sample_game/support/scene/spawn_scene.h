@@ -5,8 +5,8 @@
 
 #include "engine/assets/mesh_library.h"
 #include "engine/assets/scene_data.h"
-#include "engine/ecs/registry.h"
 #include "engine/math/aabb.h"
+#include "gnomon/registry.h"
 #include "sample_game/support/scene/animation_player.h"
 #include "sample_game/support/scene/node_motion.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "components/shadow_tuning.h"
-#include "engine/core/result.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
+#include "gnomon/result.h"
+#include "gnomon/shadow_tuning.h"
 
 /// The settings of a light's shadow by name: one row per key, for --set, --list and anything else that edits them.
 namespace gnomon::game {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "components/light.h"
+#include "gnomon/light.h"
 #include "sample_game/support/settings/filter_settings.h"
 #include "sample_game/support/settings/setting_parsers.h"
 #include "sample_game/support/settings/setting_rows.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "components/light_shadow.h"
+#include "gnomon/light.h"
 
 namespace gnomon::shadow {
 

@@ -1,6 +1,6 @@
 #pragma once
-#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
+#include "gnomon/shadow_tuning.h"
 
 namespace gnomon::shadow {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "components/light_shadow.h"
-#include "engine/ecs/entity.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/cascade_ends.h"
 #include "systems/shadow/frame/quality_limits.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "components/light_shadow.h"
 #include "engine/gl/commands.h"
+#include "gnomon/light.h"
 #include "systems/report.h"
 #include "systems/shadow/frame/shader_key.h"
 #include "systems/shadow/frame/view_limits.h"

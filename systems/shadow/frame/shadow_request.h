@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 
-#include "components/light_shadow.h"
 #include "engine/gl/device.h"
+#include "gnomon/light.h"
 #include "systems/report.h"
 #include "systems/shadow/frame/fit_history.h"
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <cstdint>
 
-#include "components/light_shadow.h"
-#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
+#include "gnomon/light.h"
+#include "gnomon/shadow_tuning.h"
 
 namespace gnomon::shadow {
 

@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "engine/ecs/entity.h"
 #include "engine/gl/device.h"
+#include "gnomon/components.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/retry.h"

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "components/shadow_tuning.h"
+#include "gnomon/shadow_tuning.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/cascade_ends.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "components/shadow_tuning.h"
+#include "gnomon/shadow_tuning.h"
 #include "systems/shadow/frame/shadow_request.h"
 #include "systems/shadow/projection/perspective_range.h"
 

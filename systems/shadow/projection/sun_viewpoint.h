@@ -3,7 +3,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-#include "components/shadow_tuning.h"
+#include "gnomon/shadow_tuning.h"
 
 namespace gnomon::shadow {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
+#include "gnomon/shadow_tuning.h"
 
 namespace gnomon::shadow {
 

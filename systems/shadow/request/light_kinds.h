@@ -3,8 +3,8 @@
 #include <span>
 #include <string_view>
 
-#include "components/light.h"
 #include "engine/gl/device.h"
+#include "gnomon/light.h"
 #include "systems/extract/sampled_depths.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_view.h"

@@ -1,8 +1,8 @@
 #pragma once
 #include <cstdint>
 
-#include "components/shadow_tuning.h"
 #include "engine/gl/device.h"
+#include "gnomon/shadow_tuning.h"
 
 namespace gnomon::shadow {
 

@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "components/transform.h"
 #include "engine/gl/device_recording.h"
+#include "gnomon/components.h"
 #include "systems/extract/extract.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/shadow/shadow_system.h"

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "tests/unit/allocation_counter.h"
 
 namespace gnomon::ecs {

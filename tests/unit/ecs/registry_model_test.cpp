@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "tests/unit/math/random_seed.h"
 
 namespace gnomon::ecs {

@@ -1,4 +1,4 @@
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,10 +4,7 @@
 
 #include <cmath>
 
-#include "components/camera.h"
-#include "components/mesh_ref.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "systems/extract/volumes.h"
 #include "tests/unit/extract/extracted_world.h"
 

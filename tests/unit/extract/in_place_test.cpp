@@ -2,9 +2,7 @@
 
 #include <functional>
 
-#include "components/mesh_ref.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
 #include "tests/unit/allocation_counter.h"
 #include "tests/unit/extract/extracted_world.h"
 

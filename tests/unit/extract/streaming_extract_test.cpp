@@ -1,8 +1,7 @@
 #include <gmock/gmock.h>
 
-#include "components/mesh_ref.h"
-#include "components/morph_weights.h"
 #include "engine/assets/mesh_shape.h"
+#include "gnomon/components.h"
 #include "tests/unit/extract/extracted_world.h"
 
 /// What extraction makes of meshes that come to the library, are replaced, and go.

@@ -1,6 +1,6 @@
 #pragma once
 #include "engine/assets/mesh_library.h"
-#include "engine/ecs/registry.h"
+#include "gnomon/registry.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/extract.h"

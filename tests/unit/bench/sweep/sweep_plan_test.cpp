@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "components/light_shadow.h"
+#include "gnomon/light.h"
 #include "sample_game/support/settings/light_settings.h"
 #include "systems/shadow/request/filter_table.h"
 

@@ -2,8 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "components/morph_weights.h"
-#include "components/transform.h"
+#include "gnomon/components.h"
 
 namespace gnomon::game {
 namespace {

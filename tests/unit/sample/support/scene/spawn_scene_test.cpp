@@ -6,12 +6,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-#include "components/camera.h"
-#include "components/light.h"
-#include "components/light_shadow.h"
-#include "components/mesh_ref.h"
-#include "components/name.h"
-#include "components/shadow_caster.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/scene/unique_names.h"
 

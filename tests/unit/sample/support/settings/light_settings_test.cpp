@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "components/light.h"
+#include "gnomon/light.h"
 #include "sample_game/support/settings/setting_parsers.h"
 #include "systems/shadow/request/filter_table.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/ecs/entity.h"
+#include "gnomon/components.h"
 
 /// Entity registry with sparse sets, versioned ids, views and change lists.
 namespace gnomon::ecs {

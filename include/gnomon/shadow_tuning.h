@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdint>
 
-#include "components/light_shadow.h"
+#include "gnomon/light.h"
 
 namespace gnomon {
 
@@ -11,8 +11,7 @@ namespace gnomon {
 enum class FilterSeed : std::uint8_t { screen, world };
 
 /// Formula of the offset against self-shadowing. `automatic` derives the smallest offset that keeps a plane from
-/// shadowing itself. The others serve comparison; each is a function in shaders/shadow/lookup/bias/manual.glsl.
-/// docs/bias.md has the formulas.
+/// shadowing itself. The others serve comparison; docs/bias.md has their formulas.
 enum class BiasMode : std::uint8_t {
     automatic,
     constant,           // offset_m along the light
