@@ -20,8 +20,8 @@ constexpr std::string_view kFragmentPath = "bench/drawn_triangles.frag";
 constexpr std::string_view kFragment =
     "#include \"common/material.glsl\"\n"
     R"(
-in vec2 fragment_uv;
-flat in uvec2 fragment_item;
+layout(location = kUvVarying) in vec2 fragment_uv;
+layout(location = kItemVarying) flat in uvec2 fragment_item;
 layout(location = 0) out uvec2 triangle_out;
 
 void main() {

@@ -212,9 +212,11 @@ public:
         const GlFormat format = gl_format(desc.format);
         drop_gl_errors();
         const PixelTransfer transfer(keeps_state_, PixelTransfer::Direction::readback);
-        glGetTextureSubImage(texture->name, 0, 0, 0, static_cast<GLint>(layer), static_cast<GLsizei>(desc.width),
-                             static_cast<GLsizei>(desc.height), 1, format.layout, format.type,
-                             static_cast<GLsizei>(out.size()), out.data());
+        // A view is read through its array: NVIDIA 580 returns zeros of views of arrays of depths.
+        const GLuint name = texture->array != 0 ? objects_.textures.at(texture->array).name : texture->name;
+        glGetTextureSubImage(name, 0, 0, 0, static_cast<GLint>(texture->first_layer + layer),
+                             static_cast<GLsizei>(desc.width), static_cast<GLsizei>(desc.height), 1, format.layout,
+                             format.type, static_cast<GLsizei>(out.size()), out.data());
         return take_gl_error() == Failure::none;
     }
 

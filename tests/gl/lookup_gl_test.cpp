@@ -4,74 +4,13 @@
 
 #include "systems/shadow/request/filter_table.h"
 #include "systems/visibility/light_queries.h"
-#include "tests/gl/lookup_fixture.h"
+#include "tests/gl/lights_fixture.h"
 
 /// All lights of a view in one draw, by one program (systems/lookup), against the lighting's own pass per light.
 namespace gnomon {
 namespace {
 
 using lookup::LookupStatus;
-
-class AllLights : public LookupTest {
-protected:
-    void SetUp() override {
-        FrameTest::SetUp();
-        const std::uint32_t plane = add_mesh(game::make_card({0, 0, 0}, {0, 0, 6}, {6, 0, 0}));
-        box = add_mesh(game::make_box({-0.5, 0.0, -0.5}, {0.5, 1.5, 0.5}));
-        place(plane, {}, false);
-        for (const double x : {-1.5, 1.5}) boxes.push_back(place(box, {.translation_m = {x, 0.3, 0.4 * x}}));
-        add_camera({}, {0.0, 5.0, 7.0}, {0.0, -5.0, -7.0});
-        settings.viewport_px = {160, 120};
-    }
-    /// Adds a light at a place of its own around the boxes.
-    ecs::Entity add(LightKind kind, const LightShadow& wish, std::size_t i, float cone_rad = 0.6f, const ShadowTuning& tuning = {}) {
-        const Light light{.kind = kind,
-                          .intensity = 100.0f,
-                          .outer_cone_rad = cone_rad,
-                          .source_radius_m = 0.1f,
-                          .sun_radius_rad = 0.03f};
-        const double angle = 0.7 * static_cast<double>(i);
-        const glm::dvec3 at(2.0 * std::cos(angle), 3.5, 2.0 * std::sin(angle));
-        lights.push_back(add_light(light, at, -at, wish, tuning));
-        return lights.back();
-    }
-    /// Suns, spots narrow and wide, and points, with maps of several sizes.
-    void add_eight(ShadowFilter filter = ShadowFilter::automatic) {
-        using enum LightKind;
-        constexpr std::uint32_t kSizes_px[] = {700, 256, 400};
-        for (const LightKind kind : {directional, spot, point, spot, point, spot, directional, point}) {
-            const std::size_t i = lights.size();
-            const float cone_rad = i % 8 == 5 ? 1.4f : 0.6f;  // a wide one has faces of a cube
-            add(kind, {.filter = filter, .resolution_px = kSizes_px[i % 3]}, i, cone_rad);
-        }
-    }
-    std::string name(std::uint32_t i) const {
-        const shadow::ShaderKey& row = inputs().lights[i].row;
-        return std::to_string(i) + ": " + std::string(row.kind_file) + " " + std::string(row.filter_file);
-    }
-    /// Expects every light to be looked up as by its own pass, to rounding.
-    void expect_alike(gl::ProgramHandle program, std::size_t least_dark = 100) {
-        const auto found = looked_up(program);
-        double largest = 0.0;
-        std::size_t apart = 0, between = 0;
-        for (std::uint32_t i = 0; i < found.size(); ++i) {
-            const Difference d = difference(found[i], recorded(i));
-            EXPECT_EQ(table->outcomes()[i].status, LookupStatus::own_filter) << name(i) << " " << lookup::to_text(table->outcomes()[i].status);
-            EXPECT_EQ(d.pixels, 0u) << name(i) << " differs by " << d.largest;
-            EXPECT_TRUE(d.dark > least_dark && d.lit > 100) << name(i) << ": " << d.dark << " dark, " << d.lit << " lit";
-            largest = std::max(largest, d.largest);
-            apart += d.pixels;
-            between += static_cast<std::size_t>(std::count_if(found[i].begin(), found[i].end(), [](float v) { return v > 0.0f && v < 1.0f; }));
-        }
-        RecordProperty("largest_difference", std::to_string(largest));
-        RecordProperty("pixels_apart", std::to_string(apart));
-        RecordProperty("pixels_between", std::to_string(between));
-    }
-
-    static constexpr std::array kFew = {ShadowFilter::triangles, ShadowFilter::pcf_bilinear};  // compile sooner
-    std::uint32_t box = 0;
-    std::vector<ecs::Entity> boxes, lights;
-};
 
 TEST_F(AllLights, OfEveryKindInOneDrawAreSeenAsByTheirOwnPass) {
     add_eight();
@@ -88,37 +27,6 @@ TEST_F(AllLights, OfEveryKindInOneDrawAreSeenAsByTheirOwnPass) {
     const auto without = looked_up(program);
     for (std::uint32_t i = 0; i < found.size(); ++i) EXPECT_GT(difference(found[i], without[i]).pixels, 50u) << name(i);
     expect_alike(program);
-}
-
-/// The same as textureGather, which Mesa 22.3's llvmpipe lacks beside texel buffers.
-constexpr std::string_view kGatheredOneByOne = R"(
-ivec3 low_texel(ivec3 size, vec3 place) { return ivec3(floor(place.xy * vec2(size.xy) - 0.5), int(place.z + 0.5)); }
-ivec3 inside(ivec3 size, ivec3 texel) { return ivec3(clamp(texel.xy, ivec2(0), size.xy - 1), texel.z); }
-vec4 gathered(sampler2DArray map, vec3 place) {
-    ivec3 size = textureSize(map, 0), low = low_texel(size, place);
-    return vec4(texelFetch(map, inside(size, low + ivec3(0, 1, 0)), 0).x, texelFetch(map, inside(size, low + ivec3(1, 1, 0)), 0).x,
-                texelFetch(map, inside(size, low + ivec3(1, 0, 0)), 0).x, texelFetch(map, inside(size, low), 0).x);
-}
-uvec4 gathered(usampler2DArray map, vec3 place, int component) {
-    ivec3 size = textureSize(map, 0), low = low_texel(size, place);
-    return uvec4(texelFetch(map, inside(size, low + ivec3(0, 1, 0)), 0)[component], texelFetch(map, inside(size, low + ivec3(1, 1, 0)), 0)[component],
-                 texelFetch(map, inside(size, low + ivec3(1, 0, 0)), 0)[component], texelFetch(map, inside(size, low), 0)[component]);
-}
-)";
-
-TEST_F(AllLights, AreSeenTheSameByTheTextForHardware) {
-    add_eight();
-    start({.filters = kFew, .for_hardware = true});
-    if (device().info().is_software) {
-        const std::string_view call = "textureGather(", own = "gathered(";
-        std::size_t gathers = 0;
-        for (std::size_t at = text.find(call); at != std::string::npos; at = text.find(call, at), ++gathers)
-            text.replace(at, call.size(), own);
-        EXPECT_GE(gathers, 3u * kBindings.texture_unit_count / 5);
-        text.insert(0, kGatheredOneByOne);
-    }
-    run();
-    expect_alike(surface_program());
 }
 
 TEST_F(AllLights, WherePixelsLookUpDifferentLightsAtOnceAreSeenTheSame) {

@@ -22,12 +22,13 @@ float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
 }
 
 // Returns the votes for lit less those for dark, as a share of all, -1 to 1. It is 0 at the edge, and rises by 1 over
-// kVotes_texel * sqrt(pi / 2) texels. `rows`: 4, or 0 for no votes. It is a loop, because software devices run both
-// sides of an if in full, but no round of a loop that is not needed.
+// kVotes_texel * sqrt(pi / 2) texels. `rows`: 4, or 0 for no votes. Columns are as many: compilers unroll a loop with a
+// known number of rounds. It is a loop, because software devices run both sides of an if in full, but no round of a loop
+// that is not needed.
 float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
     float lit = 0.0, all_votes = 0.0;
     for (int y = -2; y < rows - 2; ++y)
-        for (int x = -2; x < 2; ++x) {
+        for (int x = -2; x < rows - 2; ++x) {
             vec2 middle = corner + vec2(x, y) + 0.5;
             float apart = length(middle - place) / kVotes_texel;
             float votes = exp(-0.5 * apart * apart);
