@@ -32,6 +32,13 @@ double stamp_us(GLuint query) {
     return static_cast<double>(time_ns) / kNsPerUs;
 }
 
+/// Returns the calling thread's time on the processor.
+double thread_us() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) * kUsPerS + static_cast<double>(time.tv_nsec) / kNsPerUs;
+}
+
 }  // namespace
 
 CallClock::CallClock(bool is_software) : is_software_(is_software) {
@@ -51,7 +58,7 @@ CallClock::~CallClock() {
 }
 
 const char* CallClock::method() const {
-    return is_software_ ? "the clock, until the device has finished" : "time stamps of a device that is kept busy";
+    return is_software_ ? "until the device has finished" : "time stamps of a device that is kept busy";
 }
 
 /// Queues work that must end before later work begins.
@@ -83,16 +90,16 @@ bool CallClock::try_once(const Call& call, CallTimes& times) {
         glQueryCounter(stamps_[0], GL_TIMESTAMP);
     }
     const auto start = std::chrono::steady_clock::now();
-    const auto since_us = [&] {
-        return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-    };
+    const double thread_start_us = thread_us();
     call();
-    times.call_us = since_us();
+    times.call_us = thread_us() - thread_start_us;
     if (!is_software_) glQueryCounter(stamps_[1], GL_TIMESTAMP);
     GLint64 queued_ns = 0;
     if (!is_software_) glGetInteger64v(GL_TIMESTAMP, &queued_ns);
     glFinish();
-    times.us = is_software_ ? since_us() : stamp_us(stamps_[1]) - stamp_us(stamps_[0]);
+    times.us = is_software_
+                   ? std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count()
+                   : stamp_us(stamps_[1]) - stamp_us(stamps_[0]);
     times.cpu_us = static_cast<double>(std::clock() - cpu_start) * kUsPerS / CLOCKS_PER_SEC;
     return is_software_ || static_cast<double>(queued_ns) / kNsPerUs < stamp_us(stamps_[0]);
 }

@@ -6,7 +6,7 @@
 namespace gnomon::bench {
 
 /// Times of one call. us: what it has the device do. cpu_us: the process's time on all cores, until the device has
-/// finished. call_us: time until the call returns.
+/// finished. call_us: the calling thread's, until the call returns.
 struct CallTimes {
     double us = 0.0, cpu_us = 0.0, call_us = 0.0;
 };

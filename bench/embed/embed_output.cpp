@@ -20,10 +20,11 @@ constexpr std::array<EmbedWayInfo, kEmbedWays> kWays = {{
     {"moving_lookup", Way::moving_frame, "every light moves: surfaces, maps, a shader with lookups"},
 }};
 
-std::string figures(const EmbedRow::Times& times) {
-    if (times.device.us.count == 0) return formatted("%26s", "-");
-    std::string text = formatted("%9.3f %9.3f", times.device.us.median / kUsPerMs, times.call_us.median / kUsPerMs);
-    const Spread& ratio = times.device.ratio;
+/// Returns a way's figures. Of software devices: the process's time on all cores, which other processes do not change.
+std::string figures(const EmbedRow::Times& times, bool is_software) {
+    std::string text = formatted("%9.3f %9.3f", (is_software ? times.device.cpu_us : times.device.us).median / kUsPerMs,
+                                 times.call_us.median / kUsPerMs);
+    const Spread& ratio = is_software ? times.device.cpu_ratio : times.device.ratio;
     return text + (ratio.count > 0 ? formatted("  x %5.2f (%.2f-%.2f)", ratio.median, ratio.min, ratio.max) : "");
 }
 
@@ -33,8 +34,9 @@ const EmbedWayInfo& info_of(EmbedWay way) { return kWays[static_cast<std::size_t
 
 std::string embed_legend() {
     std::string text =
-        "ms: median of what the device takes. call ms: until the call returns. x: median (min-max) of one ratio per "
-        "round.\n";
+        "ms: median of what the device takes; software devices: of the process's time on all cores. call ms: the "
+        "calling thread's time on the processor until the "
+        "call returns. x: median (min-max) of one ratio per round. Maps of lookups have edges of powers of two.\n";
     for (const EmbedWayInfo& way : kWays)
         text += formatted("%-16s %s%s%s\n", way.key, way.words, way.base == Way::count ? "" : "; x: of ",
                           way.base == Way::count ? "" : info_of(way.base).key);
@@ -52,7 +54,7 @@ std::string embed_table(const EmbedCosts& costs) {
             100.0 * row.differs, "", "ms", "call ms");
         for (std::size_t w = 0; w < kEmbedWays; ++w) {
             if (row.ways[w].device.us.count == 0) continue;
-            text += formatted("%-16s %s\n", kWays[w].key, figures(row.ways[w]).c_str());
+            text += formatted("%-16s %s\n", kWays[w].key, figures(row.ways[w], costs.is_software).c_str());
         }
     }
     text += "\n" + embed_legend();

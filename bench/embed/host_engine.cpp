@@ -55,10 +55,11 @@ void main() {
     if (depth == 0.0) return;
     vec4 place = world_from_clip * vec4(2.0 * gl_FragCoord.xy / vec2(textureSize(depths, 0)) - 1.0, depth, 1.0);
     vec3 position = place.xyz / place.w, normal = texelFetch(normals, pixel, 0).xyz;
-    for (int i = 0; i < count; ++i) {
+    int i = 0;
+    do {
         vec3 way = lights[i].w == 0.0 ? lights[i].xyz : lights[i].xyz - position;
         lit += SHADOW(indices[i]) * max(dot(normal, normalize(way)), 0.0);
-    }
+    } while (++i < count);
 })";
 
 const char* shadow_of(HostShadows shadows) {

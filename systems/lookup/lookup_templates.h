@@ -205,8 +205,9 @@ float $lookup$(int light, vec3 position) {
 
 /// Looks up any light on software devices: each round has the same unit for all.
 inline constexpr std::string_view kLookUpInRounds =
-    "for (gnomon_unit = 0; gnomon_unit < gnomon_kUnits; ++gnomon_unit)\n"
-    "        if (gnomon_light.place.x == gnomon_unit) visible = gnomon_visibility_of_taken(position, normal, error_m);";
+    "gnomon_unit = 0;\n"
+    "    do if (gnomon_light.place.x == gnomon_unit) visible = gnomon_visibility_of_taken(position, normal, error_m);\n"
+    "    while (++gnomon_unit < gnomon_kUnits);";
 /// Looks up a light that is the same for all; any light where reads pick their array (kHardwareReaders).
 inline constexpr std::string_view kLookUpAtOnce =
     "gnomon_unit = gnomon_light.place.x;\n"

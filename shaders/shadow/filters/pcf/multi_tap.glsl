@@ -17,10 +17,11 @@ float shadow_filter(ShadowPoint point) {
     }
     float sum = 0.0;
     float weights = 0.0;
-    for (int i = 0; i < filter_taps(); ++i) {
+    int i = 0;
+    do {
         vec3 tap = filter_tap(point, setup, i);
         sum += tap.z * shadow_tap(point, tap.xy);
         weights += tap.z;
-    }
+    } while (++i < filter_taps());
     return sum / weights;
 }

@@ -22,19 +22,18 @@ float lit_at(ShadowPoint point, vec2 place, vec2 middle, float stored) {
 }
 
 // Returns the votes for lit less those for dark, as a share of all, -1 to 1. It is 0 at the edge, and rises by 1 over
-// kVotes_texel * sqrt(pi / 2) texels. `rows`: 4, or 0 for no votes. Columns are as many: compilers unroll a loop with a
-// known number of rounds. It is a loop, because software devices run both sides of an if in full, but no round of a loop
-// that is not needed.
-float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rows) {
+// kVotes_texel * sqrt(pi / 2) texels. `rounds`: 16, or 0 for no votes; a number that compilers know they would unroll. It
+// is one loop for software devices: see shadow/filters/triangles/triangles.glsl.
+float lit_by_sixteen(ShadowPoint point, vec2 place, vec2 corner, int rounds) {
     float lit = 0.0, all_votes = 0.0;
-    for (int y = -2; y < rows - 2; ++y)
-        for (int x = -2; x < rows - 2; ++x) {
-            vec2 middle = corner + vec2(x, y) + 0.5;
-            float apart = length(middle - place) / kVotes_texel;
-            float votes = exp(-0.5 * apart * apart);
-            lit += votes * lit_at(point, place, middle, shadow_depth(point, middle));
-            all_votes += votes;
-        }
+    int i = 0;
+    if (rounds > 0) do {
+        vec2 middle = corner + vec2(i % 4 - 2, i / 4 - 2) + 0.5;
+        float apart = length(middle - place) / kVotes_texel;
+        float votes = exp(-0.5 * apart * apart);
+        lit += votes * lit_at(point, place, middle, shadow_depth(point, middle));
+        all_votes += votes;
+    } while (++i < rounds);
     return all_votes > 0.0 ? (2.0 * lit - all_votes) / all_votes : 0.0;
 }
 

@@ -63,7 +63,8 @@ Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, floa
     found.before = found.weights = vec2(0.0);
     found.aside = kFarAside;
     int taps = int(ceil(kSearchTapsPerOctave * octaves));
-    for (int i = 0; i < taps; ++i) {
+    int i = 0;
+    if (taps > 0) do {
         float share = (float(i) + seed.x) / float(taps);
         float aside = reach * exp2(-octaves * share);
         float before = stands_before(point, place, aside * on_map(point, on_circle(seed.y + kGolden * float(i))));
@@ -75,7 +76,7 @@ Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, floa
         found.weights[layer] += weight;
         found.before[layer] += (before - found.before[layer]) * (weight / found.weights[layer]);
         found.aside = min(found.aside, cones);
-    }
+    } while (++i < taps);
     return found;
 }
 
@@ -84,14 +85,15 @@ Casters find_casters(ShadowPoint point, vec2 place, vec2 seed, float reach, floa
 float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float before, float from, float to, bool clear_inside) {
     float lit = 0.0;
     float known = 0.0;
-    for (int i = taps - 1; i >= 0; --i) {
+    int i = taps - 1;
+    do {
         vec2 disk = stratified_disk(seed, i, taps);
         float stands = stands_before(point, place, before * on_map(point, disk));
         if (stands >= to) continue;
         known += 1.0;
         lit += stands > max(from, before * min(length(disk), kSameCaster)) ? 0.0 : 1.0;
         if (i == taps - kRimTaps && (lit == 0.0 || (lit == known && clear_inside))) break;
-    }
+    } while (--i >= 0);
     return known > 0.0 ? lit / known : 1.0;
 }
 
@@ -99,7 +101,7 @@ float lit_by_disk(ShadowPoint point, vec2 place, vec2 seed, int taps, float befo
 float lit_by_votes(ShadowPoint point, float radius_texel, bool asked) {
     FourTexels four = four_texels(point);
     bool agreed = (four.all_lit || four.all_dark) && radius_texel < kAgreed_texel;
-    float votes = lit_by_sixteen(point, four.place, four.corner, agreed || !asked ? 0 : 4);
+    float votes = lit_by_sixteen(point, four.place, four.corner, asked && !agreed ? 16 : 0);
     if (agreed) return four.all_lit ? 1.0 : 0.0;
     if (radius_texel == 0.0) return votes >= 0.0 ? 1.0 : 0.0;
     float half_width = kDiskStep * radius_texel;
@@ -121,11 +123,12 @@ float shadow_filter(ShadowPoint point) {
     blurred_texel = min(max(found.before.x, found.before.y), reach) * source_stretch(point.tangent) * point.source_texel;
     float lit = lit_by_votes(point, radius_texel, narrow);
     if (!narrow) lit = 1.0;
-    for (int layer = 0; layer < (narrow ? 0 : (two ? 2 : 1)); ++layer) {
+    int layer = 0;
+    if (!narrow) do {
         float before = clamp(found.before[layer], kLeastPenumbra_texel / texels, reach);
         int taps = min(max(kRimTaps, int(ceil(kTapsPerTexel * texels * before))), light.filtering.y);
         bool low = two && found.before[layer] < split;
         lit *= lit_by_disk(point, place, seed, taps, before, low ? 0.0 : split, low ? split : 2.0, found.aside >= 1.0);
-    }
+    } while (++layer < (two ? 2 : 1));
     return lit;
 }

@@ -67,7 +67,7 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
     bool toward = true;   // over an edge beyond which the ray passes
     float facing = 0.0;
     int steps = 0, folds = 0;
-    while (left != 0 && !blocked) {
+    if (left != 0) do {
         InstanceRecord instance = instance_record(at.x);
         CasterTriangle t = caster_triangle(at.y == kNoTriangle ? 0u : at.y);
         vec3 a_ca = corner_ca(instance, t.a);
@@ -123,6 +123,6 @@ int casters_verdict(FourTriangles shown, int left, vec3 position_ca, vec3 receiv
         folds = ends ? 0 : folds;
         left = ends ? left & (left - 1) : left;
         at = ends ? shown_at(shown, left) : uvec2(at.x, next);
-    }
+    } while (left != 0 && !blocked);
     return blocked ? kBlocked : (unknown ? kUnknown : kPasses);
 }

@@ -42,20 +42,20 @@ float shadow_filter(ShadowPoint point) {
     return lit ? 1.0 : 0.0;
 }
 #else
-// Returns 1 where the receiver is lit, else 0. It has loops, because software devices run both sides of an if in full,
-// but no round of a loop that is not needed. What is tested is found first, because loops take as many rounds as the
-// slowest of neighbouring pixels.
+// Returns 1 where the receiver is lit, else 0. What is tested is found first, because loops take as many rounds as the
+// slowest of neighbouring pixels. Software devices run both sides of an `if`, thus each loop once. Conditions
+// of loops come last: tested before a round, they cost one round more than any pixel needs.
 float shadow_filter(ShadowPoint point) {
     FourTexels four = four_texels(point);
     bvec4 may = may_darken(point, four);
     bool lit = !any(may);
     float error_m = error_along_view_m(point.position_ca, point.normal, point.error_m);
-    for (int asks = lit || four.all_dark ? 0 : 1; asks > 0; --asks) {
+    if (!(lit || four.all_dark)) {
         FourTriangles shown = shadow_triangles_around(point, four.corner);
         int verdict = casters_verdict(shown, different(four, may, shown), point.position_ca, point.normal, error_m, shadow_texel_sides(point));
         bool unknown = verdict == kUnknown;
         lit = verdict != kBlocked;
-        for (int votes = unknown && lit ? 1 : 0; votes > 0; --votes) {
+        if (unknown && lit) {
             vec2 middle = floor(four.place) + 0.5;
             lit = lit_at(point, four.place, middle, shadow_depth(point, middle)) > 0.0;
         }

@@ -30,12 +30,14 @@ bool is_inside(ShadowPoint point, vec2 corner) {
 // Returns where one of the four lies from that corner, texels, in textureGather's order.
 vec2 toward_gathered(int i) { return vec2(i == 1 || i == 2 ? 0.5 : -0.5, i < 2 ? 0.5 : -0.5); }
 
-// Returns the depths of the four texels around a corner between texels, in that order. It is a loop, because software
-// devices run both sides of an if in full, but no round of a loop that is not needed.
+// Returns the depths of the four texels around a corner between texels, in that order. It is a loop for
+// software devices: see shadow/filters/triangles/triangles.glsl.
 vec4 shadow_depths(ShadowPoint point, vec2 corner) {
     vec4 four = vec4(0.0);
     bool gathers = is_inside(point, corner);
     if (gathers) four = textureGather(shadow_map, direction_to(point, corner));
-    for (int i = gathers ? 4 : 0; i < 4; ++i) four[i] = shadow_depth(point, corner + toward_gathered(i));
+    int i = 0;
+    if (!gathers) do four[i] = shadow_depth(point, corner + toward_gathered(i));
+    while (++i < 4);
     return four;
 }

@@ -45,7 +45,9 @@ vec4 shadow_depths(ShadowPoint point, vec2 corner) {
     vec4 four = vec4(0.0);
     bool gathers = is_inside(point, corner);
     if (gathers) four = shared_depths(place_in_face(point, corner));
-    for (int i = gathers ? 4 : 0; i < 4; ++i) four[i] = shadow_depth(point, corner + toward_gathered(i));
+    int i = 0;
+    if (!gathers) do four[i] = shadow_depth(point, corner + toward_gathered(i));
+    while (++i < 4);
     return four;
 }
 
@@ -55,11 +57,12 @@ FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
     shown.instance = shown.triangle = uvec4(0u);
     bool gathers = is_inside(point, corner);
     if (gathers) shown = shared_ids(place_in_face(point, corner));
-    for (int i = gathers ? 4 : 0; i < 4; ++i) {
+    int i = 0;
+    if (!gathers) do {
         uvec2 one = shared_id(place_of(direction_to(point, corner + toward_gathered(i))));
         shown.instance[i] = one.x;
         shown.triangle[i] = one.y;
-    }
+    } while (++i < 4);
     return shown;
 }
 
@@ -84,7 +87,9 @@ float compared(vec3 direction, float reference) {
     bool gathers = min(corner.x, corner.y) >= 1.0 && max(corner.x, corner.y) <= face_size() - 1.0;
     vec4 lit = vec4(0.0);
     if (gathers) lit = vec4(greaterThanEqual(vec4(reference), shared_depths(vec3(corner / face_size(), float(face_of(direction))))));
-    for (int i = gathers ? 4 : 0; i < 4; ++i) lit[i] = compared_beside(axes, corner + toward_gathered(i), reference);
+    int i = 0;
+    if (!gathers) do lit[i] = compared_beside(axes, corner + toward_gathered(i), reference);
+    while (++i < 4);
     return mix(mix(lit.w, lit.z, share.x), mix(lit.x, lit.y, share.x), share.y);
 }
 #else

@@ -14,11 +14,12 @@ FourTriangles shadow_triangles_around(ShadowPoint point, vec2 corner) {
         shown.instance = textureGather(shadow_triangles, direction, 0);
         shown.triangle = textureGather(shadow_triangles, direction, 1);
     }
-    for (int i = gathers ? 4 : 0; i < 4; ++i) {
+    int i = 0;
+    if (!gathers) do {
         uvec4 one = textureLod(shadow_triangles, direction_to(point, corner + toward_gathered(i)), 0.0);
         shown.instance[i] = one.x;
         shown.triangle[i] = one.y;
-    }
+    } while (++i < 4);
     return shown;
 }
 
