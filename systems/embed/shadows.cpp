@@ -306,7 +306,8 @@ std::span<const Mask> Shadows::render(std::span<const View> views) {
     for (std::size_t i = 0; i < views.size(); ++i) s.list_layers(views[i], *s.views[i]);
     const SceneSnapshot& scene = s.store.snapshot();
     if (!s.gpu.update(scene, s.commands)) s.status.failure = "instances_full";
-    s.groups.arrange(scene, s.consumer_views, s.consumer_layers);
+    const bool keeps_idle = s.options.budget.bytes == 0;  // idle groups have no part in a budget
+    s.groups.arrange(scene, s.consumer_views, s.consumer_layers, keeps_idle);
     for (ViewGroup* group : s.groups.active()) s.run(*group);
     s.sum_up();
     s.fill_masks(views.size());

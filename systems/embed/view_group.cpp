@@ -4,16 +4,12 @@
 
 namespace gnomon::embed {
 
-ViewGroups::ViewGroups(gl::Device& device, bool shares_layers) : device_(device), shares_layers_(shares_layers) {
-    active_.push_back(&group_of({}));
-}
-
-/// Returns the active group that sees the same, or an idle one, or a new one.
-ViewGroup& ViewGroups::group_of(const ViewLayers& layers) {
-    const auto alike = [&](const auto& group) { return in_use_.are_alike(group->layered.layers(), layers); };
-    if (!groups_.empty() && alike(groups_.front())) return *groups_.front();
+/// Returns the group that sees the same and has views, or an idle one of these layers, or a new one.
+ViewGroup& ViewGroups::group_of(const ViewLayers& wanted) {
+    const ViewLayers layers = in_use_.are_alike(wanted, {}) ? ViewLayers{} : wanted;
     const auto at = std::find_if(groups_.begin(), groups_.end(), [&](const auto& group) {
-        return !group->consumers.empty() ? alike(group) : group->layered.layers() == layers;
+        const ViewLayers& of_group = group->layered.layers();
+        return of_group == layers || (!group->consumers.empty() && in_use_.are_alike(of_group, layers));
     });
     if (at != groups_.end()) return **at;
     groups_.push_back(std::make_unique<ViewGroup>(device_, layers));
@@ -22,7 +18,7 @@ ViewGroup& ViewGroups::group_of(const ViewLayers& layers) {
 }
 
 void ViewGroups::arrange(const SceneSnapshot& whole, std::span<const std::uint32_t> views,
-                         std::span<const ViewLayers> layers) {
+                         std::span<const ViewLayers> layers, bool keeps_idle) {
     in_use_.update(whole);
     for (const auto& group : groups_) {
         group->consumers.clear();
@@ -33,18 +29,20 @@ void ViewGroups::arrange(const SceneSnapshot& whole, std::span<const std::uint32
         group.consumers.push_back(whole.consumers[c]);
         group.views.push_back(views[c]);
     }
+    const ViewGroup* without_views = views.empty() ? &group_of({}) : nullptr;
+    std::erase_if(groups_, [&](const auto& group) {
+        const bool is_active = !group->consumers.empty() || group.get() == without_views;
+        group->idle_frames = is_active ? 0 : group->idle_frames + 1;
+        return group->idle_frames > (keeps_idle ? kIdleFrames : 0);
+    });
     active_.clear();
     for (const auto& group : groups_)
-        if (!group->consumers.empty()) active_.push_back(group.get());
-    if (active_.empty()) active_.push_back(groups_.front().get());
+        if (group->idle_frames == 0) active_.push_back(group.get());
     for (ViewGroup* group : active_) {
-        const bool sees_all = active_.size() == 1 && group == groups_.front().get();
+        const bool sees_all = active_.size() == 1 && group->layered.layers() == ViewLayers{};
         if (!sees_all) group->layered.update(whole, group->consumers);
         group->seen = sees_all ? &whole : &group->layered.snapshot();
     }
-    for (const auto& group : groups_) group->idle_frames = group->consumers.empty() ? group->idle_frames + 1 : 0;
-    std::erase_if(groups_,
-                  [&](const auto& group) { return group != groups_.front() && group->idle_frames > kIdleFrames; });
 }
 
 LightStatus ViewGroups::status(std::uint32_t light) const {

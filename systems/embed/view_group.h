@@ -36,19 +36,20 @@ struct ViewGroup {
 /// Groups of a frame's views. Owns them, and keeps them for some frames without views.
 class ViewGroups {
 public:
-    /// Creates the group of all casters. `shares_layers`: maps are layers of shared arrays (ShadowSystem).
-    ViewGroups(gl::Device& device, bool shares_layers);
+    /// Creates no group yet. `shares_layers`: maps are layers of shared arrays (ShadowSystem).
+    ViewGroups(gl::Device& device, bool shares_layers) : device_(device), shares_layers_(shares_layers) {}
 
     /// Sorts the cameras into groups. `views` and `layers`: one per camera. Without cameras the group of all casters
-    /// runs, so that lights have a status.
-    void arrange(const SceneSnapshot& whole, std::span<const std::uint32_t> views, std::span<const ViewLayers> layers);
-    /// Returns the groups that run in this frame; at least one.
+    /// runs, so that lights have a status. `keeps_idle`: groups without views keep their maps for kIdleFrames.
+    void arrange(const SceneSnapshot& whole, std::span<const std::uint32_t> views, std::span<const ViewLayers> layers,
+                 bool keeps_idle);
+    /// Returns the groups that run in this frame; at least one after arrange().
     std::span<ViewGroup* const> active() const { return active_; }
 
     /// Returns what became of a light over all active groups.
     LightStatus status(std::uint32_t light) const;
 
-    /// Frames for which a group without views keeps its maps and programs.
+    /// Calls of arrange() over which a group without views keeps its maps and programs.
     static constexpr std::uint32_t kIdleFrames = 120;
 
 private:
@@ -56,7 +57,7 @@ private:
 
     gl::Device& device_;
     bool shares_layers_;
-    std::vector<std::unique_ptr<ViewGroup>> groups_;  // the first one sees all
+    std::vector<std::unique_ptr<ViewGroup>> groups_;
     std::vector<ViewGroup*> active_;
     LayersInUse in_use_;
 };

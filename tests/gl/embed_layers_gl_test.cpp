@@ -116,6 +116,14 @@ TEST_F(EmbedLayers, WhatAViewDoesNotSeeCostsItNothing) {
     shadows->render(without);
     shadows->render(both);
     EXPECT_EQ(shadows->status().maps_drawn, 0u) << "a view that is not asked for keeps its maps for a while";
+    for (int frame = 0; frame < 130; ++frame) shadows->render(without);
+    shadows->render(both);
+    EXPECT_EQ(shadows->status().maps_drawn, 1u) << "not for ever";
+    shadows->set_budget({.bytes = std::uint64_t{1} << 30});
+    shadows->render(both);
+    shadows->render(without);
+    shadows->render(both);
+    EXPECT_EQ(shadows->status().maps_drawn, 1u) << "nor beyond a budget, which knows of what is in use";
 }
 
 TEST_F(EmbedLayers, ReceiversOfOtherLayersHaveNoPartInTheMaps) {
