@@ -95,6 +95,10 @@ TEST_F(EmbedLayers, ViewsThatSeeTheSameShareTheirMaps) {
     EXPECT_EQ(shadows->status(lamp).maps, of_plain.maps);
     EXPECT_EQ(shadows->status(lamp).bytes, of_plain.bytes);
     EXPECT_TRUE(shadows->status().still) << "not even a change";
+    shadows->render(view);
+    shadows->render(view);
+    shadows->render(second);
+    EXPECT_EQ(shadows->status().maps_drawn, 0u) << "nor where only one of them is asked for";
     shadows->set_caster(table, {.mesh = mesh_of(table), .cast_layers = 0x80});
     shadows->render(alike);
     EXPECT_GT(shadows->status(lamp).bytes, of_plain.bytes) << "control: now they differ";
