@@ -20,7 +20,7 @@ REGISTRY = "gnomon/registry.h"
 
 # First matching prefix decides: what a file there may include of the project's own files.
 ALLOWED = (
-    ("engine/", ("engine/", "gnomon/result.h")),
+    ("engine/", ("engine/", "gnomon/result.h", "gnomon/box.h", "gnomon/assets.h")),
     ("shaders/", ("shaders/", "engine/")),
     ("systems/", ("systems/", "engine/", "gnomon/", "shaders/bindings.h", "shaders/embedded.h")),
     ("include/", ("gnomon/",)),
@@ -36,14 +36,13 @@ MADE = {"shaders/bindings.h": "shaders/common/bindings.glsl"}
 PUBLIC = "include/"
 # Gnomon::core: the list of its files. These, and all that they include, know GLM and the standard library only.
 CORE_LIST, CORE_FILE = "cmake/core.cmake", re.compile(r"^  (\S+\.cpp)$", re.MULTILINE)
-# Headers of the engine that are installed, and folders that are installed whole: these include nothing that stays behind.
-INSTALL_LIST, INSTALLED_HEADER = "cmake/install.cmake", re.compile(r"^  (engine/\S+\.h)\)?$", re.MULTILINE)
-INSTALLED_WHOLE = ("systems/", "include/")
+# All that users include: so many headers at most, in one folder, and one that includes all others.
+PUBLIC_FOLDER, UMBRELLA, MOST_PUBLIC = PUBLIC + "gnomon/", PUBLIC + "gnomon/gnomon.h", 15
 # The registry is read by these alone; frame.* only hands it on to them.
-READS_REGISTRY = ("include/", "systems/extract/", "systems/transform/", "systems/frame.", "sample_game/", "bench/", "tests/")
+READS_REGISTRY = ("include/", "systems/extract/", "systems/transform/", "systems/frame", "sample_game/", "bench/", "tests/")
 # Stages that must not reach the registry by any detour either, so that another ECS can take its place.
-KNOWS_NO_REGISTRY = ("systems/shadow/", "systems/lighting/", "systems/lookup/", "systems/extract/snapshot.h",
-                     "include/gnomon/components.h", "include/gnomon/shadows.h", "include/gnomon/entt.h")
+KNOWS_NO_REGISTRY = ("systems/shadow/", "systems/lighting/", "systems/embed/", "systems/lookup/", "systems/extract/snapshot.h",
+                     "include/gnomon/components.h", "include/gnomon/frame.h", "include/gnomon/shadows.h", "include/gnomon/entt.h")
 CALLS_GL = ("engine/gl/", "window/", "examples/", "bench/embed/", "tests/")
 # Rooms of a folder in the order of the flow: a file may include those of its own room and of rooms before it. What lies in the
 # folder itself may include all of them.
@@ -132,15 +131,14 @@ def breaches_of_core(root, includes, libraries):
     return found + [f"{CORE_LIST}: lists {path}, which is no file" for path in sources if not (root / path).is_file()]
 
 
-def breaches_of_install(root, includes):
-    """Lines `path: breach` for headers of the engine that installed ones include, and that are not installed."""
-    listed = root / INSTALL_LIST
-    if not listed.is_file():
-        return []
-    installed = set(INSTALLED_HEADER.findall(listed.read_text(encoding="utf-8")))
-    return [f"{INSTALL_LIST}: lacks {name}, which {path} includes" for path, names in includes.items()
-            if path.endswith(".h") and (path in installed or path.startswith(INSTALLED_WHOLE))
-            for name in names if name.startswith("engine/") and name not in installed]
+def breaches_of_public(includes):
+    """Lines `path: breach` for public headers that are too many, lie elsewhere, or are missing in the one that has all."""
+    headers = [path for path in includes if path.startswith(PUBLIC)]
+    found = [f"{path}: lies outside {PUBLIC_FOLDER}" for path in headers if Path(path).parent.as_posix() + "/" != PUBLIC_FOLDER]
+    if len(headers) > MOST_PUBLIC:
+        found.append(f"{PUBLIC_FOLDER}: has {len(headers)} headers, {MOST_PUBLIC} are the limit")
+    return found + [f"{UMBRELLA}: lacks {path}" for path in headers
+                    if path != UMBRELLA and path not in includes.get(UMBRELLA, ())]
 
 
 def check(root):
@@ -172,7 +170,7 @@ def check(root):
             if calls and not path.startswith(CALLS_GL):
                 breaches.append(f"may not call {', '.join(sorted(calls))}: only engine/gl calls OpenGL")
         found += [f"{path}: {breach}" for breach in breaches]
-    found += breaches_of_core(root, includes, libraries) + breaches_of_install(root, includes)
+    found += breaches_of_core(root, includes, libraries) + breaches_of_public(includes)
     for path in includes:
         if path.startswith(KNOWS_NO_REGISTRY):
             chain = reaches(path, place_of(REGISTRY), includes)
@@ -201,12 +199,12 @@ CLEAN = {
     "systems/shadow/shadow_system.h": '#include "systems/shadow/publish/publish_lights.h"\n',
     "systems/lighting/lighting.cpp": '#include "shaders/bindings.h"\n#include "shaders/embedded.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
     "cmake/core.cmake": "set(SOURCES\n  systems/core/core.cpp\n)\n",
-    "cmake/install.cmake": "set(HEADERS\n  engine/math/aabb.h\n  engine/math/bvh.h)\n",
+    "include/gnomon/gnomon.h": "".join(f'#include "gnomon/{name}.h"\n' for name in ("components", "core", "registry", "result")),
     "include/gnomon/core.h": "#pragma once\n#include <glm/vec3.hpp>\n#include <span>\n",
     "systems/core/core.cpp": '#include "gnomon/core.h"\n#include "systems/shadow/fitting/fit_light.h"\n',
     "examples/core_only.cpp": "#include <gnomon/core.h>\n",
     "sample_game/main.cpp": '#include "gnomon/registry.h"\n#include "systems/extract/extract.h"\n',
-    "tests/install_consumer/main.cpp": '#include "own.h"\n#include "systems/shadow/frame/lighting_inputs.h"\n',
+    "tests/install_consumer/main.cpp": '#include <gnomon/core.h>\n#include "own.h"\n',
     "tests/gl/raw_test.cpp": '#include "systems/shadow/fitting/fit_light.h"\nvoid t() { glGetError(); }\n',
 }
 BREACHES = (
@@ -237,7 +235,9 @@ BREACHES = (
     ("systems/shadow/fitting/fit_light.h", "#include <tiny_gltf.h>\n", "core.cpp -> systems/shadow/fitting/fit_light.h"),
     ("include/gnomon/core.h", "#include <GLFW/glfw3.h>\n", "knows GLM only"),
     ("cmake/core.cmake", "set(SOURCES\n  systems/core/gone.cpp\n)\n", "which is no file"),
-    ("cmake/install.cmake", "set(HEADERS\n  engine/math/bvh.h)\n", "lacks engine/math/aabb.h, which engine/math/bvh.h"),
+    ("include/gnomon/gnomon.h", '#include "gnomon/core.h"\n', "lacks include/gnomon/registry.h"),
+    ("include/gnomon/more/light.h", "#pragma once\n", "lies outside"),
+    ("include/gnomon/", "#pragma once\n", "are the limit"),
     ("engine/platform/window.cpp", "#include <epoxy/gl.h>\n", "only engine/gl calls"),
     ("sample_game/hud.cpp", "void f() {\n    ::glEnable(1);\n    glEnable (1);\n}\n", "may not call glEnable"),
     ("sample_game/main.cpp", '#include "tests/gl/raw_test.cpp"\n', "may not include tests/"),
@@ -251,7 +251,8 @@ def self_test():
     for path, text, want in ((None, None, None), *BREACHES):
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
-            for name, content in {**CLEAN, **({path: text} if path else {})}.items():
+            added = {f"{path}h{i}.h": text for i in range(MOST_PUBLIC)} if path == PUBLIC_FOLDER else {path: text} if path else {}
+            for name, content in {**CLEAN, **added}.items():
                 (root / name).parent.mkdir(parents=True, exist_ok=True)
                 (root / name).write_text(content, encoding="utf-8")
             found, _ = check(root)

@@ -1,5 +1,5 @@
-# Gnomon::core: fits, receiver and caster sets, predicted errors. Links GLM and nothing else, so that an engine on any graphics
-# API can take them. .ci/check_arrows.py reads the list and holds that line; .ci/check_core compiles it with GLM alone.
+# Gnomon::core: fits, receiver and caster sets, predicted errors, and what other parts need of meshes. Links GLM and nothing
+# else, so that an engine on any graphics API can take it. .ci/check_arrows.py reads the list and holds that line; .ci/check_core compiles it with GLM alone.
 set(GNOMON_CORE_SOURCES
   engine/gl/device.cpp
   engine/math/aabb.cpp
@@ -9,6 +9,14 @@ set(GNOMON_CORE_SOURCES
   engine/math/frustum.cpp
   engine/math/projection.cpp
   engine/math/shape_tree.cpp
+  engine/mesh/complete_mesh.cpp
+  engine/mesh/deformer.cpp
+  engine/mesh/half_edges.cpp
+  engine/mesh/mesh_normals.cpp
+  engine/mesh/mesh_shape.cpp
+  engine/mesh/mesh_topology.cpp
+  engine/mesh/mesh_weld.cpp
+  engine/mesh/surface_edges.cpp
   systems/extract/camera_view.cpp
   systems/extract/flat_range.cpp
   systems/extract/scene_tree.cpp

@@ -5,12 +5,12 @@ include(CMakePackageConfigHelpers)
 set(GNOMON_INCLUDE_DIR ${CMAKE_INSTALL_INCLUDEDIR}/gnomon)
 set(GNOMON_PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/Gnomon)
 
-# Core is an export of its own: whoever asks for it alone needs GLM alone. Its one header is <gnomon/core.h>.
+# Its one header is <gnomon/core.h>.
 set_target_properties(gnomon_core PROPERTIES EXPORT_NAME core)
 target_include_directories(gnomon_core INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-install(TARGETS gnomon_core EXPORT GnomonCoreTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
+install(TARGETS gnomon_core EXPORT Gnomon_core ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT core)
 install(FILES ${PROJECT_SOURCE_DIR}/include/gnomon/core.h DESTINATION ${GNOMON_INCLUDE_DIR} COMPONENT core)
-install(EXPORT GnomonCoreTargets NAMESPACE Gnomon:: DESTINATION ${GNOMON_PACKAGE_DIR} COMPONENT core)
+install(EXPORT Gnomon_core NAMESPACE Gnomon:: FILE Gnomon_core.cmake DESTINATION ${GNOMON_PACKAGE_DIR} COMPONENT core)
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/GnomonConfig.cmake.in
   ${PROJECT_BINARY_DIR}/GnomonConfig.cmake INSTALL_DESTINATION ${GNOMON_PACKAGE_DIR})

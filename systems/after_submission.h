@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
 #include "systems/lighting/lighting_system.h"
-#include "systems/report.h"
 #include "systems/shadow/shadow_system.h"
 
 namespace gnomon {

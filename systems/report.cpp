@@ -1,4 +1,4 @@
-#include "systems/report.h"
+#include "gnomon/frame.h"
 
 namespace gnomon {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "systems/frame_timers.h"
-#include "systems/report.h"
 
 namespace gnomon {
 

@@ -147,7 +147,7 @@ bool read_depth(gl::Device& device, gl::TextureHandle texture, std::vector<float
 
 }  // namespace
 
-Result<std::vector<oracle::PlacedTriangle>> drawn_triangles(gl::Device& device, const Frame& frame,
+Result<std::vector<oracle::PlacedTriangle>> drawn_triangles(gl::Device& device, const FrameSystem& frame,
                                                             const assets::MeshLibrary& library) {
     const SceneSnapshot& scene = frame.snapshot();
     const std::span<const gl::Command> pass = surface_pass(frame.commands());

@@ -124,7 +124,7 @@ bool is_sound(const Audit& audit) {
                        [](const AuditedLight& light) { return disagreeing_share(light) <= kMostDisagreeing; });
 }
 
-Result<Audit> audit_frame(gl::Device& device, const Frame& frame, const assets::MeshLibrary& library,
+Result<Audit> audit_frame(gl::Device& device, const FrameSystem& frame, const assets::MeshLibrary& library,
                           const SceneSnapshot& traced) {
     if (traced.consumers.empty()) return Error{"no usable camera", "", "", "bench.camera"};
     const auto drawn = drawn_triangles(device, frame, library);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/accuracy/rasterised_triangle_ids.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 
 /// Test of the truth that `accuracy` compares pictures with.
 ///
@@ -62,7 +62,7 @@ bool is_sound(const Audit& audit);
 /// Audits the last picture of `frame`, which must have been drawn on `device` from `library`. `traced`: the frame's own
 /// snapshot; another one shows how an unsound audit looks. Source sizes do not count: a light is its middle.
 /// Errors: "bench.camera" if there is no camera; those of drawn_triangles().
-Result<Audit> audit_frame(gl::Device& device, const Frame& frame, const assets::MeshLibrary& library,
+Result<Audit> audit_frame(gl::Device& device, const FrameSystem& frame, const assets::MeshLibrary& library,
                           const SceneSnapshot& traced);
 
 /// Returns a table for people, with a line for every disagreement and for the first few other triangles.

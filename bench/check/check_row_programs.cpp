@@ -4,7 +4,7 @@
 #include "engine/gl/device_recording.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "sample_game/support/settings/light_settings.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 
 namespace gnomon::bench {
 namespace {
@@ -22,7 +22,7 @@ std::vector<gl::ProgramDesc> programs_of_rows() {
     ecs::Registry world;
     assets::MeshLibrary library;
     const game::SpawnedScene spawned = game::spawn_scene(check_scene(), world, library);
-    const auto frame = Frame::create(device, library);
+    const auto frame = FrameSystem::create(device, library);
     if (!frame) return {};
     FrameSettings settings;
     settings.viewport_px = kPicture_px;

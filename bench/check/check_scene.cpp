@@ -3,8 +3,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "engine/assets/mesh_shape.h"
-#include "engine/assets/mesh_topology.h"
 #include "engine/math/frustum.h"
 #include "sample_game/support/built_in_scenes/primitives.h"
 
@@ -25,14 +23,11 @@ assets::Node& add_shape(assets::SceneData& scene, const char* name, const game::
                         const glm::dvec3& at_m) {
     assets::Mesh& mesh = scene.meshes.emplace_back();
     mesh.name = name;
-    for (std::size_t i = 0; i < shape.positions.size(); ++i) {
+    for (std::size_t i = 0; i < shape.positions.size(); ++i)
         mesh.vertices.push_back({shape.positions[i], shape.normals[i], shape.uvs[i]});
-        mesh.bounds_ms = math::extended(mesh.bounds_ms, glm::dvec3(shape.positions[i]));
-    }
     mesh.indices = shape.indices;
     mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), material}};
-    mesh.topology = assets::analyse_topology(mesh);
-    mesh.shape = assets::shape_of(mesh);
+    assets::complete(mesh);
     assets::Node& node = add_node(scene, name, at_m);
     node.mesh = static_cast<std::int32_t>(scene.meshes.size() - 1);
     return node;

@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::bench {
 

@@ -63,7 +63,7 @@ std::optional<Error> Stage::prepare(const StageOptions& options) {
     if (!device) return device.error();
     device_ = std::move(device).value();
     device_->set_timing(device_->info().is_software ? gl::TimingMode::finish : gl::TimingMode::query);
-    auto frame = Frame::create(*device_, library_);
+    auto frame = FrameSystem::create(*device_, library_);
     if (!frame) return frame.error();
     frame_ = std::move(frame).value();
     settings_.viewport_px = options.size_px;

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "bench/common/configuration.h"
-#include "engine/assets/mesh_library.h"
 #include "engine/gl/device.h"
 #include "engine/platform/context.h"
+#include "gnomon/assets.h"
 #include "gnomon/registry.h"
 #include "gnomon/result.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "sample_game/support/settings/light_settings.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 
 namespace gnomon::bench {
 
@@ -67,7 +67,7 @@ public:
     /// differ. Errors: "set.*"; then nothing is changed.
     std::optional<Error> start_over(std::span<const std::string> settings, LightKinds kinds = kAllKinds);
 
-    Frame& frame() { return *frame_; }
+    FrameSystem& frame() { return *frame_; }
     gl::Device& device() { return *device_; }
     const assets::MeshLibrary& library() const { return library_; }
     ecs::Registry& world() { return world_; }
@@ -92,7 +92,7 @@ private:
     std::vector<game::MovingEntity> moving_;
     std::vector<std::pair<ecs::Entity, game::LightSettings>> opened_;  // as the scene and the options have them
     FrameSettings settings_;
-    std::unique_ptr<Frame> frame_;
+    std::unique_ptr<FrameSystem> frame_;
     StageOptions options_;
     std::string scene_name_;
     double time_s_ = 0.0, load_s_ = 0.0;

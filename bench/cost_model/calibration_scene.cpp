@@ -5,8 +5,6 @@
 #include <string>
 
 #include "bench/scaling/many_lights_scene.h"
-#include "engine/assets/mesh_shape.h"
-#include "engine/assets/mesh_topology.h"
 #include "engine/math/frustum.h"
 
 namespace gnomon::bench {
@@ -34,10 +32,7 @@ assets::Mesh plate(std::uint32_t cells) {
             for (const std::uint32_t i : {a, a + row, a + 1, a + 1, a + row, a + row + 1}) mesh.indices.push_back(i);
         }
     mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), 0}};
-    const double half_m = 0.5 * kPlate_m;
-    mesh.bounds_ms = {glm::dvec3(-half_m, 0.0, -half_m), glm::dvec3(half_m, 0.0, half_m)};
-    mesh.topology = assets::analyse_topology(mesh);
-    mesh.shape = assets::shape_of(mesh);
+    assets::complete(mesh);
     return mesh;
 }
 

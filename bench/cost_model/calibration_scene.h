@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::bench {
 

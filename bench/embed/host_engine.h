@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/result.h"
 #include "systems/extract/snapshot.h"
 

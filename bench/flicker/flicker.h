@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/common/stage.h"
+#include "gnomon/frame.h"
 #include "gnomon/result.h"
-#include "systems/report.h"
 
 /// Flicker of shadows while only the camera moves. The visibility of fixed points of the world is evaluated in double,
 /// from maps that are really drawn. In truth it never changes.

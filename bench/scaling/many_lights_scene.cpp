@@ -7,8 +7,6 @@
 #include <random>
 #include <string>
 
-#include "engine/assets/mesh_shape.h"
-#include "engine/assets/mesh_topology.h"
 #include "engine/math/frustum.h"
 #include "sample_game/support/built_in_scenes/primitives.h"
 
@@ -116,9 +114,7 @@ assets::Mesh box_mesh(const char* name, const glm::dvec3& min, const glm::dvec3&
         mesh.vertices.push_back({shape.positions[i], shape.normals[i], shape.uvs[i]});
     mesh.indices = shape.indices;
     mesh.submeshes = {{0, static_cast<std::uint32_t>(mesh.indices.size()), 0}};
-    mesh.bounds_ms = {min, max};
-    mesh.topology = assets::analyse_topology(mesh);
-    mesh.shape = assets::shape_of(mesh);
+    assets::complete(mesh);
     return mesh;
 }
 

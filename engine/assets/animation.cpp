@@ -1,4 +1,4 @@
-#include "engine/assets/animation.h"
+#include "gnomon/assets.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/assets/gltf_document.h"
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets::gltf {
 

@@ -9,7 +9,7 @@
 
 #include "engine/assets/gltf_accessor.h"
 #include "engine/assets/gltf_error.h"
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets::gltf {
 namespace {

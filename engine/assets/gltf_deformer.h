@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/deformer.h"
 #include "engine/assets/gltf_document.h"
+#include "engine/mesh/deformer.h"
 
 namespace gnomon::assets::gltf {
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "engine/assets/gltf_document.h"
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets::gltf {
 

@@ -1,4 +1,4 @@
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 
 #include <exception>
 #include <new>

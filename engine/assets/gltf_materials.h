@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/assets/gltf_document.h"
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets::gltf {
 

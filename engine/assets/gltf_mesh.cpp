@@ -12,9 +12,11 @@
 #include "engine/assets/gltf_error.h"
 #include "engine/assets/gltf_limits.h"
 #include "engine/assets/gltf_triangles.h"
-#include "engine/assets/mesh_shape.h"
-#include "engine/assets/mesh_topology.h"
+#include "engine/assets/openmesh_parts.h"
 #include "engine/math/finite.h"
+#include "engine/math/shape_tree.h"
+#include "engine/mesh/mesh_shape.h"
+#include "engine/mesh/mesh_topology.h"
 
 namespace gnomon::assets::gltf {
 namespace {
@@ -87,7 +89,7 @@ private:
         const bool all_white = std::all_of(mesh.colours.begin(), mesh.colours.end(),
                                            [](const glm::vec4& colour) { return colour == glm::vec4(1.0f); });
         if (all_white) mesh.colours = {};
-        mesh.topology = analyse_topology(mesh);
+        mesh.topology = analyse_topology(mesh, openmesh_parts);
         mesh.deformer = deformer.finish(mesh, pointer("meshes", index));
         if (!mesh.deformer) mesh.shape = shape_of(mesh);
         if (mesh.shape) document_.charge(mesh.shape->bytes(), pointer("meshes", index));

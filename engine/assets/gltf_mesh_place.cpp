@@ -5,6 +5,7 @@
 
 #include "engine/assets/gltf_limits.h"
 #include "engine/assets/gltf_mesh.h"
+#include "engine/math/aabb.h"
 
 namespace gnomon::assets::gltf {
 namespace {

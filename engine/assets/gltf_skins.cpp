@@ -8,7 +8,9 @@
 
 #include "engine/assets/gltf_accessor.h"
 #include "engine/assets/gltf_error.h"
-#include "engine/assets/mesh_shape.h"
+#include "engine/math/shape_tree.h"
+#include "engine/mesh/deformer.h"
+#include "engine/mesh/mesh_shape.h"
 
 namespace gnomon::assets::gltf {
 namespace {

@@ -13,15 +13,11 @@
 #include <vector>
 
 #include "engine/gl/handles.h"
+#include "gnomon/box.h"
 
 /// GPU work as comparable data. A frame is one CommandList; devices execute or record it. Every command is a plain
 /// value with ==, so that a test compares two lists.
 namespace gnomon::gl {
-
-struct Rect {
-    std::int32_t x = 0, y = 0, width = 0, height = 0;
-    bool operator==(const Rect&) const = default;
-};
 
 enum class CullMode : std::uint8_t { none, back, front };
 enum class DepthTest : std::uint8_t { off, greater_equal, greater, equal, less };

@@ -7,6 +7,7 @@
 
 #include "engine/gl/commands.h"
 #include "engine/gl/handles.h"
+#include "gnomon/result.h"
 
 namespace gnomon::gl {
 
@@ -120,18 +121,6 @@ struct TargetDesc {
     bool operator==(const TargetDesc&) const = default;
 };
 
-/// Reason of a failure. Devices never map memory: uploads and readbacks are copies, so that no null pointer can occur.
-enum class Failure : std::uint8_t {
-    none,
-    out_of_memory,
-    invalid_value,
-    incomplete_target,
-    compile_failed,
-    link_failed,
-    context_lost
-};
-const char* to_text(Failure failure);
-
 /// New object, or the reason why there is none. A failed creation leaves nothing behind.
 template <class H>
 struct Created {
@@ -172,7 +161,8 @@ struct SubmitResult {
     std::uint64_t submission = 0;
 };
 
-/// Interface to the GPU. Creation happens outside submit(); nothing throws. Implementations: Gl45Device (executor),
+/// Interface to the GPU. Creation happens outside submit(); nothing throws. Devices never map memory: uploads and
+/// readbacks are copies. Implementations: Gl45Device (executor),
 /// RecordingDevice (tests), gmock (tests).
 class Device {
 public:

@@ -3,16 +3,11 @@
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
-#include <limits>
 
+#include "gnomon/box.h"
+
+/// Functions of boxes. A default box is the neutral element of merged().
 namespace gnomon::math {
-
-/// Axis-aligned box in double. A default box is empty (min > max) and the neutral element of merge.
-struct Aabb {
-    glm::dvec3 min{std::numeric_limits<double>::infinity()};
-    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
-    bool operator==(const Aabb&) const = default;
-};
 
 /// Returns true if the box contains no point; NaN counts as empty.
 inline bool is_empty(const Aabb& b) { return !(b.min.x <= b.max.x && b.min.y <= b.max.y && b.min.z <= b.max.z); }

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::rays {
 

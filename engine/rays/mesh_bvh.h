@@ -4,8 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "engine/mesh/deformer.h"
 #include "engine/rays/bvh.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::rays {
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
@@ -43,3 +44,19 @@ private:
 };
 
 }  // namespace gnomon
+
+namespace gnomon::gl {
+
+/// Why the device could not do something. Nothing is mapped, so that no null pointer can occur.
+enum class Failure : std::uint8_t {
+    none,
+    out_of_memory,
+    invalid_value,
+    incomplete_target,
+    compile_failed,
+    link_failed,
+    context_lost
+};
+const char* to_text(Failure failure);
+
+}  // namespace gnomon::gl

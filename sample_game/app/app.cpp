@@ -66,7 +66,7 @@ std::optional<Error> check_outputs(const CommandLine& line) {
     return line.visibility ? make_writable_folder(*line.visibility) : std::nullopt;
 }
 
-void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings) {
+void freeze_at_fit_camera(GameWorld& world, FrameSystem& frame, FrameSettings& settings) {
     if (!world.fit_camera) return;
     settings.freeze_fits = true;
     activate_camera(world.scene, *world.fit_camera, world.registry);
@@ -94,7 +94,7 @@ Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world, 
             .message = "--size: this device draws up to " + std::to_string(info.max_texture_px) + " pixels a side",
             .rule = "command_line"};
     set_timing(*renderer.device, wants_timing(line, line.shadow_budget, *renderer.device));
-    Result<std::unique_ptr<Frame>> frame = Frame::create(*renderer.device, world.library, fit_history);
+    Result<std::unique_ptr<FrameSystem>> frame = FrameSystem::create(*renderer.device, world.library, fit_history);
     if (!frame) return frame.error();
     renderer.frame = std::move(frame).value();
     return renderer;
@@ -111,14 +111,15 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 
 unsigned trace_threads() { return std::max(std::thread::hardware_concurrency(), 2u) - 1u; }
 
-std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px) {
+std::optional<Error> write_picture(const std::filesystem::path& file, FrameSystem& frame, glm::uvec2 size_px) {
     std::vector<std::uint8_t> rgba;
     if (!frame.read_picture(rgba))
         return Error{.message = "the device could not draw the picture", .rule = "output.picture"};
     return write_png(file, size_px.x, size_px.y, rgba);
 }
 
-std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats) {
+std::optional<Error> write_outputs(const CommandLine& line, FrameSystem& frame, glm::uvec2 size_px,
+                                   const StatsFile& stats) {
     if (line.screenshot)
         if (auto error = write_picture(*line.screenshot, frame, size_px)) return error;
     if (line.visibility) {

@@ -10,7 +10,7 @@
 #include "sample_game/app/command_line.h"
 #include "sample_game/app/stats_json.h"
 #include "sample_game/game/game_world.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 
 namespace gnomon::game {
 
@@ -23,14 +23,14 @@ std::optional<Error> check_outputs(const CommandLine& line);
 /// Device and frame for the context that is current on this thread.
 struct Renderer {
     std::unique_ptr<gl::Device> device;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
 };
 Result<Renderer> make_renderer(const CommandLine& line, const GameWorld& world,
                                const shadow::History& fit_history = {});
 
 /// Runs a frame for the camera of --fit-camera and freezes its fits, so that later frames show them from the other
 /// camera. Does nothing without --fit-camera.
-void freeze_at_fit_camera(GameWorld& world, Frame& frame, FrameSettings& settings);
+void freeze_at_fit_camera(GameWorld& world, FrameSystem& frame, FrameSettings& settings);
 
 /// Switches measuring of the GPU's time, by the method that is right on this device.
 void set_timing(gl::Device& device, bool on);
@@ -44,10 +44,11 @@ void log_warnings(const GameWorld& world, const FrameReport& first_frame, spdlog
 unsigned trace_threads();
 
 /// Writes --screenshot, --visibility and --stats from the last frame, a picture of `size_px`.
-std::optional<Error> write_outputs(const CommandLine& line, Frame& frame, glm::uvec2 size_px, const StatsFile& stats);
+std::optional<Error> write_outputs(const CommandLine& line, FrameSystem& frame, glm::uvec2 size_px,
+                                   const StatsFile& stats);
 
 /// Writes the picture as it is to `file`.
-std::optional<Error> write_picture(const std::filesystem::path& file, Frame& frame, glm::uvec2 size_px);
+std::optional<Error> write_picture(const std::filesystem::path& file, FrameSystem& frame, glm::uvec2 size_px);
 
 /// Runs all frames without a window, as run_window() does in one. Returns nothing on success.
 std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spdlog::logger& log);

@@ -66,7 +66,7 @@ std::optional<Error> run_headless(const CommandLine& line, GameWorld& world, spd
             freeze_at_fit_camera(world, *stage->renderer.frame, settings);
             stage->renderer.frame->run(world.registry, settings);
         }
-        Frame& frame = *stage->renderer.frame;
+        FrameSystem& frame = *stage->renderer.frame;
         if (stage->gui) stage->gui->draw(world, frame, line.size_px, nullptr, kStep_s, false);
         if (i == 0) log_warnings(world, frame.report(), log);
         if (line.stats) stats.add(frame.report(), i, time_s, world.game ? &world.game->state() : nullptr);

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
+#include "gnomon/frame.h"
 #include "gnomon/result.h"
 #include "sample_game/game/rules.h"
-#include "systems/report.h"
 
 /// The file of --stats; its keys are listed in docs/stats.md.
 namespace gnomon::game {

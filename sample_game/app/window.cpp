@@ -98,7 +98,7 @@ std::string words_of_state(const GameWorld& world, const FrozenFrame& frozen) {
 }
 
 /// Freezes the frame that is shown, or lets it go.
-void toggle_frozen(const GameWorld& world, const Frame& frame, FrozenFrame& frozen) {
+void toggle_frozen(const GameWorld& world, const FrameSystem& frame, FrozenFrame& frozen) {
     if (frozen.on())
         frozen.thaw();
     else

@@ -4,7 +4,7 @@ namespace gnomon::game {
 namespace {
 
 /// Freezes the last frame, compares it with its ray-traced truth, and adds the result to `stats`.
-std::optional<Error> judge(const CommandLine& line, const GameWorld& world, Frame& frame, FrozenFrame& frozen,
+std::optional<Error> judge(const CommandLine& line, const GameWorld& world, FrameSystem& frame, FrozenFrame& frozen,
                            StatsFile& stats) {
     frozen.freeze(frame, world.library, trace_threads() + 1);  // nothing is drawn meanwhile
     frozen.finish(frame);
@@ -22,7 +22,7 @@ std::optional<Error> judge(const CommandLine& line, const GameWorld& world, Fram
 
 }  // namespace
 
-std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, Frame& frame,
+std::optional<Error> write_last_frame(const CommandLine& line, GameWorld& world, FrameSystem& frame,
                                       const FrameSettings& settings, Gui* gui, StatsFile& stats) {
     if (line.truth)
         if (auto error = judge(line, world, frame, gui->frozen, stats)) return error;

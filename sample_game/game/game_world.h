@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/registry.h"
 #include "sample_game/game/session.h"
 #include "sample_game/support/scene/spawn_scene.h"

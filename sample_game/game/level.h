@@ -2,7 +2,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 #include "gnomon/result.h"
 #include "sample_game/game/collision_boxes.h"
 #include "sample_game/game/light_exposure.h"

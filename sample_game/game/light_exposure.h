@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 #include "systems/visibility/light_queries.h"
 

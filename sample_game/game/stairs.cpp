@@ -4,6 +4,8 @@
 #include <glm/common.hpp>
 #include <map>
 
+#include "engine/math/aabb.h"
+
 namespace gnomon::game {
 
 std::vector<Solid> treads_of(const assets::Mesh& mesh, std::size_t node) {

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 #include "sample_game/game/collision_boxes.h"
 
 namespace gnomon::game {

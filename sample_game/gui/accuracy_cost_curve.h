@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "systems/report.h"
+#include "gnomon/frame.h"
 
 /// Measured cost of max_error_px, per setting that was in use.
 namespace gnomon::game {

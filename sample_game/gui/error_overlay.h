@@ -2,8 +2,8 @@
 #include <glm/vec2.hpp>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "sample_game/support/truth_comparison.h"
-#include "systems/report.h"
 
 namespace gnomon::game {
 

@@ -54,7 +54,7 @@ Result<std::unique_ptr<Gui>> Gui::create(gl::Device& device) {
 
 Gui::~Gui() = default;
 
-void Gui::draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
+void Gui::draw(GameWorld& world, FrameSystem& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
                bool present) {
     const gl::TargetHandle target = frame.picture_target();
     if (!target) return;

@@ -51,7 +51,7 @@ public:
 
     /// Draws over the frame's picture and, if `present`, copies it to the window. The panel changes the world's
     /// LightShadow components at once; they take effect with the next frame. `input`: null without a window.
-    void draw(GameWorld& world, Frame& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
+    void draw(GameWorld& world, FrameSystem& frame, glm::uvec2 size_px, const platform::Input* input, double dt_s,
               bool present);
 
     PanelState panel;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "systems/report.h"
+#include "gnomon/frame.h"
 
 /// Time and predicted error of each light's shadow over the last frames.
 namespace gnomon::game {

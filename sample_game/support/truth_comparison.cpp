@@ -6,7 +6,7 @@
 
 namespace gnomon::game {
 
-void FrozenFrame::freeze(const Frame& frame, const assets::MeshLibrary& library, unsigned threads) {
+void FrozenFrame::freeze(const FrameSystem& frame, const assets::MeshLibrary& library, unsigned threads) {
     thaw();
     const SceneSnapshot& scene = frame.snapshot();
     if (scene.consumers.empty()) return;
@@ -30,7 +30,7 @@ void FrozenFrame::thaw() {
     state_ = State::off;
 }
 
-void FrozenFrame::update(Frame& frame) {
+void FrozenFrame::update(FrameSystem& frame) {
     if (!on()) return;
     const SceneSnapshot& scene = frame.snapshot();
     bool same = !scene.consumers.empty() && scene.consumers.front().viewport_px == size_px_;
@@ -47,7 +47,7 @@ void FrozenFrame::update(Frame& frame) {
     }
 }
 
-void FrozenFrame::finish(Frame& frame) {
+void FrozenFrame::finish(FrameSystem& frame) {
     if (!on()) return;
     trace_->truth();
     state_ = State::shown;
@@ -60,7 +60,7 @@ bool FrozenFrame::judged() const {
            std::none_of(lights_.begin(), lights_.end(), [](const JudgedLight& light) { return light.stale; });
 }
 
-void FrozenFrame::judge(Frame& frame, std::size_t index) {
+void FrozenFrame::judge(FrameSystem& frame, std::size_t index) {
     JudgedLight& light = lights_[index];
     light.stale = false;
     light.metrics.reset();

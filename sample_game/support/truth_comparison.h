@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
-#include "systems/frame.h"
+#include "gnomon/assets.h"
+#include "systems/frame_system.h"
 #include "systems/truth/metrics.h"
 #include "systems/truth/picture_truth.h"
 
@@ -31,13 +31,13 @@ public:
     enum class State : std::uint8_t { off, tracing, shown };
 
     /// Begins with the frame that was run last, on `threads` threads beside this one.
-    void freeze(const Frame& frame, const assets::MeshLibrary& library, unsigned threads);
+    void freeze(const FrameSystem& frame, const assets::MeshLibrary& library, unsigned threads);
     void thaw();
     /// Judges one light at most, once the trace is finished; never blocks on it. Call after each frame. Ends the freeze
     /// if the picture's size or the layers of a light's shadow have changed.
-    void update(Frame& frame);
+    void update(FrameSystem& frame);
     /// Blocks until the trace is complete and every light is judged, or its visibility proves unreadable.
-    void finish(Frame& frame);
+    void finish(FrameSystem& frame);
 
     State state() const { return state_; }
     bool on() const { return state_ != State::off; }
@@ -57,7 +57,7 @@ public:
     glm::uvec2 size_px() const { return size_px_; }
 
 private:
-    void judge(Frame& frame, std::size_t index);
+    void judge(FrameSystem& frame, std::size_t index);
     void paint();
 
     State state_ = State::off;

@@ -10,28 +10,12 @@
 #include <vector>
 
 #include "engine/gl/commands.h"
+#include "gnomon/frame.h"
 #include "systems/extract/snapshot.h"
 #include "systems/shadow/frame/shadow_frame.h"
 
 /// Debug views of a frame's data, drawn over its picture: a table row, a C++ file and a shader per view.
 namespace gnomon::debug {
-
-struct ViewRow;
-
-/// Requested view; part of FrameSettings.
-struct Request {
-    const ViewRow* view = nullptr;            // null: none, at no cost
-    std::string light = {};                   // name of the light; empty: all, for views that can show all
-    std::optional<std::uint32_t> layer = {};  // one of its maps; empty: all
-    gl::Rect area = {};                       // part of the picture in pixels, y up; without width: whole picture
-};
-
-/// Text for the application to draw, because views draw only pictures.
-struct Label {
-    glm::ivec2 at_px{0};  // upper left corner of the text, from the picture's lower left
-    std::string text;
-    std::optional<glm::vec3> swatch = {};  // sRGB; a square of this colour before the text
-};
 
 /// Inputs of a view.
 struct ViewInput {
@@ -83,8 +67,6 @@ struct ViewRow {
 
 /// Lists all views. A new view needs systems/debug/x.cpp, shaders/debug/x.frag and a row here.
 std::span<const ViewRow> view_table();
-/// Finds a view; null if there is none of that name.
-const ViewRow* find_view(std::string_view name);
 
 std::optional<Drawing> draw_cascades(const ViewInput& input);
 std::optional<Drawing> draw_texels(const ViewInput& input);

@@ -5,9 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "engine/assets/mesh_shape.h"
-#include "engine/assets/mesh_topology.h"
+#include "engine/math/aabb.h"
 #include "engine/math/finite.h"
+#include "engine/mesh/mesh_shape.h"
+#include "engine/mesh/mesh_topology.h"
 
 namespace gnomon::embed {
 namespace {

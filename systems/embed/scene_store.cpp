@@ -13,8 +13,8 @@
 #include "systems/embed/mesh_of.h"
 #include "systems/extract/drawable_basis.h"
 #include "systems/extract/light_facts.h"
-#include "systems/extract/names.h"
 #include "systems/extract/scene_tree.h"
+#include "systems/extract/unique_names.h"
 #include "systems/extract/usable.h"
 
 namespace gnomon::embed {

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/shadows.h"
 #include "systems/embed/slots.h"
 #include "systems/extract/snapshot.h"

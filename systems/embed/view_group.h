@@ -8,7 +8,7 @@
 #include "engine/gl/device.h"
 #include "gnomon/shadows.h"
 #include "systems/embed/layered_scene.h"
-#include "systems/report.h"
+#include "gnomon/frame.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 #include "systems/shadow/shadow_system.h"
 #include "systems/timed_lights.h"

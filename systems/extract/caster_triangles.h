@@ -3,8 +3,8 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
-#include "engine/assets/mesh_topology.h"
+#include "engine/mesh/mesh_topology.h"
+#include "gnomon/assets.h"
 #include "systems/extract/ray_masks.h"
 
 namespace gnomon {

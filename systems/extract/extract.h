@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/registry.h"
 #include "systems/extract/lights_and_cameras.h"
 #include "systems/extract/poses.h"

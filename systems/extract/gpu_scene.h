@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/gl/device.h"
+#include "gnomon/assets.h"
 #include "gnomon/result.h"
 #include "systems/extract/scene_materials.h"
 #include "systems/extract/scene_meshes.h"

@@ -9,6 +9,7 @@
 #include "systems/extract/camera_view.h"
 #include "systems/extract/light_facts.h"
 #include "systems/extract/names.h"
+#include "systems/extract/unique_names.h"
 #include "systems/extract/usable.h"
 
 namespace gnomon {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/gl/commands.h"
+#include "gnomon/assets.h"
 
 namespace gnomon {
 

@@ -58,12 +58,6 @@ void take_pose(const ecs::Registry& registry, ecs::Entity entity, const assets::
 
 }  // namespace
 
-const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh) {
-    const auto at = std::lower_bound(scene.poses.begin(), scene.poses.end(), mesh,
-                                     [](const PoseItem& pose, std::uint32_t wanted) { return pose.mesh < wanted; });
-    return at != scene.poses.end() && at->mesh == mesh ? &*at : nullptr;
-}
-
 void PoseExtractor::list(const ecs::Registry& registry, const assets::MeshLibrary& library, SceneSnapshot& snapshot) {
     sources_.clear();
     moves_pose_.clear();

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 #include "gnomon/registry.h"
 #include "systems/extract/snapshot.h"

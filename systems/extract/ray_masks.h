@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/core/range_list.h"
+#include "gnomon/assets.h"
 
 namespace gnomon {
 

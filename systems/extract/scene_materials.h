@@ -4,8 +4,8 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/gl/device.h"
+#include "gnomon/assets.h"
 #include "systems/device_arrays.h"
 #include "systems/retry.h"
 

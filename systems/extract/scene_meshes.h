@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/core/range_list.h"
 #include "engine/gl/device.h"
+#include "gnomon/assets.h"
 #include "systems/device_arrays.h"
 #include "systems/extract/caster_triangles.h"
 #include "systems/extract/mask_buffer.h"

@@ -8,11 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/deformer.h"
 #include "engine/math/aabb.h"
 #include "engine/math/bounds_tree.h"
 #include "engine/math/shape_tree.h"
+#include "engine/mesh/deformer.h"
 #include "gnomon/components.h"
+#include "gnomon/frame.h"
 #include "gnomon/light.h"
 #include "gnomon/shadow_tuning.h"
 
@@ -110,31 +111,9 @@ inline bool receives_under(const LightItem& light, const InstanceItem& item) {
     return item.receives && (light.shadow.layers & item.receive_layers) != 0;
 }
 
-enum class DropReason : std::uint8_t {
-    non_finite_transform,
-    zero_rotation,
-    parent_missing,
-    parent_cycle,
-    unknown_mesh,
-    zero_scale,
-    absurd_light,
-    absurd_camera,
-    instances_full,  // the device has no record for it: neither drawn nor casting
-    meshes_full,     // the device has no room for its mesh: neither drawn nor casting
-    buffer_lost,     // a buffer of its mesh is the engine's, and was deleted or made smaller
-};
-const char* reason_code(DropReason reason);
-
 struct SceneSnapshot;
 /// Returns the mesh's pose; null: at rest.
 const PoseItem* pose_of(const SceneSnapshot& scene, std::uint32_t mesh);
-
-/// Entity that was unusable in this frame, and the reason. Others are unaffected.
-struct DroppedEntity {
-    ecs::Entity entity = {};
-    std::string name = {};
-    DropReason reason = DropReason::non_finite_transform;
-};
 
 /// Persists across frames; extraction applies only changes. Lists are sorted by entity index, so that equal worlds give
 /// equal snapshots.

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/report.h"
 #include "systems/shadow/budget/apply_budget.h"
 #include "systems/shadow/budget/cost_calibration.h"
 #include "systems/shadow/culling/contribution_culling.h"

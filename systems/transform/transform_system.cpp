@@ -6,6 +6,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <optional>
 
+#include "engine/math/aabb.h"
 #include "engine/math/finite.h"
 
 namespace gnomon {

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/rays/mesh_bvh.h"
+#include "gnomon/assets.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::visibility {

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "systems/device_arrays.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/mask_buffer.h"
 #include "systems/extract/ray_masks.h"
 #include "systems/extract/snapshot.h"
 #include "systems/growing_buffer.h"
-#include "systems/report.h"
 #include "systems/retry.h"
 #include "systems/visibility/caster_trees.h"
 #include "systems/visibility/instance_tree.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <string>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "tests/fuzz/gltf_mutator.h"
 
 namespace gnomon::test {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "engine/assets/gltf_limits.h"
+#include "engine/mesh/deformer.h"
 #include "tests/unit/assets/gltf_builder.h"
 
 namespace gnomon::test {

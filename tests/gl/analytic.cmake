@@ -14,5 +14,5 @@ if(GNOMON_SAMPLE)
     shadow_shape_gl_test.cpp
     shadow_shading_gl_test.cpp
     visibility_include_gl_test.cpp
-    LIBRARIES gnomon_sample gnomon_shaders)
+    LIBRARIES gnomon_sample)
 endif()

@@ -22,7 +22,7 @@ constexpr int kFrames = 12, kLostBefore = 7;
 struct Gpu {
     std::unique_ptr<platform::Context> context;
     std::unique_ptr<gl::Device> device;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
 
     static std::optional<Gpu> make(const assets::MeshLibrary& library, const shadow::History& fit_history = {}) {
         Gpu gpu;
@@ -32,7 +32,7 @@ struct Gpu {
         auto device = gl::make_gl45_device({});
         if (!device) return std::nullopt;
         gpu.device = std::move(device).value();
-        auto frame = Frame::create(*gpu.device, library, fit_history);
+        auto frame = FrameSystem::create(*gpu.device, library, fit_history);
         if (!frame) return std::nullopt;
         gpu.frame = std::move(frame).value();
         return gpu;

@@ -4,10 +4,10 @@
 
 #include <cstdlib>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/spawn_scene.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/data/data_files.h"
 #include "tests/gl/gl_test_context.h"
 
@@ -45,9 +45,9 @@ protected:
         ecs::Registry world;
         assets::MeshLibrary library;
         const game::SpawnedScene spawned = game::spawn_scene(std::move(scene), world, library);
-        auto made = Frame::create(device(), library);
+        auto made = FrameSystem::create(device(), library);
         if (!made) return made.error().rule;
-        const std::unique_ptr<Frame> frame = std::move(made).value();
+        const std::unique_ptr<FrameSystem> frame = std::move(made).value();
         game::set_time(spawned, 0.0, world);
         frame->run(world, {.viewport_px = kSize_px, .exposure_ev = {}});
         EXPECT_STREQ(gl::to_text(frame->report().failure), "none") << name;
@@ -64,7 +64,7 @@ protected:
     }
 
 private:
-    bool shows_surface(Frame& frame, const std::string& name) {
+    bool shows_surface(FrameSystem& frame, const std::string& name) {
         const LitTextures lit = lit_textures(frame.commands());
         const auto depth = read<float>(lit.depth, kPixels);
         const auto light = read<std::uint16_t>(lit.light, 4 * kPixels);
@@ -76,7 +76,7 @@ private:
         return seen;
     }
 
-    static void check_visibility(Frame& frame, const std::string& name) {
+    static void check_visibility(FrameSystem& frame, const std::string& name) {
         std::vector<float> values;
         for (std::uint32_t light = 0; light < frame.snapshot().lights.size(); ++light) {
             if (!frame.read_visibility(light, values)) continue;

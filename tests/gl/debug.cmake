@@ -5,5 +5,5 @@ if(GNOMON_SAMPLE)
     debug_lines_gl_test.cpp
     debug_lookups_gl_test.cpp
     frozen_fits_gl_test.cpp
-    LIBRARIES gnomon_sample gnomon_shaders)
+    LIBRARIES gnomon_sample)
 endif()

@@ -7,7 +7,7 @@
 
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/gl/failing_gl.h"
 #include "tests/long_run.h"
 #include "tests/system/fault_scenes.h"
@@ -24,7 +24,7 @@ constexpr std::uint64_t kShortRunCases = 8;  // per fault and span
 
 struct Gpu {
     std::unique_ptr<gl::Device> device;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
 };
 
 class EveryGlCallFails : public ::testing::TestWithParam<GlFault> {
@@ -49,7 +49,7 @@ protected:
         auto device = gl::make_gl45_device({}, {.keeps_state = keeps_state});
         if (!device) return device.error().rule;
         gpu.device = std::move(device).value();
-        auto frame = Frame::create(*gpu.device, *scene.library);
+        auto frame = FrameSystem::create(*gpu.device, *scene.library);
         if (!frame) return frame.error().rule;
         gpu.frame = std::move(frame).value();
         return {};

@@ -6,7 +6,7 @@
 
 #include "gnomon/components.h"
 #include "sample_game/support/built_in_scenes/primitives.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/system/edit_light.h"
 
@@ -77,7 +77,7 @@ protected:
 
     void draw() {
         if (!frame_) {
-            auto made = Frame::create(device(), library);
+            auto made = FrameSystem::create(device(), library);
             ASSERT_TRUE(made) << to_line(made.error());
             frame_ = std::move(made).value();
         }
@@ -85,7 +85,7 @@ protected:
         EXPECT_STREQ(gl::to_text(frame_->report().failure), "none");
     }
 
-    Frame& frame() { return *frame_; }
+    FrameSystem& frame() { return *frame_; }
     std::vector<float> visibility(std::uint32_t light = 0) {
         std::vector<float> values;
         EXPECT_TRUE(frame_->read_visibility(light, values));
@@ -103,7 +103,7 @@ protected:
     FrameSettings settings{.viewport_px = {320, 256}, .exposure_ev = 10.0f, .leave_out_dim_lights = false};
 
 private:
-    std::unique_ptr<Frame> frame_;
+    std::unique_ptr<FrameSystem> frame_;
 };
 
 }  // namespace gnomon

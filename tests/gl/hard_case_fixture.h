@@ -1,5 +1,5 @@
 #pragma once
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/gl/gl_test_context.h"
 #include "tests/stability/hard_cases.h"
 
@@ -18,7 +18,7 @@ protected:
     /// A new frame of the world; the one before is gone.
     void draw(World& world, int frames = kSettlingFrames) {
         frame_.reset();
-        auto made = Frame::create(device(), world.library);
+        auto made = FrameSystem::create(device(), world.library);
         ASSERT_TRUE(made) << to_line(made.error());
         frame_ = std::move(made).value();
         for (int i = 0; i < frames; ++i) draw_again(world);
@@ -35,12 +35,12 @@ protected:
         EXPECT_TRUE(frame_->read_visibility(light, values));
         return values;
     }
-    Frame& frame() { return *frame_; }
+    FrameSystem& frame() { return *frame_; }
     const SceneSnapshot& scene() const { return frame_->snapshot(); }
     const FrameReport& report() const { return frame_->report(); }
 
 private:
-    std::unique_ptr<Frame> frame_;
+    std::unique_ptr<FrameSystem> frame_;
 };
 
 }  // namespace gnomon::hard

@@ -21,7 +21,7 @@ protected:
         scene.reset();
         FrameTest::TearDown();
     }
-    /// As Frame::run(), with inputs as they were published.
+    /// As FrameSystem::run(), with inputs as they were published.
     void run() {
         if (!scene) {
             auto made = GpuScene::create(device(), library);

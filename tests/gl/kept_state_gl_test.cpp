@@ -255,10 +255,10 @@ protected:
     };
     Pictures play(gl::Device& on) {
         Pictures pictures;
-        auto made = Frame::create(on, library);
+        auto made = FrameSystem::create(on, library);
         EXPECT_TRUE(made) << to_line(made.error());
         if (!made) return pictures;
-        Frame& frame = *made.value();
+        FrameSystem& frame = *made.value();
         for (int i = 0; i < 4; ++i) {
             on.set_timing(i % 2 == 0 ? gl::TimingMode::query : gl::TimingMode::finish);
             world.patch<Transform>(moving, [&](Transform& at) { at.translation_m.x = -1.5 + 0.2 * i; });

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <ostream>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "tests/gl/traced_frame_fixture.h"

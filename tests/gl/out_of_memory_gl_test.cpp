@@ -9,7 +9,7 @@
 #include "engine/gl/device_gl45.h"
 #include "engine/platform/context.h"
 #include "gnomon/components.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "tests/system/test_world.h"
 
@@ -41,7 +41,7 @@ bool lift_limit() {
 struct Child {
     TestWorld world;
     std::vector<ecs::Entity> lights;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
 
     bool deliver() {
         std::vector<std::uint8_t> picture;
@@ -78,7 +78,7 @@ struct Child {
     auto device = gl::make_gl45_device({});
     if (!device || !device.value()->info().is_software) quit(2, "no software device");
     const assets::MeshLibrary library = test_library();
-    auto made = Frame::create(*device.value(), library);
+    auto made = FrameSystem::create(*device.value(), library);
     if (!made) quit(2, "no frame");
     Child child;
     child.frame = std::move(made).value();

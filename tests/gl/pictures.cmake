@@ -4,7 +4,7 @@ if(GNOMON_SAMPLE)
     parallel_light_gl_test.cpp
     picture_scale_gl_test.cpp
     unlit_gl_test.cpp
-    LIBRARIES gnomon_sample gnomon_shaders)
+    LIBRARIES gnomon_sample)
 endif()
 # An engine that shares its context with Gnomon.
 if(GNOMON_SAMPLE)
@@ -13,8 +13,9 @@ if(GNOMON_SAMPLE)
     kept_state_gl_test.cpp
     manners_cost_gl_test.cpp
     manners_gl_test.cpp
+    public_frame_gl_test.cpp
     spied_gl.cpp
     unusual_gl_state.cpp
     ../unit/allocation_counter.cpp
-    LIBRARIES gnomon_sample gnomon_shaders PkgConfig::EPOXY)
+    LIBRARIES gnomon_sample PkgConfig::EPOXY)
 endif()

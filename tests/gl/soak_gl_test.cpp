@@ -25,7 +25,7 @@ protected:
 
     void SetUp() override {
         GlTest::SetUp();
-        auto made = Frame::create(device(), library);
+        auto made = FrameSystem::create(device(), library);
         ASSERT_TRUE(made) << to_line(made.error());
         frame = std::move(made).value();
     }
@@ -52,7 +52,7 @@ protected:
 
     const assets::MeshLibrary library = test_library();
     SoakWorld world{print_seed()};
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
     int failures = 0;
 };
 

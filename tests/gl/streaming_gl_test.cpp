@@ -62,7 +62,7 @@ protected:
         std::vector<std::vector<float>> visibilities;
         bool operator==(const Seen&) const = default;
     };
-    Seen see(Frame& frame) const {
+    Seen see(FrameSystem& frame) const {
         Seen seen;
         EXPECT_TRUE(frame.read_picture(seen.picture));
         for (std::uint32_t light = 0; light < frame.snapshot().lights.size(); ++light)
@@ -110,7 +110,7 @@ TEST_F(StreamingPictures, AreThoseOfASceneMadeAtOnce) {
     const Seen lived = see(frame());
 
     const auto draw_at_once = [&](const assets::MeshLibrary& of) {
-        auto fresh = Frame::create(device(), of, frame().fit_history());
+        auto fresh = FrameSystem::create(device(), of, frame().fit_history());
         EXPECT_TRUE(fresh);
         for (int f = 0; f < 4; ++f) fresh.value()->run(world, settings);
         return see(*fresh.value());

@@ -1,7 +1,7 @@
 #pragma once
 #include <sstream>
 
-#include "engine/assets/mesh_topology.h"
+#include "engine/mesh/mesh_topology.h"
 #include "tests/gl/frame_fixture.h"
 #include "tests/oracle/metrics.h"
 #include "tests/oracle/reference_tracer.h"

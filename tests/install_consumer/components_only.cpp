@@ -1,6 +1,6 @@
-#include "gnomon/components.h"
-#include "gnomon/light.h"
-#include "gnomon/shadow_tuning.h"
+#include <gnomon/components.h>
+#include <gnomon/light.h>
+#include <gnomon/shadow_tuning.h>
 
 int main() {
     const gnomon::LightShadow shadow;

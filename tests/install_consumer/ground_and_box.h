@@ -1,7 +1,7 @@
 #pragma once
-#include <cstdint>
+#include <gnomon/assets.h>
 
-#include "engine/assets/mesh_library.h"
+#include <cstdint>
 
 /// What all of the stranger's programs draw: a square of 8 m at y = 0, and a box of 1 m around its origin.
 inline constexpr std::uint32_t kGroundMesh = 0, kBoxMesh = 1;

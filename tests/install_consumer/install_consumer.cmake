@@ -13,6 +13,12 @@ if(GNOMON_INSTALL AND NOT GNOMON_SANITIZE)
             -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}> -DPYTHON=${Python3_EXECUTABLE}
             -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/core/build_and_run.cmake)
   set_tests_properties(Package.CoreIsFoundWithGlmAlone PROPERTIES LABELS e2e TIMEOUT 300)
+  add_test(NAME Package.PartsBringNoOthersLibraries
+    COMMAND ${CMAKE_COMMAND} -DBUILD=${PROJECT_BINARY_DIR} -DSOURCE=${PROJECT_SOURCE_DIR}
+            -DWORK=${CMAKE_CURRENT_BINARY_DIR}/parts_consumer -DCOMPILER=${CMAKE_CXX_COMPILER}
+            -DLAUNCHER=$<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>
+            -P ${PROJECT_SOURCE_DIR}/tests/install_consumer/parts/build_and_run.cmake)
+  set_tests_properties(Package.PartsBringNoOthersLibraries PROPERTIES LABELS e2e TIMEOUT 300)
   add_test(NAME Package.ExamplesRunAgainstTheInstalledCopy
     COMMAND Python3::Interpreter ${CMAKE_CURRENT_LIST_DIR}/examples/run_examples.py ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}
             ${CMAKE_CURRENT_BINARY_DIR}/examples_consumer ${CMAKE_CXX_COMPILER} $<$<BOOL:${GNOMON_CCACHE}>:${GNOMON_CCACHE}>)

@@ -1,7 +1,7 @@
 #pragma once
 #include <glm/vec2.hpp>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::oracle {
 

@@ -2,7 +2,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "systems/extract/snapshot.h"
 
 namespace gnomon::oracle {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "systems/extract/snapshot.h"
 
 /// Ray-traced truth about shadows, from the same world the pictures are made from.

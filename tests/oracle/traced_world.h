@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "systems/extract/snapshot.h"
 #include "tests/oracle/embree.h"
 #include "tests/oracle/reference_tracer.h"

@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/system/test_world.h"
 
 namespace gnomon {

@@ -3,8 +3,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <memory>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/gl/device_recording.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 #include "gnomon/light.h"
 #include "gnomon/registry.h"

@@ -8,12 +8,12 @@
 
 #include "engine/math/frustum.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
-#include "tests/oracle/fit_stages.h"
 #include "systems/shadow/projection/sun_viewpoint.h"
 #include "systems/shadow/request/decide_requests.h"
 #include "systems/shadow/request/light_kinds.h"
 #include "tests/long_run.h"
 #include "tests/oracle/fit_oracle.h"
+#include "tests/oracle/fit_stages.h"
 #include "tests/unit/math/random_seed.h"
 
 /// Random fits by the hundred thousand, judged point by point in long double. 20 000 of each kind in a short run, 300 000

@@ -5,7 +5,7 @@
 #include <optional>
 #include <set>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/extract.h"
 #include "systems/shadow/fitting/directional/slice_sphere.h"

@@ -130,9 +130,9 @@ TEST_F(BadEntities, OfMoreThanTheDeviceReadsAsTexelsAsManyAreDrawnAsItDoes) {
     for (const std::uint32_t slots : {600u, 1024u}) {
         info.max_texel_bytes = slots * sizeof(InstanceRecord);
         gl::RecordingDevice few(info);
-        auto made = Frame::create(few, library);
+        auto made = FrameSystem::create(few, library);
         ASSERT_TRUE(made);
-        const std::unique_ptr<Frame> own = std::move(made).value();
+        const std::unique_ptr<FrameSystem> own = std::move(made).value();
         for (int i = 0; i < 2; ++i) own->run(world.registry, settings);
         std::uint32_t drawn = 0, buffers = 0;
         for (const Pass& p : passes_of(own->commands(), few))
@@ -287,7 +287,7 @@ TEST_F(OddWorlds, AnEmptyLibraryIsNoReasonToFail) {
     gl::RecordingDevice bare;
     {
         const assets::MeshLibrary nothing;
-        auto made = Frame::create(bare, nothing);
+        auto made = FrameSystem::create(bare, nothing);
         ASSERT_TRUE(made);
         world.add_stage();
         made.value()->run(world.registry, settings);

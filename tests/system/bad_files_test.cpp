@@ -7,7 +7,7 @@
 
 #include "engine/gl/device_recording.h"
 #include "sample_game/support/scene/spawn_scene.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "systems/lighting/kept_visibility.h"
 #include "tests/unit/assets/bad_input.h"
 
@@ -37,7 +37,7 @@ protected:
         frame_.reset();
         world_ = ecs::Registry();
         game::spawn_scene(std::move(scene).value(), world_, library_);
-        auto made = Frame::create(device_, library_);
+        auto made = FrameSystem::create(device_, library_);
         if (!made) return false;
         frame_ = std::move(made).value();
         return true;
@@ -48,7 +48,7 @@ protected:
     gl::RecordingDevice device_;
     ecs::Registry world_;
     assets::MeshLibrary library_;
-    std::unique_ptr<Frame> frame_;
+    std::unique_ptr<FrameSystem> frame_;
 };
 
 TEST_F(ShownWorld, StaysAsItIsWhenAnyBadFileIsRefused) {

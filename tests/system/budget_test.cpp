@@ -11,7 +11,7 @@
 #include "gnomon/components.h"
 #include "gnomon/light.h"
 #include "sample_game/support/scene/spawn_scene.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/system/timed_device.h"
 
 /// The level of ./gnomon bench demand, 200 shadowed lights in it, within a budget.
@@ -33,7 +33,7 @@ bool is_shed(const LightReport& light) {
 struct Level {
     explicit Level(TimedDevice& on, std::uint32_t lights = 200) : device(on) {
         spawned = game::spawn_scene(bench::demand_scene(lights, kSeed), world, library);
-        frame = std::move(Frame::create(device, library)).value();
+        frame = std::move(FrameSystem::create(device, library)).value();
         camera = spawned.cameras.front().entity;
         settings.shadow_budget = {kBytes, kGpu_ms};
     }
@@ -63,7 +63,7 @@ struct Level {
     ecs::Registry world;
     game::SpawnedScene spawned;
     ecs::Entity camera;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
     FrameSettings settings{.viewport_px = {1280, 720}, .exposure_ev = 5.0f};
 };
 

@@ -192,7 +192,7 @@ TEST_F(CommandListTest, TheSameWorldGivesTheSameListOnAFreshDevice) {
         same.add_camera({0, 4, 8}, {0, 0, 0});
         const ecs::Entity lamp = same.add_light(LightKind::spot, kLightPlace_m, "lamp");
         same.registry.patch<LightShadow>(lamp, [](LightShadow& s) { s.resolution_px = kMap_px; });
-        auto again = Frame::create(other, library);
+        auto again = FrameSystem::create(other, library);
         ASSERT_TRUE(again);
         again.value()->run(same.registry, settings);
         EXPECT_EQ(again.value()->commands(), first);

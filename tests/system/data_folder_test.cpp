@@ -2,17 +2,17 @@
 // write where it should not; without them, nothing may be misused or left behind.
 #include <gtest/gtest.h>
 
-#include "engine/assets/gltf_loader.h"
 #include "engine/gl/device_recording.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/scene/node_motion.h"
 #include "sample_game/support/scene/spawn_scene.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/data/data_files.h"
 
 namespace gnomon::test {
 namespace {
 
-std::size_t placed_triangles(const Frame& frame, const assets::MeshLibrary& library) {
+std::size_t placed_triangles(const FrameSystem& frame, const assets::MeshLibrary& library) {
     std::size_t triangles = 0;
     for (const InstanceItem& item : frame.snapshot().instances)
         if (item.visible) triangles += library.meshes[item.mesh].indices.size() / 3;
@@ -28,12 +28,12 @@ std::size_t run_frames(assets::SceneData scene, const std::string& name) {
     gl::RecordingDevice device;
     std::size_t triangles = 0;
     {
-        auto made = Frame::create(device, library);
+        auto made = FrameSystem::create(device, library);
         if (!made) {
             ADD_FAILURE() << name << ": " << to_line(made.error());
             return 0;
         }
-        const std::unique_ptr<Frame> frame = std::move(made).value();
+        const std::unique_ptr<FrameSystem> frame = std::move(made).value();
         for (const double time_s : {0.0, kLater_s}) {
             game::set_time(spawned, time_s, world);
             frame->run(world, {.viewport_px = {96, 54}, .exposure_ev = {}});

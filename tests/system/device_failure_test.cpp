@@ -54,7 +54,7 @@ public:
 class DeviceFailure : public ::testing::TestWithParam<LightKind> {
 protected:
     void SetUp() override {
-        auto made = Frame::create(device, library);
+        auto made = FrameSystem::create(device, library);
         ASSERT_TRUE(made);
         frame = std::move(made).value();
         stage = world.add_stage();
@@ -107,7 +107,7 @@ protected:
     TestWorld world;
     TestWorld::Stage stage;
     ecs::Entity lamp;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
     FrameSettings settings{{640, 360}, {}, true, false};
 };
 
@@ -240,7 +240,7 @@ TEST_P(DeviceFailure, BuffersOfTheDepthPassesThatFailLeaveTheLightLit) {
         EXPECT_CALL(device, create_buffer(Field(&gl::BufferDesc::label, label), _))
             .WillRepeatedly(refusal<gl::BufferHandle>(gl::Failure::out_of_memory));
         frame.reset();
-        frame = std::move(Frame::create(device, library)).value();
+        frame = std::move(FrameSystem::create(device, library)).value();
         step();
         expect_lit(Reason::buffer_failed);
         EXPECT_THAT(depth_passes(), IsEmpty());

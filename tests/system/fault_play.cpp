@@ -66,7 +66,7 @@ FaultPlay::FaultPlay(FaultScene scene) : scene_(std::move(scene)) {
                 calls_.push_back({frame, call.kind == Kind::submit, call.kind == Kind::read_buffer, call.label});
         host.device->forget();
     };
-    auto made = Frame::create(*host.device, *scene_.library);
+    auto made = FrameSystem::create(*host.device, *scene_.library);
     EXPECT_TRUE(made);
     host.frame = std::move(made).value();
     note_calls(-1);
@@ -78,13 +78,13 @@ FaultPlay::FaultPlay(FaultScene scene) : scene_(std::move(scene)) {
 
 /// False: refused. Then nothing may be left behind; the host tries again when the fault is over.
 bool FaultPlay::set_up(Host& host, const Fault& fault) {
-    auto made = Frame::create(*host.device, *scene_.library);
+    auto made = FrameSystem::create(*host.device, *scene_.library);
     if (!made) {
         EXPECT_EQ(made.error().rule, "gpu.scene");
         EXPECT_EQ(host.device->live_count(), 0u);
         if (fault.failure == gl::Failure::context_lost) host.device = std::make_unique<gl::RecordingDevice>();
         host.device->stop_failing();
-        made = Frame::create(*host.device, *scene_.library);
+        made = FrameSystem::create(*host.device, *scene_.library);
         if (!made) ADD_FAILURE() << "set-up fails without a fault: " << to_line(made.error());
         if (made) host.frame = std::move(made).value();
         return false;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/gl/device_recording.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "tests/system/fault_scenes.h"
 
 namespace gnomon {
@@ -56,7 +56,7 @@ private:
     /// A device and what lives on it.
     struct Host {
         std::unique_ptr<gl::RecordingDevice> device = std::make_unique<gl::RecordingDevice>();
-        std::unique_ptr<Frame> frame;
+        std::unique_ptr<FrameSystem> frame;
     };
 
     bool set_up(Host& host, const Fault& fault);

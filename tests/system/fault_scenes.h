@@ -2,7 +2,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/registry.h"
 
 namespace gnomon {

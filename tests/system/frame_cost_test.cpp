@@ -1,6 +1,6 @@
 #include <functional>
 
-#include "engine/assets/mesh_shape.h"
+#include "engine/mesh/mesh_shape.h"
 #include "gnomon/components.h"
 #include "systems/shadow/request/filter_table.h"
 #include "tests/system/frame_fixture.h"
@@ -53,7 +53,7 @@ template <class Edit>
 std::size_t allocations_when_warm(std::initializer_list<LightKind> kinds, const FrameSettings& settings, Edit edit,
                                   const assets::MeshLibrary& library = test_library(), int frames = 8) {
     SilentDevice silent;
-    auto made = Frame::create(silent, library);
+    auto made = FrameSystem::create(silent, library);
     if (!made) return ~std::size_t{0};
     TestWorld world;
     const TestWorld::Stage parts = world.add_stage();

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "systems/shadow/maps/map_cache.h"
 #include "tests/system/passes.h"
 #include "tests/system/test_world.h"
@@ -21,7 +21,7 @@ protected:
         for (const gl::Finding& f : device.findings()) ADD_FAILURE() << gl::to_text(f.misuse) << ": " << f.detail;
     }
     void start() {
-        auto made = Frame::create(device, library);
+        auto made = FrameSystem::create(device, library);
         ASSERT_TRUE(made) << to_line(made.error());
         frame = std::move(made).value();
     }
@@ -65,7 +65,7 @@ protected:
     gl::RecordingDevice device;
     assets::MeshLibrary library = test_library();
     TestWorld world;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
     static inline const FrameSettings kSettings{{640, 360}, {}, true, false};
     FrameSettings settings = kSettings;
 };

@@ -42,7 +42,7 @@ TEST_F(OtherReaders, FindTheirChangesWhateverFramesRanMeanwhile) {
 TEST_F(OtherReaders, MayBeASecondFrameOfTheSameWorld) {
     const TestWorld::Stage stage = world.add_stage();
     world.add_light(LightKind::spot, kLightPlace_m, "lamp");
-    auto second = Frame::create(device, library);
+    auto second = FrameSystem::create(device, library);
     ASSERT_TRUE(second);
     for (int i = 0; i < 3; ++i) {
         step();
@@ -53,7 +53,7 @@ TEST_F(OtherReaders, MayBeASecondFrameOfTheSameWorld) {
         world.move(stage.box, {0.1 * i, 1, 0});
         step();
         second.value()->run(world.registry, settings);
-        for (const Frame* of : {frame.get(), second.value().get()}) {
+        for (const FrameSystem* of : {frame.get(), second.value().get()}) {
             const std::vector<InstanceItem>& items = of->snapshot().instances;
             const auto box = std::find_if(items.begin(), items.end(),
                                           [&](const InstanceItem& item) { return item.entity == stage.box; });
@@ -126,7 +126,7 @@ protected:
 
     void SetUp() override {
         world.add_stage();
-        auto made = Frame::create(device, library);
+        auto made = FrameSystem::create(device, library);
         ASSERT_TRUE(made);
         frame = std::move(made).value();
     }
@@ -147,7 +147,7 @@ protected:
     Device device;
     assets::MeshLibrary library = test_library();
     TestWorld world;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
 };
 
 TEST_F(LateTimers, GoToTheLightThatWasMeasuredWhenAnotherHasItsIndex) {

@@ -1,4 +1,4 @@
-#include "engine/assets/mesh_topology.h"
+#include "engine/mesh/mesh_topology.h"
 #include "engine/rays/mesh_bvh.h"
 #include "gnomon/components.h"
 #include "tests/system/frame_fixture.h"
@@ -251,7 +251,7 @@ TEST_F(LivingCasters, NobodyElsePaysForThem) {
     const assets::MeshLibrary plain = test_library();
     gl::RecordingDevice other;
     {
-        auto made = Frame::create(other, plain);
+        auto made = FrameSystem::create(other, plain);
         ASSERT_TRUE(made);
         TestWorld still;
         still.add_stage();
@@ -268,7 +268,7 @@ TEST_F(LivingCasters, NobodyElsePaysForThem) {
             gl::RecordingDevice third;
             assets::MeshLibrary bending = test_library();
             bending.meshes[kSolidBox].deformer = two_joints(bending.meshes[kSolidBox]);
-            auto with = Frame::create(third, bending);
+            auto with = FrameSystem::create(third, bending);
             with.value()->run(still.registry, settings);
             EXPECT_EQ(gl::to_text(with.value()->commands()), gl::to_text(made.value()->commands()));
             return third.live_bytes();

@@ -8,7 +8,7 @@
 #include "gnomon/components.h"
 #include "sample_game/support/scene/spawn_scene.h"
 #include "systems/extract/volumes.h"
-#include "systems/frame.h"
+#include "systems/frame_system.h"
 #include "systems/shadow/culling/receiver_caster_sets.h"
 #include "systems/shadow/projection/screen_bounds.h"
 #include "systems/shadow/publish/publish_lights.h"
@@ -28,7 +28,7 @@ protected:
 
     void SetUp() override {
         spawned = game::spawn_scene(bench::demand_scene(kLights, kSeed), world, library);
-        auto made = Frame::create(device, library);
+        auto made = FrameSystem::create(device, library);
         ASSERT_TRUE(made);
         frame = std::move(made).value();
     }
@@ -98,7 +98,7 @@ protected:
     ecs::Registry world;
     assets::MeshLibrary library;
     game::SpawnedScene spawned;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
 };
 
 TEST_F(ManyLights, HaveViewsAndPassesAsFarAsTheyAreSeenAndNoMore) {

@@ -15,7 +15,8 @@ public:
     using Label = std::vector<std::string>;
 
     /// Of thousands of pictures of the panel none is kept: `device` forgets them once nothing in them was misused.
-    PanelHand(game::GameWorld& world, Frame& frame, game::Gui& gui, gl::RecordingDevice& device, glm::uvec2 size_px)
+    PanelHand(game::GameWorld& world, FrameSystem& frame, game::Gui& gui, gl::RecordingDevice& device,
+              glm::uvec2 size_px)
         : world_(world), frame_(frame), gui_(gui), device_(device), size_px_(size_px) {}
 
     /// False: it is not in the panel, or lies where no mouse comes to.
@@ -35,7 +36,7 @@ private:
     std::optional<Row> find(const Label& label);
 
     game::GameWorld& world_;
-    Frame& frame_;
+    FrameSystem& frame_;
     game::Gui& gui_;
     gl::RecordingDevice& device_;
     glm::uvec2 size_px_;

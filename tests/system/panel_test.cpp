@@ -20,7 +20,7 @@ protected:
         auto scene = game::load_scene({});
         ASSERT_TRUE(scene) << to_line(scene.error());
         world.scene = game::spawn_scene(std::move(scene).value(), world.registry, world.library);
-        auto made = Frame::create(device, world.library);
+        auto made = FrameSystem::create(device, world.library);
         ASSERT_TRUE(made) << to_line(made.error());
         frame = std::move(made).value();
         auto gui_made = game::Gui::create(device);
@@ -69,7 +69,7 @@ protected:
     gl::RecordingDevice device;
     game::GameWorld world;
     FrameSettings settings;
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
     std::unique_ptr<game::Gui> gui;
     std::optional<PanelHand> hand;
 };

@@ -71,7 +71,7 @@ protected:
     }
     std::uint64_t first_call(Kind kind, const std::string& label) const {
         gl::RecordingDevice other;
-        auto made = Frame::create(other, library);
+        auto made = FrameSystem::create(other, library);
         TestWorld same;
         same.add_stage();
         shadowed(same, LightKind::spot);

@@ -28,7 +28,7 @@ constexpr std::size_t kMostGrowth_bytes = 1u << 20;
 class Soak : public ::testing::Test {
 protected:
     void SetUp() override {
-        auto made = Frame::create(device, library);
+        auto made = FrameSystem::create(device, library);
         ASSERT_TRUE(made) << to_line(made.error());
         frame = std::move(made).value();
     }
@@ -59,7 +59,7 @@ protected:
     gl::RecordingDevice device;
     const assets::MeshLibrary library = test_library();
     SoakWorld world{print_seed()};
-    std::unique_ptr<Frame> frame;
+    std::unique_ptr<FrameSystem> frame;
     std::size_t created = 0, steps = 0, empty_frames = 0;
     std::uint64_t drawn_views = 0;
 };

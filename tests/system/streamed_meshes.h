@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <random>
 
+#include "engine/math/aabb.h"
 #include "tests/system/test_world.h"
 
 namespace gnomon {

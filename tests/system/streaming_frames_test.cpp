@@ -215,7 +215,7 @@ struct Allocations {
 Allocations allocations_with(std::uint32_t residents, ShadowFilter filter) {
     SilentDevice silent;
     assets::MeshLibrary library = test_library();
-    auto made = Frame::create(silent, library);
+    auto made = FrameSystem::create(silent, library);
     TestWorld world;
     world.add_mesh(kPlane, {}, false);
     world.add_camera({0, 16, 6}, {0, 0, 0});

@@ -31,7 +31,7 @@ constexpr const char* kMeshBuffers[] = {"scene vertices", "scene indices", "tria
 
 /// A device with a frame, and the world that it shows: some meshes that stay, lamps over these, and lamps elsewhere.
 struct Streamed {
-    Streamed() : made(Frame::create(device, library)) {}
+    Streamed() : made(FrameSystem::create(device, library)) {}
     ~Streamed() {
         made.value().reset();
         device.check_leaks();
@@ -98,7 +98,7 @@ struct Streamed {
     TestWorld world;
     std::vector<assets::Mesh> residents;
     ecs::Entity mover;
-    Result<std::unique_ptr<Frame>> made;
+    Result<std::unique_ptr<FrameSystem>> made;
 };
 
 TEST(StreamingSoak, AThousandMeshesComeAndGoAndLeaveNothingBehind) {

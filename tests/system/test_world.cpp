@@ -5,7 +5,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "engine/assets/mesh_topology.h"
+#include "engine/math/aabb.h"
+#include "engine/mesh/mesh_topology.h"
 #include "gnomon/components.h"
 
 namespace gnomon {

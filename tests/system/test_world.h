@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 #include "tests/system/edit_light.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/assets/animation.h"
+#include "gnomon/assets.h"
 #include "gnomon/registry.h"
 #include "gnomon/result.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 #include "gnomon/registry.h"
 

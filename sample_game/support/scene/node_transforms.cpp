@@ -2,6 +2,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "engine/mesh/deformer.h"
+
 namespace gnomon::game {
 
 std::vector<WorldTransform> world_poses(const assets::SceneData& scene) {

@@ -2,8 +2,8 @@
 #include <optional>
 #include <vector>
 
-#include "engine/assets/scene_data.h"
 #include "engine/math/aabb.h"
+#include "gnomon/assets.h"
 #include "gnomon/components.h"
 
 namespace gnomon::game {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/built_in_scenes/courtyard/courtyard.h"
 #include "sample_game/support/built_in_scenes/spheres.h"
 #include "sample_game/support/built_in_scenes/valley/valley.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 #include "gnomon/result.h"
 #include "sample_game/support/scene/spawn_scene.h"
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
+#include "gnomon/frame.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/report.h"
 #include "systems/shadow/budget/allocate_quality.h"
 #include "systems/shadow/frame/budget_decision.h"
 #include "systems/shadow/frame/drawn_views.h"

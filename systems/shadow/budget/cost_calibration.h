@@ -4,8 +4,8 @@
 #include <span>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "systems/frame_timers.h"
-#include "systems/report.h"
 #include "systems/shadow/budget/cost_model.h"
 #include "systems/shadow/frame/budget_decision.h"
 #include "systems/shadow/frame/lighting_inputs.h"

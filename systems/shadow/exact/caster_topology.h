@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "engine/assets/surface_edges.h"
+#include "engine/mesh/surface_edges.h"
 #include "systems/extract/gpu_scene.h"
 
 /// Surfaces of meshes as conservative maps need them (docs/exact.md): facets, and the edges at which a surface can end

@@ -1,5 +1,5 @@
 #pragma once
-#include "systems/report.h"
+#include "gnomon/frame.h"
 
 namespace gnomon::shadow {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/gl/commands.h"
+#include "gnomon/frame.h"
 #include "gnomon/light.h"
-#include "systems/report.h"
 #include "systems/shadow/frame/shader_key.h"
 #include "systems/shadow/frame/view_limits.h"
 #include "systems/visibility/ray_records.h"

@@ -4,9 +4,9 @@
 #include <span>
 
 #include "engine/gl/commands.h"
+#include "gnomon/frame.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/report.h"
 #include "systems/shadow/frame/drawn_views.h"
 
 namespace gnomon::shadow {

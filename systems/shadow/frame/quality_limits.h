@@ -2,15 +2,9 @@
 #include <cstdint>
 #include <limits>
 
-namespace gnomon::shadow {
+#include "gnomon/frame.h"
 
-/// Limits on all shadows together (docs/economy.md, "Budgets"). 0, negative or NaN: no limit.
-struct ShadowBudget {
-    std::uint64_t bytes = 0;  // GPU memory of all lights: maps, triangles, moments, copies
-    float gpu_ms = 0.0f;      // GPU time per frame for drawing maps and looking them up
-    std::uint64_t rays = 0;   // predicted rays per frame of lights that use rays (request/ray_limit.h)
-    bool operator==(const ShadowBudget&) const = default;
-};
+namespace gnomon::shadow {
 
 /// Quality limits that a budget sets on one light. The default sets none.
 struct QualityLimits {

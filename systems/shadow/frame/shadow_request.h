@@ -3,8 +3,8 @@
 #include <glm/vec4.hpp>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "gnomon/light.h"
-#include "systems/report.h"
 #include "systems/shadow/frame/fit_history.h"
 
 namespace gnomon::shadow {

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/gl/device.h"
+#include "gnomon/frame.h"
 #include "systems/extract/snapshot.h"
 #include "systems/frame_timers.h"
-#include "systems/report.h"
 
 namespace gnomon::shadow {
 

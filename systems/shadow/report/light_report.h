@@ -1,6 +1,6 @@
 #pragma once
+#include "gnomon/frame.h"
 #include "systems/extract/snapshot.h"
-#include "systems/report.h"
 #include "systems/shadow/culling/contribution_culling.h"
 #include "systems/shadow/frame/drawn_views.h"
 #include "systems/shadow/maps/map_cache.h"

@@ -1,5 +1,5 @@
 #pragma once
-#include "systems/report.h"
+#include "gnomon/frame.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 
 namespace gnomon::shadow {

@@ -76,7 +76,7 @@ def add_late_start(examples):
         raise Wrong("streaming.cpp sets its way %d times" % count)
     (examples / "streaming_late.cpp").write_text(late, encoding="utf-8")
     with open(examples / "CMakeLists.txt", "a", encoding="utf-8") as file:
-        file.write("gnomon_example(streaming_late Gnomon::systems Gnomon::window PkgConfig::EPOXY)\n")
+        file.write("gnomon_example(streaming_late Gnomon::shadows Gnomon::window PkgConfig::EPOXY)\n")
 
 
 def draw(program, picture, *flags, wrapper=(), frames=None):

@@ -1,5 +1,5 @@
 // Keys as functions of time, against formulas written out here.
-#include "engine/assets/animation.h"
+#include "gnomon/assets.h"
 
 #include <gtest/gtest.h>
 

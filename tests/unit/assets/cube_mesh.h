@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets {
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "tests/data/data_files.h"
 
 namespace gnomon::test {

@@ -1,5 +1,5 @@
 // Bent meshes against another evaluation, in long double and point by point; and the boxes that must hold them.
-#include "engine/assets/deformer.h"
+#include "engine/mesh/deformer.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <limits>
 #include <random>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 #include "tests/unit/math/random_seed.h"
 
 namespace gnomon::assets {

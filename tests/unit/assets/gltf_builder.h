@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::test {
 

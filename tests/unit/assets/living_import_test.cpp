@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/mesh/deformer.h"
 #include "tests/unit/assets/gltf_builder.h"
 
 namespace gnomon::test {

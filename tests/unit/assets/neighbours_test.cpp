@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "engine/assets/mesh_topology.h"
+#include "engine/mesh/mesh_topology.h"
 #include "tests/unit/assets/cube_mesh.h"
 
 namespace gnomon::test {

@@ -1,4 +1,4 @@
-#include "engine/assets/surface_edges.h"
+#include "engine/mesh/surface_edges.h"
 
 #include <gmock/gmock.h>
 

@@ -9,19 +9,27 @@
 #include <map>
 #include <random>
 
-#include "engine/assets/mesh_topology.h"
+#include "engine/assets/openmesh_parts.h"
+#include "engine/mesh/mesh_topology.h"
 #include "tests/unit/assets/cube_mesh.h"
 
 namespace gnomon::test {
 namespace {
 
-using assets::analyse_topology;
 using assets::fill_normals;
 using assets::kCorners;
 using assets::kCubeFaces;
 using assets::Mesh;
 using assets::mesh_of;
 using assets::Topology;
+
+/// Analyses the mesh in both ways, which have to agree.
+Topology topology_of(const Mesh& mesh) {
+    const Topology own = assets::analyse_topology(mesh);
+    const Topology by_openmesh = assets::analyse_topology(mesh, assets::openmesh_parts);
+    EXPECT_EQ(own, by_openmesh);
+    return own;
+}
 
 Mesh cube() { return mesh_of(kCorners, kCubeFaces); }
 
@@ -48,7 +56,7 @@ Mesh joined(const Mesh& a, const Mesh& b, const glm::vec3& offset) {
 }
 
 TEST(Topology, CallsACubeClosed) {
-    const Topology topology = analyse_topology(cube());
+    const Topology topology = topology_of(cube());
     EXPECT_TRUE(topology.closed);
     EXPECT_EQ(topology.boundary_edges, 0U);
     EXPECT_EQ(topology.non_manifold_edges, 0U);
@@ -59,13 +67,13 @@ TEST(Topology, CallsACubeClosed) {
 TEST(Topology, OpensACubeWhenOneFaceIsTakenAway) {
     Mesh mesh = cube();
     mesh.indices.resize(mesh.indices.size() - 3);
-    const Topology topology = analyse_topology(mesh);
+    const Topology topology = topology_of(mesh);
     EXPECT_FALSE(topology.closed);
     EXPECT_EQ(topology.boundary_edges, 3U);
 }
 
 TEST(Topology, WeldsVerticesWithIdenticalPositionBits) {
-    const Topology topology = analyse_topology(split(cube()));
+    const Topology topology = topology_of(split(cube()));
     EXPECT_TRUE(topology.closed);
     EXPECT_EQ(topology.components, 1U);
 }
@@ -76,28 +84,27 @@ TEST(Topology, TakesMinusZeroAndZeroForTheSame) {
         glm::vec3& p = mesh.vertices[i].position_ms;
         for (int axis = 0; axis < 3; ++axis) p[axis] = p[axis] == 0.0F ? -0.0F : p[axis];
     }
-    EXPECT_TRUE(analyse_topology(mesh).closed);
+    EXPECT_TRUE(topology_of(mesh).closed);
 }
 
 TEST(Topology, DoesNotWeldPositionsThatDifferByOneBit) {
     Mesh mesh = split(cube());
     mesh.vertices[1].position_ms.y = std::nextafter(mesh.vertices[1].position_ms.y, 2.0F);
-    const Topology topology = analyse_topology(mesh);
+    const Topology topology = topology_of(mesh);
     EXPECT_FALSE(topology.closed);
     EXPECT_EQ(topology.boundary_edges, 4U) << "two edges of the moved face, two of its neighbours";
 }
 
 TEST(Topology, CountsTheBoundaryOfAnOpenQuad) {
-    const Topology topology =
-        analyse_topology(mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3}));
+    const Topology topology = topology_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {0, 1, 2, 0, 2, 3}));
     EXPECT_FALSE(topology.closed);
     EXPECT_EQ(topology.boundary_edges, 4U);
     EXPECT_EQ(topology.components, 1U);
 }
 
 TEST(Topology, CountsAFinAsOneNonManifoldEdge) {
-    const Topology topology = analyse_topology(
-        mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {0, 1, 2, 1, 0, 3, 0, 1, 4}));
+    const Topology topology =
+        topology_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}}, {0, 1, 2, 1, 0, 3, 0, 1, 4}));
     EXPECT_EQ(topology.non_manifold_edges, 1U);
     EXPECT_EQ(topology.boundary_edges, 6U);
     EXPECT_EQ(topology.components, 1U);
@@ -105,7 +112,7 @@ TEST(Topology, CountsAFinAsOneNonManifoldEdge) {
 }
 
 TEST(Topology, CountsTheEdgeThatTwoCubesShare) {
-    const Topology topology = analyse_topology(joined(cube(), cube(), {1, 1, 0}));
+    const Topology topology = topology_of(joined(cube(), cube(), {1, 1, 0}));
     EXPECT_EQ(topology.non_manifold_edges, 1U);
     EXPECT_EQ(topology.boundary_edges, 0U);
     EXPECT_FALSE(topology.closed);
@@ -113,19 +120,19 @@ TEST(Topology, CountsTheEdgeThatTwoCubesShare) {
 }
 
 TEST(Topology, CallsTwoCubesThatTouchInAPointClosed) {
-    const Topology topology = analyse_topology(joined(cube(), cube(), {1, 1, 1}));
+    const Topology topology = topology_of(joined(cube(), cube(), {1, 1, 1}));
     EXPECT_TRUE(topology.closed);
     EXPECT_EQ(topology.components, 2U);
 }
 
 TEST(Topology, CountsComponents) {
-    EXPECT_EQ(analyse_topology(joined(joined(cube(), cube(), {5, 0, 0}), cube(), {0, 5, 0})).components, 3U);
+    EXPECT_EQ(topology_of(joined(joined(cube(), cube(), {5, 0, 0}), cube(), {0, 5, 0})).components, 3U);
 }
 
 TEST(Topology, CountsEdgesOfInconsistentWindingAsNonManifold) {
     Mesh mesh = cube();
     std::swap(mesh.indices[0], mesh.indices[1]);
-    const Topology topology = analyse_topology(mesh);
+    const Topology topology = topology_of(mesh);
     EXPECT_FALSE(topology.closed);
     EXPECT_EQ(topology.non_manifold_edges, 3U);
     EXPECT_EQ(topology.boundary_edges, 0U);
@@ -148,7 +155,7 @@ TEST(Topology, FindsTheSeamOfAMoebiusStrip) {
         const std::uint32_t c = last ? 1 : a + 2, d = last ? 0 : a + 3;
         for (const std::uint32_t index : {a, c, b, b, c, d}) indices.push_back(index);
     }
-    const Topology topology = analyse_topology(mesh_of(positions, indices));
+    const Topology topology = topology_of(mesh_of(positions, indices));
     EXPECT_EQ(topology.non_manifold_edges, 1U);
     EXPECT_EQ(topology.boundary_edges, 2 * kSteps);
     EXPECT_EQ(topology.components, 1U);
@@ -156,7 +163,7 @@ TEST(Topology, FindsTheSeamOfAMoebiusStrip) {
 }
 
 TEST(Topology, CountsAFaceThatStandsTwiceAsNonManifold) {
-    const Topology topology = analyse_topology(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2, 0, 1, 2}));
+    const Topology topology = topology_of(mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2, 0, 1, 2}));
     EXPECT_EQ(topology.non_manifold_edges, 3U);
     EXPECT_FALSE(topology.closed);
 }
@@ -164,13 +171,13 @@ TEST(Topology, CountsAFaceThatStandsTwiceAsNonManifold) {
 TEST(Topology, DropsFacesWithRepeatedVerticesButKeepsSlivers) {
     Mesh repeated = cube();
     for (const std::uint32_t index : {0U, 0U, 1U}) repeated.indices.push_back(index);
-    Topology topology = analyse_topology(repeated);
+    Topology topology = topology_of(repeated);
     EXPECT_EQ(topology.degenerate_faces, 1U);
     EXPECT_TRUE(topology.closed) << "the repeated face is not part of the surface";
 
     // A quad beside two triangles that meet in the middle of its edge: the sliver closes the gap.
     const std::vector<glm::vec3> positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, -1, 0}};
-    topology = analyse_topology(mesh_of(positions, {0, 2, 3, 0, 3, 4, 5, 1, 0, 5, 2, 1, 0, 1, 2}));
+    topology = topology_of(mesh_of(positions, {0, 2, 3, 0, 3, 4, 5, 1, 0, 5, 2, 1, 0, 1, 2}));
     EXPECT_EQ(topology.degenerate_faces, 1U);
     EXPECT_EQ(topology.boundary_edges, 5U);
     EXPECT_EQ(topology.non_manifold_edges, 0U);
@@ -182,38 +189,38 @@ Mesh turned_inside_out(Mesh mesh) {
 }
 
 TEST(Topology, TellsOutwardFromInwardWinding) {
-    const bool outward = analyse_topology(cube()).outward;
-    const bool inward = analyse_topology(turned_inside_out(cube())).outward;
+    const bool outward = topology_of(cube()).outward;
+    const bool inward = topology_of(turned_inside_out(cube())).outward;
     EXPECT_TRUE(outward);
     EXPECT_FALSE(inward);
-    EXPECT_TRUE(analyse_topology(turned_inside_out(cube())).closed);
+    EXPECT_TRUE(topology_of(turned_inside_out(cube())).closed);
 }
 
 TEST(Topology, CallsAMeshOutwardOnlyIfEveryComponentIs) {
-    EXPECT_TRUE(analyse_topology(joined(cube(), cube(), {3, 0, 0})).outward);
-    EXPECT_FALSE(analyse_topology(joined(cube(), turned_inside_out(cube()), {3, 0, 0})).outward);
+    EXPECT_TRUE(topology_of(joined(cube(), cube(), {3, 0, 0})).outward);
+    EXPECT_FALSE(topology_of(joined(cube(), turned_inside_out(cube()), {3, 0, 0})).outward);
 }
 
 TEST(Topology, TellsWindingFarFromTheOriginOfTheModel) {
     Mesh far_off = joined(Mesh{}, cube(), {1e6f, -1e6f, 1e6f});
-    EXPECT_TRUE(analyse_topology(far_off).outward);
-    EXPECT_FALSE(analyse_topology(turned_inside_out(far_off)).outward);
+    EXPECT_TRUE(topology_of(far_off).outward);
+    EXPECT_FALSE(topology_of(turned_inside_out(far_off)).outward);
 }
 
 TEST(Topology, CallsNothingOutwardThatEnclosesNothing) {
     const std::vector<glm::vec3> corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    const Topology two_sides = analyse_topology(mesh_of(corners, {0, 1, 2, 0, 2, 1}));
+    const Topology two_sides = topology_of(mesh_of(corners, {0, 1, 2, 0, 2, 1}));
     EXPECT_TRUE(two_sides.closed);
     EXPECT_FALSE(two_sides.outward);
     Mesh open = cube();
     open.indices.resize(open.indices.size() - 3);
-    EXPECT_FALSE(analyse_topology(open).outward);
-    EXPECT_FALSE(analyse_topology(Mesh{}).outward);
+    EXPECT_FALSE(topology_of(open).outward);
+    EXPECT_FALSE(topology_of(Mesh{}).outward);
 }
 
 TEST(Topology, AnswersForNothing) {
     for (const Mesh& mesh : {Mesh{}, mesh_of({{0, 0, 0}}, {}), mesh_of({{0, 0, 0}}, {0, 0, 0})}) {
-        const Topology topology = analyse_topology(mesh);
+        const Topology topology = topology_of(mesh);
         EXPECT_FALSE(topology.closed);
         EXPECT_EQ(topology.boundary_edges, 0U);
         EXPECT_EQ(topology.components, 0U);
@@ -256,7 +263,7 @@ TEST(Topology, AgreesWithCountingEdgesOnRandomFaces) {
             for (const std::uint32_t index : {a, b, c}) mesh.indices.push_back(index);
         }
         const Topology expected = brute_force(mesh);
-        const Topology topology = analyse_topology(mesh);
+        const Topology topology = topology_of(mesh);
         ASSERT_EQ(topology.boundary_edges, expected.boundary_edges) << "round " << round;
         ASSERT_EQ(topology.non_manifold_edges, expected.non_manifold_edges) << "round " << round;
     }
@@ -271,7 +278,7 @@ TEST(Topology, TakesLinearTimeAroundAVertexOfManyFaces) {
         if (i > 0) mesh.indices.insert(mesh.indices.end(), {0, i, i + 1});
     }
     const auto start = std::chrono::steady_clock::now();
-    const Topology topology = analyse_topology(mesh);
+    const Topology topology = topology_of(mesh);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     EXPECT_EQ(topology.boundary_edges, kFaces + 2);
     EXPECT_LT(seconds.count(), 20.0);

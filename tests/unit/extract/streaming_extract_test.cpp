@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 
-#include "engine/assets/mesh_shape.h"
+#include "engine/mesh/mesh_shape.h"
 #include "gnomon/components.h"
 #include "tests/unit/extract/extracted_world.h"
 

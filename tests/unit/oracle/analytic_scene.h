@@ -6,8 +6,8 @@
 #include <initializer_list>
 #include <utility>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/math/frustum.h"
+#include "gnomon/assets.h"
 #include "systems/extract/snapshot.h"
 #include "tests/oracle/reference_tracer.h"
 

@@ -5,7 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "engine/assets/scene_data.h"
+#include "engine/math/aabb.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::test {
 

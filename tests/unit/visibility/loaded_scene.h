@@ -1,5 +1,5 @@
 #pragma once
-#include "engine/assets/mesh_library.h"
+#include "gnomon/assets.h"
 #include "gnomon/registry.h"
 #include "sample_game/support/scene/open_scene.h"
 #include "sample_game/support/scene/spawn_scene.h"

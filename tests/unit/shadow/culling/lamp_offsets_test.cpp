@@ -6,8 +6,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <vector>
 
-#include "engine/assets/mesh_shape.h"
 #include "engine/gl/device_recording.h"
+#include "engine/mesh/mesh_shape.h"
 #include "tests/unit/oracle/analytic_scene.h"
 
 namespace gnomon::test {

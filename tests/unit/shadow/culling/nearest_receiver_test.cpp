@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
-#include "engine/assets/mesh_shape.h"
+#include "engine/mesh/mesh_shape.h"
 #include "systems/extract/scene_tree.h"
 #include "tests/unit/shadow/random_scene.h"
 

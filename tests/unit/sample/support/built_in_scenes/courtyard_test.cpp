@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/built_in_scenes/ear_clipping.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/open_scene.h"

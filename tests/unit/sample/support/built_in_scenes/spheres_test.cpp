@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/open_scene.h"
 

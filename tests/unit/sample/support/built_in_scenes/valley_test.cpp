@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/assets/gltf_loader.h"
+#include "gnomon/assets.h"
 #include "sample_game/support/built_in_scenes/valley/parts.h"
 #include "sample_game/support/scene/node_transforms.h"
 #include "sample_game/support/scene/open_scene.h"

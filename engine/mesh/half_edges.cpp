@@ -1,4 +1,4 @@
-#include "engine/assets/half_edges.h"
+#include "engine/mesh/half_edges.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets {
 

@@ -1,6 +1,8 @@
-#include "engine/assets/mesh_shape.h"
+#include "engine/mesh/mesh_shape.h"
 
 #include <vector>
+
+#include "engine/math/shape_tree.h"
 
 namespace gnomon::assets {
 

@@ -1,7 +1,7 @@
-#include "engine/assets/surface_edges.h"
+#include "engine/mesh/surface_edges.h"
 
-#include "engine/assets/half_edges.h"
-#include "engine/assets/mesh_weld.h"
+#include "engine/mesh/half_edges.h"
+#include "engine/mesh/mesh_weld.h"
 
 namespace gnomon::assets {
 namespace {

@@ -6,15 +6,15 @@
 #include <optional>
 #include <vector>
 
-#include "engine/assets/mesh_library.h"
 #include "engine/gl/device.h"
+#include "gnomon/assets.h"
+#include "gnomon/frame.h"
 #include "gnomon/registry.h"
 #include "gnomon/result.h"
 #include "systems/debug/debug_view.h"
 #include "systems/extract/extract.h"
 #include "systems/extract/gpu_scene.h"
 #include "systems/extract/snapshot.h"
-#include "systems/report.h"
 #include "systems/shadow/frame/fit_history.h"
 #include "systems/shadow/frame/lighting_inputs.h"
 #include "systems/shadow/frame/shadow_settings.h"
@@ -34,39 +34,16 @@ namespace lighting {
 class LightingSystem;
 }
 
-struct FrameSettings {
-    glm::uvec2 viewport_px{1280, 720};
-    std::optional<float> exposure_ev;  // EV100; empty: automatic
-    bool shadows = true;               // false: every light is treated as if its LightShadow were disabled
-    bool present = false;              // copy the picture to the window at the end
-    /// Block at the end of a frame for what the GPU measures (CascadeSplits::sampled; automatic exposure with faint
-    /// lights). Every run then draws the same pictures. Otherwise nothing blocks, and measurements arrive some frames
-    /// later.
-    bool repeatable = false;
-    debug::Request debug = {};  // drawn over the picture; none by default
-    /// Keep shadows fitted to the cameras of the first frame with this flag, while the picture follows its own camera.
-    /// Lights and casters stay live: shadows follow them as the frozen cameras need it.
-    bool freeze_fits = false;
-    /// Cost limit for shadows; the least visible ones get less until it is met (docs/economy.md, "Budgets").
-    shadow::ShadowBudget shadow_budget = {};
-    /// Skip shadows that cannot be seen in the picture (docs/economy.md).
-    bool leave_out_dim_lights = true;
-    /// Maximum number of light programs compiled per frame. Until its program is compiled, a light is looked up with
-    /// one tap and reports filter_program_waits. Default: no limit.
-    std::uint32_t programs_per_frame = ~0u;
-    bool rays = true;  // false: lights with rays get a filtered map instead
-};
-
-/// Sequence of a frame as a list of calls: transforms, snapshot, shadows, lighting, submit. For an engine with another
-/// order, write your own after frame.cpp's run(), which is all there is.
-class Frame {
+/// Sequence of a frame as a list of calls: transforms, snapshot, shadows, lighting, submit. What gnomon::Frame is made
+/// of, on any device, and with all that it decided in view.
+class FrameSystem {
 public:
     /// Creates a frame. `device` and `library` must outlive it. Between frames meshes may come to the library and go
     /// (MeshLibrary::add(), replace(), remove()). `fit_history`: of the frame to continue after a lost
     /// context; pictures then continue bit for bit. Errors: "gpu.scene".
-    static Result<std::unique_ptr<Frame>> create(gl::Device& device, const assets::MeshLibrary& library,
-                                                 const shadow::History& fit_history = {});
-    ~Frame();
+    static Result<std::unique_ptr<FrameSystem>> create(gl::Device& device, const assets::MeshLibrary& library,
+                                                       const shadow::History& fit_history = {});
+    ~FrameSystem();
 
     /// Runs one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the world's
     /// changes with its own cursors, independent of other readers.
@@ -87,6 +64,7 @@ public:
     /// Returns the target of read_picture(): draw overlays into it after run(), in a list of your own. {0}: no picture
     /// was drawn.
     gl::TargetHandle picture_target() const;
+    gl::TextureHandle picture_texture() const;  // its texture
 
     /// Returns the labels of the last frame's debug view; empty without one.
     const std::vector<debug::Label>& debug_labels() const;
@@ -97,7 +75,8 @@ public:
     bool read_visibility(std::uint32_t light, std::vector<float>& values);
 
 private:
-    Frame(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history, GpuScene scene);
+    FrameSystem(gl::Device& device, const assets::MeshLibrary& library, const shadow::History& fit_history,
+                GpuScene scene);
     std::optional<double> most_exposure(const FrameSettings& settings);
     const shadow::ShadowFrame& update_shadows(const FrameSettings& settings);
 

@@ -1,4 +1,4 @@
-#include "engine/assets/mesh_weld.h"
+#include "engine/mesh/mesh_weld.h"
 
 #include <bit>
 

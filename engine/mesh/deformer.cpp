@@ -1,11 +1,11 @@
-#include "engine/assets/deformer.h"
+#include "engine/mesh/deformer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/assets/scene_data.h"
+#include "gnomon/assets.h"
 
 namespace gnomon::assets {
 namespace {

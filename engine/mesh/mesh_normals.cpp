@@ -2,7 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "engine/assets/mesh_topology.h"
+#include "engine/mesh/mesh_topology.h"
 
 namespace gnomon::assets {
 namespace {

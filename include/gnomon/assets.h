@@ -1,0 +1,268 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gnomon/box.h"
+#include "gnomon/result.h"
+
+namespace gnomon::math {
+class ShapeTree;
+}
+
+/// Meshes, materials and textures for Frame, and the content of glTF files. load_gltf() and what evaluates animations
+/// are in the target Gnomon::assets; all else is plain data.
+namespace gnomon::assets {
+
+struct Deformer;
+
+inline constexpr std::int32_t kNone = -1;
+
+/// Vertex in the device's "mesh" layout: 32 bytes.
+struct Vertex {
+    glm::vec3 position_ms{0.0f};
+    glm::vec3 normal_ms{0.0f};  // unit length, or zero if undefined (degenerate)
+    glm::vec2 uv{0.0f};         // glTF convention: v down
+    bool operator==(const Vertex&) const = default;
+};
+static_assert(sizeof(Vertex) == 32);
+
+struct Submesh {
+    std::uint32_t first_index = 0, index_count = 0;  // triangles
+    std::uint32_t material = 0;
+};
+
+/// What a mesh's surface is like, over positions welded by identical bits.
+struct Topology {
+    bool closed = false;   // no boundary edge, no non-manifold edge, at least one face, consistently oriented
+    bool outward = false;  // closed, and every component encloses a positive volume: front faces point out
+    std::uint32_t boundary_edges = 0;
+    std::uint32_t non_manifold_edges = 0;  // edges shared by more than two faces or with inconsistent winding
+    std::uint32_t degenerate_faces = 0;    // zero area or repeated (welded) vertices
+    std::uint32_t components = 0;
+    bool operator==(const Topology&) const = default;
+};
+
+struct Mesh {
+    std::string name;
+    std::vector<Vertex> vertices;
+    std::vector<glm::vec4> colours;      // COLOR_0, linear, [0, 1]: one per vertex, or empty if all are 1
+    std::vector<std::uint32_t> indices;  // triangle list; every index < vertices.size()
+    std::vector<Submesh> submeshes;      // cover indices in order, without gaps
+    /// What follows from these; complete() fills it in.
+    math::Aabb bounds_ms;
+    Topology topology;
+    std::shared_ptr<const math::ShapeTree> shape;  // boxes around the triangles; null: bounds_ms alone
+    /// Joints and morph targets of a file's mesh; null: rigid. All other fields describe the mesh at rest.
+    std::shared_ptr<const Deformer> deformer;
+};
+
+enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+
+struct Material {
+    std::string name;
+    glm::vec4 base_colour{1.0f};  // linear
+    std::int32_t base_colour_texture = kNone;
+    glm::vec3 emissive{0.0f};
+    float metallic = 1.0f, roughness = 1.0f;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+    bool unlit = false;  // shows base_colour independent of light and exposure; casts shadows
+};
+
+enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
+struct Texture {
+    std::string name;
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;  // sRGB colour, linear alpha; first row is v = 0 (top, as in the file)
+    TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
+    bool linear_filter = true;
+};
+
+/// Fills in bounds, topology and shape, which follow from vertices, indices and submeshes. Cost: in proportion to the
+/// triangles. Call it for each mesh of your own making. Without a topology a mesh counts as open, and is drawn from
+/// both sides.
+void complete(Mesh& mesh);
+
+/// Versions of numbered things that come and go, and numbers that are free.
+struct SlotVersions {
+    std::vector<std::uint64_t> by_slot = {};  // shorter than the things: the others have version 0
+    std::vector<std::uint32_t> free = {};
+
+    std::uint64_t of(std::uint32_t slot) const { return slot < by_slot.size() ? by_slot[slot] : 0; }
+    void set(std::uint32_t slot, std::uint64_t version) {
+        if (by_slot.size() <= slot) by_slot.resize(slot + std::size_t{1}, 0);
+        by_slot[slot] = version;
+    }
+};
+
+/// Meshes, materials and textures that MeshRef components refer to. Once a Frame has it, it changes by the functions
+/// below alone. Change it between frames, while no thread reads it.
+struct MeshLibrary {
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;  // Submesh::material indexes this
+    std::vector<Texture> textures;
+
+    /// Adds a mesh in the slot of a removed one, or at the end. Its materials must exist. Returns its index.
+    std::uint32_t add(Mesh mesh) {
+        while (!mesh_versions.free.empty() && !is_removed(mesh_versions.free.back())) mesh_versions.free.pop_back();
+        return put(meshes, std::move(mesh), mesh_versions);
+    }
+    /// Adds a material, as add() does. Its texture must exist.
+    std::uint32_t add_material(Material material) { return put(materials, std::move(material), material_versions); }
+    std::uint32_t add_texture(Texture texture) { return put(textures, std::move(texture), texture_versions); }
+
+    /// Replaces a mesh by another one; its instances then show that.
+    void replace(std::uint32_t mesh, Mesh with) {
+        meshes[mesh] = std::move(with);
+        mesh_versions.set(mesh, ++version);
+    }
+    /// Removes a mesh and frees its memory. Its slot may be taken by another mesh; entities that still name it show
+    /// nothing until then.
+    void remove(std::uint32_t mesh) { take(meshes, mesh, mesh_versions); }
+    /// Removes a material that no mesh has, or a texture that no material has. Another one may take the slot.
+    void remove_material(std::uint32_t material) { take(materials, material, material_versions); }
+    void remove_texture(std::uint32_t texture) { take(textures, texture, texture_versions); }
+
+    /// Returns the version at which the slot got its mesh, or lost it; 0: it has had one mesh since the beginning.
+    std::uint64_t version_of(std::uint32_t mesh) const { return mesh_versions.of(mesh); }
+    /// Returns true if the slot has had a mesh, and has none now.
+    bool is_removed(std::uint32_t mesh) const { return version_of(mesh) != 0 && meshes[mesh].indices.empty(); }
+
+    std::uint64_t version = 0;  // number of changes by these functions
+    SlotVersions mesh_versions = {}, material_versions = {}, texture_versions = {};
+
+private:
+    template <class T>
+    std::uint32_t put(std::vector<T>& things, T thing, SlotVersions& versions) {
+        auto slot = static_cast<std::uint32_t>(things.size());
+        if (versions.free.empty()) {
+            things.push_back(std::move(thing));
+        } else {
+            slot = versions.free.back();
+            versions.free.pop_back();
+            things[slot] = std::move(thing);
+        }
+        versions.set(slot, ++version);
+        return slot;
+    }
+    template <class T>
+    void take(std::vector<T>& things, std::uint32_t slot, SlotVersions& versions) {
+        things[slot] = {};
+        versions.set(slot, ++version);
+        versions.free.push_back(slot);
+    }
+};
+
+enum class AnimatedProperty : std::uint8_t { translation, rotation, scale, weights };
+enum class Interpolation : std::uint8_t { step, linear, cubic };
+
+/// Curve of one property of one node, as in glTF 2.0 (section 3.11 and appendix C).
+struct AnimationChannel {
+    std::int32_t node = -1;  // index in SceneData::nodes
+    AnimatedProperty property = AnimatedProperty::translation;
+    Interpolation interpolation = Interpolation::linear;
+    std::uint32_t width = 3;     // numbers per value; rotation: 4, in the order x, y, z, w
+    std::vector<float> times_s;  // at least one, finite, not decreasing
+    std::vector<float> values;   // `width` per key; cubic: in-tangent, value and out-tangent of each key
+};
+
+struct Animation {
+    std::string name;
+    std::vector<AnimationChannel> channels;  // at most one per node and property
+};
+
+/// Returns the time of the last key of any channel; 0 without channels.
+double duration_s(const Animation& animation);
+
+/// Wraps `time_s` into an animation that repeats every `duration_s`: [0, duration_s). 0 if the duration is 0 or the
+/// time not finite. The end equals the beginning.
+double looped_s(double time_s, double duration_s);
+
+/// Evaluates the channel at `time_s` into `out`, channel.width numbers. Before the first key and after the last it
+/// clamps. Rotations have unit length; linear ones take the shorter way at constant speed.
+void sample(const AnimationChannel& channel, double time_s, std::span<double> out);
+
+enum class CameraKind : std::uint8_t { perspective, orthographic };
+struct CameraData {
+    std::string name;
+    CameraKind kind = CameraKind::perspective;
+    double fov_y_rad = 0.9, half_height_m = 5.0, near_m = 0.05, far_m = 0.0;  // far 0: infinite
+    double aspect = 0.0;  // width by height of the author's frame; 0: none chosen
+};
+
+enum class LightType : std::uint8_t { directional, spot, point };
+struct LightData {
+    std::string name;
+    LightType type = LightType::point;
+    glm::vec3 colour{1.0f};
+    float intensity = 1.0f, range_m = 0.0f, inner_cone_rad = 0.0f, outer_cone_rad = 0.785398163f;
+    bool casts_shadow = true;  // extras.shadow of the light or its node
+};
+
+/// Joints of a skinned mesh. world(joints[i]) * inverse_bind[i] takes the mesh from rest to joint i.
+struct Skin {
+    std::string name;
+    std::vector<std::int32_t> joints;        // nodes; at least one
+    std::vector<glm::dmat4x3> inverse_bind;  // one per joint
+};
+
+/// Node. Parents come before children. Only one node may use a deformable mesh.
+struct Node {
+    std::string name;
+    std::int32_t parent = kNone;
+    glm::dvec3 translation_m{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 scale{1.0};
+    std::int32_t mesh = kNone, camera = kNone, light = kNone;
+    std::int32_t skin = kNone;         // only for a mesh with joints; the node's own place is then ignored
+    std::vector<float> morph_weights;  // at rest; one per target of the mesh
+    bool casts_shadow = true;          // extras.castShadow
+    bool receives_shadow = true;       // extras.receiveShadow
+    bool visible = true;               // extras.visible
+    /// Animation of a caster or light by the sample game (extras.motion); kind "": none.
+    /// - "spin": rotates about `axis` once per period_s.
+    /// - "swing": rotates to and fro by amplitude (rad) about `axis`.
+    /// - "slide": moves to and fro by amplitude (m) along `axis`.
+    struct Motion {
+        std::string kind;
+        glm::dvec3 axis{0.0, 1.0, 0.0};
+        double amplitude = 0.0, period_s = 1.0, phase = 0.0;  // phase in turns
+    } motion;
+};
+
+/// Content of a file, before any entity exists.
+struct SceneData {
+    std::string name;
+    std::vector<Node> nodes;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;  // at least one; a mesh without material uses a default one
+    std::vector<Texture> textures;
+    std::vector<CameraData> cameras;
+    std::vector<LightData> lights;
+    std::vector<Skin> skins;
+    std::vector<Animation> animations;
+    std::vector<std::string> warnings;  // one line each: missing texture, unsupported mode, …
+};
+
+/// Loads a .gltf or .glb file with everything it names. Reads nothing outside the asset's folder. The result is
+/// validated: every index in range, every number finite, every node reached once. On error nothing is kept; the error
+/// names file, JSON pointer and rule.
+Result<SceneData> load_gltf(const std::filesystem::path& file);
+
+/// Loads from memory (fuzzing, embedded scenes). `base_folder` resolves relative URIs; if empty, URIs are errors.
+Result<SceneData> load_gltf_memory(std::span<const std::byte> bytes, const std::filesystem::path& base_folder,
+                                   const std::string& name);
+
+}  // namespace gnomon::assets

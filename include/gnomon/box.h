@@ -1,0 +1,25 @@
+#pragma once
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace gnomon::math {
+
+/// Axis-aligned box in double. A default box is empty (min > max).
+struct Aabb {
+    glm::dvec3 min{std::numeric_limits<double>::infinity()};
+    glm::dvec3 max{-std::numeric_limits<double>::infinity()};
+    bool operator==(const Aabb&) const = default;
+};
+
+}  // namespace gnomon::math
+
+namespace gnomon::gl {
+
+/// Rectangle of pixels; y up, as OpenGL counts.
+struct Rect {
+    std::int32_t x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Rect&) const = default;
+};
+
+}  // namespace gnomon::gl

@@ -1,0 +1,287 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gnomon/box.h"
+#include "gnomon/components.h"
+#include "gnomon/light.h"
+#include "gnomon/reason.h"
+#include "gnomon/result.h"
+
+namespace gnomon::ecs {
+class Registry;
+}
+namespace gnomon::assets {
+struct MeshLibrary;
+}
+
+namespace gnomon::debug {
+
+struct ViewRow;
+
+/// Finds a view, for example "cascades"; null if there is none of that name.
+const ViewRow* find_view(std::string_view name);
+
+/// Debug view to draw over the picture; docs/debug.md shows all.
+struct Request {
+    const ViewRow* view = nullptr;            // null: none, at no cost
+    std::string light = {};                   // name of the light; empty: all, for views that can show all
+    std::optional<std::uint32_t> layer = {};  // one of its maps; empty: all
+    gl::Rect area = {};                       // part of the picture in pixels, y up; without width: whole picture
+};
+
+/// Text for the application to draw, because views draw only pictures.
+struct Label {
+    glm::ivec2 at_px{0};  // upper left corner of the text, from the picture's lower left
+    std::string text;
+    std::optional<glm::vec3> swatch = {};  // sRGB; a square of this colour before the text
+};
+
+}  // namespace gnomon::debug
+
+namespace gnomon::shadow {
+
+/// Limits on all shadows together (docs/economy.md, "Budgets"). 0, negative or NaN: no limit.
+struct ShadowBudget {
+    std::uint64_t bytes = 0;  // GPU memory of all lights: maps, triangles, moments, copies
+    float gpu_ms = 0.0f;      // GPU time per frame for drawing maps and looking them up
+    std::uint64_t rays = 0;   // predicted rays per frame of lights that use rays (docs/exact.md)
+    bool operator==(const ShadowBudget&) const = default;
+};
+
+/// What the fits of all lights remember from frame to frame. It needs no device and outlives one.
+struct History;
+
+}  // namespace gnomon::shadow
+
+/// Gnomon's own renderer of a registry, for programs without one. Each frame gives a picture, and a report of the work
+/// for each light with the reasons. An engine with a renderer takes gnomon/shadows.h instead.
+namespace gnomon {
+
+/// Numbers behind the result of a light or one of its views.
+struct Why {
+    std::uint32_t receivers = 0;    // visible and in the light's range, by their bounds
+    std::uint32_t casters = 0;      // able to darken those receivers' visible part
+    std::uint64_t bytes_saved = 0;  // bytes of maps that were not made, or not written
+    double stale_px = 0.0;          // additional error of edges because maps show casters at an earlier place
+    /// Maximum contribution of the light to a pixel, in 8 bit steps of the picture. Empty: exposure unknown, or not
+    /// computed.
+    std::optional<double> display_steps;
+    std::optional<double> saved_us;  // drawing time saved, by its last measurement; empty: never measured
+};
+
+/// View that a light's map has room for: a cascade, a spot's view, a face of a cube.
+struct ViewReport {
+    std::uint32_t layer = 0;                  // cascade or face
+    LightState state = LightState::rendered;  // rendered; reused; or skipped: neither drawn nor looked up
+    Reason reason = Reason::none;
+    Why why;
+};
+
+/// Visibility of a light per pixel, kept from an earlier frame instead of looked up (docs/economy.md, "What pixels
+/// saw").
+struct KeptReport {
+    Reason reason = Reason::none;    // visibility_kept: this frame read it, in at least one picture
+    std::uint64_t bytes = 0;         // over all pictures; part of LightCounts::bytes
+    std::optional<double> saved_us;  // lighting time saved on the GPU, by the last measurement of its lookup
+};
+
+/// Reduction of a light by a budget, and its numbers.
+struct BudgetReport {
+    std::uint32_t wanted_px = 0, px = 0;        // edge of its maps
+    std::uint32_t wanted_views = 0, views = 0;  // layers of its map
+    std::uint32_t refresh_frames = 1;           // moving content is drawn once in this number of frames
+    bool plain = false;                         // looked up with one tap instead of its filter
+    std::uint64_t wanted_bytes = 0, bytes = 0;  // bytes of its map
+    double wanted_us = 0.0, us = 0.0;           // GPU time per frame, by the model
+    double harm = 0.0;                          // share of the picture that is wrong because of it, by the model
+};
+
+/// Filter of a light, and the reason.
+struct FilterReport {
+    ShadowFilter filter = ShadowFilter::automatic;  // automatic: the light is skipped
+    Reason reason = Reason::none;                   // map_too_coarse: chosen by the accuracy target
+    std::optional<double> usual_error_px;           // error of the default filter's maps, in that case
+};
+
+/// Maps of a light, and the work on them in this frame.
+struct LightCounts {
+    std::uint32_t views = 0;        // rendered or reused
+    std::uint32_t views_drawn = 0;  // drawn in this frame
+    std::uint64_t texels = 0;       // size of its map
+    std::uint64_t bytes = 0;        // its memory, kept visibility included
+    std::uint32_t draws = 0, clears = 0;
+    std::uint64_t triangles = 0;
+    std::uint32_t by_depth = 0;  // casters without triangles, where its filter reads those of others
+};
+
+/// Result of the shadow stages for one light.
+struct LightReport {
+    ecs::Entity entity;
+    std::string name;
+    LightKind kind = LightKind::point;
+    LightState state = LightState::skipped;
+    Reason reason = Reason::none;
+    double predicted_error_px = 0.0;  // worst shadow-edge error over its views
+    bool keeps_max_error = false;     // meets LightShadow::max_error_px, apart from the picture's own pixel
+    LightCounts counts;
+    double cpu_us = 0.0;           // time of the shadow stages for this light alone
+    std::optional<double> gpu_us;  // shadow and lighting pass, from the newest measured frame; empty: not measured
+    Why why;
+    KeptReport kept;
+    FilterReport filter;
+    std::optional<BudgetReport> budget;            // empty: no budget is set, or the light needed no map
+    std::uint32_t first_view = 0, view_count = 0;  // range in FrameReport::views; empty if skipped
+};
+
+/// Returns true if the light is lit everywhere on purpose, because its shadow would be invisible. Pixels that it should
+/// darken are then no errors.
+inline bool is_left_out(const LightReport& light) {
+    return light.state == LightState::skipped &&
+           (light.reason == Reason::light_off || light.reason == Reason::below_display_step);
+}
+
+/// Shared resources of lights with rays (exact, exact_soft): trees over the casters, on the device and on the host, and
+/// data of pictures. All 0: no light uses rays.
+struct RayReport {
+    std::uint64_t bytes = 0, host_bytes = 0;              // trees over casters
+    std::uint64_t list_bytes = 0;                         // undecided pixels and their results
+    std::uint64_t place_bytes = 0;                        // exact surface positions, per pixel
+    std::uint64_t sheet_bytes = 0, sheet_host_bytes = 0;  // vertex data for drawing maps of sheets
+    std::uint64_t triangles = 0, instances = 0;
+    std::uint32_t meshes_written = 0;  // deformed meshes in this frame
+    bool instances_written = false;    // something moved in this frame
+};
+
+enum class DropReason : std::uint8_t {
+    non_finite_transform,
+    zero_rotation,
+    parent_missing,
+    parent_cycle,
+    unknown_mesh,
+    zero_scale,
+    absurd_light,
+    absurd_camera,
+    instances_full,  // the device has no record for it: neither drawn nor casting
+    meshes_full,     // the device has no room for its mesh: neither drawn nor casting
+    buffer_lost,     // a buffer of its mesh is the engine's, and was deleted or made smaller
+};
+const char* reason_code(DropReason reason);
+
+/// Entity that was unusable in this frame, and the reason. Others are unaffected.
+struct DroppedEntity {
+    ecs::Entity entity = {};
+    std::string name = {};
+    DropReason reason = DropReason::non_finite_transform;
+};
+
+/// What the last frame did, light by light, and the reasons.
+struct FrameReport {
+    std::vector<LightReport> lights;  // one per entity with a Light, by entity index
+    std::vector<ViewReport> views;    // views of all lights, in their order
+    std::vector<DroppedEntity> dropped;
+    bool still = false;  // no input of shadows changed: the stages' results of the last frame are valid
+    std::uint64_t programs_compiled = 0;  // in this frame, failures included
+    double shadow_cpu_us = 0.0;
+    double cpu_us = 0.0;
+    std::optional<double> gpu_us, shadow_gpu_us;
+    gl::Failure failure = gl::Failure::none;  // failure of an essential resource, or of the submission
+    RayReport rays;
+    std::span<const ViewReport> views_of(const LightReport& light) const {
+        return std::span(views).subspan(light.first_view, light.view_count);
+    }
+    /// Clears the last frame. Lights and dropped entities stay, because their names own memory; the stages overwrite
+    /// them.
+    void clear() {
+        views.clear();
+        still = false;
+        programs_compiled = 0;
+        shadow_cpu_us = cpu_us = 0.0;
+        gpu_us.reset();
+        shadow_gpu_us.reset();
+        failure = gl::Failure::none;
+        rays = {};
+    }
+};
+
+struct FrameSettings {
+    glm::uvec2 viewport_px{1280, 720};
+    std::optional<float> exposure_ev = {};  // EV100; empty: automatic
+    bool shadows = true;                    // false: every light is treated as if its LightShadow were disabled
+    bool present = false;                   // copy the picture to the window at the end
+    /// Block at the end of a frame for what the GPU measures (CascadeSplits::sampled; automatic exposure with faint
+    /// lights). Every run then draws the same pictures. Otherwise nothing blocks, and measurements arrive some frames
+    /// later.
+    bool repeatable = false;
+    debug::Request debug = {};  // drawn over the picture; none by default
+    /// Keep shadows fitted to the cameras of the first frame with this flag, while the picture follows its own camera.
+    /// Lights and casters stay live: shadows follow them as the frozen cameras need it.
+    bool freeze_fits = false;
+    /// Cost limit for shadows; the least visible ones get less until it is met (docs/economy.md, "Budgets").
+    shadow::ShadowBudget shadow_budget = {};
+    /// Skip shadows that cannot be seen in the picture (docs/economy.md).
+    bool leave_out_dim_lights = true;
+    /// Maximum number of light programs compiled per frame. Until its program is compiled, a light is looked up with
+    /// one tap and reports filter_program_waits. Default: no limit.
+    std::uint32_t programs_per_frame = ~0u;
+    bool rays = true;  // false: lights with rays get a filtered map instead
+};
+
+struct FrameOptions {
+    bool time_gpu = false;  // measure gpu_us; implied by a budget in milliseconds
+    /// Receives messages of the GL implementation about Gnomon's calls. Empty: none.
+    std::function<void(std::string_view)> message = {};
+    /// Memory of a frame that lost its context: pictures continue bit for bit. Null: a new beginning.
+    std::shared_ptr<const shadow::History> history = nullptr;
+};
+
+/// Draws a registry: transforms, shadows, lighting. The OpenGL 4.5 core context must be current in every call, and when
+/// the object is destroyed. Calls leave its state as it was, except the window's picture (FrameSettings::present).
+class Frame {
+public:
+    /// Creates the renderer for the current context. `library` must outlive it. Between frames meshes may come to the
+    /// library and go (MeshLibrary::add(), replace(), remove()). Errors: "gl.version" (below 4.5 core), "gpu.scene" (no
+    /// memory).
+    static Result<std::unique_ptr<Frame>> create(const assets::MeshLibrary& library, const FrameOptions& options = {});
+    ~Frame();
+    Frame(const Frame&) = delete;
+    Frame& operator=(const Frame&) = delete;
+
+    /// Draws one frame of `world` for its first active camera. Never throws; failures are in report(). Reads the
+    /// world's changes with its own cursors, independent of other readers.
+    void run(ecs::Registry& world, const FrameSettings& settings);
+    const FrameReport& report() const;
+
+    /// Returns the last frame's picture, a GL_TEXTURE_2D of GL_SRGB8_ALPHA8; 0: none was drawn. It is Gnomon's, and
+    /// valid until the next run().
+    unsigned picture_texture() const;
+    /// Reads it: viewport_px, 4 bytes sRGB per pixel, top row first. Returns false if there is none.
+    bool read_picture(std::vector<std::uint8_t>& rgba);
+    /// Reads how much of a light arrives at each pixel: a float per pixel, bottom row first. 1: lit. 0: shadowed,
+    /// facing away or out of range. -1: no surface. Returns false if there is none.
+    bool read_visibility(ecs::Entity light, std::vector<float>& values);
+
+    /// Returns the share of a light that reaches a place, 0 to 1, for gameplay. Rays decide, independent of cameras and
+    /// maps. Casters and lights are those of the last run(). `radius_m`: size of what receives; 0: a point.
+    float visibility(ecs::Entity light, const glm::dvec3& position_m, double radius_m = 0.0);
+
+    /// Returns the labels of the last frame's debug view; empty without one.
+    const std::vector<debug::Label>& debug_labels() const;
+    /// Returns a copy of what FrameOptions::history takes.
+    std::shared_ptr<const shadow::History> history() const;
+
+private:
+    struct State;
+    explicit Frame(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace gnomon
