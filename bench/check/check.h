@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/check/check_device.h"
+#include "bench/check/check_first_frames.h"
 #include "bench/check/check_programs.h"
 #include "bench/check/check_rows.h"
 #include "gnomon/result.h"
@@ -26,6 +27,7 @@ struct Check {
     DeviceCheck device;
     ProgramChecks programs;
     RowChecks rows;
+    FirstFrames first_frames;
     double took_s = 0.0;
 };
 

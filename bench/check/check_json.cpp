@@ -83,6 +83,9 @@ std::string check_json(const Check& check) {
     json["rows_s"] = check.rows.took_s;
     json["rows_error"] = check.rows.error;
     json["rows_left_out"] = check.rows.left_out;
+    const FirstFrames& first = check.first_frames;
+    json["first_frames"] = {{"drawn", first.drawn},       {"differ", first.differ}, {"most_px", first.most_px},
+                            {"dark_px", first.dark_px}, {"took_s", first.took_s}};
     json["rows"] = Json::array();
     for (const CheckRow& row : check.rows.rows) json["rows"].push_back(row_json(row));
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

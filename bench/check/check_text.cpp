@@ -94,10 +94,16 @@ std::string rows_text(const RowChecks& rows) {
     return text;
 }
 
+std::string first_frames_text(const FirstFrames& frames) {
+    return cut(formatted("first frames: %u drawn, each by a new system, %u differ, by %u pixels at most, %.1f s %s",
+                         frames.drawn, frames.differ, frames.most_px, frames.took_s, frames.well() ? " ok" : " FAIL"));
+}
+
 }  // namespace
 
 std::string check_text(const Check& check) {
-    return device_text(check.device) + programs_text(check.programs) + rows_text(check.rows) + check_verdict(check) +
+    return device_text(check.device) + programs_text(check.programs) + rows_text(check.rows) + first_frames_text(check.first_frames) +
+           check_verdict(check) +
            "\n";
 }
 

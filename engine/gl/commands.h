@@ -128,8 +128,7 @@ struct UpdateBuffer {
 };
 
 /// Fills size bytes of an updated buffer from offset with 0; both are multiples of 4. Allowed outside passes only.
-/// Executed on the GPU in command order, to reset sums of shaders. UpdateBuffer cannot do that: NVIDIA's driver loses
-/// updates from the processor to a buffer that shaders write.
+/// Executed on the GPU in command order, to reset sums of shaders.
 struct ClearBuffer {
     BufferHandle buffer{};
     std::uint64_t offset = 0, size = 0;

@@ -196,7 +196,7 @@ public:
         const std::uint64_t submission = submissions_++;
         if (lost()) return {Failure::context_lost, submission};
         drop_gl_errors();
-        const Failure failure = execute(list, submission, objects_, *state_, timers_, readbacks_);
+        const Failure failure = execute(list, submission, objects_, *state_, timers_, readbacks_, uploads_);
         if (lost()) return {Failure::context_lost, submission};
         return {failure, submission};
     }
@@ -291,6 +291,7 @@ private:
     SharedArrays shared_;
     GlTimers timers_;
     GlReadbacks readbacks_;
+    GlUploads uploads_;
     std::uint32_t next_id_ = 1;
     std::uint64_t submissions_ = 0, compiled_programs_ = 0;
     bool robust_ = false, lost_ = false;

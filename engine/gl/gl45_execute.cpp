@@ -16,20 +16,23 @@ constexpr GLsizei kItemBytes = 2 * sizeof(std::uint32_t);
 class ListExecutor {
 public:
     ListExecutor(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
-                 GlTimers& timers, GlReadbacks& readbacks)
+                 GlTimers& timers, GlReadbacks& readbacks, GlUploads& uploads)
         : list_(list),
           submission_(submission),
           objects_(objects),
           fixtures_(state.fixtures()),
           state_(state),
           timers_(timers),
-          readbacks_(readbacks) {}
+          readbacks_(readbacks),
+          uploads_(uploads) {}
 
     Failure run() {
         state_.begin_list();
+        uploads_in_order_ = !list_.bytes.empty() && uploads_.begin(list_.bytes);
         for (const Command& command : list_.commands) std::visit(*this, command);
         if (!timers_.abandon() || open_groups_ != 0 || in_pass_) note(Failure::invalid_value);
         for (; open_groups_ > 0; --open_groups_) pop_group();
+        if (uploads_in_order_) uploads_.end();
         const Failure error = state_.end_list();
         return error == Failure::none ? failure_ : error;
     }
@@ -114,6 +117,7 @@ public:
             !in_range(c.offset, c.size, buffer->desc.size) || !in_range(c.first, c.size, list_.bytes.size())) {
             return note(Failure::invalid_value);
         }
+        if (uploads_in_order_) return uploads_.copy(c.first, c.size, buffer->name, c.offset);
         glNamedBufferSubData(buffer->name, static_cast<GLintptr>(c.offset), static_cast<GLsizeiptr>(c.size),
                              list_.bytes.data() + c.first);
     }
@@ -288,9 +292,11 @@ private:
     GlState& state_;
     GlTimers& timers_;
     GlReadbacks& readbacks_;
+    GlUploads& uploads_;
 
     Failure failure_ = Failure::none;
     std::size_t open_groups_ = 0;
+    bool uploads_in_order_ = false;  // by the device; false: by the processor
     bool in_pass_ = false, drawable_ = false;
     std::optional<PipelineState> pipeline_;
     const GlBuffer* indices_ = nullptr;
@@ -301,8 +307,8 @@ private:
 }  // namespace
 
 Failure execute(const CommandList& list, std::uint64_t submission, const GlObjects& objects, GlState& state,
-                GlTimers& timers, GlReadbacks& readbacks) {
-    return ListExecutor(list, submission, objects, state, timers, readbacks).run();
+                GlTimers& timers, GlReadbacks& readbacks, GlUploads& uploads) {
+    return ListExecutor(list, submission, objects, state, timers, readbacks, uploads).run();
 }
 
 }  // namespace gnomon::gl

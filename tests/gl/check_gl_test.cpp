@@ -72,6 +72,22 @@ TEST_F(CheckOfRows, SaysWhyARowCannotBeJudged) {
         }
 }
 
+TEST_F(CheckOfRows, FirstFramesOfNewSystemsShowTheSame) {
+    const auto quiet = [](const std::string&, std::size_t, std::size_t) {};
+    const bench::FirstFrames same = bench::check_first_frames(*stage_, 3, quiet);
+    EXPECT_EQ(same.drawn, 3u);
+    EXPECT_EQ(same.differ, 0u);
+    EXPECT_GT(same.dark_px, 100u);
+    EXPECT_TRUE(same.well());
+    const auto taken_before_the_last = [&](const std::string&, std::size_t i, std::size_t) {
+        if (i == 2) take_away(bench::kCheckBlock);
+    };
+    const bench::FirstFrames lost = bench::check_first_frames(*stage_, 3, taken_before_the_last);
+    EXPECT_EQ(lost.differ, 1u);
+    EXPECT_GT(lost.most_px, 50u);
+    EXPECT_FALSE(lost.well());
+}
+
 class CheckOfADevice : public GlTest {};
 
 TEST_F(CheckOfADevice, ReadsWhatTheDeviceWorksBy) {

@@ -63,6 +63,38 @@ TEST_F(DeviceReadback, WhatShadersWroteIsClearedInTheListsOrder) {
     }
 }
 
+// Bytes of lists lie in places that are used again, and grow: none may be overwritten before the device has read it.
+TEST_F(DeviceReadback, UpdatesOfManyListsArriveWhateverTheirSizes) {
+    constexpr std::size_t kSizes[] = {4, 100, 70'000, 12, 300'000, 5u << 20, 17u << 20, 8};
+    std::vector<gl::BufferHandle> updated, copied;
+    for (const std::size_t size : kSizes) {
+        updated.push_back(keep(device().create_buffer({.label = "updated", .size = size}, {})));
+        copied.push_back(
+            keep(device().create_buffer({.label = "copied", .size = size, .use = gl::BufferUse::read_back}, {})));
+    }
+    constexpr std::uint32_t kRounds = 5;
+    const auto value = [](std::uint32_t round, std::size_t i, std::size_t byte) {
+        return static_cast<std::byte>(round * 31 + i * 7 + byte % 251);
+    };
+    for (std::uint32_t round = 0; round < kRounds; ++round)
+        for (std::size_t i = 0; i < updated.size(); ++i) {
+            std::vector<std::byte> bytes(kSizes[i]);
+            for (std::size_t byte = 0; byte < bytes.size(); ++byte) bytes[byte] = value(round, i, byte);
+            gl::CommandList list;
+            list.update<std::byte>(updated[i], 0, bytes);
+            list.add(gl::CopyBuffer{updated[i], copied[i]});
+            run(list);
+        }
+    device().finish();
+    for (std::size_t i = 0; i < copied.size(); ++i) {
+        std::vector<std::byte> bytes(kSizes[i]);
+        EXPECT_EQ(device().read_buffer(copied[i], bytes), Readback::done);
+        std::size_t wrong = 0;
+        for (std::size_t byte = 0; byte < bytes.size(); ++byte) wrong += bytes[byte] != value(kRounds - 1, i, byte);
+        EXPECT_EQ(wrong, 0u) << kSizes[i];
+    }
+}
+
 TEST_F(DeviceReadback, APartOfABufferIsCopiedToItsPlaceAndNothingElseChanges) {
     gl::CommandList list = doubling();
     list.add(gl::CopyBuffer{fixed_buffer<std::uint32_t>({70, 80}), counts, 4, 8, 4});

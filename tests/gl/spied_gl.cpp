@@ -171,6 +171,7 @@ struct Spy<Slot> {
     X(LinkProgram)                                  \
     X(MemoryBarrier)                                \
     X(NamedBufferData)                              \
+    X(MapNamedBufferRange)                          \
     X(NamedBufferStorage)                           \
     X(NamedBufferSubData)                           \
     X(NamedFramebufferDrawBuffers)                  \
