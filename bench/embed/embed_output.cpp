@@ -20,7 +20,8 @@ constexpr std::array<EmbedWayInfo, kEmbedWays> kWays = {{
     {"moving_lookup", Way::moving_frame, "every light moves: surfaces, maps, a shader with lookups"},
 }};
 
-/// Returns a way's figures. Of software devices: the process's time on all cores, which other processes do not change.
+/// Returns a way's figures. Software devices give the process's time on all cores, which other processes leave as it
+/// is.
 std::string figures(const EmbedRow::Times& times, bool is_software) {
     std::string text = formatted("%9.3f %9.3f", (is_software ? times.device.cpu_us : times.device.us).median / kUsPerMs,
                                  times.call_us.median / kUsPerMs);
