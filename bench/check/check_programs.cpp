@@ -6,6 +6,8 @@
 #include <set>
 #include <thread>
 
+#include "engine/gl/shader_source.h"
+#include "shaders/embedded.h"
 #include "tests/gl/program_sources.h"
 
 namespace gnomon::bench {
@@ -76,7 +78,7 @@ void compile_in_turn(gl::Device& device, std::span<const gl::ProgramDesc> progra
         if (outcome.not_here) continue;
         auto made = device.create_program(programs[i]);
         outcome.failure = made.failure;
-        outcome.log = std::move(made.log);
+        outcome.log = gl::with_paths(made.log, shader_files());
         device.destroy(made.handle);
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <regex>
 
 namespace gnomon::gl {
 
@@ -139,6 +140,20 @@ Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string
         if (!names_file(define)) expansion.text.append("#define ").append(define).append("\n");
     if (auto error = expansion.add(path, {}, 0)) return *std::move(error);
     return std::move(expansion.text);
+}
+
+std::string with_paths(const std::string& log, std::span<const ShaderFile> files) {
+    // At the start of a line, or behind what a device or a compiler puts before the message.
+    static const std::regex place(R"((^|\n|\): |ERROR: )(\d{1,6})(?=[:(]\d))");
+    std::string text;
+    auto rest = log.begin();
+    for (std::sregex_iterator at(log.begin(), log.end(), place), end; at != end; ++at) {
+        const std::size_t number = std::stoul((*at)[2].str());
+        if (number >= files.size()) continue;
+        text.append(rest, (*at)[2].first).append(files[number].path);
+        rest = (*at)[2].second;
+    }
+    return text.append(rest, log.end());
 }
 
 }  // namespace gnomon::gl

@@ -22,4 +22,8 @@ struct ShaderFile {
 Result<std::string> expand_shader(std::span<const ShaderFile> files, std::string_view path,
                                   std::span<const std::string> defines);
 
+/// Returns a compiler's log with paths in the place of the numbers that expand_shader() wrote: 3:7(1) and 3(7) begin
+/// with the path of files[3]. Numbers of no file stay.
+std::string with_paths(const std::string& log, std::span<const ShaderFile> files);
+
 }  // namespace gnomon::gl

@@ -104,6 +104,14 @@ TEST(ShaderSource, CyclesAreErrors) {
     }
 }
 
+TEST(ShaderSource, LogsNameFilesInThePlaceOfTheirNumbers) {
+    EXPECT_EQ(with_paths("2(13) : error C5121: bad 3\n1:7(2): error: x\nERROR: 0:4: y\n", kFiles),
+              "lib/a.glsl(13) : error C5121: bad 3\ntop.glsl:7(2): error: x\nERROR: plain.glsl:4: y\n");
+    EXPECT_EQ(with_paths("surface (fragment): 3:7(1): z\n99:1(2): of no file\n2 apples, 3:4\n", kFiles),
+              "surface (fragment): lib/b.glsl:7(1): z\n99:1(2): of no file\n2 apples, 3:4\n");
+    EXPECT_EQ(with_paths("", kFiles), "");
+}
+
 TEST(ShaderSource, TwoIncludesOfOneFileAreNoCycle) { EXPECT_TRUE(expand("top.glsl")); }
 
 }  // namespace
